@@ -1,0 +1,2 @@
+#include "littoral/base/task.h"
+int main() { return 0; }

@@ -1,0 +1,46 @@
+#pragma once
+// What a computation says about itself beside its answer.
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace littoral {
+
+/// Facts gathered while a method runs; ordered as they were added. Turned into JSON by the front ends.
+struct Report {
+  std::string method;
+  std::string domain;
+  std::string status = "converged";  // or "not converged": the answer is then the best iterate
+  std::vector<std::pair<std::string, std::string>> options;    // name, value as text
+  std::vector<std::pair<std::string, double>> sizes;           // e.g. "vertices"
+  std::vector<std::pair<std::string, double>> timings;         // stage, seconds
+  std::vector<std::pair<std::string, double>> iterations;      // loop, count
+  std::vector<std::pair<std::string, double>> residuals;       // equation, relative residual
+  std::vector<std::string> warnings;
+  std::vector<int> unreachable_components;  // components of the domain whose values are +inf
+
+  void warn(std::string text) { warnings.push_back(std::move(text)); }
+  void merge(const Report& other);
+};
+
+/// Adds the seconds between its construction and destruction to a report under `stage`.
+class Stopwatch {
+ public:
+  Stopwatch(Report& report, std::string stage)
+      : report_(report), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() {
+    const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start_;
+    report_.timings.emplace_back(stage_, d.count());
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  Report& report_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace littoral

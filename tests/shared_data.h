@@ -1,0 +1,24 @@
+#pragma once
+// Fixtures shipped with the tests, and the larger collection beside the checkout where there is one.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace littoral::test {
+
+inline std::filesystem::path fixtures() { return LITTORAL_FIXTURES; }
+
+/// LITTORAL_SHARED, or ../shared beside the checkout.
+inline std::filesystem::path shared() {
+  if (const char* path = std::getenv("LITTORAL_SHARED")) return path;
+  return std::filesystem::path(LITTORAL_SOURCE_DIR) / ".." / "shared";
+}
+
+}  // namespace littoral::test
+
+/// Skips the running test, visibly, where the shared data collection is absent.
+#define LITTORAL_NEEDS_SHARED(relative)                                       \
+  if (!std::filesystem::exists(littoral::test::shared() / (relative)))        \
+  GTEST_SKIP() << "needs " << (littoral::test::shared() / (relative))

@@ -1,5 +1,6 @@
 #pragma once
-// Fixtures shipped with the tests, and the larger collection beside the checkout where there is one.
+// Fixtures shipped with the tests, and the larger collection beside the checkout where there is
+// one.
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,6 @@ inline std::filesystem::path shared() {
 }  // namespace littoral::test
 
 /// Skips the running test, visibly, where the shared data collection is absent.
-#define LITTORAL_NEEDS_SHARED(relative)                                       \
-  if (!std::filesystem::exists(littoral::test::shared() / (relative)))        \
+#define LITTORAL_NEEDS_SHARED(relative)                                \
+  if (!std::filesystem::exists(littoral::test::shared() / (relative))) \
   GTEST_SKIP() << "needs " << (littoral::test::shared() / (relative))

@@ -21,8 +21,8 @@ std::string option_range_text(const OptionInfo& info) {
 
 namespace {
 [[noreturn]] void throw_bad_value(const OptionInfo& info, const std::string& text) {
-  throw InputError("option " + info.name + ": '" + text + "' is not one of: " +
-                   option_range_text(info));
+  throw InputError("option " + info.name + ": '" + text +
+                   "' is not one of: " + option_range_text(info));
 }
 }  // namespace
 

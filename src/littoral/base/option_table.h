@@ -11,12 +11,12 @@ namespace littoral {
 
 /// What the world may know about one option.
 struct OptionInfo {
-  std::string name;           // as typed: "time-scale"
-  std::string unit;           // "", "[length]", "multiple of h^2"
-  double low = 0, high = 0;   // numbers: allowed range, inclusive
+  std::string name;                  // as typed: "time-scale"
+  std::string unit;                  // "", "[length]", "multiple of h^2"
+  double low = 0, high = 0;          // numbers: allowed range, inclusive
   std::vector<std::string> choices;  // words: allowed values
-  std::string fallback;       // default, as text
-  std::string help;           // one sentence
+  std::string fallback;              // default, as text
+  std::string help;                  // one sentence
   bool is_switch = false;
 };
 
@@ -60,9 +60,9 @@ class OptionTable {
     for (std::size_t i = 0; i < infos_.size(); ++i) {
       if (infos_[i].name != name) continue;
       if (auto m = std::get_if<double S::*>(&members_[i])) {
-        options.**m = parse_option_number(infos_[i], text);
+        options.** m = parse_option_number(infos_[i], text);
       } else if (auto b = std::get_if<bool S::*>(&members_[i])) {
-        options.**b = parse_option_switch(infos_[i], text);
+        options.** b = parse_option_switch(infos_[i], text);
       } else {
         options.*std::get<int S::*>(members_[i]) = parse_option_choice(infos_[i], text);
       }

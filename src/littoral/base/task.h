@@ -20,7 +20,8 @@ class CancelToken {
   std::shared_ptr<std::atomic<bool>> raised_;
 };
 
-/// A range of the whole job's progress. Default-constructed it reports nothing and is never cancelled.
+/// A range of the whole job's progress. Default-constructed it reports nothing and is never
+/// cancelled.
 ///
 /// A job of several stages hands each a `stage(weight, name)`; a loop calls `checkpoint(fraction)`.
 /// Fractions reported to the callback never decrease. Checkpoints are at most 0.2 s apart:
@@ -52,9 +53,9 @@ class Task {
   double begin_ = 0, end_ = 1, next_ = 0;
 };
 
-/// Runs a call that cannot be interrupted on a thread of its own and waits for it, throwing Cancelled
-/// within 0.05 s of a request to stop. The abandoned call runs on in the background (it must own what
-/// it touches) and is joined when the process ends.
+/// Runs a call that cannot be interrupted on a thread of its own and waits for it, throwing
+/// Cancelled within 0.05 s of a request to stop. The abandoned call runs on in the background (it
+/// must own what it touches) and is joined when the process ends.
 void run_abandonable(const Task& task, std::function<void()> call);
 
 }  // namespace littoral

@@ -33,7 +33,7 @@ class SurfaceMesh {
   Vec3 point(int v) const { return soup_.points.row(v); }
   Vec3 position(const SurfacePoint& p) const;
 
-  const Rows<int, 2>& edges() const { return edges_; }       // edges x 2, tail and head
+  const Rows<int, 2>& edges() const { return edges_; }  // edges x 2, tail and head
   int side_edge(int f, int k) const { return side_edge_[soup_.face_offsets[f] + k]; }
   bool side_along(int f, int k) const {  // does side k run along its edge's direction?
     return edges_(side_edge(f, k), 0) == face(f)[k];
@@ -43,7 +43,8 @@ class SurfaceMesh {
     return {edge_faces_.data() + edge_offsets_[e], edge_faces_.data() + edge_offsets_[e + 1]};
   }
   std::span<const int> vertex_faces(int v) const {
-    return {vertex_faces_.data() + vertex_offsets_[v], vertex_faces_.data() + vertex_offsets_[v + 1]};
+    return {vertex_faces_.data() + vertex_offsets_[v],
+            vertex_faces_.data() + vertex_offsets_[v + 1]};
   }
   /// The edge between two vertices, or -1.
   int find_edge(int a, int b) const;
@@ -55,8 +56,8 @@ class SurfaceMesh {
   PolygonSoup soup_;
   bool triangles_ = true;
   Rows<int, 2> edges_;
-  std::vector<int> side_edge_;                    // per corner
-  std::vector<int> edge_offsets_, edge_faces_;    // edge -> faces
+  std::vector<int> side_edge_;                  // per corner
+  std::vector<int> edge_offsets_, edge_faces_;  // edge -> faces
   std::vector<int> vertex_offsets_, vertex_faces_;
   std::vector<int> vertex_component_;
   int n_components_ = 0;

@@ -10,12 +10,14 @@ namespace littoral {
 struct SurfacePoint {
   enum class On { vertex, edge, face };
   On on = On::vertex;
-  int element = 0;                  // vertex, edge or face number (0-based)
-  std::array<double, 3> b{1, 0, 0}; // edge: {1-t, t} along the edge's direction; face: per corner
+  int element = 0;                   // vertex, edge or face number (0-based)
+  std::array<double, 3> b{1, 0, 0};  // edge: {1-t, t} along the edge's direction; face: per corner
 
   static SurfacePoint at_vertex(int v) { return {On::vertex, v, {1, 0, 0}}; }
   static SurfacePoint on_edge(int e, double t) { return {On::edge, e, {1 - t, t, 0}}; }
-  static SurfacePoint in_face(int f, double a, double b, double c) { return {On::face, f, {a, b, c}}; }
+  static SurfacePoint in_face(int f, double a, double b, double c) {
+    return {On::face, f, {a, b, c}};
+  }
 };
 
 }  // namespace littoral

@@ -1,0 +1,283 @@
+#include "littoral/operators/triangles.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "littoral/base/parallel.h"
+
+namespace littoral {
+
+namespace {
+
+using Triangulation = std::shared_ptr<const IntrinsicTriangulation>;
+constexpr std::size_t face_grain = 8192;
+
+/// Cotan Laplacian (eq. 10), lower triangle.
+SpMat cotan_laplacian(const IntrinsicTriangulation& T) {
+  Triplets entries(static_cast<std::size_t>(T.n_faces()) * 9);
+  parallel_for(T.n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto cot = T.shape(static_cast<int>(f)).cot;
+      for (int k = 0; k < 3; ++k) {
+        const int i = T.faces(f, k), j = T.faces(f, (k + 1) % 3);
+        const double w = 0.5 * cot[(k + 2) % 3];
+        entries[9 * f + 3 * k] = {i, i, w};
+        entries[9 * f + 3 * k + 1] = {j, j, w};
+        entries[9 * f + 3 * k + 2] = {std::max(i, j), std::min(i, j), -w};
+      }
+    }
+  });
+  SpMat L(T.n_vertices, T.n_vertices);
+  L.setFromTriplets(entries.begin(), entries.end());
+  return L;
+}
+
+/// Gradient of the hat function of corner k: the opposite side turned inward, over twice the area.
+Complex hat_gradient(const IntrinsicTriangulation& T, const TriangleShape& t, int f, int k) {
+  const Complex opposite = t.p[(k + 2) % 3] - t.p[(k + 1) % 3];
+  return Complex(0, T.orientation[f]) * opposite / (2 * t.area);
+}
+
+LinearMap gradient(Triangulation T) {
+  LinearMap G;
+  G.rows = 2 * T->n_faces();
+  G.cols = T->n_vertices;
+  G.apply = [T](const VecX& u) {
+    VecX g(2 * T->n_faces());
+    parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const int f = static_cast<int>(s);
+        const TriangleShape t = T->shape(f);
+        Complex z = 0;
+        for (int k = 0; k < 3; ++k) z += u[T->faces(f, k)] * hat_gradient(*T, t, f, k);
+        g[2 * f] = z.real();
+        g[2 * f + 1] = z.imag();
+      }
+    });
+    return g;
+  };
+  G.adjoint = [T](const VecX& g) {
+    VecX u = VecX::Zero(T->n_vertices);
+    for (int f = 0; f < T->n_faces(); ++f) {
+      const TriangleShape t = T->shape(f);
+      for (int k = 0; k < 3; ++k) {
+        const Complex d = hat_gradient(*T, t, f, k);
+        u[T->faces(f, k)] += d.real() * g[2 * f] + d.imag() * g[2 * f + 1];
+      }
+    }
+    return u;
+  };
+  return G;
+}
+
+/// Mean of the three edge vectors of a face, in the face's frame (section 6).
+LinearMap edges_to_faces(Triangulation T) {
+  LinearMap P;
+  P.rows = 2 * T->n_faces();
+  P.cols = 2 * T->n_edges();
+  P.apply = [T](const VecX& X) {
+    VecX Y(2 * T->n_faces());
+    parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const int f = static_cast<int>(s);
+        const TriangleShape t = T->shape(f);
+        Complex sum = 0;
+        for (int k = 0; k < 3; ++k) {
+          const int e = T->side_edge(f, k);
+          const Complex z(X[2 * e], T->seam(f, k) ? -X[2 * e + 1] : X[2 * e + 1]);
+          sum += z * T->edge_in_face(t, f, k);
+        }
+        Y[2 * f] = sum.real() / 3;
+        Y[2 * f + 1] = sum.imag() / 3;
+      }
+    });
+    return Y;
+  };
+  P.adjoint = [T](const VecX& Y) {
+    VecX X = VecX::Zero(2 * T->n_edges());
+    for (int f = 0; f < T->n_faces(); ++f) {
+      const TriangleShape t = T->shape(f);
+      for (int k = 0; k < 3; ++k) {
+        const Complex z = T->face_to_edge(t, f, k, {Y[2 * f] / 3, Y[2 * f + 1] / 3});
+        X[2 * T->side_edge(f, k)] += z.real();
+        X[2 * T->side_edge(f, k) + 1] += z.imag();
+      }
+    }
+    return X;
+  };
+  return P;
+}
+
+/// Calls put(row, col, r, seam_row, seam_col) for every entry of the lower triangle: the coupling
+/// of two edges of a face is r = -2 cot(angle between) conj(d_row) d_col, where d is the direction
+/// of the edge in the face's frame (eq. 9 with the rotations of eq. 8 written as their product),
+/// taken through the conjugations of the frames where there are seams; diagonals add up to eq. 6.
+template <class Put>
+void connection_entries(const IntrinsicTriangulation& T, int f, const Put& put) {
+  const TriangleShape t = T.shape(f);
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;  // sides k and l meet at corner l
+    const double w = 2 * t.cot[l];
+    int a = k, b = l;
+    put(T.side_edge(f, a), T.side_edge(f, a), Complex(w), false, false);
+    put(T.side_edge(f, b), T.side_edge(f, b), Complex(w), false, false);
+    if (T.side_edge(f, a) < T.side_edge(f, b)) std::swap(a, b);
+    const Complex r = -w * std::conj(T.edge_in_face(t, f, a)) * T.edge_in_face(t, f, b);
+    put(T.side_edge(f, a), T.side_edge(f, b), r, bool(T.seam(f, a)), bool(T.seam(f, b)));
+  }
+}
+
+SpMatC connection_laplacian(const IntrinsicTriangulation& T) {
+  std::vector<Eigen::Triplet<Complex>> entries(static_cast<std::size_t>(T.n_faces()) * 9);
+  parallel_for(T.n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      std::size_t at = 9 * f;
+      connection_entries(T, static_cast<int>(f), [&](int row, int col, Complex r, bool, bool) {
+        entries[at++] = {row, col, r};
+      });
+    }
+  });
+  SpMatC L(T.n_edges(), T.n_edges());
+  L.setFromTriplets(entries.begin(), entries.end());
+  return L;
+}
+
+/// The same as 2 x 2 real blocks S_row R S_col with R the rotation-scaling of r and S = diag(1, -1)
+/// at a seam: conjugation is linear over the reals only.
+SpMat connection_laplacian_real(const IntrinsicTriangulation& T) {
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(T.n_faces()) * 27);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    connection_entries(T, f, [&](int row, int col, Complex r, bool seam_row, bool seam_col) {
+      const double s = seam_row ? -1 : 1, c = seam_col ? -1 : 1;
+      const double block[2][2] = {{r.real(), -r.imag() * c}, {s * r.imag(), s * r.real() * c}};
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+          if (row != col || i == j) entries.emplace_back(2 * row + i, 2 * col + j, block[i][j]);
+    });
+  }
+  SpMat L(2 * T.n_edges(), 2 * T.n_edges());
+  L.setFromTriplets(entries.begin(), entries.end());
+  return L;
+}
+
+/// Pieces of edges connected through faces, and the vertices where several of them touch.
+void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
+  std::vector<int> parent(T.n_edges());
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int e) {
+    while (parent[e] != e) e = parent[e] = parent[parent[e]];
+    return e;
+  };
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 1; k < 3; ++k) {
+      const int a = root(T.side_edge(f, 0)), b = root(T.side_edge(f, k));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  V.piece.assign(T.n_edges(), -1);
+  for (int e = 0; e < T.n_edges(); ++e)
+    if (T.edge_use[e]) V.piece[e] = root(e) == e ? V.n_pieces++ : V.piece[root(e)];
+  if (V.n_pieces == T.n_components) return;  // nothing touches at vertices only
+
+  std::vector<std::pair<int, int>> corners;  // (vertex, face), for vertices of several pieces
+  std::vector<int> seen(T.n_vertices, -1);
+  std::vector<char> pinched(T.n_vertices, 0);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int v = T.faces(f, k), p = V.piece[T.side_edge(f, 0)];
+      if (seen[v] >= 0 && seen[v] != p) pinched[v] = 1;
+      seen[v] = p;
+    }
+  std::vector<std::array<int, 4>> list;  // vertex, piece, face, corner
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (pinched[T.faces(f, k)]) list.push_back({T.faces(f, k), V.piece[T.side_edge(f, 0)], f, k});
+  std::sort(list.begin(), list.end());
+  for (std::size_t i = 0; i < list.size();) {
+    std::vector<PointInFace> where;
+    std::size_t j = i;
+    for (; j < list.size() && list[j][0] == list[i][0] && list[j][1] == list[i][1]; ++j) {
+      PointInFace corner{list[j][2], {0, 0, 0}};
+      corner.b[list[j][3]] = 1;
+      where.push_back(corner);
+    }
+    Pinch pinch{list[i][0], list[i][1], {}};
+    add_radial_measure(T, where, 1, pinch.radial);
+    V.pinches.push_back(std::move(pinch));
+    i = j;
+  }
+}
+
+}  // namespace
+
+void add_radial_measure(const IntrinsicTriangulation& T, std::span<const PointInFace> where,
+                        double weight, std::vector<std::pair<int, Complex>>& out) {
+  const std::size_t first = out.size();
+  double Theta = 0;
+  for (const auto& [f, b] : where) {
+    const TriangleShape t = T.shape(f);
+    const Complex x = b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
+    for (int k = 0; k < 3; ++k) {
+      if (b[(k + 2) % 3] == 0) continue;  // the point lies on side k: it subtends no angle
+      const Complex u = t.p[k] - x, w = t.p[(k + 1) % 3] - x;
+      if (u == 0.0 || w == 0.0) continue;
+      const double angle = std::abs(std::arg(w / u));
+      Theta += angle;
+      // The integral of e^{i theta} over the sector: along its bisector, 2 sin(angle / 2) long.
+      const Complex bisector = u / std::abs(u) + w / std::abs(w);
+      if (std::abs(bisector) == 0) continue;
+      const Complex S = bisector / std::abs(bisector) * (2 * std::sin(angle / 2));
+      for (int l = 0; l < 3; ++l)
+        if (l == k || b[(l + 2) % 3] == 0)
+          out.emplace_back(T.side_edge(f, l), T.face_to_edge(t, f, l, S));
+    }
+  }
+  for (std::size_t i = first; i < out.size(); ++i) out[i].second *= weight / Theta;
+}
+
+VecX Calculus::divergence(const VecX& Y) const {
+  VecX AY(Y.size());
+  for (Eigen::Index c = 0; c < A.size(); ++c) AY.segment<2>(2 * c) = A[c] * Y.segment<2>(2 * c);
+  return G.adjoint(AY);
+}
+
+Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
+  const auto T = std::make_shared<const IntrinsicTriangulation>(triangulation);
+  Operators ops;
+  ops.domain = "triangle mesh";
+  ops.unit = T->unit;
+
+  Calculus& C = ops.scalar;
+  C.L = cotan_laplacian(*T);
+  C.G = gradient(T);
+  C.A.resize(T->n_faces());
+  C.M = VecX::Zero(T->n_vertices);
+  VectorDiffusion& V = ops.vector;
+  V.n = T->n_edges();
+  V.M = VecX::Zero(V.n);
+  for (int f = 0; f < T->n_faces(); ++f) {
+    C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+    for (int k = 0; k < 3; ++k) {
+      C.M[T->faces(f, k)] += C.A[f] / 3;
+      V.M[T->side_edge(f, k)] += C.A[f] / 3;  // eq. 7
+    }
+  }
+  C.h = T->mean_edge_length;
+  C.component = T->component;
+  C.n_components = T->n_components;
+  C.boundary.assign(T->n_vertices, 0);
+  for (int e = 0; e < T->n_edges(); ++e)
+    if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
+
+  if (T->has_seams)
+    V.L_real = connection_laplacian_real(*T);
+  else
+    V.L = connection_laplacian(*T);
+  V.to_cells = edges_to_faces(T);
+  V.h = T->mean_edge_length / 2;
+  find_pieces(*T, V);
+  return ops;
+}
+
+}  // namespace littoral

@@ -79,6 +79,7 @@ for stage in "${stages[@]}"; do
   echo "==== $stage"
   start=$SECONDS
   if "stage_$stage" 2>&1 | tee "$logs/$stage.log"; then result=passed; else result=FAILED failed=$((failed + 1)); fi
+  echo "stage $stage $result" >>"$logs/$stage.log"
   summary+=$(printf '%-12s %-8s %5d s' "$stage" "$result" $((SECONDS - start)))$'\n'
 done
 

@@ -18,5 +18,12 @@ def test_node() -> None:
     assert count_tests.count(text) == {"passed": 5, "failed": 1, "skipped": 0}
 
 
+def test_a_stage_without_counts_is_one_test() -> None:
+    assert count_tests.count("all fine\nstage docs passed\n").total() == 1
+    assert count_tests.count("stage docs FAILED\n") == {"failed": 1}
+    assert count_tests.count("2 passed in 0.1s\nstage cli FAILED\n") == {"passed": 2, "failed": 1}
+    assert count_tests.count("1 failed in 0.1s\nstage cli FAILED\n") == {"failed": 1}
+
+
 def test_other_output_counts_for_nothing() -> None:
     assert not count_tests.count("built 12 files in 3 s\nall passed\n")

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build
-cmake --preset release >/dev/null
+cmake --preset release -DLITTORAL_TESTS=OFF >/dev/null
 cmake --build build/release --target littoral_cli
 
 mkdir -p out

@@ -56,7 +56,10 @@ command -v clang++-14 >/dev/null || clang=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_
 # Address and undefined-behaviour sanitizers; suites named *Slow* would take too long under them.
 stage_sanitize() { configure_and_build asan "${clang[@]}" && run_ctest asan -E Slow; }
 
-stage_fuzz() { configure_and_build fuzz "${clang[@]}" && fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-10}"; }
+stage_fuzz() {
+  cmake --preset fuzz -DLITTORAL_WERROR=ON "${clang[@]}" &&
+    cmake --build build/fuzz -j "$jobs" --target fuzzers && fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-10}"
+}
 
 stage_viewer() {
   configure_and_build release &&

@@ -1,1 +1,21 @@
-# Placeholder until the install rules are written.
+# Installs the program, the library with its headers, and what find_package(littoral) needs.
+include(CMakePackageConfigHelpers)
+set(littoral_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/littoral)
+
+install(TARGETS littoral_cli RUNTIME)
+install(TARGETS littoral EXPORT littoral_targets)
+install(DIRECTORY src/littoral DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.h")
+install(EXPORT littoral_targets NAMESPACE littoral:: DESTINATION ${littoral_config_dir})
+
+set(littoral_uses_cholmod OFF)
+if(LITTORAL_GPL AND Cholmod_FOUND)
+  set(littoral_uses_cholmod ON)
+  install(FILES cmake/FindCholmod.cmake DESTINATION ${littoral_config_dir})
+endif()
+configure_package_config_file(cmake/littoral-config.cmake.in littoral-config.cmake
+                              INSTALL_DESTINATION ${littoral_config_dir})
+write_basic_package_version_file(littoral-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/littoral-config.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/littoral-config-version.cmake
+        DESTINATION ${littoral_config_dir})

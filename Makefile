@@ -1,0 +1,41 @@
+# `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
+.DEFAULT_GOAL := help
+.PHONY: help demo build test format tidy docs bench clean
+
+help:  ## this list
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
+
+demo:  ## build, and compute signed distance to a broken curve on a shipped mesh
+	scripts/demo.sh
+
+build:  ## the program and the library, in build/release
+	scripts/setup.sh build
+	cmake --preset release -DLITTORAL_TESTS=OFF
+	cmake --build build/release
+
+test:  ## everything that is checked before a change is accepted (STAGES="release cli" for some of it)
+	scripts/setup.sh test
+	scripts/test.sh $(STAGES)
+
+format:  ## lay out C++ and Python sources
+	scripts/setup.sh python
+	git ls-files '*.h' '*.cpp' | xargs build/venv/bin/clang-format -i
+	build/venv/bin/ruff check --fix --quiet . && build/venv/bin/ruff format .
+
+tidy:  ## clang-tidy over the library and the program
+	scripts/setup.sh tidy
+	cmake --preset tidy
+	cd build/tidy && run-clang-tidy-14 -quiet -p . '/src/(littoral|cli)/'
+
+docs:  ## the documentation, in build/site
+	scripts/setup.sh python
+	build/venv/bin/mkdocs build --strict --site-dir build/site
+
+bench:  ## benchmarks
+	scripts/setup.sh test
+	cmake --preset bench
+	cmake --build build/bench
+	build/bench/bench/littoral_bench
+
+clean:  ## remove what was built
+	rm -rf build out

@@ -1,0 +1,52 @@
+"""Checks the tracked files: none too long to live in, and none with a path of somebody's machine.
+
+usage: check_files.py [ROOT]    prints one line per finding; exit status 1 if there are any
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+LONGEST = 400  # lines
+SOURCES = {".h", ".cpp", ".py", ".sh", ".js", ".mjs", ".ts", ".css", ".html", ".cmake"}
+DATA = ("examples/data/", "tests/fixtures/", "fuzz/corpus/")
+GENERATED = {"package-lock.json"}
+MACHINE_PATH = re.compile(r"(?<![\w.$}])/(?:work|home|root|Users|tmp|mnt|workspace)/\w")
+
+
+def tracked(root: Path) -> list[Path]:
+    """The files git knows, those deleted in the working tree left out."""
+    names = subprocess.run(
+        ["git", "-C", str(root), "ls-files", "-z"], check=True, capture_output=True, text=True
+    ).stdout.split("\0")
+    return [Path(name) for name in names if name and (root / name).is_file()]
+
+
+def findings(root: Path) -> list[str]:
+    """One line per file that is too long and per line with a machine path."""
+    found = []
+    for path in tracked(root):
+        if path.as_posix().startswith(DATA) or path.name in GENERATED:
+            continue
+        content = (root / path).read_bytes()
+        if b"\0" in content:
+            continue
+        lines = content.decode("utf-8", errors="replace").splitlines()
+        if path.suffix in SOURCES and len(lines) > LONGEST:
+            found.append(f"{path}: {len(lines)} lines; make two rooms of it (at most {LONGEST})")
+        for number, line in enumerate(lines, 1):
+            if match := MACHINE_PATH.search(line):
+                found.append(f"{path}:{number}: a path of one machine: {match[0]}...")
+    return found
+
+
+def main(arguments: list[str]) -> int:
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    found = findings(root)
+    print("\n".join(found) if found else f"files: none over {LONGEST} lines, no machine paths")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,80 @@
+"""Checks that includes only point down the layers of the library.
+
+A layer may include itself and everything below it along the arrows of BELOW. Methods are written
+against operators, not meshes: they may not include domain, except for the few in NEEDS_DOMAIN whose
+algorithms walk the mesh itself.
+
+usage: check_layers.py [ROOT]    prints one line per violation; exit status 1 if there are any
+"""
+
+import re
+import sys
+from pathlib import Path
+
+BELOW: dict[str, set[str]] = {
+    "base": set(),
+    "spatial": {"base"},
+    "solve": {"base"},
+    "domain": {"spatial", "solve"},
+    "operators": {"domain"},
+    "contour": {"domain"},
+    "sources": {"operators", "contour"},
+    "methods": {"sources"},
+    "io": {"sources"},
+    "api": {"methods", "io"},
+    "cli": {"api"},
+}
+WITHOUT_DOMAIN = "methods"
+NEEDS_DOMAIN = ("fast_marching", "exact_polyhedral", "cutting")
+SUFFIXES = {".h", ".cpp"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<](littoral|cli)/([^">]+)[">]')
+
+
+def reachable(layer: str) -> set[str]:
+    """The layer itself and all layers below it."""
+    return {layer}.union(*(reachable(below) for below in BELOW[layer]))
+
+
+def allowed(layer: str, stem: str) -> set[str]:
+    """The layers that file `stem` of `layer` may include."""
+    layers = reachable(layer)
+    if layer == WITHOUT_DOMAIN and not stem.startswith(NEEDS_DOMAIN):
+        layers.discard("domain")
+    return layers
+
+
+def layer_of(path: Path, src: Path) -> str:
+    """src/cli/x.cpp -> cli, src/littoral/io/obj.cpp -> io."""
+    parts = path.relative_to(src).parts
+    return parts[0] if parts[0] != "littoral" else parts[1]
+
+
+def violations(root: Path) -> list[str]:
+    """One line per include that does not point down, and per file outside the known layers."""
+    src = root / "src"
+    found = []
+    for path in sorted(p for p in src.rglob("*") if p.suffix in SUFFIXES):
+        where = path.relative_to(root)
+        layer = layer_of(path, src)
+        if layer not in BELOW:
+            found.append(f"{where}: '{layer}' is not a layer; there are: {', '.join(BELOW)}")
+            continue
+        may = allowed(layer, path.stem)
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if match := INCLUDE.match(line):
+                target = "cli" if match[1] == "cli" else match[2].split("/")[0]
+                if target not in may:
+                    names = ", ".join(name for name in BELOW if name in may)
+                    found.append(f"{where}:{number}: {layer} may not include {target} ({names})")
+    return found
+
+
+def main(arguments: list[str]) -> int:
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    found = violations(root)
+    print("\n".join(found) if found else "layers: every include points down")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -69,9 +69,10 @@ void write_stream(const std::filesystem::path& path, const std::string& file,
 
 std::string temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
-  const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  return (target.parent_path() / ("." + target.filename().string() + "." + unique + ".tmp"))
-      .string();
+  std::string name(1, '.');
+  name.append(target.filename().string()).append(1, '.').append(std::to_string(::getpid()));
+  name.append(1, '-').append(std::to_string(counter++)).append(".tmp");
+  return (target.parent_path() / name).string();
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST(IoPly, SaysWhatIsWrong) {
   EXPECT_EQ(error("ply\nformat ascii 1.0\nelement vertex 9\nend_header\n"),
             "a.ply:5: element 'vertex' has no property 'x'");
   EXPECT_EQ(error(replaced(all, "vertex_indices", "corners")),
-            "a.ply:13: element 'face' has no list 'vertex_indices'");
+            "a.ply:12: element 'face' has no list 'vertex_indices'");
   EXPECT_EQ(error(replaced(all, "list uchar", "list float")),
             "a.ply:8: the length of a list must be an integer");
   EXPECT_EQ(error(replaced(all, "element vertex 3", "what 3")),
@@ -169,7 +169,7 @@ TEST(IoPly, SaysWhatIsWrong) {
   EXPECT_EQ(error(replaced(all, "3 0 1 2\n", "")),
             "a.ply:12: the file ends after 0 of 1 of element 'face'");
   EXPECT_EQ(error(replaced(all, "3 0 1 2\n", "3 0 1\n")),
-            "a.ply:13: a list of 3 items, the file is shorter");
+            "a.ply:13: expected a number, found the end of the line");
   EXPECT_EQ(error(replaced(all, "0 1 0\n", "0 1 0 7\n")),
             "a.ply:12: unexpected '7' at the end of the line");
   EXPECT_EQ(error(replaced(all, "element face 1", "element tristrips 1")),
@@ -178,7 +178,7 @@ TEST(IoPly, SaysWhatIsWrong) {
   std::string binary = replaced(triangle_header, "ascii", "binary_little_endian");
   for (int i = 0; i < 9; ++i) put<float>(binary, static_cast<float>(i), false);
   const std::string at = std::to_string(binary.size());
-  EXPECT_EQ(error(binary), "a.ply: byte " + at + ": the file ends inside 0 of 1 of element 'face'");
+  EXPECT_EQ(error(binary), "a.ply: byte " + at + ": the file ends after 0 of 1 of element 'face'");
   put<std::uint8_t>(binary, 3, false);
   EXPECT_THAT(error(binary), HasSubstr(": a list of 3 items, the file is shorter"));
   for (int v : {0, 1, 7}) put<std::int32_t>(binary, v, false);

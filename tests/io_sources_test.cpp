@@ -86,9 +86,14 @@ TEST(IoSources, TheIndexBaseOverridesTheFormats) {
 TEST(IoSources, JoinsTheSegmentsOfWindingText) {
   const SurfaceSources s =
       read("v 1\nv 2\ne 2 .5\nn 1\nv 4\n#l 1 4\nv 2\nl 2 3\nl 1 2 # c\nl 4 5\n");
-  ASSERT_EQ(s.curves.size(), 2u);  // the second point and the fifth are one place, where three meet
+  ASSERT_EQ(s.curves.size(), 3u);  // the second point and the fifth are one place, where three meet
   EXPECT_THAT(text_of(s.curves[0].nodes), ElementsAre("v1", "e1 0.5"));
   EXPECT_THAT(text_of(s.curves[1].nodes), ElementsAre("v0", "v1"));
+  EXPECT_THAT(text_of(s.curves[2].nodes), ElementsAre("v3", "v1"));
+  EXPECT_EQ(s.curves[2].origin, "a.txt:5");
+  const SurfaceSources joined = read("v 1\nv 2\ne 2 .5\nl 2 3\nl 1 2\n");
+  ASSERT_EQ(joined.curves.size(), 1u);
+  EXPECT_THAT(text_of(joined.curves[0].nodes), ElementsAre("v0", "v1", "e1 0.5"));
 }
 
 TEST(IoSources, ChainsSegmentsWhereOneEndsAndOneBegins) {

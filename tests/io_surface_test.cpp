@@ -53,6 +53,9 @@ TEST(IoObj, ReadsEverySpellingOfANumber) {
   EXPECT_TRUE(std::isnan(soup.points(2, 0)));
   EXPECT_EQ(soup.points(2, 1), -std::numeric_limits<double>::infinity());
   EXPECT_EQ(soup.points(2, 2), 0);
+  const PolygonSoup windows = read("v 1.#IND -1.#INF 1.#QNAN00 # c\n", ".obj");
+  EXPECT_TRUE(std::isnan(windows.points(0, 0)) && std::isnan(windows.points(0, 2)));
+  EXPECT_EQ(windows.points(0, 1), -std::numeric_limits<double>::infinity());
   const std::string tiny = "0." + std::string(400, '0') + "1";
   EXPECT_EQ(read("v -" + tiny + " 0 0", ".obj").points(0, 0), 0);
 }

@@ -104,7 +104,7 @@ TEST_F(IoWrite, OffKeepsFacesAndNormals) {
 TEST_F(IoWrite, StlKeepsTriangles) {
   PolygonSoup soup;
   soup.points.resize(4, 3);
-  soup.points << 0, 0, 0, 1e30, 0, 0, 0, .1f, 0, 1, 1, 1;
+  soup.points << 0, 0, 0, 1e30f, 0, 0, 0, .1f, 0, 1, 1, 1;
   soup.add_face(std::vector<int>{0, 1, 2});
   soup.add_face(std::vector<int>{0, 2, 3});
   soup.add_face(std::vector<int>{3, 3, 3});

@@ -51,7 +51,7 @@ class BinaryBody {
   double value(PlyType type) {
     const std::size_t size = byte_size(type);
     if (bytes_left() < size) {
-      fail("the file ends inside " + std::to_string(row_) + " of " +
+      fail("the file ends after " + std::to_string(row_) + " of " +
            std::to_string(element_->count) + " of element " + in_quotes(element_->name));
     }
     const char* from = bytes_.data() + at_;
@@ -115,7 +115,6 @@ class PlyReader {
   PolygonSoup read(const std::string& name) {
     if (n_vertices_ == 0) throw InputError(name + ": no vertices");
     for (const PlyElement& e : header_.elements) {
-      if (e.properties.empty()) continue;  // takes no bytes, whatever its count
       if (e.name == "vertex") {
         read_vertices(e);
       } else if (e.name == "face" && e.count > 0) {
@@ -124,11 +123,10 @@ class PlyReader {
         read_edges(e);
       } else if (e.name == "tristrips" && e.count > 0) {
         body_.fail("triangle strips are not supported; write the faces as lists");
-      } else {
+      } else if (!e.properties.empty()) {  // without any it takes no bytes, whatever its count
         rows(e, unused, [](std::uint64_t) {});
       }
     }
-    if (soup_.n_vertices() == 0) body_.fail("vertices have no property 'x'");
     return std::move(soup_);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <system_error>
 
 #include "littoral/base/error.h"
@@ -37,13 +38,40 @@ bool underflows(std::string_view word) {
   return *exponent < -place;
 }
 
+// "1.#INF", "-1.#IND", "1.#QNAN0": what older Windows programs print where a number is not finite.
+std::optional<double> parse_windows_special(std::string_view word) {
+  const bool negative = word.starts_with('-');
+  if (negative) word.remove_prefix(1);
+  if (!word.starts_with("1.#")) return std::nullopt;
+  word.remove_prefix(3);
+  while (word.ends_with('0')) word.remove_suffix(1);
+  if (word == "INF") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    return negative ? -infinity : infinity;
+  }
+  if (word == "IND" || word == "QNAN" || word == "SNAN") {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::nullopt;
+}
+
+// Where the comment of a line begins. The sign inside "1.#INF" begins none.
+std::size_t find_comment(std::string_view line, char comment) {
+  if (comment == '\0') return std::string_view::npos;
+  std::size_t at = line.find(comment);
+  while (at != std::string_view::npos && at > 0 && line[at - 1] == '.') {
+    at = line.find(comment, at + 1);
+  }
+  return at;
+}
+
 }  // namespace
 
 std::optional<double> parse_double(std::string_view word) {
   word = without_plus(word);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return std::nullopt;
+  if (end != word.data() + word.size()) return parse_windows_special(word);
   if (error == std::errc::result_out_of_range) {
     if (!underflows(word)) return std::nullopt;
     return word[0] == '-' ? -0.0 : 0.0;
@@ -109,7 +137,7 @@ bool LineScanner::next() {
       if (piece.find('\0') != std::string_view::npos) {
         fail_at(next_line_ - 1, "NUL byte in a text file");
       }
-      const std::size_t comment = comment_ ? piece.find(comment_) : std::string_view::npos;
+      const std::size_t comment = find_comment(piece, comment_);
       if (comment != std::string_view::npos) piece = piece.substr(0, comment);
       // A backslash inside a comment (a Windows path, say) continues nothing.
       goes_on = continuation_ && comment == std::string_view::npos && piece.ends_with('\\') &&

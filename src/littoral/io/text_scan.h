@@ -9,8 +9,8 @@
 
 namespace littoral::io {
 
-/// The whole word as a double ("+1", ".5", "1e3", "nan" and "inf" count, hexadecimal does not), or
-/// nothing. Numbers too small for a double become zero, numbers too large are nothing.
+/// The whole word as a double ("+1", ".5", "1e3", "nan", "inf" and "1.#INF" count, hexadecimal does
+/// not), or nothing. Numbers too small for a double become zero, numbers too large are nothing.
 std::optional<double> parse_double(std::string_view word);
 
 /// The whole word as an integer with an optional sign, or nothing.
@@ -32,8 +32,9 @@ std::string_view without_byte_order_mark(std::string_view bytes, const std::stri
 /// byte is an InputError, since no text format allows it.
 class LineScanner {
  public:
-  /// `comment` starts a comment that runs to the end of the line ('\0': none). With `continuation`
-  /// a line ending in a backslash goes on in the next one. Lines are numbered from `first_line`.
+  /// `comment` starts a comment that runs to the end of the line ('\0': none), except after a dot.
+  /// With `continuation` a line ending in a backslash goes on in the next one. Lines are numbered
+  /// from `first_line`.
   LineScanner(std::string_view bytes, std::string name, char comment, bool continuation = false,
               std::size_t first_line = 1);
 

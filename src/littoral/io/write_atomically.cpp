@@ -61,10 +61,12 @@ void write_stream(const std::filesystem::path& path, const std::string& file,
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   if (!out) fail(path, errno ? errno : EIO);
+  errno = 0;
   body(out);
+  const int error = out ? 0 : errno;
   errno = 0;
   out.close();
-  if (!out) fail(path, errno ? errno : EIO);
+  if (!out) fail(path, error ? error : errno ? errno : EIO);
 }
 
 std::string temporary_name(const std::filesystem::path& target) {

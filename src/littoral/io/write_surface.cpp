@@ -51,6 +51,8 @@ void check_stl(const std::string& name, const PolygonSoup& soup) {
           std::to_string(soup.face(f).size()) +
           " corners, STL holds triangles only; .obj, .ply and .off hold polygons");
     }
+  }
+  for (int f = 0; f < soup.n_faces(); ++f) {
     for (int v : soup.face(f)) {
       const double largest = soup.points.row(v).cwiseAbs().maxCoeff();
       if (largest <= std::numeric_limits<float>::max()) continue;

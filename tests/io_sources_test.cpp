@@ -189,6 +189,7 @@ TEST(IoSources, SaysWhatIsWrongInJson) {
   const auto curve = [&](const std::string& text) { return error("{\"curves\":[" + text + "]}"); };
   EXPECT_EQ(error("{\"curves\":[}"), "a.json: byte 12: not valid JSON");
   EXPECT_EQ(error("{\"a\":1e999}"), "a.json: a number in it is out of range");
+  EXPECT_EQ(error(std::string(1000000, '[')), "a.json: the JSON is nested too deeply");
   EXPECT_EQ(error("[]"), "a.json: the document: expected an object");
   EXPECT_EQ(error("{}"), "a.json: no sources");
   EXPECT_EQ(error("{\"curve\":[]}"), "a.json: the document: unknown key 'curve'");

@@ -137,9 +137,15 @@ class JsonReader {
 SurfaceSources read_sources_json(std::string_view bytes, const std::string& name,
                                  const SurfaceMesh& mesh, std::optional<int> index_base) {
   const std::string_view text = without_byte_order_mark(bytes, name);
+  // Each bracket of a deep nest takes many times its byte in memory, and no valid file has more
+  // than 5.
+  const auto check_depth = [&](int depth, Json::parse_event_t, const Json&) {
+    if (depth > 8) throw InputError(name + ": the JSON is nested too deeply");
+    return true;
+  };
   Json root;
   try {
-    root = Json::parse(text.begin(), text.end());
+    root = Json::parse(text.begin(), text.end(), check_depth);
   } catch (const Json::parse_error& error) {
     throw InputError(name + ": byte " + std::to_string(error.byte) + ": not valid JSON");
   } catch (const Json::exception&) {  // a number beyond the doubles

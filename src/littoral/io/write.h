@@ -11,19 +11,28 @@
 
 namespace littoral::io {
 
-/// Writes faces, lines, normals and scalars by extension: .obj (lines kept; scalar `field` as
-/// texture u), .ply (binary little endian; all scalars as double properties, lines as edge
-/// elements), .off, .stl (binary; triangles only). Throws UnsupportedError for others, naming those
-/// that work.
+/// Writes a surface by extension; reading the file again gives the same numbers, exactly, of what
+/// the format holds:
+///   .obj  points, faces, lines, normals; the scalar `field`, where present, as texture u
+///   .ply  points, faces, lines, normals, all scalars (binary little endian, double properties;
+///   lines
+///         as edge elements, numbered by the property "line")
+///   .off  points, faces, normals
+///   .stl  triangles only (binary, single precision)
+/// Throws UnsupportedError for other extensions and for what a format cannot hold, InputError for
+/// normals or scalars of another length than the points, IoError naming the path.
 void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
                    const std::string& field = "distance");
 
-/// Writes one scalar per vertex: .csv, .npy, .txt (%.17g a line), .vtp, or what write_surface
-/// takes.
+/// Writes one scalar per vertex, which may be +inf: .csv ("vertex,FIELD", 0-based), .npy (float64),
+/// .txt (%.17g a line), .vtp (with points, faces and lines), or what write_surface takes except
+/// .off and .stl. Throws InputError where the soup has no such scalar, otherwise as write_surface.
 void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
                  const std::string& field = "distance");
 
-/// Calls `body` with a stream to a temporary file beside `path`, then renames. Throws IoError.
+/// Calls `body` with a stream to a temporary file beside `path`, then renames; after an error
+/// nothing is left behind and what was at `path` is untouched. Links are followed; devices and
+/// pipes are written directly. Throws IoError naming the path, or what `body` throws.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& body);
 

@@ -1,0 +1,37 @@
+#pragma once
+// Numbers in files of either byte order.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <ostream>
+
+namespace littoral::io {
+
+static_assert(std::endian::native == std::endian::little ||
+              std::endian::native == std::endian::big);
+
+/// The number stored at `from` in the byte order `order`; `from` need not be aligned.
+template <class T>
+T load(const char* from, std::endian order) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), from, sizeof(T));
+  if (order != std::endian::native) std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<T>(bytes);
+}
+
+template <class T>
+T load_little(const char* from) {
+  return load<T>(from, std::endian::little);
+}
+
+/// Writes a number with its lowest byte first.
+template <class T>
+void store_little(std::ostream& out, T value) {
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (std::endian::native != std::endian::little) std::reverse(bytes.begin(), bytes.end());
+  out.write(bytes.data(), sizeof(T));
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,243 @@
+#include "littoral/spatial/triangle_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "littoral/base/error.h"
+#include "littoral/spatial/closest_on_triangle.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int leaf_size = 4;
+constexpr int bins = 12;
+constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
+constexpr int stack_size = 96;
+constexpr int farthest_exponent = 200;  // squares of 2^200 are far from overflow
+
+Vec3 scaled(const Vec3& v, int exponent) {
+  return {std::ldexp(v[0], exponent), std::ldexp(v[1], exponent), std::ldexp(v[2], exponent)};
+}
+
+int exponent_of(double magnitude) { return magnitude > 0 ? std::ilogb(magnitude) + 1 : 0; }
+
+/// Half the area of a box's surface.
+double half_area(const Vec3& low, const Vec3& high) {
+  const Vec3 d = high - low;
+  return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+}  // namespace
+
+TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
+  double magnitude = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    bool finite = true;
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int v = faces(f, k);
+      if (v < 0 || v >= points.rows())
+        throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
+                         ", there are " + std::to_string(points.rows()));
+      finite = finite && points.row(v).allFinite();
+      if (finite) largest = std::max(largest, points.row(v).cwiseAbs().maxCoeff());
+    }
+    if (!finite) continue;
+    faces_.push_back(static_cast<int>(f));
+    magnitude = std::max(magnitude, largest);
+  }
+  if (faces_.empty())
+    throw InputError("closest points need a face with three finite corners; there is none among " +
+                     std::to_string(faces.rows()));
+  exponent_ = exponent_of(magnitude);
+  corners_.reserve(faces_.size());
+  std::vector<Box> boxes;
+  boxes.reserve(faces_.size());
+  for (int f : faces_) {
+    std::array<Vec3, 3> c;
+    for (int k = 0; k < 3; ++k) c[k] = scaled(points.row(faces(f, k)), -exponent_);
+    corners_.push_back(c);
+    boxes.push_back({c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
+  }
+  build(std::move(boxes));
+}
+
+void TriangleBvh::build(std::vector<Box> boxes) {
+  const int n = static_cast<int>(boxes.size());
+  std::vector<Vec3> centre(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) centre[i] = 0.5 * (boxes[i].low + boxes[i].high);
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+
+  struct Job {
+    int node, begin, end, depth;
+  };
+  std::vector<Job> jobs{{0, 0, n, 0}};
+  nodes_.reserve(boxes.size());
+  nodes_.resize(1);
+  while (!jobs.empty()) {
+    const Job job = jobs.back();
+    jobs.pop_back();
+    Box box = boxes[order[job.begin]];
+    Box centres{centre[order[job.begin]], centre[order[job.begin]]};
+    for (int i = job.begin; i < job.end; ++i) {
+      box.low = box.low.cwiseMin(boxes[order[i]].low);
+      box.high = box.high.cwiseMax(boxes[order[i]].high);
+      centres.low = centres.low.cwiseMin(centre[order[i]]);
+      centres.high = centres.high.cwiseMax(centre[order[i]]);
+    }
+    nodes_[job.node].box = box;
+    const int count = job.end - job.begin;
+    if (count <= leaf_size) {
+      nodes_[job.node].first = job.begin;
+      nodes_[job.node].count = count;
+      continue;
+    }
+
+    int axis = 0;
+    const double extent = (centres.high - centres.low).maxCoeff(&axis);
+    int middle = job.begin;
+    if (extent > 0 && job.depth < deepest_by_area) {
+      const double low = centres.low[axis];
+      auto bin_of = [&](int i) {
+        const double x = (centre[i][axis] - low) / extent;  // in [0, 1]
+        return std::min(bins - 1, static_cast<int>(x * bins));
+      };
+      std::array<int, bins> number{};
+      std::array<Box, bins> bin;
+      const double inf = std::numeric_limits<double>::infinity();
+      bin.fill({Vec3::Constant(inf), Vec3::Constant(-inf)});
+      for (int i = job.begin; i < job.end; ++i) {
+        const int b = bin_of(order[i]);
+        ++number[b];
+        bin[b].low = bin[b].low.cwiseMin(boxes[order[i]].low);
+        bin[b].high = bin[b].high.cwiseMax(boxes[order[i]].high);
+      }
+      // Cost of cutting after bin b: (triangles x area) on the left plus the same on the right.
+      std::array<double, bins> left_cost{};
+      auto sweep = [&](bool from_left) {
+        Box sum{Vec3::Constant(inf), Vec3::Constant(-inf)};
+        int total = 0;
+        std::array<double, bins> cost{};
+        for (int s = 0; s < bins; ++s) {
+          const int b = from_left ? s : bins - 1 - s;
+          total += number[b];
+          sum.low = sum.low.cwiseMin(bin[b].low);
+          sum.high = sum.high.cwiseMax(bin[b].high);
+          cost[b] = total ? total * half_area(sum.low, sum.high) : inf;
+        }
+        return cost;
+      };
+      left_cost = sweep(true);
+      const std::array<double, bins> right_cost = sweep(false);
+      int cut = -1;
+      double cheapest = inf;
+      for (int b = 0; b + 1 < bins; ++b) {
+        const double cost = left_cost[b] + right_cost[b + 1];
+        if (cost < cheapest) {
+          cheapest = cost;
+          cut = b;
+        }
+      }
+      if (cut >= 0)
+        middle = static_cast<int>(std::stable_partition(order.begin() + job.begin,
+                                                        order.begin() + job.end,
+                                                        [&](int i) { return bin_of(i) <= cut; }) -
+                                  order.begin());
+    }
+    if (middle == job.begin || middle == job.end) {  // coincident centres, or too deep
+      middle = job.begin + count / 2;
+      std::nth_element(order.begin() + job.begin, order.begin() + middle, order.begin() + job.end,
+                       [&](int i, int j) {
+                         const double x = centre[i][axis], y = centre[j][axis];
+                         return x < y || (x == y && i < j);
+                       });
+    }
+    const int left = static_cast<int>(nodes_.size());
+    nodes_[job.node].first = left;
+    nodes_.resize(nodes_.size() + 2);
+    jobs.push_back({left + 1, middle, job.end, job.depth + 1});
+    jobs.push_back({left, job.begin, middle, job.depth + 1});
+  }
+
+  std::vector<int> faces(faces_.size());
+  std::vector<std::array<Vec3, 3>> corners(corners_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    faces[i] = faces_[order[i]];
+    corners[i] = corners_[order[i]];
+  }
+  faces_ = std::move(faces);
+  corners_ = std::move(corners);
+}
+
+double TriangleBvh::lower_bound(const Box& box, const Vec3& query) {
+  const Vec3 below = box.low - query, above = query - box.high;
+  // Computed feet may lie outside the box by rounding of the corners' offsets: stay below that, so
+  // that pruning never changes which of several equally near faces wins.
+  const double reach = std::max((-below).cwiseAbs().maxCoeff(), above.cwiseAbs().maxCoeff());
+  const double slack = 1e-14 * reach;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double gap = std::max({below[k], above[k], 0.0}) - slack;
+    if (gap > 0) sum += gap * gap;
+  }
+  return sum;
+}
+
+ClosestPoint TriangleBvh::closest_point(const Vec3& query) const {
+  if (!query.allFinite())
+    throw InputError("the query point of a closest-point search is not finite");
+  // `shift` is extra down-scaling for queries so far away that squares would overflow.
+  const int query_exponent = exponent_of(query.cwiseAbs().maxCoeff());
+  const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
+  const Vec3 q = scaled(query, -exponent_ - shift);
+
+  struct Entry {
+    double bound;
+    int node;
+  };
+  std::array<Entry, stack_size> stack;
+  int top = 0;
+  stack[top++] = {0, 0};
+  double best = std::numeric_limits<double>::infinity();
+  TriangleFoot best_foot;
+  int best_at = -1;
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (entry.bound > best) continue;
+    const Node& node = nodes_[entry.node];
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const auto& c = corners_[i];
+      const TriangleFoot foot = closest_on_triangle(c[0] - q, c[1] - q, c[2] - q);
+      if (best_at < 0 || foot.squared < best ||
+          (foot.squared == best && faces_[i] < faces_[best_at])) {
+        best = foot.squared;
+        best_foot = foot;
+        best_at = i;
+      }
+    }
+    if (node.count > 0) continue;
+    Entry near{lower_bound(nodes_[node.first].box, q), node.first};
+    Entry far{lower_bound(nodes_[node.first + 1].box, q), node.first + 1};
+    if (far.bound < near.bound) std::swap(near, far);
+    if (far.bound <= best) stack[top++] = far;
+    if (near.bound <= best) stack[top++] = near;
+  }
+
+  ClosestPoint answer;
+  answer.face = faces_[best_at];
+  answer.barycentric = best_foot.barycentric;
+  const auto& c = corners_[best_at];
+  Vec3 point = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) point += best_foot.barycentric[k] * c[k];
+  answer.point = scaled(point, exponent_);
+  answer.distance = std::min(std::ldexp(best_foot.offset.stableNorm(), exponent_ + shift),
+                             std::numeric_limits<double>::max());
+  return answer;
+}
+
+}  // namespace littoral

@@ -1,0 +1,55 @@
+#pragma once
+// Closest point on a triangle soup: a bounding-volume hierarchy in flat arrays.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "littoral/base/types.h"
+
+namespace littoral {
+
+/// Answer of a closest-point query.
+struct ClosestPoint {
+  int face = -1;
+  std::array<double, 3> barycentric{1, 0, 0};  // per corner of the face, in [0, 1], sum 1
+  Vec3 point = Vec3::Zero();                   // on the face
+  double distance = 0;                         // |point - query|
+};
+
+/// Bounding-volume hierarchy over triangles; immutable, queries may run from several threads.
+///
+/// Triangles may be degenerate, repeated or unconnected; those with a non-finite corner are left
+/// out. Coordinates are scaled by a power of two inside, so any magnitude up to 1e300 works.
+/// Split by surface area (Wald, "On fast construction of SAH-based bounding volume hierarchies",
+/// 2007: binned), by count where that fails to divide.
+class TriangleBvh {
+ public:
+  /// points: n x 3; faces: m x 3, rows index points. Throws InputError if an index is out of range
+  /// (naming the face) or no face has three finite corners.
+  TriangleBvh(const MatX3& points, const MatX3i& faces);
+
+  /// Nearest point over all faces, the lowest face where several are equally near. A query beyond
+  /// 1e60 times the size of the coordinates sees only the direction of the faces. Throws InputError
+  /// if the query is not finite.
+  ClosestPoint closest_point(const Vec3& query) const;
+
+ private:
+  struct Box {
+    Vec3 low, high;
+  };
+  struct Node {
+    Box box;
+    int first = 0;  // leaf: first triangle; otherwise left child, the right one follows it
+    int count = 0;  // triangles of a leaf, 0 otherwise
+  };
+  void build(std::vector<Box> boxes);
+  static double lower_bound(const Box& box, const Vec3& query);
+
+  int exponent_ = 0;  // stored coordinates = coordinates * 2^-exponent
+  std::vector<Node> nodes_;
+  std::vector<int> faces_;                    // original number of each stored triangle
+  std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the leaves
+};
+
+}  // namespace littoral

@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "littoral/base/error.h"
+#include "littoral/spatial/brute_force.h"
+#include "littoral/spatial/triangle_bvh.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+struct Soup {
+  MatX3 points{0, 3};
+  MatX3i faces{0, 3};
+};
+
+enum class Kind { generic, needles, collinear, coincident, repeated, lattice };
+
+Soup random_soup(std::mt19937& random, Kind kind, int n) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  Soup soup;
+  soup.points.resize(3 * n, 3);
+  soup.faces.resize(n, 3);
+  for (int f = 0; f < n; ++f) {
+    const Vec3 a(u(random), u(random), u(random));
+    Vec3 b = a + 0.2 * Vec3(u(random), u(random), u(random));
+    Vec3 c = a + 0.2 * Vec3(u(random), u(random), u(random));
+    if (kind == Kind::needles) c = 0.5 * (a + b) + std::pow(10.0, -8 - 8 * u(random)) * (c - a);
+    if (kind == Kind::collinear) c = a + u(random) * (b - a);
+    if (kind == Kind::coincident) b = c = a;
+    soup.points.row(3 * f) = a;
+    soup.points.row(3 * f + 1) = b;
+    soup.points.row(3 * f + 2) = c;
+    soup.faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    if (kind == Kind::repeated) soup.faces(f, 1) = soup.faces(f, f % 2 ? 0 : 2);
+  }
+  if (kind == Kind::lattice) soup.points = (soup.points * 4).array().round() / 4;  // many ties
+  return soup;
+}
+
+MatX3i triangles(const PolygonSoup& soup) {
+  MatX3i faces(soup.n_faces(), 3);
+  for (int f = 0; f < soup.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) faces(f, k) = soup.face(f)[k];
+  return faces;
+}
+
+void expect_consistent(const Soup& soup, const ClosestPoint& hit, const Vec3& query) {
+  ASSERT_GE(hit.face, 0);
+  double sum = 0;
+  Vec3 point = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_GE(hit.barycentric[k], 0);
+    EXPECT_LE(hit.barycentric[k], 1);
+    sum += hit.barycentric[k];
+    point += hit.barycentric[k] * soup.points.row(soup.faces(hit.face, k)).transpose();
+  }
+  EXPECT_NEAR(sum, 1, 1e-15 * 4);
+  const double size = std::max(soup.points.cwiseAbs().maxCoeff(), query.cwiseAbs().maxCoeff());
+  EXPECT_LE((point - hit.point).norm(), 4e-16 * 4 * size);
+  EXPECT_NEAR((hit.point - query).norm(), hit.distance, 1e-14 * size);
+}
+
+/// The lowest face among the nearest, each face asked on its own: the same arithmetic, no pruning.
+ClosestPoint one_by_one(const Soup& soup, const Vec3& query) {
+  ClosestPoint best;
+  for (int f = 0; f < soup.faces.rows(); ++f) {
+    const MatX3i face = soup.faces.row(f);
+    ClosestPoint hit = TriangleBvh(soup.points, face).closest_point(query);
+    hit.face = f;
+    if (best.face < 0 || hit.distance < best.distance) best = hit;
+  }
+  return best;
+}
+
+TEST(SpatialBvh, AgreesWithBruteForceOnSoups) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> u(-1.5, 1.5);
+  for (Kind kind : {Kind::generic, Kind::needles, Kind::collinear, Kind::coincident, Kind::repeated,
+                    Kind::lattice}) {
+    for (int n : {1, 2, 5, 60, 700}) {
+      const Soup soup = random_soup(random, kind, n);
+      const TriangleBvh bvh(soup.points, soup.faces);
+      for (int i = 0; i < 60; ++i) {
+        Vec3 query(u(random), u(random), u(random));
+        if (i % 3 == 1) query = soup.points.row(static_cast<int>(random() % soup.points.rows()));
+        if (i % 3 == 2 && kind == Kind::lattice) query = (query * 4).array().round() / 4;
+        const ClosestPoint hit = bvh.closest_point(query);
+        expect_consistent(soup, hit, query);
+        const ClosestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
+        EXPECT_NEAR(hit.distance, oracle.distance, 1e-15 * 8);
+      }
+    }
+  }
+}
+
+TEST(SpatialBvh, PruningNeverChangesTheWinner) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1.5, 1.5);
+  for (Kind kind : {Kind::generic, Kind::lattice, Kind::coincident}) {
+    const Soup soup = random_soup(random, kind, 150);
+    const TriangleBvh bvh(soup.points, soup.faces);
+    for (int i = 0; i < 80; ++i) {
+      const Vec3 query = (Vec3(u(random), u(random), u(random)) * 4).array().round() / 4;
+      const ClosestPoint hit = bvh.closest_point(query), slow = one_by_one(soup, query);
+      EXPECT_EQ(hit.face, slow.face);
+      EXPECT_EQ(hit.distance, slow.distance);
+      EXPECT_EQ(hit.barycentric, slow.barycentric);
+    }
+  }
+}
+
+TEST(SpatialBvh, PropertyDistanceMatchesOracleAtAnyScaleAndOffset) {
+  EXPECT_TRUE(rc::check([] {
+    std::mt19937 random(*rc::gen::arbitrary<unsigned>());
+    const Kind kind = static_cast<Kind>(*rc::gen::inRange(0, 6));
+    Soup soup = random_soup(random, kind, *rc::gen::inRange(1, 40));
+    const double scale = std::pow(10.0, *rc::gen::inRange(-30, 31));
+    const double offset = *rc::gen::element(0.0, 1e7);
+    soup.points = (soup.points.array() + offset) * scale;
+    std::uniform_real_distribution<double> u(-2, 2);
+    const Vec3 query = (Vec3(u(random), u(random), u(random)).array() + offset) * scale;
+    const ClosestPoint hit = TriangleBvh(soup.points, soup.faces).closest_point(query);
+    const ClosestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
+    RC_ASSERT(std::abs(hit.distance - oracle.distance) <= 1e-14 * scale);
+    RC_ASSERT((hit.point - query).norm() <= hit.distance + 1e-15 * 8 * scale * (1 + offset));
+  }));
+}
+
+TEST(SpatialBvh, LowestFaceAmongEquals) {
+  const PolygonSoup sphere = test::octasphere_soup(2);
+  const MatX3i faces = triangles(sphere);
+  const TriangleBvh bvh(sphere.points, faces);
+  for (int v = 0; v < sphere.n_vertices(); ++v) {  // out along a vertex: all its faces tie
+    const Vec3 query = 3 * sphere.points.row(v).transpose();
+    int lowest = -1;
+    for (int f = static_cast<int>(faces.rows()) - 1; f >= 0; --f)
+      for (int k = 0; k < 3; ++k)
+        if (faces(f, k) == v) lowest = f;
+    EXPECT_EQ(bvh.closest_point(query).face, lowest);
+  }
+  MatX3i twice(2 * faces.rows(), 3);  // every face once more
+  twice << faces, faces;
+  const TriangleBvh doubled(sphere.points, twice);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 query = Vec3(u(random), u(random), u(random)) * 2;
+    EXPECT_EQ(doubled.closest_point(query).face, bvh.closest_point(query).face);
+  }
+}
+
+TEST(SpatialBvh, KnownAnswers) {
+  MatX3 points(3, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  MatX3i face(1, 3);
+  face << 0, 1, 2;
+  const TriangleBvh bvh(points, face);
+  const ClosestPoint inside = bvh.closest_point({0.25, 0.25, 2});
+  EXPECT_DOUBLE_EQ(inside.distance, 2);
+  EXPECT_TRUE(inside.point.isApprox(Vec3(0.25, 0.25, 0), 1e-15));
+  EXPECT_TRUE(bvh.closest_point({1, 1, 0}).point.isApprox(Vec3(0.5, 0.5, 0), 1e-15));
+  EXPECT_EQ(bvh.closest_point({-3, -4, 0}).distance, 5);
+  EXPECT_EQ(bvh.closest_point({-3, -4, 0}).barycentric, (std::array<double, 3>{1, 0, 0}));
+}
+
+TEST(SpatialBvh, ExtremeMagnitudes) {
+  for (double scale : {1e-300, 1e-200, 1e-30, 1e30, 1e200, 1e300}) {
+    const PolygonSoup sphere = test::octasphere_soup(2);
+    const MatX3 points = sphere.points * scale;
+    const TriangleBvh bvh(points, triangles(sphere));
+    const ClosestPoint hit = bvh.closest_point(Vec3(3, 0, 0) * scale);
+    EXPECT_NEAR(hit.distance / scale, 2, 1e-14);
+    EXPECT_NEAR(hit.point[0] / scale, 1, 1e-14);
+    const ClosestPoint far = bvh.closest_point({0, 1e308, 0});
+    EXPECT_NEAR(far.distance / 1e308, scale < 1e300 ? 1 : 1 - 1e-8, 1e-7);
+    EXPECT_TRUE(far.point.allFinite());
+  }
+}
+
+TEST(SpatialBvh, BadInput) {
+  MatX3 points(4, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0, std::nan(""), 0, 0;
+  MatX3i faces(2, 3);
+  faces << 0, 1, 3, 0, 1, 2;
+  const TriangleBvh bvh(points, faces);
+  EXPECT_EQ(bvh.closest_point({0, 0, 1}).face, 1);
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(bvh.closest_point({inf, 0, 0}), InputError);
+  EXPECT_THROW(bvh.closest_point({0, std::nan(""), 0}), InputError);
+  EXPECT_THROW(TriangleBvh(MatX3(0, 3), MatX3i(0, 3)), InputError);
+  EXPECT_THROW(TriangleBvh(points, MatX3i(faces.topRows(1))), InputError);
+  faces(0, 2) = 4;
+  EXPECT_THROW(TriangleBvh(points, faces), InputError);
+  faces(0, 2) = -1;
+  EXPECT_THROW(TriangleBvh(points, faces), InputError);
+}
+
+TEST(SpatialBvh, ManyCoincidentAndNestedTrianglesBuildFast) {
+  // 60000 copies of one triangle (no split by position helps), then triangles halving in size
+  // towards a corner (splits by area peel them one by one).
+  const int copies = 60000, nested = 1000;
+  MatX3 points(3 * (1 + nested), 3);
+  MatX3i faces(copies + nested, 3);
+  for (int i = 0; i <= nested; ++i) {
+    const double s = std::pow(0.5, i);
+    points.middleRows(3 * i, 3) << 0, 0, 0, s, 0, 0, 0, s, 0;
+  }
+  for (int f = 0; f < copies; ++f) faces.row(f) << 0, 1, 2;
+  for (int i = 1; i <= nested; ++i) faces.row(copies + i - 1) << 3 * i, 3 * i + 1, 3 * i + 2;
+  const TriangleBvh bvh(points, faces);
+  const ClosestPoint hit = bvh.closest_point({0.1, 0.2, 0.5});
+  EXPECT_EQ(hit.face, 0);
+  EXPECT_DOUBLE_EQ(hit.distance, 0.5);
+  EXPECT_EQ(bvh.closest_point({-1, 0, 0}).face, 0);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -194,7 +194,8 @@ TEST(Isolines, RandomFieldsGiveCompleteLines) {
           EXPECT_NEAR(value_at(*mesh, values, p), 0, 1e-12);
           if (p.on == SurfacePoint::On::edge) ++visits[p.element];
           const SurfacePoint& last = line.nodes[i > 0 ? i - 1 : line.nodes.size() - 1];
-          EXPECT_FALSE(p.on == last.on && p.element == last.element);
+          const bool follows = i > 0 || line.closed;
+          EXPECT_FALSE(follows && p.on == last.on && p.element == last.element);
         }
         if (!line.closed) {
           for (const SurfacePoint& p : {line.nodes.front(), line.nodes.back()}) {

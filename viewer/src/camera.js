@@ -28,7 +28,7 @@ export function makeCamera(canvas, scene, onChange) {
       left = Math.min(left, a); right = Math.max(right, a);
       bottom = Math.min(bottom, b); top = Math.max(top, b);
     }
-    const tan = Math.tan((15 * Math.PI) / 180) * 0.86, wide = tan * camera.aspect;
+    const tan = Math.tan((15 * Math.PI) / 180) * 0.86, wide = tan * camera.aspect * 0.84; // room for the legend
     const cx = (left + right) / 2, cy = (bottom + top) / 2;
     let distance = 1.2;
     for (const v of scene.triangles) {

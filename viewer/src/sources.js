@@ -45,7 +45,7 @@ export function makeSources(sources) {
   if (heads) {
     group.add(instances(cone, signed, heads, (i, m) => {
       const a = at(sources.arrows, 2 * i), b = at(sources.arrows, 2 * i + 1);
-      between(a, b, 0.36 * a.distanceTo(b), m);
+      between(a, b, 0.32 * a.distanceTo(b), m);
     }));
   }
   const points = sources.points.length / 3;

@@ -8,11 +8,13 @@ in float infinite;
 out float vT;
 out float vInfinite;
 out vec3 vNormal;
+out float vSmooth;
 out vec3 vPosition;
 void main() {
   vT = t;
   vInfinite = infinite;
   vNormal = normalMatrix * normal;
+  vSmooth = min(1.0, dot(normal, normal));
   vec4 p = modelViewMatrix * vec4(position, 1.0);
   vPosition = p.xyz;
   gl_Position = projectionMatrix * p;
@@ -24,6 +26,7 @@ precision highp sampler2D;
 in float vT;
 in float vInfinite;
 in vec3 vNormal;
+in float vSmooth;
 in vec3 vPosition;
 out vec4 result;
 uniform bool hasField;
@@ -43,15 +46,15 @@ uniform vec3 infiniteColour;
 float ink(float away, float width) { return clamp(0.5 * width + 0.5 - away, 0.0, 1.0); }
 
 void main() {
-  // Where the vertex normals stray far from the face there is a crease: keep it.
+  // Corners on creases have no normal of their own: the face's stands in. Where faces disagree in
+  // orientation vertex normals may cancel; the face's is the fallback there too.
   vec3 flatNormal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
-  vec3 smoothNormal = length(vNormal) > 0.0 ? normalize(vNormal) : flatNormal;
-  if (dot(smoothNormal, flatNormal) < 0.0) smoothNormal = -smoothNormal;
-  float trust = smoothstep(0.72, 0.86, dot(smoothNormal, flatNormal));
-  vec3 n = normalize(mix(flatNormal, smoothNormal, trust));
+  vec3 smoothNormal = dot(vNormal, flatNormal) < 0.0 ? -vNormal : vNormal;
+  smoothNormal = normalize(smoothNormal + (1.0 - vSmooth + 1e-6) * flatNormal);
+  vec3 n = normalize(mix(flatNormal, smoothNormal, smoothstep(0.3, 0.5, dot(smoothNormal, flatNormal))));
   if (dot(n, vPosition) > 0.0) n = -n;
   vec3 lamp = normalize(vec3(-0.25, 0.35, 1.0));
-  float light = min(1.06, 0.4 + 0.6 * max(0.0, dot(n, lamp)) / lamp.z);
+  float light = min(1.06, 0.5 + 0.5 * max(0.0, dot(n, lamp)) / lamp.z);
   float slope = length(vec2(dFdx(vT), dFdy(vT)));
 
   vec3 colour = plainColour;
@@ -96,6 +99,7 @@ precision highp float;
 in float vT;
 in float vInfinite;
 in vec3 vNormal;
+in float vSmooth;
 in vec3 vPosition;
 out vec4 result;
 void main() {

@@ -66,13 +66,26 @@ Camera fit_camera(const Scene& scene, const PictureOptions& options,
   });
   camera.x0 = 0.5 * (left + right);
   camera.y0 = 0.5 * (bottom + top);
-  camera.distance = 1.2;  // outside the unit sphere that holds everything
-  for_each_point(scene, [&](const Vec3& p) {
-    const Vec3 q = camera.to_eye * ((p - camera.centre) / camera.radius);
-    const double across =
-        std::max(std::abs(q[0] - camera.x0) / half_x, std::abs(q[1] - camera.y0) / half_y);
-    camera.distance = std::max(camera.distance, q[2] + across * camera.focal);
-  });
+  // Perspective shows the near side larger: centre what is seen, then fit, a few times over.
+  for (int round = 0; round < 4; ++round) {
+    camera.distance = 1.2;  // outside the unit sphere that holds everything
+    for_each_point(scene, [&](const Vec3& p) {
+      const Vec3 q = camera.to_eye * ((p - camera.centre) / camera.radius);
+      const double across =
+          std::max(std::abs(q[0] - camera.x0) / half_x, std::abs(q[1] - camera.y0) / half_y);
+      camera.distance = std::max(camera.distance, q[2] + across * camera.focal);
+    });
+    if (round == 3) break;
+    Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
+    for_each_point(scene, [&](const Vec3& p) {
+      const Eigen::Vector2d q = camera.project(p).head<2>();
+      low = low.cwiseMin(q);
+      high = high.cwiseMax(q);
+    });
+    const double unit = (camera.distance - 0.2) / camera.focal;
+    camera.x0 += unit * (0.5 * (low[0] + high[0]) - camera.cx);
+    camera.y0 -= unit * (0.5 * (low[1] + high[1]) - camera.cy);
+  }
   return camera;
 }
 

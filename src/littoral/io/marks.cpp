@@ -39,7 +39,7 @@ MarkRaster::MarkRaster(const Scene& scene, const Camera& camera, double scale) :
     Vec2 across(base[1] - tip[1], tip[0] - base[0]);
     if (!(across.norm() > 1e-9)) continue;
     const double size = (arrow.tip - arrow.base).norm() / camera.radius;
-    across *= 0.36 * size * camera.focal / base[2] / across.norm();
+    across *= 0.32 * size * camera.focal / base[2] / across.norm();
     const Vec3 half(across[0], across[1], 0);
     marks_.push_back({{tip, base + half, base - half}, true, 0, as_colour(signed_colour)});
   }

@@ -46,9 +46,22 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
       normals.row(v) += (area.row(t).dot(largest.row(v)) < 0 ? -1.0 : 1.0) * area.row(t);
     }
   }
+  normals.rowwise().normalize();
+  // Creases stay: where a face leans more than 40 degrees from the mean, there is no common normal.
+  std::vector<bool> crease(static_cast<std::size_t>(points.rows()), false);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    const double size = area.row(t).norm();
+    for (int k = 0; k < 3; ++k) {
+      const int v = triangles(t, k);
+      if (std::abs(area.row(t).dot(normals.row(v))) < 0.766 * size) {
+        crease[static_cast<std::size_t>(v)] = true;
+      }
+    }
+  }
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    const double length = normals.row(v).stableNorm();
-    if (length > 0) normals.row(v) /= length;
+    if (crease[static_cast<std::size_t>(v)] || !normals.row(v).allFinite()) {
+      normals.row(v).setZero();
+    }
   }
   return normals;
 }
@@ -176,18 +189,15 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   Vec3 smooth = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {
     const Vec3 n = normals_.row(v[k]);
-    smooth += b[k] / weight * (n.dot(flat) < 0 ? -n : n);
+    smooth += b[k] / weight * (n.isZero() ? flat : n.dot(flat) < 0 ? Vec3(-n) : n);
   }
-  if (smooth.norm() > 0) smooth.normalize();
-  // Where the vertex normals stray far from the face there is a crease: keep it.
-  const double trust = smooth_step(0.72, 0.86, smooth.dot(flat));
-  const Vec3 normal = camera_.to_eye * (trust * smooth + (1 - trust) * flat).normalized();
+  const Vec3 normal = camera_.to_eye * smooth.normalized();
   const Vec3 eye =
       Vec3((camera_.cx - x) / camera_.focal, (y - camera_.cy) / camera_.focal, 1).normalized();
   static const Vec3 lamp = Vec3(-0.25, 0.35, 1).normalized();
   const double turn = normal.dot(eye) < 0 ? -1 : 1;
   const double light = std::max(0.0, turn * normal.dot(lamp)) / lamp[2];
-  const auto brightness = static_cast<float>(std::min(1.06, 0.4 + 0.6 * light));
+  const auto brightness = static_cast<float>(std::min(1.06, 0.5 + 0.5 * light));
 
   if (!style_.present) {
     return as_colour(scene_.values.size() ? infinite_colour : plain_colour) * brightness;

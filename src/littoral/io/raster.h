@@ -66,7 +66,8 @@ class MarkRaster {
 };
 
 /// Vertex normals of a triangle soup whose faces may disagree in orientation: each face counts with
-/// the sign that agrees with the largest face at the vertex. Unit, or zero where there is no area.
+/// the sign that agrees with the largest face at the vertex. Unit, or zero where there is no area
+/// and on creases, where faces keep their own normals.
 MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double length_scale);
 
 }  // namespace littoral::io

@@ -142,7 +142,7 @@ std::string label_text(double value) {
 
 SourceMarks source_marks(const Scene& scene, double radius) {
   SourceMarks marks;
-  const double dash = 0.03 * radius, arrow = 0.055 * radius, every = 0.45 * radius;
+  const double dash = 0.03 * radius, arrow = 0.045 * radius, every = 0.45 * radius;
   for (const SceneCurve& curve : scene.curves) {
     const MatX3& p = curve.points;
     double length = 0;

@@ -33,5 +33,6 @@ add_custom_command(
   COMMENT "Bundling the viewer page"
   VERBATIM)
 target_sources(littoral PRIVATE ${viewer_to}/page_template.cpp)
-set_source_files_properties(${viewer_to}/page_template.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+set_source_files_properties(${viewer_to}/page_template.cpp PROPERTIES
+  SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
 target_compile_definitions(littoral PRIVATE LITTORAL_HAS_VIEWER=1)

@@ -1,1 +1,38 @@
+# The viewer page: installed dependencies (npm ci) and esbuild make one HTML file of viewer/src, which
+# becomes a C++ source of the library. Everything is made in the build folder.
+if(NOT LITTORAL_VIEWER)
+  return()
+endif()
+find_program(LITTORAL_NODE NAMES node nodejs)
+find_program(LITTORAL_NPM npm)
+if(NOT LITTORAL_NODE OR NOT LITTORAL_NPM)
+  message(STATUS "npm not found: littoral is built without the viewer page")
+  return()
+endif()
 
+set(viewer_from ${CMAKE_CURRENT_SOURCE_DIR}/viewer)
+set(viewer_to ${CMAKE_CURRENT_BINARY_DIR}/viewer)
+file(GLOB viewer_sources CONFIGURE_DEPENDS ${viewer_from}/src/*)
+
+add_custom_command(
+  OUTPUT ${viewer_to}/installed.stamp
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${viewer_to}
+  COMMAND ${CMAKE_COMMAND} -E copy ${viewer_from}/package.json ${viewer_from}/package-lock.json
+          ${viewer_to}
+  COMMAND ${LITTORAL_NPM} ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error
+  COMMAND ${CMAKE_COMMAND} -E touch ${viewer_to}/installed.stamp
+  DEPENDS ${viewer_from}/package.json ${viewer_from}/package-lock.json
+  WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/viewer
+  COMMENT "Fetching the viewer's packages"
+  VERBATIM)
+file(MAKE_DIRECTORY ${viewer_to})
+add_custom_command(
+  OUTPUT ${viewer_to}/page_template.cpp
+  COMMAND ${LITTORAL_NODE} ${viewer_from}/build.mjs ${viewer_to} ${viewer_to}/node_modules
+  DEPENDS ${viewer_to}/installed.stamp ${viewer_from}/build.mjs ${viewer_sources}
+  COMMENT "Bundling the viewer page"
+  VERBATIM)
+target_sources(littoral PRIVATE ${viewer_to}/page_template.cpp)
+set_source_files_properties(${viewer_to}/page_template.cpp PROPERTIES
+  SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
+target_compile_definitions(littoral PRIVATE LITTORAL_HAS_VIEWER=1)

@@ -1,0 +1,32 @@
+#pragma once
+// Where points in space fall in a picture.
+
+#include "littoral/base/types.h"
+#include "littoral/io/picture.h"
+#include "littoral/io/scene_style.h"
+
+namespace littoral::io {
+
+/// A pinhole camera in front of everything it shows.
+struct Camera {
+  Vec3 centre;             // in space
+  double radius = 1;       // unit of length of camera space
+  Eigen::Matrix3d to_eye;  // rows: right, up, towards the eye
+  double x0 = 0, y0 = 0;   // camera space point that falls on (cx, cy)
+  double distance = 4;     // of the eye
+  double focal = 1;        // samples
+  double cx = 0, cy = 0;   // samples
+
+  /// Horizontal and vertical position (samples, y down) and distance w > 0 along the line of sight.
+  Vec3 project(const Vec3& p) const {
+    const Vec3 q = to_eye * ((p - centre) / radius);
+    const double w = distance - q[2];
+    return {cx + focal * (q[0] - x0) / w, cy - focal * (q[1] - y0) / w, w};
+  }
+};
+
+/// A camera of 30 degrees opening that fits the scene into a rectangle (left, top, right, bottom,
+/// in samples). Throws InputError for an unusable view direction.
+Camera fit_camera(const Scene& scene, const PictureOptions& options, const Eigen::Vector4d& window);
+
+}  // namespace littoral::io

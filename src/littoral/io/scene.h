@@ -1,0 +1,59 @@
+#pragma once
+// What a page or a picture shows: a surface, a field on it, and what distance was measured from.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "littoral/base/types.h"
+#include "littoral/domain/polygon_soup.h"
+#include "littoral/domain/surface_mesh.h"
+#include "littoral/sources/surface_sources.h"
+
+namespace littoral::io {
+
+/// A source polyline in space.
+struct SceneCurve {
+  MatX3 points{0, 3};  // nodes x 3, in the direction of travel
+  bool is_signed = true;
+};
+
+/// Everything on show. All texts are plain UTF-8; pages escape them.
+struct Scene {
+  MatX3 points{0, 3};      // vertices x 3; those of triangles must be finite
+  MatX3i triangles{0, 3};  // triangles x 3
+  std::vector<unsigned char>
+      inner_sides;  // triangles: bit k set if side k is inside a polygon; or empty
+  VecX values;      // vertices, may be infinite, never NaN; or empty: no field
+  std::string field_name = "distance";
+  std::vector<SceneCurve> curves;
+  MatX3 source_points{0, 3};   // isolated source points x 3
+  std::vector<double> levels;  // isolines at these values; empty: evenly spaced ones
+  int isolines = 20;           // about how many evenly spaced ones; 0: none
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> facts;  // shown as a table
+};
+
+/// A scene of a surface: polygons cut into fans, the soup's scalar `field` as values where it has
+/// one.
+Scene make_scene(const PolygonSoup& soup, const std::string& field = "distance");
+
+/// Adds the sources of a problem on `mesh`; nodes of one curve are joined by straight segments.
+void add_sources(Scene& scene, const SurfaceMesh& mesh, const SurfaceSources& sources);
+
+/// Throws InputError naming the element if the scene has no triangle, a triangle refers to a vertex
+/// that is missing or not finite, there is not one value a vertex, a value is NaN, or a source,
+/// level or isoline count is not finite or negative.
+void check_scene(const Scene& scene);
+
+/// Writes one HTML file that shows the scene in a browser, from disk and offline. Throws what
+/// check_scene throws, IoError if the file cannot be written, and UnsupportedError if the library
+/// was built without the viewer (LITTORAL_VIEWER=OFF or no npm).
+void write_page(const std::filesystem::path& path, const Scene& scene);
+
+/// True if write_page works in this build.
+bool has_viewer();
+
+}  // namespace littoral::io

@@ -1,0 +1,216 @@
+#include "littoral/io/picture.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "littoral/io/scene_style.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+namespace fs = std::filesystem;
+
+io::PictureOptions small() {
+  io::PictureOptions options;
+  options.width = 240;
+  options.height = 180;
+  options.colour_bar = false;
+  return options;
+}
+
+// The unit square with the field x - 1/2, without isolines.
+io::Scene square_scene() {
+  io::Scene scene = io::make_scene(test::grid_soup(8, 8));
+  scene.values = scene.points.col(0).array() - 0.5;
+  scene.isolines = 0;
+  return scene;
+}
+
+io::Rgb pixel(const io::Image& image, double x, double y) {
+  const auto i = static_cast<std::size_t>(static_cast<int>(y * image.height) * image.width +
+                                          static_cast<int>(x * image.width));
+  return {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]};
+}
+
+int difference(const io::Rgb& a, const io::Rgb& b) {
+  int worst = 0;
+  for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, std::abs(int{a[k]} - int{b[k]}));
+  return worst;
+}
+
+int dark_pixels(const io::Image& image) {
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    count += image.rgb[i] < 70 && image.rgb[i + 1] < 70 && image.rgb[i + 2] < 70;
+  }
+  return count;
+}
+
+int count_like(const io::Image& image, const io::Rgb& colour) {
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    count += difference({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]}, colour) < 12;
+  }
+  return count;
+}
+
+TEST(Picture, FlatFieldColoursAreTheMap) {
+  const io::Image image = io::draw_picture(square_scene(), small());
+  ASSERT_EQ(image.rgb.size(), 240u * 180u * 3u);
+  const auto& map = io::colour_map(true);
+  EXPECT_LE(difference(pixel(image, 0.5, 0.5), map[128]), 3);
+  EXPECT_LE(difference(pixel(image, 0.175, 0.5), map[4]), 16);    // x near 0: left
+  EXPECT_LE(difference(pixel(image, 0.825, 0.5), map[251]), 16);  // x near 1: right
+  EXPECT_GT(std::min({pixel(image, 0.02, 0.5)[0], pixel(image, 0.5, 0.02)[2]}), 240);  // paper
+}
+
+TEST(Picture, FlippedFacesLookTheSame) {
+  io::Scene scene = io::make_scene(test::octasphere_soup(4));
+  scene.values = scene.points.col(1);
+  const io::Image straight = io::draw_picture(scene, small());
+  for (Eigen::Index t = 0; t < scene.triangles.rows(); t += 3) {
+    std::swap(scene.triangles(t, 0), scene.triangles(t, 1));
+  }
+  const io::Image flipped = io::draw_picture(scene, small());
+  int worst = 0;
+  for (std::size_t i = 0; i < straight.rgb.size(); ++i) {
+    worst = std::max(worst, std::abs(int{straight.rgb[i]} - int{flipped.rgb[i]}));
+  }
+  EXPECT_LE(worst, 2);
+}
+
+TEST(Picture, ZeroLineIsDarkAndAtItsPlace) {
+  io::Scene scene = square_scene();
+  scene.isolines = 10;
+  const io::Image image = io::draw_picture(scene, small());
+  EXPECT_LT(pixel(image, 0.5, 0.5)[0], 90);
+  EXPECT_LT(pixel(image, 0.5, 0.3)[0], 90);
+  // Explicit levels: only those.
+  scene.levels = {0.25};
+  const io::Image one = io::draw_picture(scene, small());
+  EXPECT_GT(pixel(one, 0.5, 0.5)[0], 200);
+  scene.levels = {0.0};
+  EXPECT_LT(pixel(io::draw_picture(scene, small()), 0.5, 0.5)[0], 90);
+}
+
+TEST(Picture, LinesKeepTheirWidthWhateverTheScale) {
+  int count[3];
+  int at = 0;
+  for (const double scale : {1.0, 1e-6, 1e6}) {
+    io::Scene scene = square_scene();
+    scene.levels = {0.0};
+    scene.points *= scale;
+    scene.values *= scale;
+    count[at++] = dark_pixels(io::draw_picture(scene, small()));
+  }
+  EXPECT_GT(count[0], 250);
+  EXPECT_LT(count[0], 700);
+  EXPECT_EQ(count[0], count[1]);
+  EXPECT_EQ(count[0], count[2]);
+}
+
+TEST(Picture, SourcesAreVisibleInFrontAndHiddenBehind) {
+  io::Scene scene = io::make_scene(test::octasphere_soup(4));
+  io::PictureOptions options = small();
+  options.towards_eye = Vec3(0, 0, 1);
+  options.up = Vec3(0, 1, 0);
+  MatX3 line(2, 3);
+  line << -0.3, 0, 0.96, 0.3, 0, 0.96;
+  scene.curves = {{line, true}};
+  scene.source_points = MatX3(1, 3);
+  scene.source_points << 0, 0.4, 0.92;
+  io::Image image = io::draw_picture(scene, options);
+  EXPECT_GT(count_like(image, io::signed_colour), 60);
+  EXPECT_GT(count_like(image, io::unsigned_colour), 30);
+  options.towards_eye = Vec3(0, 0, -1);
+  image = io::draw_picture(scene, options);
+  EXPECT_EQ(count_like(image, io::signed_colour), 0);
+  EXPECT_EQ(count_like(image, io::unsigned_colour), 0);
+}
+
+TEST(Picture, InfiniteValuesAreGrey) {
+  io::Scene scene = square_scene();
+  for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
+    if (scene.points(v, 0) > 0.6) scene.values[v] = std::numeric_limits<double>::infinity();
+  }
+  EXPECT_LE(difference(pixel(io::draw_picture(scene, small()), 0.8, 0.5), io::infinite_colour), 2);
+  scene.values.resize(0);
+  EXPECT_LE(difference(pixel(io::draw_picture(scene, small()), 0.8, 0.5), io::plain_colour), 2);
+}
+
+TEST(Picture, SameBytesForAnyThreadCount) {
+  io::Scene scene = io::make_scene(test::torus_soup(60, 40));
+  scene.values = scene.points.col(0);
+  scene.source_points = scene.points.topRows(3);
+  set_thread_count(1);
+  const std::string one = io::encode_png(io::draw_picture(scene));
+  set_thread_count(2);
+  const std::string two = io::encode_png(io::draw_picture(scene));
+  set_thread_count(0);
+  EXPECT_EQ(one, two);
+}
+
+TEST(Picture, FileIsAPngOfTheSizeAskedFor) {
+  const fs::path path = fs::path(testing::TempDir()) / "littoral_picture_test.png";
+  io::PictureOptions options = small();
+  options.colour_bar = true;
+  const io::Scene scene = square_scene();
+  io::write_picture(path, scene, options);
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_file(&header, path.c_str()));
+  EXPECT_EQ(header.width, 240u);
+  EXPECT_EQ(header.height, 180u);
+  header.format = PNG_FORMAT_RGB;
+  std::vector<unsigned char> rgb(PNG_IMAGE_SIZE(header));
+  ASSERT_TRUE(png_image_finish_read(&header, nullptr, rgb.data(), 0, nullptr));
+  EXPECT_EQ(rgb, io::draw_picture(scene, options).rgb);
+  fs::remove(path);
+  EXPECT_THROW(io::write_picture("/nonexistent-folder/picture.png", scene, options), IoError);
+}
+
+TEST(Picture, RefusesBadOptionsAndScenes) {
+  const io::Scene scene = square_scene();
+  const auto refused = [&](void (*spoil)(io::PictureOptions&)) {
+    io::PictureOptions options = small();
+    spoil(options);
+    EXPECT_THROW(io::draw_picture(scene, options), InputError);
+  };
+  refused([](io::PictureOptions& o) { o.width = 0; });
+  refused([](io::PictureOptions& o) { o.height = 1 << 20; });
+  refused([](io::PictureOptions& o) { o.width = o.height = 16000; });
+  refused([](io::PictureOptions& o) { o.supersampling = 0; });
+  refused([](io::PictureOptions& o) { o.towards_eye = Vec3::Zero(); });
+  refused([](io::PictureOptions& o) { o.up = Vec3(0, 0, std::nan("")); });
+  refused([](io::PictureOptions& o) { o.towards_eye = o.up = Vec3(1, 2, 3); });
+  io::Scene bad = scene;
+  bad.values[3] = std::nan("");
+  EXPECT_THROW(io::draw_picture(bad, small()), InputError);
+  EXPECT_THROW(io::draw_picture(io::Scene{}, small()), InputError);
+}
+
+TEST(Picture, DegenerateAndExtremeInputsGiveAPicture) {
+  for (const double scale : {0.0, 1e-300, 1e-160, 1e150, 1e300}) {
+    io::Scene scene = square_scene();
+    scene.points *= scale;
+    scene.values *= scale;
+    EXPECT_EQ(io::draw_picture(scene, small()).rgb.size(), 240u * 180u * 3u);
+  }
+  io::Scene needle = square_scene();
+  needle.points.col(1).setZero();
+  EXPECT_EQ(io::draw_picture(needle, small()).rgb.size(), 240u * 180u * 3u);
+  io::PictureOptions tiny;
+  tiny.width = tiny.height = 16;
+  EXPECT_EQ(io::draw_picture(square_scene(), tiny).rgb.size(), 16u * 16u * 3u);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,235 @@
+#include "littoral/io/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "littoral/base/error.h"
+#include "littoral/io/scene_style.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+// A sphere with its x coordinate as field, one signed, one unsigned curve and a point.
+io::Scene sphere_scene() {
+  io::Scene scene = io::make_scene(test::octasphere_soup(4));
+  scene.values = scene.points.col(0);
+  scene.field_name = "x";
+  for (const bool is_signed : {true, false}) {
+    MatX3 circle(65, 3);
+    for (int i = 0; i <= 64; ++i) {
+      const double a = std::acos(-1.0) * i / 32;
+      circle.row(i) << (is_signed ? 0.0 : 0.6), std::cos(a), std::sin(a);
+      if (!is_signed) circle.row(i).tail<2>() *= 0.8;
+    }
+    scene.curves.push_back({circle, is_signed});
+  }
+  scene.source_points = MatX3(1, 3);
+  scene.source_points << 0, std::sqrt(0.5), std::sqrt(0.5);
+  return scene;
+}
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct PageTest : testing::Test {
+  fs::path path = fs::path(testing::TempDir()) / "littoral_scene_test.html";
+  void SetUp() override {
+    if (!io::has_viewer()) GTEST_SKIP() << "built without the viewer";
+  }
+  void TearDown() override { fs::remove(path); }
+  nlohmann::json written(const io::Scene& scene) {
+    io::write_page(path, scene);
+    const std::string page = slurp(path), mark = "type=\"application/json\">";
+    const std::size_t from = page.find(mark) + mark.size();
+    return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  }
+};
+
+TEST(Scene, PolygonsBecomeFansThatRememberTheirSides) {
+  PolygonSoup soup;
+  soup.points = MatX3::Random(5, 3);
+  const int pentagon[5] = {0, 1, 2, 3, 4}, triangle[3] = {0, 2, 4};
+  soup.add_face(pentagon);
+  soup.add_face(triangle);
+  soup.scalars["distance"] = VecX::Zero(5);
+  const io::Scene scene = io::make_scene(soup);
+  ASSERT_EQ(scene.triangles.rows(), 4);
+  EXPECT_EQ(scene.inner_sides, (std::vector<unsigned char>{4, 5, 1, 0}));
+  EXPECT_EQ(scene.values.size(), 5);
+  EXPECT_TRUE(io::make_scene(test::grid_soup(2, 2)).inner_sides.empty());
+}
+
+TEST(Scene, SourcesAreAdded) {
+  const SurfaceMesh mesh(test::grid_soup(2, 2));
+  SurfaceSources sources;
+  sources.curves.push_back(
+      {{SurfacePoint::at_vertex(0), SurfacePoint::on_edge(0, 0.5)}, false, ""});
+  sources.points.push_back(SurfacePoint::at_vertex(8));
+  sources.space_curves.push_back({MatX3::Ones(3, 3), true, ""});
+  io::Scene scene = io::make_scene(mesh.soup());
+  io::add_sources(scene, mesh, sources);
+  ASSERT_EQ(scene.curves.size(), 2u);
+  EXPECT_FALSE(scene.curves[0].is_signed);
+  EXPECT_NEAR(scene.curves[0].points(1, 0), 0.25, 1e-15);
+  ASSERT_EQ(scene.source_points.rows(), 1);
+  EXPECT_EQ(scene.source_points.row(0), mesh.points().row(8));
+}
+
+TEST(Scene, CheckNamesWhatIsWrong) {
+  const auto refused = [](void (*spoil)(io::Scene&)) {
+    io::Scene scene = sphere_scene();
+    io::check_scene(scene);
+    spoil(scene);
+    EXPECT_THROW(io::check_scene(scene), InputError);
+  };
+  refused([](io::Scene& s) { s.triangles.resize(0, 3); });
+  refused([](io::Scene& s) { s.triangles(3, 1) = 1 << 20; });
+  refused([](io::Scene& s) { s.triangles(3, 1) = -1; });
+  refused([](io::Scene& s) { s.points(s.triangles(0, 0), 2) = inf; });
+  refused([](io::Scene& s) { s.values.conservativeResize(7); });
+  refused([](io::Scene& s) { s.values[5] = std::nan(""); });
+  refused([](io::Scene& s) { s.curves[0].points(0, 0) = inf; });
+  refused([](io::Scene& s) { s.source_points(0, 0) = std::nan(""); });
+  refused([](io::Scene& s) { s.levels = {0, inf}; });
+  refused([](io::Scene& s) { s.isolines = -1; });
+  refused([](io::Scene& s) { s.inner_sides = {1}; });
+}
+
+TEST(SceneStyle, NiceSpacing) {
+  EXPECT_DOUBLE_EQ(io::nice_spacing(0, 1, 10), 0.1);
+  EXPECT_DOUBLE_EQ(io::nice_spacing(-3, 3, 20), 0.25);
+  EXPECT_DOUBLE_EQ(io::nice_spacing(0, 1e300, 10), 1e299);
+  EXPECT_EQ(io::nice_spacing(1, 1, 10), 0);
+  EXPECT_EQ(io::nice_spacing(0, 1, 0), 0);
+  EXPECT_EQ(io::nice_spacing(0, inf, 10), 0);
+  EXPECT_GT(io::nice_spacing(-1.7e308, 1.7e308, 10), 0);
+  for (double count = 1; count < 300; count *= 1.3) {
+    const double parts = 7.3 / io::nice_spacing(-2, 5.3, count);
+    EXPECT_GT(parts / count, 0.6);
+    EXPECT_LT(parts / count, 1.6);
+  }
+  EXPECT_EQ(io::nice_ticks(-0.5, 1, 0.5), (std::vector<double>{-0.5, 0, 0.5, 1}));
+  EXPECT_TRUE(io::nice_ticks(0, 1, 0).empty());
+  EXPECT_TRUE(io::nice_ticks(0, 1, 1e-9).empty());
+}
+
+TEST(SceneStyle, SignedFieldsDivergeAboutZero) {
+  io::Scene scene = sphere_scene();
+  io::FieldStyle style = io::field_style(scene);
+  EXPECT_TRUE(style.diverging);
+  EXPECT_NEAR(io::colour_position(style, 0), 0.5, 1e-12);
+  scene.values = scene.values.array() + 1.0;
+  scene.values[0] = inf;
+  style = io::field_style(scene);
+  EXPECT_FALSE(style.diverging);
+  EXPECT_TRUE(style.infinite);
+  EXPECT_EQ(io::colour_position(style, style.colour_low), 0);
+  EXPECT_EQ(io::colour_position(style, style.high), 1);
+  scene.values.setConstant(inf);
+  EXPECT_FALSE(io::field_style(scene).present);
+}
+
+TEST(SceneStyle, FlatSurfacesAreSeenFaceOnTheRightWayUp) {
+  io::SceneFrame frame = io::scene_frame(io::make_scene(test::grid_soup(4, 4)));
+  EXPECT_NEAR(frame.towards_eye[2], 1, 1e-9);
+  EXPECT_NEAR(frame.up[1], 1, 1e-9);
+  PolygonSoup floor = test::grid_soup(4, 4);
+  floor.points.col(2) = -floor.points.col(1).eval();
+  floor.points.col(1).setZero();
+  frame = io::scene_frame(io::make_scene(floor));
+  EXPECT_NEAR(frame.towards_eye[1], 1, 1e-9);
+  EXPECT_NEAR(frame.up[2], -1, 1e-9);
+  frame = io::scene_frame(sphere_scene());
+  EXPECT_NEAR(frame.towards_eye.norm(), 1, 1e-12);
+  EXPECT_NEAR(frame.towards_eye.dot(frame.up), 0, 1e-12);
+  EXPECT_GT(frame.towards_eye[1], 0.2);
+}
+
+TEST(SceneStyle, MarksFollowTheCurves) {
+  const io::Scene scene = sphere_scene();
+  const io::SourceMarks marks = io::source_marks(scene, 1);
+  double length[2] = {0, 0};
+  for (const auto& stroke : marks.strokes) length[stroke.is_signed] += (stroke.b - stroke.a).norm();
+  EXPECT_NEAR(length[1], 2 * std::acos(-1.0), 0.01);            // whole
+  EXPECT_NEAR(length[0] / (1.6 * std::acos(-1.0)), 0.5, 0.02);  // dashes: about half
+  ASSERT_FALSE(marks.arrows.empty());
+  for (const auto& arrow : marks.arrows) {  // counter-clockwise about x
+    EXPECT_GT(
+        arrow.base[1] * (arrow.tip - arrow.base)[2] - arrow.base[2] * (arrow.tip - arrow.base)[1],
+        0);
+  }
+}
+
+TEST_F(PageTest, HoldsTheScene) {
+  io::Scene scene = sphere_scene();
+  scene.facts = {{"faces", "2048"}};
+  const auto page = written(scene);
+  EXPECT_EQ(page["facts"][0][1], "2048");
+  EXPECT_EQ(page["positions"].get<std::string>().size(), (scene.points.size() * 4u + 2) / 3 * 4);
+  EXPECT_EQ(page["triangles"].get<std::string>().size(), (scene.triangles.size() * 4u + 2) / 3 * 4);
+  EXPECT_EQ(page["field"]["low"], -1.0);
+  EXPECT_EQ(page["field"]["spacing"], io::nice_spacing(-1, 1, 20));
+}
+
+TEST_F(PageTest, TextCannotEscapeIntoThePage) {
+  io::Scene scene = sphere_scene();
+  const std::string evil = "</script></title><script>window.smuggled = 1</script>\xff";
+  scene.title = scene.field_name = evil;
+  scene.facts = {{evil, evil}};
+  const auto page = written(scene);
+  EXPECT_EQ(page["title"].get<std::string>().substr(0, 9), "</script>");
+  EXPECT_EQ(slurp(path).find("window.smuggled = 1</script>"), std::string::npos);
+}
+
+TEST_F(PageTest, ExtremeScalesStayFinite) {
+  for (const double scale : {1e-150, 1e150}) {
+    io::Scene scene = sphere_scene();
+    scene.curves.clear();
+    scene.source_points *= scale;
+    scene.points *= scale;
+    scene.values *= scale;
+    EXPECT_GT(written(scene)["field"]["spacings"].size(), 5u);
+  }
+}
+
+TEST_F(PageTest, RefusesBadScenesAndPaths) {
+  EXPECT_THROW(io::write_page(path, io::Scene{}), InputError);
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_THROW(io::write_page("/nonexistent-folder/page.html", sphere_scene()), IoError);
+}
+
+// The page that viewer/test opens in a browser; see there.
+TEST_F(PageTest, WritesThePageForTheBrowserTest) {
+  io::Scene scene = sphere_scene();
+  scene.title = "sphere <script>window.smuggled = 1</script>";
+  Eigen::Index vertex;
+  (scene.points * io::scene_frame(scene).towards_eye + 0.3 * scene.points.col(0)).maxCoeff(&vertex);
+  scene.facts = {{"method", "test <img src=x onerror=window.smuggled=1>"},
+                 {"vertex", std::to_string(vertex)},
+                 {"value", io::label_text(scene.values[vertex])}};
+  const char* out = std::getenv("LITTORAL_PAGE_OUT");
+  io::write_page(out ? fs::path(out) : path, scene);
+  EXPECT_GT(fs::file_size(out ? fs::path(out) : path), 100'000u);
+}
+
+TEST(Page, WithoutTheViewerSaysSo) {
+  if (io::has_viewer()) GTEST_SKIP() << "built with the viewer";
+  EXPECT_THROW(io::write_page("page.html", sphere_scene()), UnsupportedError);
+}
+
+}  // namespace
+}  // namespace littoral

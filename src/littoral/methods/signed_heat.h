@@ -19,7 +19,7 @@ enum class Constraint { none, zero_set, level_sets };
 struct SignedHeatOptions {
   double time_scale = 0;  // t = time_scale h^2; 0: 1 where there are curves, 16 for points alone
   int constraint = static_cast<int>(Constraint::zero_set);
-  double soft = 0;        // > 0: penalty instead of the constraint, per mean edge length of source
+  double soft = 0;  // > 0: penalty instead of the constraint, per mean edge length of source
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself
 };
 
@@ -43,8 +43,9 @@ class SignedHeat {
  private:
   VecX integrate(const SourceTerms& terms, const VecX& Y, const SignedHeatOptions& options,
                  const Task& task, Report& report) const;
-  VecX normalized_gradient(const SourceTerms& terms, const SignedHeatOptions& options,
-                           const Task& task, Report& report) const;
+  VecX diffuse_preserving(const SourceTerms& terms, const Task& task, Report& report) const;
+  bool add_across_pinches(const VecX& phi, double root_t, std::vector<char>& reached, VecX& X,
+                          const Task& task, Report& report) const;
 
   std::shared_ptr<const Operators> ops_;
   VectorHeat heat_;

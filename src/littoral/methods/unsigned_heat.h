@@ -7,6 +7,7 @@
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/operators/calculus.h"
+#include "littoral/solve/heat_system.h"
 #include "littoral/solve/poisson.h"
 #include "littoral/sources/source_terms.h"
 
@@ -32,8 +33,11 @@ class UnsignedHeat {
   VecX solve(const SourceTerms& terms, Task task, Report& report) const;
 
  private:
+  void add_dirichlet(const VecX& u0, const VecX& b, const LayeredField<double>& d,
+                     LayeredField<double>& u) const;
+
   std::shared_ptr<const Operators> ops_;
-  std::shared_ptr<const Cholesky<double>> neumann_, dirichlet_;  // dirichlet_ null without boundary
+  std::shared_ptr<const HeatSystem<double>> neumann_, dirichlet_;  // no dirichlet_ without boundary
   Poisson poisson_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Step I: one backward Euler step of vector diffusion, right at any distance from the source.
+// Steps I and II: one backward Euler step of vector diffusion, then directions at the cells.
 
 #include <memory>
 #include <vector>
@@ -7,39 +7,36 @@
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/operators/calculus.h"
-#include "littoral/solve/cholesky.h"
+#include "littoral/solve/heat_system.h"
 
 namespace littoral {
+
+/// A linear map of a layered field to vectors at cells, each cell in the units of its own layer:
+/// right up to a positive factor per cell, which is all that normalising needs. 2 cells.
+VecX cell_directions(const LinearMap& map, const LayeredField<double>& field);
+
+/// Unit vectors; zero stays zero and is counted. The largest component is divided out first: a
+/// squared norm underflows at 1e-154.
+VecX normalize(VecX Y, int& zeros);
 
 /// (M + t L) X = X0 (eq. 12) on one factorization; immutable.
 class VectorHeat {
  public:
   VectorHeat(const VectorDiffusion& V, double t, const Task& task);
 
-  /// Diffused vectors (2 carriers). Only directions matter to the caller: where the field would leave
-  /// the range of double precision it is continued from its own front at a new scale, so that no
-  /// direction is lost however far from the source. Carriers on pieces without a source stay 0.
-  VecX diffuse(const VecX& X0, const Task& task, Report& report) const;
+  /// Diffused vectors averaged to cells (2 cells), up to a positive factor per cell. Cells on
+  /// pieces without a source are 0.
+  VecX diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task, Report& report) const;
 
-  /// The same with X held at `held` (2 carriers) where `hold` (carriers) is set.
-  VecX diffuse_held(const VecX& held, const std::vector<char>& hold, const Task& task,
+  /// The same with X held at `held` (2 carriers) wherever that is not zero.
+  VecX diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
                     Report& report) const;
 
   double nonzeros() const;
 
  private:
-  template <class Scalar>
-  struct System;
-  template <class Scalar>
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-
-  template <class Scalar>
-  VecX run(const System<Scalar>& system, const VecX& X0, const Task& task, Report& report) const;
-
-  int n_ = 0;
-  std::vector<int> piece_;
-  std::shared_ptr<const System<Complex>> complex_;
-  std::shared_ptr<const System<double>> real_;
+  std::shared_ptr<const HeatSystem<Complex>> complex_;  // one of the two
+  std::shared_ptr<const HeatSystem<double>> real_;
 };
 
 }  // namespace littoral

@@ -1,0 +1,46 @@
+#include "littoral/methods/shift.h"
+
+#include <limits>
+#include <string>
+
+namespace littoral {
+
+void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi) {
+  VecX sum = VecX::Zero(C.n_components), length = VecX::Zero(C.n_components);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> mean = terms.mean;
+  for (int r = 0; r < mean.rows(); ++r) {
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(mean, r); it; ++it) {
+      const int c = C.component[it.col()];
+      if (c < 0) continue;
+      sum[c] += terms.mean_weight[r] * it.value() * phi[it.col()];
+      length[c] += terms.mean_weight[r] * it.value();
+    }
+  }
+  for (Eigen::Index i = 0; i < phi.size(); ++i) {
+    const int c = C.component[i];
+    if (c >= 0 && length[c] > 0) phi[i] -= sum[c] / length[c];
+  }
+}
+
+VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& phi, Report& report) {
+  const Calculus& C = ops.scalar;
+  VecX out = phi * ops.unit;
+  int isolated = 0;
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const int c = C.component[i];
+    if (c < 0) ++isolated;
+    if (c < 0 || !terms.reached[c]) out[i] = std::numeric_limits<double>::infinity();
+  }
+  for (int c = 0; c < C.n_components; ++c)
+    if (!terms.reached[c]) report.unreachable_components.push_back(c);
+  if (!report.unreachable_components.empty())
+    report.warn(std::to_string(report.unreachable_components.size()) + " of " +
+                std::to_string(C.n_components) +
+                " components hold no source; their distance is infinite");
+  if (isolated)
+    report.warn(std::to_string(isolated) +
+                " vertices belong to no face; their distance is infinite");
+  return out;
+}
+
+}  // namespace littoral

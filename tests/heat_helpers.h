@@ -1,0 +1,66 @@
+#pragma once
+// Distance on a mesh in one call, from the layers below the API.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "littoral/domain/intrinsic_triangulation.h"
+#include "littoral/methods/signed_heat.h"
+#include "littoral/methods/unsigned_heat.h"
+#include "littoral/operators/triangles.h"
+#include "littoral/sources/pieces.h"
+#include "littoral/sources/triangle_source_terms.h"
+
+namespace littoral::test {
+
+struct Problem {
+  IntrinsicTriangulation T;
+  std::shared_ptr<const Operators> ops;
+  SourceTerms terms;
+};
+
+inline Problem problem(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report,
+                       bool flip = false) {
+  Problem p{intrinsic_triangulation(mesh, report), nullptr, {}};
+  p.ops = std::make_shared<const Operators>(triangle_operators(p.T));
+  p.terms = source_terms(mesh, p.T, prepare(mesh, sources, flip, report));
+  return p;
+}
+
+inline VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                        SignedHeatOptions options, Report& report, bool flip = false) {
+  const Problem p = problem(mesh, sources, report, flip);
+  if (options.time_scale == 0) options.time_scale = automatic_time_scale(p.terms);
+  return SignedHeat(p.ops, options.time_scale).solve(p.terms, options, {}, report);
+}
+
+inline VecX unsigned_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report) {
+  const Problem p = problem(mesh, sources, report);
+  return UnsignedHeat(p.ops, {}).solve(p.terms, {}, report);
+}
+
+inline SurfaceSources space_curve(const MatX3& points, bool is_signed = true) {
+  SurfaceSources sources;
+  sources.space_curves.push_back({points, is_signed, "test"});
+  return sources;
+}
+
+inline SurfaceSources vertex_points(std::initializer_list<int> vertices) {
+  SurfaceSources sources;
+  for (int v : vertices) sources.points.push_back(SurfacePoint::at_vertex(v));
+  return sources;
+}
+
+/// A circle of given radius about (x, y, z) in a plane z = const, counter-clockwise from above.
+inline MatX3 circle(double x, double y, double z, double radius, int n) {
+  MatX3 points(n + 1, 3);
+  const double turn = 2 * std::acos(-1.0);
+  for (int i = 0; i <= n; ++i) {
+    const double a = turn * (i % n) / n;
+    points.row(i) << x + radius * std::cos(a), y + radius * std::sin(a), z;
+  }
+  return points;
+}
+
+}  // namespace littoral::test

@@ -240,7 +240,8 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
     Report other;
     const PreparedSources again = prepare(mesh, one_curve(prepared.nodes[0]), false, other);
     RC_ASSERT(again.pieces.size() == prepared.pieces.size());  // nothing left to trace
-    RC_ASSERT(total_length(again) == total_length(prepared));
+    const double length = total_length(prepared);
+    RC_ASSERT(std::abs(total_length(again) - length) <= 1e-12 * length);  // added in another order
   }));
 }
 

@@ -1,2 +1,78 @@
-#include "littoral/base/task.h"
-int main() { return 0; }
+// The command `littoral`: reads arguments, runs a verb, turns errors into exit statuses.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "cli/interrupt.h"
+#include "cli/session.h"
+#include "cli/verbs.h"
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+
+namespace {
+
+using namespace littoral;
+
+enum Status { done = 0, failed = 1, bad_input = 2 };
+
+Status say(cli::Session& session, Status status, std::string text) {
+  session.print_warnings();
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+  std::fprintf(stderr, "littoral: error: %s\n", text.c_str());
+  return status;
+}
+
+int run(cli::Session& session) {
+  try {
+    set_thread_count(session.threads);
+    session.job();
+    session.print_warnings();
+    std::cout.flush();
+    if (!std::cout) throw IoError("cannot write to the standard output");
+    return done;
+  } catch (const Cancelled&) {
+    cli::exit_interrupted();
+  } catch (const InputError& e) {
+    return say(session, bad_input, e.what());
+  } catch (const UnsupportedError& e) {
+    return say(session, bad_input, e.what());
+  } catch (const IoError& e) {
+    return say(session, session.reading ? bad_input : failed, e.what());
+  } catch (const std::bad_alloc&) {
+    return say(session, failed, "not enough memory");
+  } catch (const std::exception& e) {
+    return say(session, failed, e.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::Session session;
+  CLI::App program("Distance and inside/outside for geometry that is broken.", "littoral");
+  program.set_version_flag("--version", "littoral " LITTORAL_VERSION);
+  program.require_subcommand(1);
+  program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  cli::add_distance(program, session);
+  cli::add_info(program, session);
+  cli::add_convert(program, session);
+  cli::add_contour(program, session);
+  cli::add_methods(program, session);
+  cli::add_view(program, session);
+  cli::add_render(program, session);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return program.exit(request);
+  } catch (const CLI::ParseError& e) {
+    std::string verb;
+    for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();
+    return say(session, bad_input, std::string(e.what()) + " (see littoral" + verb + " --help)");
+  }
+  cli::watch_for_interrupts(session.cancel);
+  return run(session);
+}

@@ -1,0 +1,138 @@
+#include "cli/session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "littoral/base/error.h"
+#include "littoral/base/option_table.h"
+#include "littoral/io/scene.h"
+
+namespace littoral::cli {
+
+namespace {
+
+/// One line: what other programs read line by line must not be broken by a file's name.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+  return text;
+}
+
+void draw_progress(double fraction, const std::string& stage) {
+  constexpr int width = 30;
+  const int done = static_cast<int>(std::lround(fraction * width));
+  const std::string bar = std::string(static_cast<std::size_t>(done), '#') +
+                          std::string(static_cast<std::size_t>(width - done), '.');
+  std::fprintf(stderr, "\r\033[K[%s] %3.0f %% %s", bar.c_str(), fraction * 100, stage.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+Task Session::task() {
+  const bool wanted =
+      progress == "always" || (progress == "auto" && !quiet && ::isatty(STDERR_FILENO) == 1);
+  if (!wanted) return Task(cancel);
+  using Clock = std::chrono::steady_clock;
+  return Task(cancel, [this, last = Clock::time_point(), stage_before = std::string()](
+                          double fraction, const std::string& stage) mutable {
+    const auto now = Clock::now();
+    if (stage == stage_before && now - last < std::chrono::milliseconds(50)) return;
+    last = now;
+    stage_before = stage;
+    drawn_ = true;
+    draw_progress(fraction, stage);
+  });
+}
+
+void Session::end_progress() {
+  if (drawn_) std::fputs("\r\033[K", stderr);
+  drawn_ = false;
+}
+
+void Session::print_warnings() {
+  end_progress();
+  for (; warned_ < report.warnings.size(); ++warned_)
+    if (!quiet)
+      std::fprintf(stderr, "littoral: warning: %s\n", one_line(report.warnings[warned_]).c_str());
+}
+
+void Session::print_details() const {
+  if (!verbose) return;
+  std::fprintf(stderr, "method: %s on a %s\n", report.method.c_str(), report.domain.c_str());
+  for (const auto& [name, text] : report.options)
+    std::fprintf(stderr, "option %s: %s\n", name.c_str(), text.c_str());
+  for (const auto* list : {&report.sizes, &report.iterations, &report.residuals})
+    for (const auto& [name, value] : *list)
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), number_text(value).c_str());
+  for (const auto& [stage, seconds] : report.timings)
+    std::fprintf(stderr, "%s: %.3f s\n", stage.c_str(), seconds);
+}
+
+void add_common_options(CLI::App& verb, Session& session) {
+  verb.add_option("--threads", session.threads,
+                  "threads to use, 0 to 4096; 0: all cores [default 0]")
+      ->check(CLI::Range(0, 4096).description(""))
+      ->type_name("N");
+  verb.add_option("--progress", session.progress,
+                  "a bar on stderr: auto (if it is a terminal), always, never [default auto]")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+  verb.add_flag("--verbose", session.verbose, "say more on stderr");
+  verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
+}
+
+void add_json_option(CLI::App& verb, Session& session) {
+  verb.add_flag("--json", session.json, "print one JSON value to stdout");
+}
+
+void add_index_option(CLI::App& verb, Session& session) {
+  verb.add_option("--index-base", session.index_base,
+                  "what sources and --vertex count from: 0 or 1 [default: as the format has it]")
+      ->check(CLI::IsMember({0, 1}).description(""))
+      ->type_name("0|1");
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
+  return extension;
+}
+
+void check_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
+                  const std::string& what) {
+  const std::string extension = extension_of(path);
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    std::string known;
+    for (const auto& e : extensions) known += (known.empty() ? "" : " ") + e;
+    throw InputError("cannot write " + what + " as " + path.string() + ": the extension is '" +
+                     extension + "'; possible: " + known);
+  }
+  if (extension == ".html" && !io::has_viewer())
+    throw UnsupportedError("cannot write " + path.string() +
+                           ": this build has no viewer page (npm was missing when it was built)");
+}
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
+  std::vector<double> out;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const char *first = text.data() + begin, *last = text.data() + end;
+    double value = 0;
+    const auto [stop, code] = std::from_chars(first, last, value);
+    if (code != std::errc() || stop != last || !std::isfinite(value))
+      throw InputError("option " + option + ": '" + std::string(first, last) +
+                       "' is not a finite number");
+    out.push_back(value);
+    begin = end + 1;
+  }
+  return out;
+}
+
+}  // namespace littoral::cli

@@ -1,0 +1,60 @@
+#pragma once
+// What all verbs share: common options, messages on stderr, progress and cancellation.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+
+namespace littoral::cli {
+
+/// The state of one run of the program.
+struct Session {
+  // options
+  std::string progress = "auto";
+  int threads = 0;
+  bool json = false, verbose = false, quiet = false, flip = false;
+  std::optional<int> index_base;
+
+  std::function<void()> job;  // the verb's work, set when its arguments have been read
+  bool reading = true;        // a file error is then the input's fault (exit status 2, not 1)
+  CancelToken cancel;
+  Report report;
+
+  /// A task that draws progress on stderr where asked for, and stops on interrupts.
+  Task task();
+  /// Removes the progress line.
+  void end_progress();
+  /// Prints the report's warnings that have not been printed yet.
+  void print_warnings();
+  /// Prints method, options, sizes and timings on stderr.
+  void print_details() const;
+
+ private:
+  bool drawn_ = false;
+  std::size_t warned_ = 0;
+};
+
+/// Adds --threads, --progress, --verbose and --quiet.
+void add_common_options(CLI::App& verb, Session& session);
+/// Adds --json.
+void add_json_option(CLI::App& verb, Session& session);
+/// Adds --index-base.
+void add_index_option(CLI::App& verb, Session& session);
+
+/// The extension in lower case, with its dot.
+std::string extension_of(const std::filesystem::path& path);
+
+/// Throws InputError unless the extension is among those; `what` says what is to be written.
+void check_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
+                  const std::string& what);
+
+/// Reads "0,0.5,-1"; throws InputError naming the option.
+std::vector<double> parse_numbers(const std::string& option, const std::string& text);
+
+}  // namespace littoral::cli

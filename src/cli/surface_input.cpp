@@ -1,0 +1,50 @@
+#include "cli/surface_input.h"
+
+#include "littoral/base/error.h"
+#include "littoral/io/read.h"
+
+namespace littoral::cli {
+
+SurfaceMesh read_mesh(const std::filesystem::path& path) {
+  return mesh_of(io::read_surface(path), path);
+}
+
+SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {
+  try {
+    return SurfaceMesh(std::move(soup));
+  } catch (const InputError& e) {
+    throw InputError(path.filename().string() + ": " + e.what());
+  }
+}
+
+SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                                Session& session) {
+  SurfaceSources all;
+  for (const std::string& file : files) {
+    SurfaceSources more = io::read_sources(file, mesh, session.index_base, session.report);
+    all.curves.insert(all.curves.end(), more.curves.begin(), more.curves.end());
+    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
+    all.space_curves.insert(all.space_curves.end(), more.space_curves.begin(),
+                            more.space_curves.end());
+  }
+  return all;
+}
+
+std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
+                         const std::string& file, bool optional) {
+  std::string known;
+  for (const auto& [name, values] : soup.scalars) known += (known.empty() ? "" : ", ") + name;
+  if (!wanted.empty()) {
+    if (soup.scalars.count(wanted) != 0) return wanted;
+    throw InputError(file + " has no field '" + wanted +
+                     "'; it has: " + (known.empty() ? "none" : known));
+  }
+  for (const char* name : {"distance", "u"})
+    if (soup.scalars.count(name) != 0) return name;
+  if (soup.scalars.size() == 1) return soup.scalars.begin()->first;
+  if (optional) return "";
+  throw InputError(known.empty() ? file + " holds no field with one value a vertex"
+                                 : file + " has the fields " + known + ": choose one with --field");
+}
+
+}  // namespace littoral::cli

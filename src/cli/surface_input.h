@@ -1,0 +1,28 @@
+#pragma once
+// Reading a surface and the sources on it, as several verbs do.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/session.h"
+#include "littoral/domain/polygon_soup.h"
+#include "littoral/domain/surface_mesh.h"
+#include "littoral/sources/surface_sources.h"
+
+namespace littoral::cli {
+
+/// Reads a surface and its connectivity; errors about the mesh name the file.
+SurfaceMesh read_mesh(const std::filesystem::path& path);
+SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path);
+
+/// All sources of several files together.
+SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                                Session& session);
+
+/// The scalar to use: `wanted`, or without that "distance", an OBJ's texture "u", or the only one.
+/// Throws InputError listing those that exist; with `optional` an empty name where there is none.
+std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
+                         const std::string& file, bool optional = false);
+
+}  // namespace littoral::cli

@@ -1,0 +1,177 @@
+// littoral distance: distance on a surface from curves and points on it.
+
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "cli/surface_input.h"
+#include "cli/verbs.h"
+#include "littoral/api/distance.h"
+#include "littoral/api/registry.h"
+#include "littoral/api/report_json.h"
+#include "littoral/base/error.h"
+#include "littoral/io/picture.h"
+#include "littoral/io/read.h"
+#include "littoral/io/scene.h"
+#include "littoral/io/write.h"
+
+namespace littoral::cli {
+
+namespace {
+
+const std::vector<std::string> outputs = {".ply", ".obj", ".vtp",  ".csv",
+                                          ".npy", ".txt", ".html", ".png"};
+
+struct Arguments {
+  std::string domain;
+  std::vector<std::string> sources, out;
+  std::vector<long long> vertices;
+  DistanceRequest request;
+  std::map<std::string, std::string> options;  // as given
+};
+
+std::string option_help(const OptionInfo& info) {
+  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
+         "; default " + info.fallback + "]";
+}
+
+/// One flag for each option that any method has; its help says what it is to each.
+void add_method_options(CLI::App& verb, Arguments& arguments) {
+  std::map<std::string, std::string> help;
+  std::vector<OptionInfo> all;
+  for (const MethodInfo& method : methods()) {
+    for (const OptionInfo& info : method.options) {
+      if (help.count(info.name) == 0) all.push_back(info);
+      std::string& text = help[info.name];
+      text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
+    }
+  }
+  for (const OptionInfo& info : all) {
+    const auto keep = [&arguments, name = info.name](const std::string& text) {
+      arguments.options[name] = text;
+    };
+    CLI::Option* option =
+        info.is_switch
+            ? verb.add_flag_function(
+                  "--" + info.name, [keep](std::int64_t given) { keep(given > 0 ? "on" : "off"); },
+                  help[info.name])
+            : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
+    if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
+    option->group("Options of methods");
+  }
+}
+
+SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh,
+                              Session& session) {
+  SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
+  const long long base = session.index_base.value_or(0);
+  for (long long v : arguments.vertices) {
+    if (v < base || v - base >= mesh.n_vertices())
+      throw InputError("option --vertex: there is no vertex " + std::to_string(v) + "; " +
+                       arguments.domain + " has " + std::to_string(mesh.n_vertices()) +
+                       ", counted from " + std::to_string(base));
+    sources.points.push_back(SurfacePoint::at_vertex(static_cast<int>(v - base)));
+  }
+  if (!sources.empty()) return sources;
+  if (!mesh.soup().lines.empty()) return io::sources_from_lines(mesh.soup(), arguments.domain);
+  throw InputError("nothing to measure distance from: name --sources FILE or --vertex I (" +
+                   arguments.domain + " has no lines of its own)");
+}
+
+void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
+                   const SurfaceSources& sources, VecX values, Session& session) {
+  PolygonSoup result = mesh.soup();
+  result.scalars.clear();
+  result.scalars["distance"] = std::move(values);
+  Task task = session.task();
+  for (const std::string& file : arguments.out) {
+    task.checkpoint();
+    const std::string extension = extension_of(file);
+    if (extension != ".html" && extension != ".png") {
+      io::write_field(file, result);
+      continue;
+    }
+    io::Scene scene = io::make_scene(result);
+    io::add_sources(scene, mesh, sources);
+    scene.title = std::filesystem::path(arguments.domain).stem().string();
+    scene.facts = {{"method", session.report.method},
+                   {"domain", session.report.domain},
+                   {"vertices", std::to_string(mesh.n_vertices())},
+                   {"faces", std::to_string(mesh.n_faces())}};
+    for (const auto& option : session.report.options) scene.facts.push_back(option);
+    double seconds = 0;
+    for (const auto& [stage, time] : session.report.timings) seconds += time;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f s", seconds);
+    scene.facts.emplace_back("time", text);
+    for (const auto& warning : session.report.warnings)
+      scene.facts.emplace_back("warning", warning);
+    extension == ".html" ? io::write_page(file, scene) : io::write_picture(file, scene);
+  }
+}
+
+void run(Arguments& arguments, Session& session) {
+  for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
+  arguments.request.flip = session.flip;
+  const MethodInfo& method = find_method(arguments.request.method);
+  for (const auto& [name, text] : arguments.options) {
+    check_has_option(method, name);
+    arguments.request.options.emplace_back(name, text);
+  }
+  check_request(arguments.request);
+  Report& report = session.report;
+  const auto [mesh, sources] = [&] {
+    const Stopwatch watch(report, "read");
+    auto read = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
+    return std::pair(read, gather_sources(arguments, *read, session));
+  }();
+  session.reading = false;
+  VecX values = surface_distance(*mesh, sources, arguments.request, session.task(), report);
+  {
+    const Stopwatch watch(report, "write");
+    write_results(arguments, *mesh, sources, std::move(values), session);
+  }
+  session.print_warnings();
+  session.print_details();
+  if (session.json) std::cout << report_json(report) << "\n";
+}
+
+}  // namespace
+
+void add_distance(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand(
+      "distance", "distance on a triangle mesh from curves and points on it");
+  auto arguments = std::make_shared<Arguments>();
+  std::string names;
+  for (const MethodInfo& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
+  verb->add_option("DOMAIN", arguments->domain, "the surface: .obj .ply .off .stl")
+      ->required()
+      ->type_name("");
+  verb->add_option("--sources,-s", arguments->sources,
+                   "what distance is measured from: .txt .json .obj .ply; may be repeated; without "
+                   "sources and --vertex, the lines of DOMAIN")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+  verb->add_option("--vertex", arguments->vertices, "a source vertex, from 0; may be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("I");
+  verb->add_option("-o,--output", arguments->out,
+                   "where to write: .ply .obj .vtp .csv .npy .txt .html .png; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("OUT");
+  verb->add_option("--method", arguments->request.method, names + " [default signed-heat]")
+      ->type_name("NAME");
+  verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
+  add_method_options(*verb, *arguments);
+  add_index_option(*verb, session);
+  add_json_option(*verb, session);
+  add_common_options(*verb, session);
+  verb->callback(
+      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+}
+
+}  // namespace littoral::cli

@@ -1,0 +1,124 @@
+// littoral view and render: pages and pictures of a surface with its field and sources.
+
+#include <unistd.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/serve.h"
+#include "cli/surface_input.h"
+#include "cli/verbs.h"
+#include "littoral/base/error.h"
+#include "littoral/io/picture.h"
+#include "littoral/io/read.h"
+#include "littoral/io/scene.h"
+
+namespace littoral::cli {
+
+namespace {
+
+struct Arguments {
+  std::string in, out, field;
+  std::vector<std::string> sources;
+  io::PictureOptions picture;
+  int levels = 20;
+};
+
+io::Scene read_scene(const Arguments& arguments, Session& session) {
+  PolygonSoup soup = io::read_surface(arguments.in);
+  const std::string field = choose_field(soup, arguments.field, arguments.in, true);
+  io::Scene scene = io::make_scene(soup, field);
+  if (!field.empty()) scene.field_name = field;
+  if (!arguments.sources.empty()) {
+    const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
+    io::add_sources(scene, mesh, read_all_sources(arguments.sources, mesh, session));
+  }
+  scene.title = std::filesystem::path(arguments.in).stem().string();
+  scene.isolines = arguments.levels;
+  io::check_scene(scene);
+  session.reading = false;
+  session.task().checkpoint();
+  return scene;
+}
+
+/// The page as text, by way of a file of its own that nobody else can read.
+std::string page_text(const io::Scene& scene) {
+  std::string folder = (std::filesystem::temp_directory_path() / "littoral-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw IoError("cannot make a folder like " + folder);
+  const std::filesystem::path page = std::filesystem::path(folder) / "page.html";
+  std::string text;
+  std::error_code ignored;
+  try {
+    io::write_page(page, scene);
+    text = io::read_bytes(page);
+  } catch (...) {
+    std::filesystem::remove_all(folder, ignored);
+    throw;
+  }
+  std::filesystem::remove_all(folder, ignored);
+  return text;
+}
+
+void view(const Arguments& arguments, Session& session) {
+  check_output(arguments.out.empty() ? "page.html" : arguments.out, {".html"}, "a page");
+  const io::Scene scene = read_scene(arguments, session);
+  session.print_warnings();
+  if (arguments.out.empty())
+    serve_page(page_text(scene), session.task());
+  else
+    io::write_page(arguments.out, scene);
+}
+
+void render(const Arguments& arguments, Session& session) {
+  check_output(arguments.out, {".png"}, "a picture");
+  const io::Scene scene = read_scene(arguments, session);
+  io::write_picture(arguments.out, scene, arguments.picture);
+}
+
+using Job = void (*)(const Arguments&, Session&);
+
+CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
+                   Job job, const char* name, const char* help) {
+  CLI::App* verb = program.add_subcommand(name, help);
+  verb->add_option("FILE", arguments->in, "a surface, with values or without: .obj .ply .off .stl")
+      ->required()
+      ->type_name("");
+  verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+  verb->add_option("--field", arguments->field,
+                   "which values [default: distance, an OBJ's texture u, or the only ones]")
+      ->type_name("NAME");
+  verb->add_option("--levels", arguments->levels, "about how many isolines, 0 to 1000 [default 20]")
+      ->check(CLI::Range(0, 1000).description(""))
+      ->type_name("N");
+  add_index_option(*verb, session);
+  add_common_options(*verb, session);
+  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
+  return *verb;
+}
+
+}  // namespace
+
+void add_view(CLI::App& program, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& verb = add_verb(program, session, arguments, view, "view",
+                            "a page that shows a result in a browser, also offline");
+  verb.add_option("-o,--output", arguments->out,
+                  "the page: .html; without it the page is served on 127.0.0.1 until Ctrl-C")
+      ->type_name("OUT");
+}
+
+void add_render(CLI::App& program, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& verb =
+      add_verb(program, session, arguments, render, "render", "a picture, without a display");
+  verb.add_option("-o,--output", arguments->out, "the picture: .png")->required()->type_name("OUT");
+  verb.add_option("--width", arguments->picture.width, "pixels, 16 to 16384 [default 1200]")
+      ->type_name("N");
+  verb.add_option("--height", arguments->picture.height, "pixels, 16 to 16384 [default 900]")
+      ->type_name("N");
+}
+
+}  // namespace littoral::cli

@@ -1,0 +1,16 @@
+#pragma once
+// Each function adds one verb to the program; reading its arguments sets session.job.
+
+#include "cli/session.h"
+
+namespace littoral::cli {
+
+void add_distance(CLI::App& program, Session& session);
+void add_info(CLI::App& program, Session& session);
+void add_convert(CLI::App& program, Session& session);
+void add_contour(CLI::App& program, Session& session);
+void add_methods(CLI::App& program, Session& session);
+void add_view(CLI::App& program, Session& session);
+void add_render(CLI::App& program, Session& session);
+
+}  // namespace littoral::cli

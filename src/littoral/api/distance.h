@@ -1,0 +1,35 @@
+#pragma once
+// Distance on a surface in one call: from a mesh and sources to one value a vertex.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/base/types.h"
+#include "littoral/domain/surface_mesh.h"
+#include "littoral/sources/surface_sources.h"
+
+namespace littoral {
+
+/// What to compute, in words.
+struct DistanceRequest {
+  std::string method = "signed-heat";
+  std::vector<std::pair<std::string, std::string>> options;  // name, value as text; others default
+  bool flip = false;                                         // reverse every signed curve
+};
+
+/// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
+void check_request(const DistanceRequest& request);
+
+/// Distance at the vertices (vertices) [length of the input], +inf on components of the mesh that
+/// no source reaches and at vertices without a face.
+///
+/// The report gets method, domain, all options with the values used, sizes and seconds per stage,
+/// and the components without a source. Throws InputError and UnsupportedError for bad input before
+/// anything is factored, SolveError if a solve breaks down, Cancelled.
+VecX surface_distance(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                      const DistanceRequest& request, Task task, Report& report);
+
+}  // namespace littoral

@@ -1,0 +1,30 @@
+#pragma once
+// Which methods there are, on which domains they run, and which options they have.
+
+#include <string>
+#include <vector>
+
+#include "littoral/base/option_table.h"
+
+namespace littoral {
+
+/// What the world may know about one method of distance on a surface.
+struct MethodInfo {
+  std::string name;                  // as typed: "signed-heat"
+  std::string summary;               // one sentence
+  std::vector<std::string> domains;  // that it runs on: "triangle mesh"
+  std::vector<OptionInfo> options;
+  std::string reference;  // the paper
+};
+
+/// All methods, the default first.
+const std::vector<MethodInfo>& methods();
+
+/// The method of that name; throws InputError listing the known ones.
+const MethodInfo& find_method(const std::string& name);
+
+/// Throws InputError naming the option and the method, and what the method has, unless it has the
+/// option.
+void check_has_option(const MethodInfo& method, const std::string& option);
+
+}  // namespace littoral

@@ -1,0 +1,54 @@
+"""Runs the program named by LITTORAL on tiny meshes made here."""
+
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+PROGRAM = os.environ.get("LITTORAL", "littoral")
+Run = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def square(n: int) -> str:
+    """An OBJ of the unit square in n x n cells of two triangles; vertex i + j (n + 1)."""
+    lines = [f"v {i / n} {j / n} 0" for j in range(n + 1) for i in range(n + 1)]
+    for j in range(n):
+        for i in range(n):
+            a = j * (n + 1) + i + 1
+            b, c, d = a + 1, a + n + 2, a + n + 1
+            lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    """Runs the program in the test's folder and checks the status and the shape of its messages."""
+
+    def call(*arguments: object, status: int = 0) -> subprocess.CompletedProcess[str]:
+        result = subprocess.run(
+            [PROGRAM, *map(str, arguments)],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert result.returncode == status, result.stderr
+        if status in (1, 2):
+            errors = [x for x in result.stderr.splitlines() if "warning: " not in x]
+            assert len(errors) == 1, result.stderr
+            assert errors[0].startswith("littoral: error: ")
+            assert result.stdout == ""
+        return result
+
+    return call
+
+
+@pytest.fixture
+def mesh(tmp_path: Path) -> Path:
+    """square.obj, with a curve up its middle in curve.txt: the left half is positive."""
+    (tmp_path / "square.obj").write_text(square(10))
+    nodes = "".join(f"v {5 + 11 * j}\n" for j in range(11))
+    (tmp_path / "curve.txt").write_text("signed_curve\n" + nodes)
+    return tmp_path / "square.obj"

@@ -1,0 +1,142 @@
+"""littoral distance: values, formats, statuses."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from conftest import PROGRAM, Run, square
+
+CURVE = ("distance", "square.obj", "--sources", "curve.txt")
+
+
+def values(path: Path) -> list[float]:
+    return [float(x) for x in path.read_text().split()]
+
+
+def test_left_is_positive_and_flip_negates(run: Run, mesh: Path, tmp_path: Path) -> None:
+    run(*CURVE, "-o", "a.txt")
+    run(*CURVE, "--flip", "-o", "b.txt")
+    a, b = values(tmp_path / "a.txt"), values(tmp_path / "b.txt")
+    assert len(a) == 121
+    assert a[0] == pytest.approx(0.5, abs=0.05)
+    assert a[10] == pytest.approx(-0.5, abs=0.05)
+    assert b == pytest.approx([-x for x in a], abs=1e-9)
+
+
+def test_formats_agree(run: Run, mesh: Path, tmp_path: Path) -> None:
+    run(*CURVE, *(x for e in ("txt", "csv", "ply", "obj", "vtp", "npy") for x in ("-o", "a." + e)))
+    expected = values(tmp_path / "a.txt")
+    rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert rows[0] == "vertex,distance"
+    assert [float(x.split(",")[1]) for x in rows[1:]] == expected
+    for source in ("ply", "obj"):
+        run("convert", "a." + source, "-o", source + ".txt")
+        assert values(tmp_path / (source + ".txt")) == expected
+    data = (tmp_path / "a.npy").read_bytes()
+    assert len(data) % 8 == 0
+    assert list(memoryview(data[-8 * 121 :]).cast("d")) == expected
+    assert "distance" in (tmp_path / "a.vtp").read_text(errors="replace")
+
+
+def test_picture(run: Run, mesh: Path, tmp_path: Path) -> None:
+    run(*CURVE, "-o", "a.png")
+    assert (tmp_path / "a.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_vertex_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
+    for method in ("signed-heat", "unsigned-heat"):
+        run("distance", mesh, "--vertex", 0, "--method", method, "-o", "a.txt")
+        a = values(tmp_path / "a.txt")
+        assert a[0] == pytest.approx(0, abs=0.05)
+        assert a[10] == pytest.approx(1, abs=0.15)
+    run("distance", mesh, "--vertex", 1, "--index-base", 1, "--method", method, "-o", "b.txt")
+    assert values(tmp_path / "b.txt") == a
+
+
+def test_lines_of_the_mesh_are_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
+    line = "l " + " ".join(str(6 + 11 * j) for j in range(11)) + "\n"
+    (tmp_path / "lines.obj").write_text(mesh.read_text() + line)
+    run("distance", "lines.obj", "-o", "a.txt")
+    run(*CURVE, "-o", "b.txt")
+    assert values(tmp_path / "a.txt") == values(tmp_path / "b.txt")
+
+
+def test_json_report(run: Run, mesh: Path) -> None:
+    report = json.loads(run(*CURVE, "--json", "-o", "a.txt").stdout)
+    assert report["method"] == "signed-heat"
+    assert report["options"]["constraint"] == "zero-set"
+    assert report["options"]["time-scale"] > 0
+    assert report["sizes"]["faces"] == 200
+    assert report["sizes"]["source_pieces"] == 10
+    assert report["timings"]["factor"] >= 0
+    assert report["warnings"] == []
+    assert report["unreachable_components"] == []
+
+
+def test_threads_do_not_matter(run: Run, mesh: Path, tmp_path: Path) -> None:
+    run(*CURVE, "--threads", 1, "-o", "a.txt")
+    run(*CURVE, "--threads", 2, "-o", "b.txt")
+    assert (tmp_path / "a.txt").read_bytes() == (tmp_path / "b.txt").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--sources", "curve.txt", "--method", "magic"), "unknown method 'magic'"),
+        (("--sources", "curve.txt", "--wrong"), "--wrong"),
+        (("--sources", "curve.txt", "--time-scale", "x"), "time-scale"),
+        (("--sources", "curve.txt", "--constraint", "some"), "zero-set"),
+        (("--vertex", 0, "--method", "unsigned-heat", "--soft", 1), "no option 'soft'"),
+        (("--sources", "missing.txt"), "missing.txt"),
+        (("--vertex", 121), "there is no vertex 121"),
+        ((), "--vertex"),
+    ],
+)
+def test_bad_usage(run: Run, mesh: Path, tmp_path: Path, arguments: tuple, says: str) -> None:
+    assert says in run("distance", mesh, *arguments, "-o", "a.txt", status=2).stderr
+    assert not (tmp_path / "a.txt").exists()
+
+
+def test_missing_mesh_and_unknown_extensions(run: Run, mesh: Path) -> None:
+    assert "nothing.obj" in run("distance", "nothing.obj", "-o", "a.txt", status=2).stderr
+    for name in ("a.off", "a.xyz", "a"):
+        assert "extension" in run(*CURVE, "-o", name, status=2).stderr
+    run("distance", mesh, status=2)
+    run(status=2)
+
+
+def test_unwritable_output(run: Run, mesh: Path) -> None:
+    assert "nowhere" in run(*CURVE, "-o", "nowhere/a.txt", status=1).stderr
+
+
+def test_failed_write_keeps_the_old_file(run: Run, mesh: Path, tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("old")
+    run("distance", mesh, "--vertex", 500, "-o", "a.txt", status=2)
+    assert (tmp_path / "a.txt").read_text() == "old"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a.txt", "curve.txt", "square.obj"]
+
+
+def test_help_shows_ranges_and_defaults(run: Run) -> None:
+    text = run("distance", "--help").stdout
+    for word in ("--time-scale", "default zero-set", "multiple of h^2", "--preserve-normals"):
+        assert word in text
+    assert run("--version").stdout.startswith("littoral ")
+    assert "render" in run("--help").stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupt(tmp_path: Path, number: int) -> None:
+    (tmp_path / "large.obj").write_text(square(500))
+    arguments = [PROGRAM, "distance", "large.obj", "--vertex", "0", "-o", "a.ply"]
+    process = subprocess.Popen(arguments, cwd=tmp_path, stderr=subprocess.PIPE)
+    time.sleep(0.5)
+    begin = time.monotonic()
+    os.kill(process.pid, number)
+    _, errors = process.communicate(timeout=10)
+    assert process.returncode == 130, errors
+    assert time.monotonic() - begin < 1.0  # 0.2 s, and some for a loaded machine
+    assert [p.name for p in tmp_path.iterdir()] == ["large.obj"]

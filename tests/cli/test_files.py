@@ -1,0 +1,126 @@
+"""littoral info, convert, contour, methods, view and render."""
+
+import json
+import subprocess
+import urllib.request
+from pathlib import Path
+from typing import Any
+
+from conftest import PROGRAM, Run, square
+
+
+def facts(run: Run, file: str) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads(run("info", file, "--json").stdout)
+    return result
+
+
+def test_info_on_a_square(run: Run, mesh: Path) -> None:
+    info = facts(run, "square.obj")
+    assert (info["vertices"], info["faces"], info["edges"]) == (121, 200, 320)
+    assert info["faces_by_corners"] == {"3": [200]}
+    assert (info["boundary_loops"], info["boundary_edges"]) == (1, 40)
+    assert (info["euler_characteristic"], info["components"]) == (1, 1)
+    assert info["orientable"] is True
+    assert info["bounding_box"] == [0, 0, 0, 1, 1, 0]
+    assert abs(info["smallest_angle"] - 45) < 1e-9
+    for key in ("nonmanifold_edges", "nonmanifold_vertices", "degenerate_faces"):
+        assert info[key] == 0
+    assert "boundary edges: 40\n" in run("info", "square.obj").stdout
+
+
+def test_info_on_broken_meshes(run: Run, tmp_path: Path) -> None:
+    base = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 1\n"
+    (tmp_path / "book.obj").write_text(base + "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 2 1 3\nf 1 1 2\n")
+    book = facts(run, "book.obj")
+    assert book["nonmanifold_edges"] == 1
+    assert book["duplicate_faces"] == 1
+    assert book["degenerate_faces"] == 1
+    assert book["coincident_vertices"] == 1
+    assert book["isolated_vertices"] == 1
+    (tmp_path / "flipped.obj").write_text(base + "f 1 2 3\nf 1 2 4\n")
+    assert facts(run, "flipped.obj")["inconsistently_oriented_edges"] == 1
+    assert facts(run, "flipped.obj")["orientable"] is True
+    (tmp_path / "nan.obj").write_text("v nan 0 0\n" + base + "f 1 2 3\nf 2 3 4\n")
+    nan = facts(run, "nan.obj")
+    assert (nan["vertices_not_finite"], nan["faces_not_finite"]) == (1, 1)
+    (tmp_path / "bow.obj").write_text(base + "f 1 2 3\nf 1 4 5\n")
+    assert facts(run, "bow.obj")["nonmanifold_vertices"] == 1
+
+
+def test_info_on_sources(run: Run, mesh: Path) -> None:
+    run("info", "curve.txt", status=2)
+    info = json.loads(run("info", "curve.txt", "--mesh", "square.obj", "--json").stdout)
+    assert (info["signed_curves"], info["nodes"], info["pieces"]) == (1, 11, 10)
+    assert abs(info["length"] - 1) < 1e-12
+
+
+def test_triangulate_a_concave_polygon(run: Run, tmp_path: Path) -> None:
+    corners = [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)]
+    text = "".join(f"v {x} {y} 0\n" for x, y in corners) + "f 1 2 3 4 5\n"
+    (tmp_path / "m.obj").write_text(text)
+    run("convert", "m.obj", "-o", "m.stl", status=2)
+    run("convert", "m.obj", "--triangulate", "-o", "t.obj")
+    rows = (tmp_path / "t.obj").read_text().splitlines()
+    faces = [[int(x.split("/")[0]) - 1 for x in r.split()[1:]] for r in rows if r[:2] == "f "]
+    assert len(faces) == 3
+    areas = []
+    for a, b, c in ((corners[i], corners[j], corners[k]) for i, j, k in faces):
+        areas.append(((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2)
+    assert min(areas) > 0
+    assert sum(areas) == 10
+
+
+def plane_field(tmp_path: Path) -> None:
+    """The square with x as texture u."""
+    rows = square(10).splitlines()
+    texture = [f"vt {r.split()[1]} 0" for r in rows if r[:2] == "v "]
+    faces = ["f " + " ".join(f"{i}/{i}" for i in r.split()[1:]) for r in rows if r[:2] == "f "]
+    points = [r for r in rows if r[:2] == "v "]
+    (tmp_path / "field.obj").write_text("\n".join(points + texture + faces) + "\n")
+
+
+def test_contour_of_a_plane(run: Run, tmp_path: Path) -> None:
+    plane_field(tmp_path)
+    run("contour", "field.obj", "--level", "0.25,0.55", "-o", "lines.obj")
+    rows = (tmp_path / "lines.obj").read_text().splitlines()
+    points = [[float(x) for x in r.split()[1:]] for r in rows if r[:2] == "v "]
+    assert sum(r[:2] == "l " for r in rows) == 2
+    assert {round(p[0], 12) for p in points} == {0.25, 0.55}
+    run("contour", "field.obj", "--level", "0.25", "-o", "lines.ply")
+    assert facts(run, "lines.ply")["lines"] == 1
+    assert "level" in run("contour", "field.obj", "--level", "9", "-o", "x.obj", status=2).stderr
+    run("contour", "field.obj", "--level", "a", "-o", "x.obj", status=2)
+    run("contour", "field.obj", "--level", "1", "--field", "no", "-o", "x.obj", status=2)
+
+
+def test_methods(run: Run) -> None:
+    names = [m["name"] for m in json.loads(run("methods", "--json").stdout)]
+    assert names == ["signed-heat", "unsigned-heat"]
+    for arguments in ((), ("--markdown",)):
+        text = run("methods", *arguments).stdout
+        assert all(name in text for name in names)
+
+
+def test_render_and_view(run: Run, mesh: Path, tmp_path: Path) -> None:
+    plane_field(tmp_path)
+    arguments = ("--sources", "curve.txt", "--width", 80, "--height", 60, "--levels", 3)
+    run("render", "field.obj", *arguments, "-o", "a.png")
+    assert (tmp_path / "a.png").read_bytes()[16:24] == b"\0\0\0\x50\0\0\0\x3c"
+    run("render", "field.obj", "-o", "a.jpg", status=2)
+    run("render", "field.obj", "--width", 1, "-o", "b.png", status=2)
+    run("view", "field.obj", "-o", "a.html")
+    assert (tmp_path / "a.html").read_text().lower().startswith("<!doctype html>")
+
+
+def test_view_serves_the_page(mesh: Path) -> None:
+    with subprocess.Popen(
+        [PROGRAM, "view", str(mesh)], stdout=subprocess.PIPE, text=True
+    ) as server:
+        assert server.stdout is not None
+        address = server.stdout.readline().strip()
+        assert address.startswith("http://127.0.0.1:")
+        with urllib.request.urlopen(address, timeout=10) as answer:
+            assert answer.status == 200
+            assert b"<html" in answer.read().lower()
+        server.terminate()
+        assert server.wait(timeout=5) == 130

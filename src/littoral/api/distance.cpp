@@ -9,7 +9,7 @@
 #include "littoral/methods/unsigned_heat.h"
 #include "littoral/operators/triangles.h"
 #include "littoral/sources/pieces.h"
-#include "littoral/sources/source_terms.h"
+#include "littoral/sources/triangle_source_terms.h"
 
 namespace littoral {
 

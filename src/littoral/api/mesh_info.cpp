@@ -1,5 +1,6 @@
 #include "littoral/api/mesh_info.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -201,16 +202,20 @@ struct InfoValueText {
   std::string operator()(double value) const { return number_text(value); }
   std::string operator()(const std::string& value) const { return value; }
   std::string operator()(const std::vector<double>& values) const {
+    if (values.empty()) return "none";
     std::string out;
-    for (double value : values) out += (out.empty() ? "" : " ") + number_text(value);
-    return out.empty() ? "none" : out;
+    for (double value : values) out.append(number_text(value)).append(1, ' ');
+    out.pop_back();
+    return out;
   }
   std::string operator()(
       const std::vector<std::pair<std::string, std::vector<double>>>& named) const {
+    if (named.empty()) return "none";
     std::string out;
     for (const auto& [name, values] : named)
-      out += (out.empty() ? "" : ", ") + name + " (" + (*this)(values) + ")";
-    return out.empty() ? "none" : out;
+      out.append(name).append(" (").append((*this)(values)).append("), ");
+    out.erase(out.size() - 2);
+    return out;
   }
 };
 
@@ -302,7 +307,7 @@ std::string info_text(const std::vector<InfoEntry>& entries) {
   for (const InfoEntry& entry : entries) {
     std::string key = entry.key;
     std::replace(key.begin(), key.end(), '_', ' ');
-    out += key + ": " + std::visit(InfoValueText{}, entry.value) + "\n";
+    out.append(key).append(": ").append(std::visit(InfoValueText{}, entry.value)).append(1, '\n');
   }
   return out;
 }

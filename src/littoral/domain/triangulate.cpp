@@ -1,5 +1,6 @@
 #include "littoral/domain/triangulate.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,9 +1,10 @@
 #include "cli/interrupt.h"
 
-#include <pthread.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <string_view>
@@ -13,23 +14,39 @@
 
 namespace littoral::cli {
 
+namespace {
+
+int wake_end = -1;  // of a pipe; all that a handler may do is write to it
+
+void wake(int) {
+  const int before = errno;
+  [[maybe_unused]] const auto written = ::write(wake_end, "!", 1);
+  errno = before;
+}
+
+}  // namespace
+
 void watch_for_interrupts(const CancelToken& cancel) {
-  sigset_t watched;
-  sigemptyset(&watched);
-  for (int signal : {SIGINT, SIGTERM}) {
-    struct sigaction action = {};
-    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN)
-      sigaddset(&watched, signal);
-  }
-  // Blocked here and in every thread started later, the signals wait for the thread that asks.
-  pthread_sigmask(SIG_BLOCK, &watched, nullptr);
-  std::thread([watched, cancel] {
-    int signal = 0;
-    if (sigwait(&watched, &signal) != 0) return;
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;  // the default actions then end the process
+  wake_end = ends[1];
+  std::thread([from = ends[0], cancel] {
+    char byte = 0;
+    while (::read(from, &byte, 1) != 1) {
+    }
     cancel.cancel();
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     exit_interrupted();
   }).detach();
+  // Handlers, not a thread in sigwait: libraries start threads of their own before main, and those
+  // would take the signals.
+  for (int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action = {};
+    if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    action.sa_handler = wake;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 void exit_interrupted() {

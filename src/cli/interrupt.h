@@ -6,8 +6,7 @@
 namespace littoral::cli {
 
 /// Raises the token on SIGINT or SIGTERM; 0.15 s later the process ends with status 130, if it has
-/// not done so by itself. Signals that were ignored when the program started stay ignored. To be
-/// called before other threads start.
+/// not done so by itself. Signals that were ignored when the program started stay ignored.
 void watch_for_interrupts(const CancelToken& cancel);
 
 /// Removes unfinished files, says so and ends the process with status 130.

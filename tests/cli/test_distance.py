@@ -96,7 +96,9 @@ def test_threads_do_not_matter(run: Run, mesh: Path, tmp_path: Path) -> None:
         ((), "--vertex"),
     ],
 )
-def test_bad_usage(run: Run, mesh: Path, tmp_path: Path, arguments: tuple, says: str) -> None:
+def test_bad_usage(
+    run: Run, mesh: Path, tmp_path: Path, arguments: tuple[object, ...], says: str
+) -> None:
     assert says in run("distance", mesh, *arguments, "-o", "a.txt", status=2).stderr
     assert not (tmp_path / "a.txt").exists()
 

@@ -40,7 +40,6 @@ VecX signed_heat(std::shared_ptr<const Operators> ops, const SourceTerms& terms,
     const Stopwatch watch(report, "factor");
     return SignedHeat(std::move(ops), options.time_scale, task.stage(0.65, "factoring"));
   }();
-  const Stopwatch watch(report, "solve");
   return method.solve(terms, options, task.stage(0.25, "solving"), report);
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 int main() {
   // A unit square of 20 x 20 cells, two triangles each.

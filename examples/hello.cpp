@@ -1,14 +1,9 @@
-// Signed distance to a broken line on a square made in code, from the layers below the API.
+// Signed distance to a broken line on a square made in code.
 
-#include <littoral/domain/intrinsic_triangulation.h>
-#include <littoral/methods/signed_heat.h>
-#include <littoral/operators/triangles.h>
-#include <littoral/sources/pieces.h>
-#include <littoral/sources/triangle_source_terms.h>
+#include <littoral/api/distance.h>
 
 #include <array>
 #include <iostream>
-#include <memory>
 #include <utility>
 
 int main() {
@@ -37,15 +32,11 @@ int main() {
   }
 
   littoral::Report report;
-  const auto triangulation = littoral::intrinsic_triangulation(mesh, report);
-  const auto prepared = littoral::prepare(mesh, sources, false, report);
-  const auto terms = littoral::source_terms(mesh, triangulation, prepared);
-  const littoral::SignedHeat method(
-      std::make_shared<littoral::Operators>(littoral::triangle_operators(triangulation)), 1);
-  const littoral::VecX phi = method.solve(terms, {}, {}, report);
+  const littoral::VecX phi = littoral::surface_distance(mesh, sources, {}, {}, report);
 
   std::cout << mesh.n_vertices() << " vertices, distances from " << phi.minCoeff() << " to "
             << phi.maxCoeff() << "\n";
   for (int i = 0; i <= n; i += 5)
     std::cout << "at (" << mesh.point(i).transpose() << "): " << phi[i] << "\n";
+  for (const std::string& warning : report.warnings) std::cout << "warning: " << warning << "\n";
 }

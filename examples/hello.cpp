@@ -1,11 +1,13 @@
-// A mesh made in code: a square of 20 x 20 cells, two triangles each.
+// Signed distance to a broken line on a square made in code.
 
-#include <littoral/domain/surface_mesh.h>
+#include <littoral/api/distance.h>
 
 #include <array>
 #include <iostream>
+#include <utility>
 
 int main() {
+  // A unit square of 20 x 20 cells, two triangles each.
   const int n = 20;
   littoral::PolygonSoup soup;
   soup.points.resize((n + 1) * (n + 1), 3);
@@ -19,6 +21,22 @@ int main() {
       soup.add_face(std::array{a, c, d});
     }
   const littoral::SurfaceMesh mesh(std::move(soup));
-  std::cout << mesh.n_vertices() << " vertices, " << mesh.n_edges() << " edges, " << mesh.n_faces()
-            << " faces\n";
+
+  // Up the middle, with a gap: positive distances lie to the left.
+  littoral::SurfaceSources sources;
+  for (const auto& [from, to] : {std::pair(0, 8), std::pair(12, n)}) {
+    littoral::SurfaceCurve curve;
+    for (int j = from; j <= to; ++j)
+      curve.nodes.push_back(littoral::SurfacePoint::at_vertex(j * (n + 1) + n / 2));
+    sources.curves.push_back(curve);
+  }
+
+  littoral::Report report;
+  const littoral::VecX phi = littoral::surface_distance(mesh, sources, {}, {}, report);
+
+  std::cout << mesh.n_vertices() << " vertices, distances from " << phi.minCoeff() << " to "
+            << phi.maxCoeff() << "\n";
+  for (int i = 0; i <= n; i += 5)
+    std::cout << "at (" << mesh.point(i).transpose() << "): " << phi[i] << "\n";
+  for (const std::string& warning : report.warnings) std::cout << "warning: " << warning << "\n";
 }

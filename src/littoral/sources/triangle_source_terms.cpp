@@ -162,6 +162,47 @@ std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfaceP
   return {{c[0], p.b[0]}, {c[1], p.b[1]}, {c[2], p.b[2]}};
 }
 
+/// Constraint rows. A curve along edges, and every point, holds values at its nodes. A curve
+/// through faces holds means over stretches of about 2.5 edge lengths: as many conditions as
+/// crossed edges would leave a linear function on the crossed triangles no choice but zero at all
+/// their corners.
+class ConstraintRows {
+ public:
+  struct Row {
+    std::vector<std::pair<int, double>> entries;  // vertex, coefficient; may repeat a vertex
+    double weight = 0;                            // length, mean edge lengths
+    int node = 0;                                 // a node of the same connected part
+  };
+  explicit ConstraintRows(double h) : h_(h) {}
+
+  void add_piece(const std::vector<std::pair<int, double>>& middle, double length, int node) {
+    run_.push_back({middle, length / h_, node});
+  }
+  /// Ends a stretch of consecutive pieces inside faces.
+  void end_run() {
+    double total = 0;
+    for (const Row& piece : run_) total += piece.weight;
+    const double block = total / std::max(1.0, std::round(total / 2.5));
+    double passed = 0;
+    int blocks = -1;
+    for (const Row& piece : run_) {
+      const int at = static_cast<int>((passed + 0.5 * piece.weight) / block);
+      if (at != blocks) rows.push_back({{}, 0, piece.node});
+      blocks = at;
+      for (const auto& [v, value] : piece.entries)
+        rows.back().entries.emplace_back(v, piece.weight * value);
+      rows.back().weight += piece.weight;
+      passed += piece.weight;
+    }
+    run_.clear();
+  }
+  std::vector<Row> rows;
+
+ private:
+  double h_;
+  std::vector<Row> run_;
+};
+
 }  // namespace
 
 SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
@@ -185,6 +226,7 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
   };
 
   Nodes nodes;
+  ConstraintRows curve_rows(h);
   for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
     const CurvePiece& piece = sources.pieces[i];
     if (T.triangle_of_face[piece.face] < 0) continue;
@@ -200,9 +242,14 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     for (int side = 0; side < 2; ++side) {
       const auto& b = side ? piece.b : piece.a;
       ends[side] = nodes.id(simplest(mesh, SurfacePoint::in_face(piece.face, b[0], b[1], b[2])));
-      nodes.weight[ends[side]] += 0.5 * piece.length / T.unit / h;
+      if (piece.edge >= 0) nodes.weight[ends[side]] += 0.5 * piece.length / T.unit / h;
     }
     nodes.join(ends[0], ends[1]);
+    if (i > 0 && sources.pieces[i - 1].curve != piece.curve) curve_rows.end_run();
+    if (piece.edge < 0)
+      curve_rows.add_piece(middle, piece.length / T.unit, ends[0]);
+    else
+      curve_rows.end_run();
     if (piece.is_signed) continue;
     const auto& line = sources.nodes[piece.curve];
     if (same_point(line.front(), line.back())) continue;
@@ -211,6 +258,7 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     if (first) add_end(mesh, T, nodes.points[ends[0]], piece, X0);
     if (last) add_end(mesh, T, nodes.points[ends[1]], piece, X0);
   }
+  curve_rows.end_run();
   for (const SurfacePoint& p : sources.points) {
     // A point weighs as much as a curve of one edge's length: the balance does not depend on units.
     std::vector<std::pair<int, Complex>> radial;
@@ -223,17 +271,23 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     throw InputError("no source lies on a face with three different vertices");
 
   terms.X0 = X0.take();
-  const int n_rows = static_cast<int>(nodes.points.size());
+  std::vector<ConstraintRows::Row> all = std::move(curve_rows.rows);
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    if (nodes.weight[i] > 0)
+      all.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
   std::map<int, int> group_of_root;
-  terms.weight.resize(n_rows);
-  for (int r = 0; r < n_rows; ++r) {
-    for (const auto& [v, value] : hats(mesh, nodes.points[r])) rows.emplace_back(r, v, value);
-    terms.weight[r] = nodes.weight[r];
-    const auto [it, added] = group_of_root.try_emplace(nodes.root(r), terms.n_groups);
+  terms.weight.resize(static_cast<Eigen::Index>(all.size()));
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    double sum = 0;  // a mean, whatever the coefficients were weighted with
+    for (const auto& [v, value] : all[r].entries) sum += value;
+    for (const auto& [v, value] : all[r].entries)
+      rows.emplace_back(static_cast<int>(r), v, value / sum);
+    terms.weight[static_cast<Eigen::Index>(r)] = all[r].weight;
+    const auto [it, added] = group_of_root.try_emplace(nodes.root(all[r].node), terms.n_groups);
     if (added) ++terms.n_groups;
     terms.group.push_back(it->second);
   }
-  terms.A.resize(n_rows, T.n_vertices);
+  terms.A.resize(static_cast<Eigen::Index>(all.size()), T.n_vertices);
   terms.A.setFromTriplets(rows.begin(), rows.end());
   terms.mean.resize(static_cast<Eigen::Index>(mean_weight.size()), T.n_vertices);
   terms.mean.setFromTriplets(mean.begin(), mean.end());

@@ -1,0 +1,212 @@
+// The contract of the operators, on meshes of every kind.
+
+#include <gtest/gtest.h>
+
+#include "heat_helpers.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+/// A band with a half twist: not orientable, so frames cannot all agree.
+PolygonSoup moebius_soup(int n, int width) {
+  PolygonSoup soup;
+  soup.points.resize(n * (width + 1), 3);
+  const double turn = 2 * std::acos(-1.0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= width; ++j) {
+      const double u = turn * i / n, s = 0.4 * (2.0 * j / width - 1);
+      const double r = 1 + s * std::cos(u / 2);
+      soup.points.row(i * (width + 1) + j) << r * std::cos(u), r * std::sin(u), s * std::sin(u / 2);
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < width; ++j) {
+      const int w = width + 1, last = i + 1 == n;
+      const int a = i * w + j, b = a + 1;
+      const int c = last ? width - j : a + w, d = last ? width - j - 1 : b + w;
+      test::add_triangle(soup, a, c, d);
+      test::add_triangle(soup, a, d, b);
+    }
+  return soup;
+}
+
+PolygonSoup some_flipped(PolygonSoup soup) {
+  for (int f = 0; f < soup.n_faces(); f += 7)
+    std::swap(soup.corners[3 * f], soup.corners[3 * f + 1]);
+  return soup;
+}
+
+PolygonSoup with_degenerate_faces() {
+  PolygonSoup soup = test::jittered_grid_soup(6, 6, 0.3);
+  test::add_triangle(soup, 0, 1, 2);   // collinear
+  test::add_triangle(soup, 3, 3, 10);  // a vertex repeated
+  test::add_triangle(soup, 0, 1, 8);   // a third face at an edge
+  return soup;
+}
+
+struct Mesh {
+  const char* name;
+  PolygonSoup soup;
+};
+
+std::ostream& operator<<(std::ostream& out, const Mesh& mesh) { return out << mesh.name; }
+
+class HeatOperators : public testing::TestWithParam<Mesh> {
+ protected:
+  HeatOperators()
+      : mesh(GetParam().soup),
+        T(intrinsic_triangulation(mesh, report)),
+        ops(triangle_operators(T)),
+        L(ops.scalar.L.selfadjointView<Eigen::Lower>()) {}
+
+  VecX random_vector(Eigen::Index n) {
+    VecX x(n);
+    for (double& v : x) v = uniform(random);
+    return x;
+  }
+  /// The connection Laplacian as a real matrix on interleaved pairs, whichever form it has.
+  VecX diffuse_operator(const VecX& x) const {
+    if (!ops.vector.complex_linear()) return ops.vector.L_real.selfadjointView<Eigen::Lower>() * x;
+    const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
+    const VecXc y = ops.vector.L.selfadjointView<Eigen::Lower>() * z;
+    return Eigen::Map<const VecX>(reinterpret_cast<const double*>(y.data()), x.size());
+  }
+
+  Report report;
+  SurfaceMesh mesh;
+  IntrinsicTriangulation T;
+  Operators ops;
+  SpMat L;
+  std::mt19937 random{7};
+  std::uniform_real_distribution<double> uniform{-1, 1};
+};
+
+TEST_P(HeatOperators, LaplacianIsSemidefiniteWithConstantsInItsNullSpace) {
+  const double size = L.coeffs().cwiseAbs().maxCoeff();
+  ASSERT_TRUE(std::isfinite(size));
+  EXPECT_LE((L * VecX::Ones(L.rows())).cwiseAbs().maxCoeff(), 1e-12 * size);
+  for (int k = 0; k < 20; ++k) {
+    const VecX x = random_vector(L.rows());
+    EXPECT_GE(x.dot(L * x), -1e-12 * size * x.squaredNorm());
+  }
+}
+
+TEST_P(HeatOperators, LaplacianIsDivergenceOfGradient) {
+  const Calculus& C = ops.scalar;
+  const double size = L.coeffs().cwiseAbs().maxCoeff();
+  const VecX x = random_vector(L.rows());
+  EXPECT_LE((C.divergence(C.G.apply(x)) - L * x).cwiseAbs().maxCoeff(), 1e-9 * size);
+}
+
+TEST_P(HeatOperators, GradientAndItsAdjointIntegrateByParts) {
+  const Calculus& C = ops.scalar;
+  const VecX x = random_vector(C.G.cols), Y = random_vector(C.G.rows);
+  const VecX gradient = C.G.apply(x);
+  EXPECT_NEAR(gradient.dot(Y), x.dot(C.G.adjoint(Y)), 1e-12 * gradient.norm() * Y.norm());
+}
+
+TEST_P(HeatOperators, MassesSumToTheArea) {
+  double area = 0;
+  for (int f = 0; f < T.n_faces(); ++f) area += T.shape(f).area;
+  EXPECT_NEAR(ops.scalar.M.sum(), area, 1e-12 * area);
+  EXPECT_NEAR(ops.scalar.A.sum(), area, 1e-12 * area);
+  EXPECT_NEAR(ops.vector.M.sum(), area, 1e-12 * area);
+}
+
+TEST_P(HeatOperators, ConnectionLaplacianIsSymmetricAndSemidefinite) {
+  const Eigen::Index n = 2 * ops.vector.n;
+  for (int k = 0; k < 20; ++k) {
+    const VecX x = random_vector(n), y = random_vector(n);
+    const VecX Lx = diffuse_operator(x), Ly = diffuse_operator(y);
+    ASSERT_TRUE(Lx.allFinite());
+    EXPECT_NEAR(y.dot(Lx), x.dot(Ly), 1e-10 * (Lx.norm() * y.norm() + Ly.norm() * x.norm()));
+    EXPECT_GE(x.dot(Lx), -1e-10 * Lx.norm() * x.norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, HeatOperators,
+                         testing::Values(Mesh{"grid", test::grid_soup(7, 5)},
+                                         Mesh{"jittered", test::jittered_grid_soup(8, 8, 0.3)},
+                                         Mesh{"sphere", test::octasphere_soup(3)},
+                                         Mesh{"torus", test::torus_soup(18, 9)},
+                                         Mesh{"flipped", some_flipped(test::torus_soup(18, 9))},
+                                         Mesh{"moebius", moebius_soup(24, 4)},
+                                         Mesh{"degenerate", with_degenerate_faces()}));
+
+TEST(HeatOperatorsPlane, LinearFunctionsHaveConstantGradients) {
+  Report report;
+  const SurfaceMesh mesh(test::jittered_grid_soup(9, 9, 0.3));
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Operators ops = triangle_operators(T);
+  const VecX x = mesh.points().col(0) * 2 - mesh.points().col(1) * 3;
+  const VecX g = ops.scalar.G.apply(x / T.unit);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    EXPECT_NEAR(g.segment<2>(2 * f).norm(), std::sqrt(13.0), 1e-9);
+    // In the frame of the face, side 0 is the real axis.
+    const Vec3 side = mesh.point(T.faces(f, 1)) - mesh.point(T.faces(f, 0));
+    EXPECT_NEAR(g[2 * f] * side.norm(), 2 * side.x() - 3 * side.y(), 1e-9);
+  }
+}
+
+/// A constant field of the plane in the frames of the edges, which point along them.
+VecX constant_field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, Complex w) {
+  VecX x(2 * T.n_edges());
+  for (int e = 0; e < T.n_edges(); ++e) {
+    const Vec3 side = mesh.point(T.edges(e, 1)) - mesh.point(T.edges(e, 0));
+    const Complex z = w * std::conj(Complex(side.x(), side.y())) / side.norm();
+    x[2 * e] = z.real();
+    x[2 * e + 1] = z.imag();
+  }
+  return x;
+}
+
+TEST(HeatOperatorsPlane, ConstantFieldsAreInTheNullSpaceOfTheConnectionLaplacian) {
+  Report report;
+  const SurfaceMesh mesh(test::jittered_grid_soup(9, 9, 0.3));
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Operators ops = triangle_operators(T);
+  ASSERT_TRUE(ops.vector.complex_linear());
+  const VecX x = constant_field(mesh, T, Complex(0.6, 0.8));
+  const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), T.n_edges());
+  const VecXc y = ops.vector.L.selfadjointView<Eigen::Lower>() * z;
+  EXPECT_LE(y.cwiseAbs().maxCoeff(), 1e-10);
+  // Averaged to a face it is the same vector, in the face's frame.
+  const VecX cells = ops.vector.to_cells.apply(x);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    const Vec3 side = mesh.point(T.faces(f, 1)) - mesh.point(T.faces(f, 0));
+    const Complex expected =
+        Complex(0.6, 0.8) * std::conj(Complex(side.x(), side.y())) / side.norm();
+    EXPECT_NEAR(cells[2 * f], expected.real(), 1e-10);
+    EXPECT_NEAR(cells[2 * f + 1], expected.imag(), 1e-10);
+  }
+}
+
+TEST(HeatOperatorsPlane, RealAndComplexFormsHaveTheSameEnergy) {
+  // A Moebius band beside a grid forces the real form on both; the grid's part must not change.
+  Report report;
+  const PolygonSoup grid = test::jittered_grid_soup(6, 6, 0.3), band = moebius_soup(16, 2);
+  PolygonSoup both = grid;
+  both.points.conservativeResize(grid.n_vertices() + band.n_vertices(), 3);
+  both.points.bottomRows(band.n_vertices()) = band.points.rowwise() + Eigen::RowVector3d(3, 0, 0);
+  for (int f = 0; f < band.n_faces(); ++f) {
+    const auto c = band.face(f);
+    test::add_triangle(both, c[0] + grid.n_vertices(), c[1] + grid.n_vertices(),
+                       c[2] + grid.n_vertices());
+  }
+  const auto alone = triangle_operators(intrinsic_triangulation(SurfaceMesh(grid), report));
+  const auto joint = triangle_operators(intrinsic_triangulation(SurfaceMesh(both), report));
+  ASSERT_TRUE(alone.vector.complex_linear());
+  ASSERT_FALSE(joint.vector.complex_linear());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  VecX x = VecX::Zero(2 * joint.vector.n);
+  for (int i = 0; i < 2 * alone.vector.n; ++i) x[i] = u(random);
+  const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), alone.vector.n);
+  const VecXc y = alone.vector.L.selfadjointView<Eigen::Lower>() * z;
+  const double energy = z.dot(y).real();
+  const VecX real_y = joint.vector.L_real.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_NEAR(x.dot(real_y), energy, 1e-10 * energy);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -82,9 +82,12 @@ struct Damage {
 };
 
 int run(int n_meshes, char** meshes) {
-  const Damage damages[] = {{"10 % missing", .1, 0, 0},     {"25 % missing", .25, 0, 0},
-                            {"50 % missing", .5, 0, 0},     {"75 % missing", .75, 0, 0},
-                            {"5 % reversed", 0, .05, 0},    {"20 % reversed", 0, .2, 0},
+  const Damage damages[] = {{"10 % missing", .1, 0, 0},
+                            {"25 % missing", .25, 0, 0},
+                            {"50 % missing", .5, 0, 0},
+                            {"75 % missing", .75, 0, 0},
+                            {"5 % reversed", 0, .05, 0},
+                            {"20 % reversed", 0, .2, 0},
                             {"curve and its offset, 50 % missing", .5, 0, 3},
                             {"the same, 10 % reversed", .5, .1, 3}};
   constexpr std::size_t n_damages = std::size(damages);

@@ -124,3 +124,8 @@ def test_view_serves_the_page(mesh: Path) -> None:
             assert b"<html" in answer.read().lower()
         server.terminate()
         assert server.wait(timeout=5) == 130
+
+
+def test_support_table_in_the_docs_is_the_registry(run: Run) -> None:
+    docs = Path(__file__).parents[2] / "docs" / "support.md"
+    assert docs.read_text() == run("methods", "--markdown").stdout

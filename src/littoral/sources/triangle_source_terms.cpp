@@ -61,9 +61,28 @@ void add_signed(const IntrinsicTriangulation& T, const CurvePiece& piece, Measur
       X0.add(T.side_edge(f, k), T.face_to_edge(t, f, k, N));
 }
 
+/// Contributions of an unsigned curve, by the side they point to.
+struct Push {
+  int edge;
+  Complex z;
+  bool left;
+};
+
+/// Adds a stretch of an unsigned curve with both of its sides equally strong: where crossed edges
+/// have their midpoints mostly on one side, that side would otherwise win everywhere far away.
+void add_balanced(std::vector<Push>& stretch, Measure& X0) {
+  double total[2] = {0, 0};
+  for (const Push& push : stretch) total[push.left] += std::abs(push.z);
+  const bool both = total[0] > 0 && total[1] > 0;
+  for (const Push& push : stretch)
+    X0.add(push.edge, both ? push.z * (0.5 * (total[0] + total[1]) / total[push.left]) : push.z);
+  stretch.clear();
+}
+
 /// A.2, type A, also inside faces: away from the nearest point of the piece at each edge midpoint.
 void add_unsigned(const IntrinsicTriangulation& T, const CurvePiece& piece, int f,
-                  const std::array<double, 3>& a, const std::array<double, 3>& b, Measure& X0) {
+                  const std::array<double, 3>& a, const std::array<double, 3>& b,
+                  std::vector<Push>& out) {
   const TriangleShape t = T.shape(f);
   const Complex start = at(t, a), along = at(t, b) - start;
   const double length = std::abs(along);
@@ -75,14 +94,16 @@ void add_unsigned(const IntrinsicTriangulation& T, const CurvePiece& piece, int 
         std::clamp((std::conj(along) * (m - start)).real() / (length * length), 0.0, 1.0);
     const Complex away = m - (start + s * along);
     if (std::abs(away) <= 1e-12 * length) continue;  // the curve passes through the midpoint
-    X0.add(T.side_edge(f, k), T.face_to_edge(t, f, k, away / std::abs(away) * length));
+    const Complex z = away / std::abs(away) * length;
+    out.push_back({T.side_edge(f, k), T.face_to_edge(t, f, k, z),
+                   (std::conj(along) * away).imag() * T.orientation[f] > 0});
   }
 }
 
 void add_unsigned_curve_piece(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                              const CurvePiece& piece, Measure& X0) {
+                              const CurvePiece& piece, std::vector<Push>& out) {
   if (piece.edge < 0) {
-    add_unsigned(T, piece, T.triangle_of_face[piece.face], piece.a, piece.b, X0);
+    add_unsigned(T, piece, T.triangle_of_face[piece.face], piece.a, piece.b, out);
     return;
   }
   // Along an edge: the same from every face at the edge.
@@ -98,7 +119,7 @@ void add_unsigned_curve_piece(const SurfaceMesh& mesh, const IntrinsicTriangulat
     const int f = T.triangle_of_face[face];
     if (f < 0) continue;
     const auto a = barycentrics_in(mesh, p, face), b = barycentrics_in(mesh, q, face);
-    if (a && b) add_unsigned(T, piece, f, *a, *b, X0);
+    if (a && b) add_unsigned(T, piece, f, *a, *b, out);
   }
 }
 
@@ -227,13 +248,22 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
 
   Nodes nodes;
   ConstraintRows curve_rows(h);
+  std::vector<Push> stretch;
+  double stretch_length = 0;
   for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
     const CurvePiece& piece = sources.pieces[i];
     if (T.triangle_of_face[piece.face] < 0) continue;
     if (piece.is_signed)
       add_signed(T, piece, X0);
     else
-      add_unsigned_curve_piece(mesh, T, piece, X0);
+      add_unsigned_curve_piece(mesh, T, piece, stretch);
+    stretch_length += piece.length / T.unit;
+    const bool curve_ends =
+        i + 1 == sources.pieces.size() || sources.pieces[i + 1].curve != piece.curve;
+    if (curve_ends || stretch_length > 2.5 * h) {
+      add_balanced(stretch, X0);
+      stretch_length = 0;
+    }
     const auto c = mesh.face(piece.face);
     std::vector<std::pair<int, double>> middle;
     for (int k = 0; k < 3; ++k) middle.emplace_back(c[k], 0.5 * (piece.a[k] + piece.b[k]));
@@ -254,9 +284,8 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     const auto& line = sources.nodes[piece.curve];
     if (same_point(line.front(), line.back())) continue;
     const bool first = i == 0 || sources.pieces[i - 1].curve != piece.curve;
-    const bool last = i + 1 == sources.pieces.size() || sources.pieces[i + 1].curve != piece.curve;
     if (first) add_end(mesh, T, nodes.points[ends[0]], piece, X0);
-    if (last) add_end(mesh, T, nodes.points[ends[1]], piece, X0);
+    if (curve_ends) add_end(mesh, T, nodes.points[ends[1]], piece, X0);
   }
   curve_rows.end_run();
   for (const SurfacePoint& p : sources.points) {

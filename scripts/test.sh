@@ -62,9 +62,10 @@ stage_fuzz() {
 }
 
 stage_viewer() {
+  local page="$PWD/build/viewer-test.html"
   configure_and_build release &&
-    (cd viewer && npm ci --no-audit --no-fund --loglevel=error &&
-      LITTORAL="$OLDPWD/build/release/littoral" npm test)
+    LITTORAL_PAGE_OUT="$page" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest' &&
+    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" npm test)
 }
 
 stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }

@@ -21,8 +21,8 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();
 
 /// Distance to points and curves by scalar heat. The heat is the mean of the solutions with zero
 /// Neumann and zero Dirichlet boundary values, whose reflections cancel at a straight boundary, so
-/// the gradient is not bent there; the distance is constrained to 0 at the sources, so several
-/// sources on neighbouring vertices do not lower each other's values.
+/// the gradient is not bent there; the distance is constrained to 0 at the sources. Midway between
+/// two sources a few edges apart the values are still too small (docs/accuracy.md).
 class UnsignedHeat {
  public:
   UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "littoral/base/error.h"
+#include "littoral/io/read.h"
 #include "littoral/sources/carry.h"
 #include "littoral/sources/pieces.h"
-#include "plain_obj.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
@@ -127,8 +127,8 @@ TEST(TraceCarry, SquiggleOnSphere) {
   LITTORAL_NEEDS_SHARED("data/curves/rc-squiggle-on-sphere.obj");
   LITTORAL_NEEDS_SHARED("data/generated/analytic/sphere4.obj");
   const auto curves =
-      space_curves(test::plain_obj(test::shared() / "data/curves/rc-squiggle-on-sphere.obj"));
-  const SurfaceMesh mesh{test::plain_obj(test::shared() / "data/generated/analytic/sphere4.obj")};
+      space_curves(io::read_surface(test::shared() / "data/curves/rc-squiggle-on-sphere.obj"));
+  const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/analytic/sphere4.obj")};
   const CurveCarrier carrier(mesh);
   for (const SpaceCurve& curve : curves) {
     Report report;
@@ -146,10 +146,10 @@ TEST(TraceCarry, SquiggleOnSphere) {
 TEST(TraceCarry, TorusCurvesOnSharedMeshes) {
   LITTORAL_NEEDS_SHARED("data/curves/rc-multi-on-torus.obj");
   LITTORAL_NEEDS_SHARED("data/generated/analytic/torus.obj");
-  const SurfaceMesh mesh{test::plain_obj(test::shared() / "data/generated/analytic/torus.obj")};
+  const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/analytic/torus.obj")};
   SurfaceSources sources;
   sources.space_curves =
-      space_curves(test::plain_obj(test::shared() / "data/curves/rc-multi-on-torus.obj"));
+      space_curves(io::read_surface(test::shared() / "data/curves/rc-multi-on-torus.obj"));
   ASSERT_FALSE(sources.space_curves.empty());
   Report report;
   const PreparedSources prepared = prepare(mesh, sources, false, report);
@@ -165,7 +165,7 @@ TEST(TraceCarry, BrokenMeshes) {
     SCOPED_TRACE(name);
     const auto path = std::string("data/generated/geometry/") + name + ".obj";
     LITTORAL_NEEDS_SHARED(path);
-    const SurfaceMesh mesh{test::plain_obj(test::shared() / path)};
+    const SurfaceMesh mesh{io::read_surface(test::shared() / path)};
     const Tracer tracer(mesh);
     std::mt19937 random(4);
     int traced = 0;
@@ -199,7 +199,7 @@ TEST(TraceCarry, BrokenMeshes) {
 TEST(TraceCarry, NodesThatShareNoFaceAreTraced) {
   // What generated/curves/bad_nonadjacent.txt holds: vertices 0, 5, 300.
   LITTORAL_NEEDS_SHARED("data/generated/curves/sphere_cap.obj");
-  const SurfaceMesh mesh{test::plain_obj(test::shared() / "data/generated/curves/sphere_cap.obj")};
+  const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/curves/sphere_cap.obj")};
   SurfaceSources sources;
   sources.curves.push_back(
       {{SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(5), SurfacePoint::at_vertex(300)},

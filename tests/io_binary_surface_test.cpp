@@ -9,25 +9,15 @@
 #include "littoral/base/error.h"
 #include "littoral/io/binary.h"
 #include "littoral/io/read.h"
+#include "surface_bytes.h"
 
 namespace littoral::io {
 namespace {
 
+using test::error_of;
+using test::read;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-PolygonSoup read(const std::string& bytes, const std::string& extension) {
-  return read_surface_bytes(bytes, extension, "a" + extension);
-}
-
-std::string error_of(const std::string& bytes, const std::string& extension) {
-  try {
-    read(bytes, extension);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 // Appends a number in either byte order.
 template <class T>

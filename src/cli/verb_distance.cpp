@@ -79,10 +79,12 @@ SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mes
 }
 
 void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
-                   const SurfaceSources& sources, VecX values, Session& session) {
-  PolygonSoup result = mesh.soup();
-  result.scalars.clear();
-  result.scalars["distance"] = std::move(values);
+                   const SurfaceSources& sources, SurfaceResult answer, Session& session) {
+  PolygonSoup result = answer.shown ? std::move(*answer.shown) : mesh.soup();
+  if (!answer.shown) {
+    result.scalars.clear();
+    result.scalars["distance"] = std::move(answer.values);
+  }
   Task task = session.task();
   for (const std::string& file : arguments.out) {
     task.checkpoint();
@@ -126,10 +128,10 @@ void run(Arguments& arguments, Session& session) {
     return std::pair(read, gather_sources(arguments, *read, session));
   }();
   session.reading = false;
-  VecX values = surface_distance(*mesh, sources, arguments.request, session.task(), report);
+  SurfaceResult answer = solve_distance(*mesh, sources, arguments.request, session.task(), report);
   {
     const Stopwatch watch(report, "write");
-    write_results(arguments, *mesh, sources, std::move(values), session);
+    write_results(arguments, *mesh, sources, std::move(answer), session);
   }
   session.print_warnings();
   session.print_details();

@@ -2,9 +2,8 @@
 // Distance on a surface in one call: from a mesh and sources to one value a vertex.
 
 #include <string>
-#include <utility>
-#include <vector>
 
+#include "littoral/api/surface_method.h"
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
@@ -16,8 +15,8 @@ namespace littoral {
 /// What to compute, in words.
 struct DistanceRequest {
   std::string method = "signed-heat";
-  std::vector<std::pair<std::string, std::string>> options;  // name, value as text; others default
-  bool flip = false;                                         // reverse every signed curve
+  OptionTexts options;  // name, value as text; others default
+  bool flip = false;    // reverse every signed curve
 };
 
 /// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
@@ -31,5 +30,9 @@ void check_request(const DistanceRequest& request);
 /// anything is factored, SolveError if a solve breaks down, Cancelled.
 VecX surface_distance(const SurfaceMesh& mesh, const SurfaceSources& sources,
                       const DistanceRequest& request, Task task, Report& report);
+
+/// The same, with what the method has to show beside the values.
+SurfaceResult solve_distance(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                             const DistanceRequest& request, Task task, Report& report);
 
 }  // namespace littoral

@@ -1,24 +1,31 @@
 #include "littoral/api/registry.h"
 
+#include <iterator>
+
+#include "littoral/api/surface_method.h"
 #include "littoral/base/error.h"
-#include "littoral/methods/signed_heat.h"
-#include "littoral/methods/unsigned_heat.h"
 
 namespace littoral {
 
+const std::vector<SurfaceMethod>& surface_methods() {
+  static const std::vector<SurfaceMethod> all = [] {
+    std::vector<SurfaceMethod> out;
+    for (auto family : {heat_methods}) {
+      std::vector<SurfaceMethod> entries = family();
+      out.insert(out.end(), std::make_move_iterator(entries.begin()),
+                 std::make_move_iterator(entries.end()));
+    }
+    return out;
+  }();
+  return all;
+}
+
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all = {
-      {"signed-heat",
-       "Signed distance to curves that may be broken, unsigned to points and unsigned curves.",
-       {"triangle mesh"},
-       signed_heat_options().infos(),
-       "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
-      {"unsigned-heat",
-       "Unsigned distance to curves and points.",
-       {"triangle mesh"},
-       unsigned_heat_options().infos(),
-       "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
-  };
+  static const std::vector<MethodInfo> all = [] {
+    std::vector<MethodInfo> out;
+    for (const SurfaceMethod& method : surface_methods()) out.push_back(method.info);
+    return out;
+  }();
   return all;
 }
 

@@ -1,0 +1,65 @@
+#pragma once
+// Nearest neighbours among points in space.
+
+#include <vector>
+
+#include "littoral/base/types.h"
+
+namespace littoral {
+
+/// One neighbour found.
+struct Neighbour {
+  double squared_distance = 0;  // [length^2]
+  int point = 0;                // row of the points given
+
+  /// The order of results: by distance, ties by number.
+  friend bool operator<(const Neighbour& a, const Neighbour& b) {
+    return a.squared_distance < b.squared_distance ||
+           (a.squared_distance == b.squared_distance && a.point < b.point);
+  }
+};
+
+/// A tree of boxes, eight to a node, tight around their points; immutable, queries may run at the
+/// same time. Coordinates must be finite.
+class PointTree {
+ public:
+  explicit PointTree(const MatX3& points);  // points x 3, at least one
+
+  int size() const { return static_cast<int>(order_.size()); }
+
+  /// The k nearest points in ascending order (fewer where there are fewer points), written to
+  /// `found`, which must hold k; returns how many. Exact, and the same for any order of the tree.
+  int nearest(const Vec3& q, int k, Neighbour* found) const;
+
+  /// The nearest point.
+  Neighbour nearest(const Vec3& q) const {
+    Neighbour found;
+    nearest(q, 1, &found);
+    return found;
+  }
+
+  /// All points within `radius` of q, ascending.
+  std::vector<Neighbour> within(const Vec3& q, double radius) const;
+
+ private:
+  static constexpr int width = 8;
+  struct Node {
+    double low[3][width], high[3][width];  // boxes of the children; empty ones are infinite
+    int child[width];                      // another node, or -1 - (number of the leaf)
+  };
+  struct Leaf {
+    int begin, end;  // into order_
+  };
+
+  int build(const MatX3& points, int begin, int end);
+  void split(const MatX3& points, int begin, int end, int levels, std::vector<int>& cuts);
+  template <class Visit>
+  void search(const Vec3& q, Visit&& visit) const;  // visit(begin, end) -> bound
+
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  std::vector<int> order_;    // place in the tree -> point
+  std::vector<double> x_[3];  // coordinates by place
+};
+
+}  // namespace littoral

@@ -1,0 +1,77 @@
+// Nearest neighbours against looking at every point.
+
+#include <algorithm>
+#include <random>
+
+#include "littoral/spatial/point_tree.h"
+
+namespace littoral {
+namespace {
+
+std::vector<Neighbour> all_sorted(const MatX3& points, const Vec3& q) {
+  std::vector<Neighbour> all;
+  for (int i = 0; i < points.rows(); ++i) {
+    const Vec3 d = points.row(i).transpose() - q;
+    all.push_back({d[0] * d[0] + d[1] * d[1] + d[2] * d[2], i});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+MatX3 random_points(int n, unsigned seed, double snap) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  MatX3 points(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d) {
+      const double x = uniform(random);
+      points(i, d) = snap > 0 ? snap * std::round(x / snap) : x;
+    }
+  return points;
+}
+
+void expect_same(const std::vector<Neighbour>& found, const std::vector<Neighbour>& expected,
+                 std::size_t n) {
+  ASSERT_EQ(found.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_EQ(found[i].point, expected[i].point);
+    EXPECT_EQ(found[i].squared_distance, expected[i].squared_distance);
+  }
+}
+
+TEST(PointTree, FindsTheSameAsLookingAtEveryPoint) {
+  // Snapped coordinates give coincident points and ties, which the lower number wins.
+  for (int n : {1, 2, 7, 8, 9, 64, 65, 500, 3000})
+    for (double snap : {0.0, 0.25}) {
+      const MatX3 points = random_points(n, 7 + n, snap);
+      const PointTree tree(points);
+      for (const Vec3& q :
+           {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.9), Vec3(50, -3, 2), Vec3(0.25, 0.5, -0.25)}) {
+        const auto expected = all_sorted(points, q);
+        for (int k : {1, 5, 40}) {
+          std::vector<Neighbour> found(static_cast<std::size_t>(k));
+          found.resize(static_cast<std::size_t>(tree.nearest(q, k, found.data())));
+          expect_same(found, expected, static_cast<std::size_t>(std::min(k, n)));
+        }
+        const double radius = 0.75;
+        const auto inside = static_cast<std::size_t>(std::count_if(
+            expected.begin(), expected.end(),
+            [&](const Neighbour& a) { return a.squared_distance <= radius * radius; }));
+        expect_same(tree.within(q, radius), expected, inside);
+      }
+    }
+}
+
+TEST(PointTree, AHundredThousandCoincidentPoints) {
+  const MatX3 points = MatX3::Constant(100000, 3, 0.125);
+  const PointTree tree(points);
+  std::vector<Neighbour> found(3);
+  ASSERT_EQ(tree.nearest(Vec3(1, 0.125, 0.125), 3, found.data()), 3);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(found[i].point, i);
+    EXPECT_EQ(found[i].squared_distance, 0.875 * 0.875);
+  }
+}
+
+}  // namespace
+}  // namespace littoral

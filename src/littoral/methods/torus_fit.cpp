@@ -1,0 +1,136 @@
+#include "littoral/methods/torus_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <limits>
+
+#include "littoral/base/parallel.h"
+
+namespace littoral {
+
+void tangent_frame(const Vec3& n, Vec3& s, Vec3& t) {
+  s = n.cross(std::abs(n.x()) > 0.9 ? Vec3::UnitY() : Vec3::UnitX()).normalized();
+  t = n.cross(s);
+}
+
+HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, int point,
+                             std::span<const Neighbour> neighbours, double scale) {
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  const Vec3 p = cloud.points.row(point), n = cloud.normals.row(point);
+  Vec3 s, t;
+  tangent_frame(n, s, t);
+  struct Row {
+    double S, T, A, B, weight;
+  };
+  std::vector<Row> rows;
+  rows.reserve(neighbours.size());
+  Mat6 M = Mat6::Zero();  // normal equations; unknowns a00, a01, a10, a11, a02, a20
+  Vec6 r = Vec6::Zero();
+  auto add = [&](const Vec6& g, double value, double weight) {
+    M.selfadjointView<Eigen::Lower>().rankUpdate(g, weight);
+    r += weight * value * g;
+  };
+  for (const Neighbour& neighbour : neighbours) {
+    const Vec3 d = (cloud.points.row(neighbour.point).transpose() - p) / scale;
+    const Vec3 m = cloud.normals.row(neighbour.point);
+    const double S = d.dot(s), T = d.dot(t), A = m.dot(s), B = m.dot(t);
+    // Height over the plane, shortened so that points of a sphere lie exactly on a paraboloid with
+    // its curvature: on it |d|^2 = -2 R H.
+    const double flat = S * S + T * T, H = d.dot(n);
+    const double height = flat > 0 ? H * flat / (flat + H * H) : 0.0;
+    const double weight = std::pow(std::max(d.norm(), 0.05), -fit.weight_exponent);
+    rows.push_back({S, T, A, B, weight});
+    add((Vec6() << 1, T, S, S * T, T * T, S * S).finished(), height, weight);
+    // Normals: the derivatives of the height are minus the normal's tangential components
+    // (Weingarten's form: no division by the third, which may be small).
+    const double w = weight * fit.normal_weight;
+    add((Vec6() << 0, 0, 1, T, 0, 2 * S).finished(), -A, w);
+    add((Vec6() << 0, 1, 0, S, 2 * T, 0).finished(), -B, w);
+  }
+  M(0, 0) += fit.self_weight;
+  M.diagonal().tail<3>().array() += fit.ridge;
+  M.diagonal().array() += 1e-9;
+  const Vec6 a = M.selfadjointView<Eigen::Lower>().ldlt().solve(r);
+  HeightPolynomial out;
+  if (!a.allFinite()) return out;
+  double residual = 0, total = 0;
+  for (const Row& row : rows) {
+    const double da = a[2] + a[3] * row.T + 2 * a[5] * row.S + row.A;
+    const double db = a[1] + a[3] * row.S + 2 * a[4] * row.T + row.B;
+    residual += row.weight * (da * da + db * db);
+    total += row.weight;
+  }
+  out = {a[0] * scale, a[1], a[2], a[3] / scale, a[4] / scale, a[5] / scale, 0};
+  out.normal_residual = total > 0 ? std::sqrt(residual / total) : 0;
+  return out;
+}
+
+Torus torus_of(const HeightPolynomial& a, const Vec3& p, const Vec3& n, double rho,
+               double curvature_limit) {
+  Vec3 s, t;
+  tangent_frame(n, s, t);
+  Torus torus;
+  torus.rho = rho;
+  torus.q = p + a.a00 * n;
+  // Tangents Q_s = s + a10 n, Q_t = t + a01 n at the origin, and the normal across them.
+  const double length = std::sqrt(1 + a.a10 * a.a10 + a.a01 * a.a01);
+  torus.n = (n - a.a10 * s - a.a01 * t) / length;
+  const Vec3 Qs = s + a.a10 * n, Qt = t + a.a01 * n;
+  const Vec3 f1 = Qs.normalized(), f2 = torus.n.cross(f1);
+  // Shape operator in the orthonormal frame f1, f2: J^-T II J^-1 with [Qs Qt] = [f1 f2] J.
+  Eigen::Matrix2d J, II;
+  J << f1.dot(Qs), f1.dot(Qt), f2.dot(Qs), f2.dot(Qt);
+  II << 2 * a.a20, a.a11, a.a11, 2 * a.a02;
+  const Eigen::Matrix2d inverse = J.inverse();
+  const Eigen::Matrix2d W = inverse.transpose() * (II / length) * inverse;
+  const double mean = 0.5 * (W(0, 0) + W(1, 1)), half = 0.5 * (W(0, 0) - W(1, 1));
+  const double off = 0.5 * (W(0, 1) + W(1, 0)), radius = std::hypot(half, off);
+  const double angle = 0.5 * std::atan2(off, half);
+  const Vec3 larger = std::cos(angle) * f1 + std::sin(angle) * f2;  // direction of mean + radius
+  torus.k1 = mean + radius;
+  torus.k2 = mean - radius;
+  torus.e1 = larger;
+  if (std::abs(torus.k1) > std::abs(torus.k2)) {
+    std::swap(torus.k1, torus.k2);
+    torus.e1 = torus.n.cross(larger);
+  }
+  const double limit = curvature_limit / rho;
+  torus.k1 = std::clamp(torus.k1, -limit, limit);
+  torus.k2 = std::clamp(torus.k2, -limit, limit);
+  torus.log_weight = std::max(-10.0, -20 * std::abs(a.a00) / rho - 4 * a.normal_residual);
+  return torus;
+}
+
+std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, const TorusFit& fit,
+                            const Task& task) {
+  constexpr int spacing_neighbour = 6;  // rho is the distance of this one
+  const auto n = static_cast<std::size_t>(cloud.size());
+  std::vector<Torus> tori(n);
+  const int wanted = std::max(fit.neighbours, spacing_neighbour) + 1;
+  parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint();
+    std::vector<Neighbour> found(static_cast<std::size_t>(wanted));
+    for (std::size_t i = begin; i < end; ++i) {
+      const int point = static_cast<int>(i);
+      const Vec3 p = cloud.points.row(point), normal = cloud.normals.row(point);
+      // The first neighbour is the point itself, as points are distinct.
+      const int others = tree.nearest(p, wanted, found.data()) - 1;
+      if (others <= 0) {  // a single point: its plane, trusted everywhere
+        tori[i] = torus_of({}, p, normal, std::numeric_limits<double>::max(), 0);
+        continue;
+      }
+      const auto used = static_cast<std::size_t>(std::min(others, fit.neighbours));
+      const double scale = std::sqrt(found[used].squared_distance);
+      const double rho = std::sqrt(
+          found[static_cast<std::size_t>(std::min(others, spacing_neighbour))].squared_distance);
+      const HeightPolynomial a =
+          fit_heights(fit, cloud, point, std::span(found).subspan(1, used), scale);
+      tori[i] = torus_of(a, p, normal, rho, fit.curvature_limit);
+    }
+  });
+  return tori;
+}
+
+}  // namespace littoral

@@ -1,0 +1,253 @@
+// Points as tori: the torus itself, fits on surfaces they can represent, and the blended field.
+
+#include "littoral/methods/tori.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+
+namespace littoral {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Distance to a torus around the z axis, outside positive (eq. 5.3).
+double torus_exact(const Vec3& x, double R, double r) {
+  return std::hypot(std::hypot(x[0], x[1]) - R, x[2]) - r;
+}
+
+std::vector<Vec3> queries(int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  std::vector<Vec3> out;
+  for (int i = 0; i < n; ++i) out.emplace_back(uniform(random), uniform(random), uniform(random));
+  return out;
+}
+
+/// n points spread evenly over the unit sphere (a Fibonacci spiral).
+MatX3 sphere_points(int n) {
+  MatX3 points(n, 3);
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - z * z);
+    const double a = pi * (3 - std::sqrt(5.0)) * i;
+    points.row(i) << r * std::cos(a), r * std::sin(a), z;
+  }
+  return points;
+}
+
+Tori fitted(const OrientedPoints& cloud, const TorusFit& fit = {}) {
+  Report report;
+  return Tori(cloud, fit, {}, report);
+}
+
+TEST(Torus, IsTheTorusOfItsCurvatures) {
+  // Touching at (R + r, 0, 0) from outside: bends away from the normal along both circles.
+  const double R = 0.8, r = 0.3;
+  Torus torus;
+  torus.q = Vec3(R + r, 0, 0);
+  torus.n = Vec3::UnitX();
+  torus.e1 = Vec3::UnitY();
+  torus.k1 = -1 / (R + r);
+  torus.k2 = -1 / r;
+  torus.rho = 1e300;
+  // Curvature k1 is that of the outer equator, of radius R + r; the tube around it is drawn
+  // inwards, so that its centre line has radius R.
+  for (const Vec3& x : queries(200, 1))
+    EXPECT_NEAR(patch_distance<double>(torus, x), torus_exact(x, R, r), 1e-12);
+}
+
+TEST(Torus, PlanesCylindersAndSpheresAreOrdinary) {
+  Torus torus;  // the plane z = 0
+  torus.rho = 1e300;
+  for (const Vec3& x : queries(50, 2)) EXPECT_EQ(patch_distance<double>(torus, x), x[2]);
+  torus.k2 = -2;  // a cylinder of radius 1/2 around the line (t, 0, -1/2)
+  for (const Vec3& x : queries(50, 3))
+    EXPECT_NEAR(patch_distance<double>(torus, x), std::hypot(x[1], x[2] + 0.5) - 0.5, 1e-12);
+  torus.k1 = -2;  // a sphere
+  for (const Vec3& x : queries(50, 4))
+    EXPECT_NEAR(patch_distance<double>(torus, x), (x + Vec3(0, 0, 0.5)).norm() - 0.5, 1e-12);
+  torus.k1 = torus.k2 = 2;  // the same seen from inside: positive inside
+  for (const Vec3& x : queries(50, 5))
+    EXPECT_NEAR(patch_distance<double>(torus, x), 0.5 - (x - Vec3(0, 0, 0.5)).norm(), 1e-12);
+}
+
+TEST(Tori, FitIsExactOnPlanes) {
+  OrientedPoints cloud;
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Vec3 n = Vec3(1, 2, -0.5).normalized();
+  Vec3 s, t;
+  tangent_frame(n, s, t);
+  cloud.points.resize(400, 3);
+  cloud.normals.resize(400, 3);
+  for (int i = 0; i < 400; ++i) {
+    cloud.points.row(i) = uniform(random) * s + uniform(random) * t + 0.25 * n;
+    cloud.normals.row(i) = n;
+  }
+  const Tori tori = fitted(cloud);
+  for (double height : {-0.4, 0.0, 0.02, 0.3}) {
+    Vec3 gradient;
+    const Vec3 x = 0.1 * s - 0.2 * t + (0.25 + height) * n;
+    const double phi = tori.value(x, gradient);
+    // Far from a patch its rim enters; near the plane nothing but the plane is seen.
+    if (std::abs(height) < 0.05) {
+      EXPECT_NEAR(phi, height, 1e-5);
+      EXPECT_NEAR((gradient - n).norm(), 0, 5e-3);
+    }
+    EXPECT_NEAR(phi, height, 0.05 * std::abs(height) + 1e-5);
+  }
+}
+
+TEST(Tori, FitIsExactOnSpheres) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(300);
+  cloud.normals = cloud.points;
+  const Tori tori = fitted(cloud);
+  for (const Torus& torus : tori.tori()) {
+    EXPECT_NEAR(torus.k1, -1, 2e-3);  // the ridge pulls curvatures a little towards 0
+    EXPECT_NEAR(torus.k2, -1, 2e-3);
+  }
+  for (const Vec3& x : queries(200, 6))
+    EXPECT_NEAR(tori.value(x), x.norm() - 1, 2e-3) << x.transpose();
+}
+
+/// Mean error over queries near a torus of radii 1 and 0.4, sampled by n points at random.
+double mean_error_on_torus(int n) {
+  OrientedPoints cloud;
+  cloud.points.resize(n, 3);
+  cloud.normals.resize(n, 3);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < n;) {
+    const double u = 2 * pi * uniform(random), v = 2 * pi * uniform(random);
+    if (uniform(random) > (1 + 0.4 * std::cos(v)) / 1.4) continue;
+    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+    cloud.normals.row(i) = normal;
+    cloud.points.row(i++) = Vec3(std::cos(u), std::sin(u), 0) + 0.4 * normal;
+  }
+  const Tori tori = fitted(cloud);
+  double error = 0;
+  const auto at = queries(2000, 12);
+  for (const Vec3& x : at) error += std::abs(tori.value(x) - torus_exact(x, 1, 0.4));
+  return error / static_cast<double>(at.size());
+}
+
+TEST(Tori, ErrorFallsAtLeastLinearlyWithTheSpacing) {
+  const double coarse = mean_error_on_torus(500), fine = mean_error_on_torus(2000);
+  EXPECT_LT(coarse, 0.01);
+  EXPECT_LT(fine, coarse / 2);  // spacing halves
+}
+
+TEST(Tori, GradientIsTheDerivative) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(200);
+  cloud.normals = cloud.points;
+  for (int i = 0; i < 200; ++i) cloud.points.row(i) *= 1 + 0.2 * cloud.points(i, 0);
+  const Tori tori = fitted(cloud);
+  int compared = 0;
+  for (const Vec3& x : queries(100, 13)) {
+    Vec3 gradient;
+    EXPECT_NEAR(tori.value(x, gradient), tori.value(x), 1e-14);
+    const double step = 1e-6;
+    Vec3 difference, second;
+    for (int d = 0; d < 3; ++d) {
+      const Vec3 e = step * Vec3::Unit(d);
+      difference[d] = (tori.value(x + e) - tori.value(x - e)) / (2 * step);
+      second[d] = tori.value(x + e) + tori.value(x - e) - 2 * tori.value(x);
+    }
+    if (second.cwiseAbs().maxCoeff() > 1e-9) continue;  // a kink within the step
+    EXPECT_NEAR((gradient - difference).norm(), 0, 1e-4);
+    ++compared;
+  }
+  EXPECT_GT(compared, 80);
+}
+
+TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(1000);
+  cloud.normals = cloud.points;
+  MatX3 at(3000, 3);
+  const auto q = queries(3000, 14);
+  for (int i = 0; i < 3000; ++i) at.row(i) = q[static_cast<std::size_t>(i)];
+  set_thread_count(1);
+  const VecX one = fitted(cloud).values(at, {});
+  set_thread_count(3);
+  const VecX three = fitted(cloud).values(at, {});
+  set_thread_count(0);
+  EXPECT_TRUE((one.array() == three.array()).all());
+}
+
+TEST(Tori, ScaleAndMotionDoNotMatter) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(300);
+  cloud.normals = cloud.points;
+  const Tori tori = fitted(cloud);
+  for (double scale : {1e-3, 1e3}) {
+    OrientedPoints other = cloud;
+    other.points *= scale;
+    const Tori scaled = fitted(other);
+    for (const Vec3& x : queries(50, 15))
+      EXPECT_NEAR(scaled.value(scale * x) / scale, tori.value(x), 1e-9);
+  }
+  OrientedPoints flipped = cloud;
+  flipped.normals *= -1;
+  const Tori inward = fitted(flipped);
+  for (const Vec3& x : queries(50, 16)) EXPECT_NEAR(inward.value(x), -tori.value(x), 1e-9);
+}
+
+TEST(Tori, FewDegenerateAndCoincidentPoints) {
+  OrientedPoints one;
+  one.points.resize(1, 3);
+  one.points << 1, 2, 3;
+  one.normals.resize(1, 3);
+  one.normals << 0, 0, 5;  // of any length
+  EXPECT_NEAR(fitted(one).value(Vec3(1.2, 2, 3.5)), 0.5, 1e-12);
+
+  OrientedPoints line;  // collinear points with one normal lie on a plane
+  line.points.resize(20, 3);
+  line.normals.resize(20, 3);
+  for (int i = 0; i < 20; ++i) {
+    line.points.row(i) << 0.1 * i, 0, 0;
+    line.normals.row(i) << 0, 0, 1;
+  }
+  EXPECT_NEAR(fitted(line).value(Vec3(0.93, 0.01, 0.05)), 0.05, 1e-6);
+
+  OrientedPoints many;
+  many.points = MatX3::Constant(10000, 3, 2.0);
+  many.normals = MatX3::Zero(10000, 3);
+  many.normals.col(1).setOnes();
+  Report report;
+  const Tori tori(many, {}, {}, report);
+  EXPECT_EQ(tori.size(), 1);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("9999 points coincide"), std::string::npos);
+  EXPECT_NEAR(tori.value(Vec3(2, 2.25, 2)), 0.25, 1e-12);
+}
+
+std::string message_for(const OrientedPoints& cloud) {
+  try {
+    fitted(cloud);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Tori, BadCloudsAreNamed) {
+  OrientedPoints cloud;
+  EXPECT_NE(message_for(cloud).find("empty"), std::string::npos);
+  cloud.points = sphere_points(20);
+  EXPECT_NE(message_for(cloud).find("20 points and 0 normals"), std::string::npos);
+  cloud.normals = cloud.points;
+  cloud.normals.row(7).setZero();
+  EXPECT_NE(message_for(cloud).find("point 7 has no normal"), std::string::npos);
+  cloud.normals = cloud.points;
+  cloud.points(3, 1) = std::nan("");
+  EXPECT_NE(message_for(cloud).find("point 3"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace littoral

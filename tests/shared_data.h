@@ -9,12 +9,14 @@
 
 namespace littoral::test {
 
-inline std::filesystem::path fixtures() { return LITTORAL_FIXTURES; }
+std::filesystem::path source_dir();  // the checkout
+
+inline std::filesystem::path fixtures() { return source_dir() / "tests" / "fixtures"; }
 
 /// LITTORAL_SHARED, or ../shared beside the checkout.
 inline std::filesystem::path shared() {
   if (const char* path = std::getenv("LITTORAL_SHARED")) return path;
-  return std::filesystem::path(LITTORAL_SOURCE_DIR) / ".." / "shared";
+  return source_dir() / ".." / "shared";
 }
 
 }  // namespace littoral::test

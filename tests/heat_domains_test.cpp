@@ -99,7 +99,7 @@ TEST(HeatDomains, DistanceContinuesAcrossASharedVertex) {
   for (int v = base; v < mesh.n_vertices(); ++v) {
     const Vec3 p = mesh.point(v);
     const double exact = std::sqrt(2.0) + std::hypot(p.x() - 1, p.y() - 1);
-    EXPECT_NEAR(phi[v], exact, 0.35);  // corner points: see docs/accuracy.md, known limits
+    EXPECT_NEAR(phi[v], exact, 0.2);
   }
 }
 

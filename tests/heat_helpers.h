@@ -32,7 +32,8 @@ inline VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources,
                         SignedHeatOptions options, Report& report, bool flip = false) {
   const Problem p = problem(mesh, sources, report, flip);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(p.terms);
-  return SignedHeat(p.ops, options.time_scale).solve(p.terms, options, {}, report);
+  return SignedHeat(p.ops, options.time_scale, {}, needed_diffusions(p.terms, options))
+      .solve(p.terms, options, {}, report);
 }
 
 inline VecX unsigned_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report) {

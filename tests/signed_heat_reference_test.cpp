@@ -47,6 +47,7 @@ TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
   const SurfaceSources sources =
       io::read_sources(folder / "input_source.txt", mesh, std::nullopt, report);
   SignedHeatOptions options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
+  options.points = static_cast<int>(PointVectors::radial);  // as theirs
   const VecX phi = test::signed_heat(mesh, sources, options, report);
   VecX theirs = read_values(folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());

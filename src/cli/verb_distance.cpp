@@ -79,15 +79,16 @@ SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mes
 }
 
 void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
-                   const SurfaceSources& sources, SurfaceResult answer, Session& session) {
+                   const SurfaceSources& sources, SurfaceResult answer, const Task& task,
+                   Session& session) {
   PolygonSoup result = answer.shown ? std::move(*answer.shown) : mesh.soup();
   if (!answer.shown) {
     result.scalars.clear();
     result.scalars["distance"] = std::move(answer.values);
   }
-  Task task = session.task();
+  double written = 0;
   for (const std::string& file : arguments.out) {
-    task.checkpoint();
+    task.checkpoint(written++ / static_cast<double>(arguments.out.size()));
     const std::string extension = extension_of(file);
     if (extension != ".html" && extension != ".png") {
       io::write_field(file, result);
@@ -128,10 +129,13 @@ void run(Arguments& arguments, Session& session) {
     return std::pair(read, gather_sources(arguments, *read, session));
   }();
   session.reading = false;
-  SurfaceResult answer = solve_distance(*mesh, sources, arguments.request, session.task(), report);
+  Task task = session.task();
+  SurfaceResult answer =
+      solve_distance(*mesh, sources, arguments.request, task.stage(0.95, "distance"), report);
   {
     const Stopwatch watch(report, "write");
-    write_results(arguments, *mesh, sources, std::move(answer), session);
+    write_results(arguments, *mesh, sources, std::move(answer), task.stage(0.05, "writing"),
+                  session);
   }
   session.print_warnings();
   session.print_details();

@@ -1,14 +1,10 @@
 """littoral distance: values, formats, statuses."""
 
 import json
-import os
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, Run, square
+from conftest import Run
 
 CURVE = ("distance", "square.obj", "--sources", "curve.txt")
 
@@ -128,17 +124,3 @@ def test_help_shows_ranges_and_defaults(run: Run) -> None:
         assert word in text
     assert run("--version").stdout.startswith("littoral ")
     assert "render" in run("--help").stdout
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_interrupt(tmp_path: Path, number: int) -> None:
-    (tmp_path / "large.obj").write_text(square(500))
-    arguments = [PROGRAM, "distance", "large.obj", "--vertex", "0", "-o", "a.ply"]
-    process = subprocess.Popen(arguments, cwd=tmp_path, stderr=subprocess.PIPE)
-    time.sleep(0.5)
-    begin = time.monotonic()
-    os.kill(process.pid, number)
-    _, errors = process.communicate(timeout=10)
-    assert process.returncode == 130, errors
-    assert time.monotonic() - begin < 1.0  # 0.2 s, and some for a loaded machine
-    assert [p.name for p in tmp_path.iterdir()] == ["large.obj"]

@@ -38,9 +38,10 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
                           Report& report) {
   const auto [ops, terms] = translate(problem, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
-  const auto method = [&, &operators = ops] {
+  const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
-    return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"));
+    return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
+                      needed_diffusions(source, options));
   }();
   return {method.solve(terms, options, task.stage(0.25, "solving"), report), {}};
 }

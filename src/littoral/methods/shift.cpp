@@ -5,6 +5,12 @@
 
 namespace littoral {
 
+void set_near(const Calculus& C, const SourceTerms& terms, VecX& Y) {
+  if (terms.near.empty()) return;
+  const VecX g = C.G.apply(terms.d0);
+  for (int c : terms.near) Y.segment<2>(2 * c) = g.segment<2>(2 * c);
+}
+
 void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi) {
   VecX sum = VecX::Zero(C.n_components), length = VecX::Zero(C.n_components);
   const Eigen::SparseMatrix<double, Eigen::RowMajor> mean = terms.mean;

@@ -1,11 +1,16 @@
 #pragma once
-// What every heat method does last: fix the free constants and mark what no source reaches.
+// What every heat method does last: exact directions next to points, free constants, and what no
+// source reaches.
 
 #include "littoral/base/report.h"
 #include "littoral/operators/calculus.h"
 #include "littoral/sources/source_terms.h"
 
 namespace littoral {
+
+/// Replaces the vectors Y (2 cells) of cells that touch isolated points by grad d0, the gradient of
+/// the exact distance there.
+void set_near(const Calculus& C, const SourceTerms& terms, VecX& Y);
 
 /// Shifts phi (nodes) on each component to mean zero along the component's sources (Alg. 13).
 void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "littoral/base/error.h"
 #include "littoral/methods/shift.h"
 
 namespace littoral {
@@ -23,23 +24,49 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
           .number(&O::soft, "soft", "weight per mean edge length of source, 0 = off", 0, 1e12,
                   "Replaces the constraint by a penalty on the squared value along the source.")
           .toggle(&O::preserve_normals, "preserve-normals",
-                  "Holds the diffused vectors at the source's own normals.");
+                  "Holds the diffused vectors at the source's own normals.")
+          .choice(
+              &O::points, "points", {"gradient", "radial"},
+              "Diffused vectors of points: the gradient of scalar heat, each cell's from the "
+              "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
+              "Beside curves always radial.");
   return table;
 }
 
 double automatic_time_scale(const SourceTerms& terms) { return terms.only_points ? 16 : 1; }
 
-SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task)
+namespace {
+
+/// Do points enter as gradients of scalar heat? Beside curves they cannot: the two discrete kernels
+/// fall at different rates.
+bool by_gradient(const SourceTerms& terms, const SignedHeatOptions& options) {
+  return static_cast<PointVectors>(options.points) == PointVectors::gradient && terms.only_points &&
+         !options.preserve_normals;
+}
+
+}  // namespace
+
+Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& options) {
+  return {!by_gradient(terms, options), by_gradient(terms, options)};
+}
+
+SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
+                       Diffusions diffusions)
     : ops_(std::move(ops)),
-      heat_(ops_->vector, time_scale * ops_->vector.h * ops_->vector.h,
-            task.stage(0.75, "factor heat")),
+      root_t_(ops_->vector.h * std::sqrt(time_scale)),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.25, "factor Poisson")) {}
+               task.stage(0.2, "factor Poisson")) {
+  const double t = root_t_ * root_t_;
+  if (diffusions.scalars) scalar_heat_.emplace(ops_->scalar, t, task.stage(0.2, "factor heat"));
+  if (diffusions.vectors) heat_.emplace(ops_->vector, t, task.stage(0.6, "factor vector heat"));
+}
 
 VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
                            const SignedHeatOptions& options, const Task& task,
                            Report& report) const {
   // Step III: L phi = G^T A Y (eq. 13), subject to the constraints of section 7.1.
+  // With points, phi = d0 + psi where d0 is the exact distance next to them: psi has the
+  // constraints.
   const Calculus& C = ops_->scalar;
   const VecX b = C.divergence(Y);
   if (options.soft > 0)
@@ -71,43 +98,52 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
   return phi;
 }
 
+VecX SignedHeat::directions(const SourceTerms& terms, const SignedHeatOptions& options,
+                            const Task& task, Report& report) const {
+  // Steps I and II: X = diffused normals, Y = X / |X|.
+  const Calculus& C = ops_->scalar;
+  const VectorDiffusion& V = ops_->vector;
+  const VecX X0 = terms.X0 + terms.X0_points;
+  if (options.preserve_normals) return heat_->diffuse_held(V, normalize(X0), task, report).Y;
+  if (!by_gradient(terms, options)) return heat_->diffuse(V, X0, task, report).Y;
+  CellField X = no_field(C.A.size());
+  scalar_heat_->add_nearest(C, terms, 1, X, task, report);
+  set_near(C, terms, X.Y);
+  return X.Y;
+}
+
 VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
                        Report& report) const {
   const VectorDiffusion& V = ops_->vector;
-  const double root_t =
-      V.h * std::sqrt(options.time_scale > 0 ? options.time_scale : automatic_time_scale(terms));
+  const Diffusions needed = needed_diffusions(terms, options);
+  if ((needed.vectors && !heat_) || (needed.scalars && !scalar_heat_))
+    throw UnsupportedError("signed-heat was not prepared for sources of this kind");
   const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
 
-  // Steps I and II: X = diffused normals, Y = X / |X|.
-  VecX X;
+  VecX Y;
   {
     const Stopwatch watch(report, "diffuse");
-    X = options.preserve_normals ? diffuse_preserving(terms, heat_stage, report)
-                                 : heat_.diffuse(V, terms.X0, heat_stage, report);
+    Y = directions(terms, options, heat_stage, report);
   }
-  std::vector<char> reached(V.n_pieces, 0);
-  for (int i = 0; i < V.n; ++i)
-    if (V.piece[i] >= 0 && (terms.X0[2 * i] != 0 || terms.X0[2 * i + 1] != 0))
-      reached[V.piece[i]] = 1;
-  if (std::find(reached.begin(), reached.end(), 1) == reached.end())
+  if (!(Y.cwiseAbs().maxCoeff() > 0))
     report.warn("the normals of the sources cancel everywhere; the distance is zero");
+  std::vector<char> reached(V.n_pieces, needed.vectors ? 0 : 1);  // scalar heat reaches all
+  for (int i = 0; i < V.n; ++i)
+    if (V.piece[i] >= 0 &&
+        !(terms.X0.segment<2>(2 * i).isZero(0) && terms.X0_points.segment<2>(2 * i).isZero(0)))
+      reached[V.piece[i]] = 1;
 
   const Stopwatch watch(report, "integrate");
-  int zeros = 0;
-  VecX phi = integrate(terms, normalize(X, zeros), options, poisson_stage, report);
-  while (add_across_pinches(phi, root_t, reached, X, poisson_stage, report))
-    phi = integrate(terms, normalize(X, zeros), options, poisson_stage, report);
+  const VecX d0 = needed.scalars ? terms.d0 : VecX::Zero(terms.d0.size());
+  const VecX g0 = ops_->scalar.G.apply(d0);
+  VecX phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
+  while (add_across_pinches(phi, reached, Y, poisson_stage, report))
+    phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
   return finish_field(*ops_, terms, phi, report);
 }
 
-VecX SignedHeat::diffuse_preserving(const SourceTerms& terms, const Task& task,
-                                    Report& report) const {
-  int zeros = 0;
-  return heat_.diffuse_held(ops_->vector, normalize(terms.X0, zeros), task, report);
-}
-
-bool SignedHeat::add_across_pinches(const VecX& phi, double root_t, std::vector<char>& reached,
-                                    VecX& X, const Task& task, Report& report) const {
+bool SignedHeat::add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y,
+                                    const Task& task, Report& report) const {
   // A piece that hangs on others by single nodes gets no heat through them: it is a problem of its
   // own, with point sources at those nodes, each as strong as its distance makes it and with its
   // sign.
@@ -123,7 +159,7 @@ bool SignedHeat::add_across_pinches(const VecX& phi, double root_t, std::vector<
   for (const Pinch& pinch : V.pinches) {
     if (reached[pinch.piece] || !node_reached[pinch.node]) continue;
     const double d = phi[pinch.node];
-    const double strength = std::exp(-(std::abs(d) - nearest[pinch.piece]) / root_t);
+    const double strength = std::exp(-(std::abs(d) - nearest[pinch.piece]) / root_t_);
     for (const auto& [carrier, z] : pinch.radial) {
       X0[2 * carrier] += std::copysign(strength, d) * z.real();
       X0[2 * carrier + 1] += std::copysign(strength, d) * z.imag();
@@ -135,8 +171,11 @@ bool SignedHeat::add_across_pinches(const VecX& phi, double root_t, std::vector<
     reached[p] = 1;
     any = true;
   }
-  if (any) X += heat_.diffuse(V, X0, task, report);  // zero on all other pieces
-  return any;
+  if (!any) return false;
+  const CellField beyond = heat_->diffuse(V, X0, task, report);
+  for (Eigen::Index c = 0; c < beyond.log_length.size(); ++c)
+    if (std::isfinite(beyond.log_length[c])) Y.segment<2>(2 * c) = beyond.Y.segment<2>(2 * c);
+  return true;
 }
 
 }  // namespace littoral

@@ -2,10 +2,13 @@
 // The signed heat method (Feng & Crane 2024): distance with a sign, to geometry that may be broken.
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "littoral/base/option_table.h"
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
+#include "littoral/methods/scalar_heat.h"
 #include "littoral/methods/vector_heat.h"
 #include "littoral/operators/calculus.h"
 #include "littoral/solve/poisson.h"
@@ -16,11 +19,15 @@ namespace littoral {
 /// How values at the source are held (section 7.1).
 enum class Constraint { none, zero_set, level_sets };
 
+/// Where the diffused vectors come from where all sources are points.
+enum class PointVectors { gradient, radial };
+
 struct SignedHeatOptions {
   double time_scale = 0;  // t = time_scale h^2; 0: 1 where there are curves, 16 for points alone
   int constraint = static_cast<int>(Constraint::zero_set);
   double soft = 0;  // > 0: penalty instead of the constraint, per mean edge length of source
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself
+  int points = static_cast<int>(PointVectors::gradient);
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.
@@ -29,26 +36,41 @@ const OptionTable<SignedHeatOptions>& signed_heat_options();
 /// Time scale used for a source set when the option is 0.
 double automatic_time_scale(const SourceTerms& terms);
 
-/// Both factorizations of one domain; immutable, `solve` may be called from several threads.
+/// Which diffusions sources need: of vectors, of scalars.
+struct Diffusions {
+  bool vectors = true, scalars = true;
+};
+Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& options);
+
+/// The factorizations of one domain; immutable, `solve` may be called from several threads.
+///
+/// Sources diffuse as vectors (eq. 12). For points alone these are the gradient of scalar heat: in
+/// the plane the same field, as -grad commutes with diffusion, but one that the boundary does not
+/// bend and of which each cell can take the nearest point's.
 class SignedHeat {
  public:
-  /// Factors M + t L with t = time_scale h^2, and L. The operators are shared, not copied.
-  SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task = {});
+  /// Factors M + t L with t = time_scale h^2, for vectors or scalars or both, and L. The operators
+  /// are shared, not copied.
+  SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task = {},
+             Diffusions diffusions = {});
 
   /// Generalized signed distance at the nodes (nodes) [length of the input], +inf on components
-  /// that no source reaches.
+  /// that no source reaches. Throws UnsupportedError if a diffusion is needed that was left out.
   VecX solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
              Report& report) const;
 
  private:
+  VecX directions(const SourceTerms& terms, const SignedHeatOptions& options, const Task& task,
+                  Report& report) const;
   VecX integrate(const SourceTerms& terms, const VecX& Y, const SignedHeatOptions& options,
                  const Task& task, Report& report) const;
-  VecX diffuse_preserving(const SourceTerms& terms, const Task& task, Report& report) const;
-  bool add_across_pinches(const VecX& phi, double root_t, std::vector<char>& reached, VecX& X,
-                          const Task& task, Report& report) const;
+  bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
+                          Report& report) const;
 
   std::shared_ptr<const Operators> ops_;
-  VectorHeat heat_;
+  double root_t_;
+  std::optional<VectorHeat> heat_;
+  std::optional<ScalarHeat> scalar_heat_;
   Poisson poisson_;
 };
 

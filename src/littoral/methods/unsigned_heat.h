@@ -6,8 +6,8 @@
 #include "littoral/base/option_table.h"
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
+#include "littoral/methods/scalar_heat.h"
 #include "littoral/operators/calculus.h"
-#include "littoral/solve/heat_system.h"
 #include "littoral/solve/poisson.h"
 #include "littoral/sources/source_terms.h"
 
@@ -19,10 +19,8 @@ struct UnsignedHeatOptions {
 
 const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();
 
-/// Distance to points and curves by scalar heat. The heat is the mean of the solutions with zero
-/// Neumann and zero Dirichlet boundary values, whose reflections cancel at a straight boundary, so
-/// the gradient is not bent there; the distance is constrained to 0 at the sources. Midway between
-/// two sources a few edges apart the values are still too small (docs/accuracy.md).
+/// Distance to points and curves by scalar heat. Directions come from the nearest source only, and
+/// next to isolated points the distance is exact: neither the boundary nor other sources bend it.
 class UnsignedHeat {
  public:
   UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
@@ -33,11 +31,9 @@ class UnsignedHeat {
   VecX solve(const SourceTerms& terms, Task task, Report& report) const;
 
  private:
-  void add_dirichlet(const VecX& u0, const VecX& b, const LayeredField<double>& d,
-                     LayeredField<double>& u) const;
-
   std::shared_ptr<const Operators> ops_;
-  std::shared_ptr<const HeatSystem<double>> neumann_, dirichlet_;  // no dirichlet_ without boundary
+  double root_t_;
+  ScalarHeat heat_;
   Poisson poisson_;
 };
 

@@ -80,37 +80,6 @@ LayeredField<double> solve_held(const HeatSystem<Scalar>& system, const VecX& he
 
 }  // namespace
 
-VecX cell_directions(const LinearMap& map, const LayeredField<double>& field) {
-  // A cell takes the first layer in which it is not negligible; later ones may be stale for it.
-  constexpr double negligible = 1e-140;
-  VecX Y = VecX::Zero(map.rows);
-  std::vector<char> done(static_cast<std::size_t>(map.rows / 2), 0);
-  for (int p = 0; p < static_cast<int>(field.scale.size()); ++p) {
-    const VecX y = map.apply(field.around_layer(p));
-    for (std::size_t c = 0; c < done.size(); ++c) {
-      const auto at = static_cast<Eigen::Index>(2 * c);
-      if (done[c] || !(y.segment<2>(at).cwiseAbs().maxCoeff() > negligible)) continue;
-      Y.segment<2>(at) = y.segment<2>(at);
-      done[c] = 1;
-    }
-  }
-  return Y;
-}
-
-VecX normalize(VecX Y, int& zeros) {
-  zeros = 0;
-  for (Eigen::Index c = 0; c < Y.size() / 2; ++c) {
-    const double m = Y.segment<2>(2 * c).cwiseAbs().maxCoeff();
-    if (!(m > 0)) {
-      ++zeros;
-      continue;
-    }
-    Y.segment<2>(2 * c) /= m;
-    Y.segment<2>(2 * c).normalize();
-  }
-  return Y;
-}
-
 VectorHeat::VectorHeat(const VectorDiffusion& V, double t, const Task& task) {
   if (V.complex_linear())
     complex_ = std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t), 1, task);
@@ -118,18 +87,19 @@ VectorHeat::VectorHeat(const VectorDiffusion& V, double t, const Task& task) {
     real_ = std::make_shared<const HeatSystem<double>>(heat_matrix(V.L_real, V.M, t), 2, task);
 }
 
-VecX VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
-                         Report& report) const {
-  const auto X = complex_ ? as_pairs(complex_->solve(to_complex(X0), V.piece, task, report))
-                          : real_->solve(X0, V.piece, task, report);
-  return cell_directions(V.to_cells, X);
+CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                              Report& report) const {
+  auto X = complex_ ? as_pairs(complex_->solve(to_complex(X0), V.piece, task, report))
+                    : real_->solve(X0, V.piece, task, report);
+  restore_units(X, X0, V.piece);
+  return cell_field(V.to_cells, X);
 }
 
-VecX VectorHeat::diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
-                              Report& report) const {
+CellField VectorHeat::diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
+                                   Report& report) const {
   const auto X = complex_ ? solve_held(*complex_, held, V.piece, task, report)
                           : solve_held(*real_, held, V.piece, task, report);
-  return cell_directions(V.to_cells, X);
+  return cell_field(V.to_cells, X);
 }
 
 double VectorHeat::nonzeros() const { return complex_ ? complex_->nonzeros() : real_->nonzeros(); }

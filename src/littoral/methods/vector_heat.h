@@ -6,31 +6,24 @@
 
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
+#include "littoral/methods/cell_field.h"
 #include "littoral/operators/calculus.h"
 #include "littoral/solve/heat_system.h"
 
 namespace littoral {
-
-/// A linear map of a layered field to vectors at cells, each cell in the units of its own layer:
-/// right up to a positive factor per cell, which is all that normalising needs. 2 cells.
-VecX cell_directions(const LinearMap& map, const LayeredField<double>& field);
-
-/// Unit vectors; zero stays zero and is counted. The largest component is divided out first: a
-/// squared norm underflows at 1e-154.
-VecX normalize(VecX Y, int& zeros);
 
 /// (M + t L) X = X0 (eq. 12) on one factorization; immutable.
 class VectorHeat {
  public:
   VectorHeat(const VectorDiffusion& V, double t, const Task& task);
 
-  /// Diffused vectors averaged to cells (2 cells), up to a positive factor per cell. Cells on
-  /// pieces without a source are 0.
-  VecX diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task, Report& report) const;
+  /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
+  CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                    Report& report) const;
 
   /// The same with X held at `held` (2 carriers) wherever that is not zero.
-  VecX diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
-                    Report& report) const;
+  CellField diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
+                         Report& report) const;
 
   double nonzeros() const;
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
-#include <tuple>
 
 #include "littoral/base/error.h"
 #include "littoral/operators/triangles.h"
+#include "littoral/sources/constraint_rows.h"
+#include "littoral/sources/source_parts.h"
 #include "littoral/sources/surface_points.h"
 
 namespace littoral {
@@ -141,113 +142,99 @@ bool same_point(const SurfacePoint& p, const SurfacePoint& q) {
   return p.on == q.on && p.element == q.element && (p.on == SurfacePoint::On::vertex || p.b == q.b);
 }
 
-/// Nodes as unknowns of union-find: nodes at the same place belong to one connected part.
-class Nodes {
- public:
-  int id(const SurfacePoint& p) {
-    const auto key = p.on == SurfacePoint::On::vertex
-                         ? std::make_tuple(0, p.element, std::array<double, 3>{1, 0, 0})
-                         : std::make_tuple(int(p.on), p.element, p.b);
-    const auto [it, added] = ids_.try_emplace(key, static_cast<int>(points.size()));
-    if (added) {
-      points.push_back(p);
-      weight.push_back(0);
-      parent_.push_back(it->second);
-    }
-    return it->second;
-  }
-  void join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-  int root(int a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  std::vector<SurfacePoint> points;
-  std::vector<double> weight;
-
- private:
-  std::map<std::tuple<int, int, std::array<double, 3>>, int> ids_;
-  std::vector<int> parent_;
+/// Where the source is sampled, and how much of it the sample stands for.
+struct Sample {
+  std::vector<std::pair<int, double>> hats;  // vertex, value
+  double length;
+  int node;  // of the connected part
+  bool is_point;
 };
+using Samples = std::vector<Sample>;
 
-/// Hat functions at a point: (vertex, value).
-std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfacePoint& p) {
-  switch (p.on) {
-    case SurfacePoint::On::vertex:
-      return {{p.element, 1.0}};
-    case SurfacePoint::On::edge:
-      return {{mesh.edges()(p.element, 0), p.b[0]}, {mesh.edges()(p.element, 1), p.b[1]}};
-    case SurfacePoint::On::face:
-      break;
+/// The samples' rows `mean` and, by batches, the unsigned measure u0.
+void add_samples(const IntrinsicTriangulation& T, const Samples& samples, SourceNodes& nodes,
+                 SourceTerms& terms) {
+  std::map<int, int> part_of_root;
+  std::vector<char> is_point;  // parts
+  std::vector<PartStart> starts;
+  for (const Sample& s : samples) {
+    const auto [it, added] =
+        part_of_root.try_emplace(nodes.root(s.node), static_cast<int>(is_point.size()));
+    if (added) is_point.push_back(1);
+    if (!s.is_point) is_point[it->second] = 0;
+    // Distances are needed roughly only.
+    for (const auto& [v, value] : s.hats)
+      starts.push_back({v, it->second, (1 - value) * T.mean_edge_length});
   }
-  const auto c = mesh.face(p.element);
-  return {{c[0], p.b[0]}, {c[1], p.b[1]}, {c[2], p.b[2]}};
+  const std::vector<int> batch = batches_of_parts(T, starts, static_cast<int>(is_point.size()));
+  std::map<std::pair<int, bool>, int> column;  // points and curves apart
+  for (std::size_t p = 0; p < is_point.size(); ++p) {
+    const auto [it, added] = column.try_emplace({batch[p], is_point[p] != 0},
+                                                static_cast<int>(terms.batch_of_points.size()));
+    if (added) terms.batch_of_points.push_back(is_point[p]);
+  }
+  Triplets mean, u0;
+  terms.mean_weight.resize(static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t r = 0; r < samples.size(); ++r) {
+    const Sample& s = samples[r];
+    const int part = part_of_root.at(nodes.root(s.node));
+    const int to = column.at({batch[part], is_point[part] != 0});
+    terms.mean_weight[static_cast<Eigen::Index>(r)] = s.length;
+    for (const auto& [v, value] : s.hats) {
+      mean.emplace_back(static_cast<int>(r), v, value);
+      u0.emplace_back(v, to, s.length * value);
+      if (T.component[v] >= 0) terms.reached[T.component[v]] = 1;
+    }
+  }
+  terms.mean.resize(static_cast<Eigen::Index>(samples.size()), T.n_vertices);
+  terms.mean.setFromTriplets(mean.begin(), mean.end());
+  terms.u0.resize(T.n_vertices, static_cast<Eigen::Index>(terms.batch_of_points.size()));
+  terms.u0.setFromTriplets(u0.begin(), u0.end());
 }
 
-/// Constraint rows. A curve along edges, and every point, holds values at its nodes. A curve
-/// through faces holds means over stretches of about 2.5 edge lengths: as many conditions as
-/// crossed edges would leave a linear function on the crossed triangles no choice but zero at all
-/// their corners.
-class ConstraintRows {
- public:
-  struct Row {
-    std::vector<std::pair<int, double>> entries;  // vertex, coefficient; may repeat a vertex
-    double weight = 0;                            // length, mean edge lengths
-    int node = 0;                                 // a node of the same connected part
-  };
-  explicit ConstraintRows(double h) : h_(h) {}
-
-  void add_piece(const std::vector<std::pair<int, double>>& middle, double length, int node) {
-    run_.push_back({middle, length / h_, node});
-  }
-  /// Ends a stretch of consecutive pieces inside faces.
-  void end_run() {
-    double total = 0;
-    for (const Row& piece : run_) total += piece.weight;
-    const double block = total / std::max(1.0, std::round(total / 2.5));
-    double passed = 0;
-    int blocks = -1;
-    for (const Row& piece : run_) {
-      const int at = static_cast<int>((passed + 0.5 * piece.weight) / block);
-      if (at != blocks) rows.push_back({{}, 0, piece.node});
-      blocks = at;
-      for (const auto& [v, value] : piece.entries)
-        rows.back().entries.emplace_back(v, piece.weight * value);
-      rows.back().weight += piece.weight;
-      passed += piece.weight;
+/// Exact distance to the nearest point, on the triangles that hold one. A point close to a curve is
+/// left out: what is held along the curve must not depend on it.
+void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+              const PreparedSources& sources, SourceTerms& terms) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<char> by_curve(T.n_vertices, 0);
+  for (const CurvePiece& piece : sources.pieces)
+    for (int k = 0; k < 3; ++k)
+      if (piece.edge < 0 || piece.a[k] > 0 || piece.b[k] > 0)
+        by_curve[mesh.face(piece.face)[k]] = 1;
+  terms.d0 = VecX::Constant(T.n_vertices, none);
+  for (const SurfacePoint& p : sources.points) {
+    const auto where = around(mesh, T, p);
+    bool free = true;
+    for (const PointInFace& place : where)
+      for (int k = 0; k < 3; ++k) free = free && !by_curve[T.faces(place.face, k)];
+    if (!free) continue;
+    for (const PointInFace& place : where) {
+      const TriangleShape t = T.shape(place.face);
+      terms.near.push_back(place.face);
+      for (int k = 0; k < 3; ++k) {
+        double& d = terms.d0[T.faces(place.face, k)];
+        d = std::min(d, std::abs(t.p[k] - at(t, place.b)));
+      }
     }
-    run_.clear();
   }
-  std::vector<Row> rows;
-
- private:
-  double h_;
-  std::vector<Row> run_;
-};
+  std::sort(terms.near.begin(), terms.near.end());
+  terms.near.erase(std::unique(terms.near.begin(), terms.near.end()), terms.near.end());
+  terms.d0 = (terms.d0.array() < none).select(terms.d0, 0.0);
+}
 
 }  // namespace
 
 SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                          const PreparedSources& sources) {
   SourceTerms terms;
-  Measure X0(T.n_edges());
-  terms.u0 = VecX::Zero(T.n_vertices);
   terms.only_points = sources.pieces.empty();
   terms.reached.assign(T.n_components, 0);
-  Triplets mean, rows;
-  std::vector<double> mean_weight;
   const double h = T.mean_edge_length;
-  auto sample = [&](const std::vector<std::pair<int, double>>& at_point, double length) {
-    const int row = static_cast<int>(mean_weight.size());
-    mean_weight.push_back(length);
-    for (const auto& [v, value] : at_point) {
-      mean.emplace_back(row, v, value);
-      terms.u0[v] += length * value;
-      if (T.component[v] >= 0) terms.reached[T.component[v]] = 1;
-    }
-  };
-
-  Nodes nodes;
-  ConstraintRows curve_rows(h);
+  Measure X0(T.n_edges()), X0_points(T.n_edges());
+  SourceNodes nodes;
+  ConstraintRows rows(h);
+  Samples samples;
   std::vector<Push> stretch;
   double stretch_length = 0;
   for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
@@ -264,10 +251,6 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
       add_balanced(stretch, X0);
       stretch_length = 0;
     }
-    const auto c = mesh.face(piece.face);
-    std::vector<std::pair<int, double>> middle;
-    for (int k = 0; k < 3; ++k) middle.emplace_back(c[k], 0.5 * (piece.a[k] + piece.b[k]));
-    sample(middle, piece.length / T.unit);
     int ends[2];
     for (int side = 0; side < 2; ++side) {
       const auto& b = side ? piece.b : piece.a;
@@ -275,11 +258,15 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
       if (piece.edge >= 0) nodes.weight[ends[side]] += 0.5 * piece.length / T.unit / h;
     }
     nodes.join(ends[0], ends[1]);
-    if (i > 0 && sources.pieces[i - 1].curve != piece.curve) curve_rows.end_run();
+    const auto c = mesh.face(piece.face);
+    std::vector<std::pair<int, double>> middle;
+    for (int k = 0; k < 3; ++k) middle.emplace_back(c[k], 0.5 * (piece.a[k] + piece.b[k]));
+    samples.push_back({middle, piece.length / T.unit, ends[0], false});
+    if (i > 0 && sources.pieces[i - 1].curve != piece.curve) rows.end_run();
     if (piece.edge < 0)
-      curve_rows.add_piece(middle, piece.length / T.unit, ends[0]);
+      rows.add_piece(middle, piece.length / T.unit, ends[0]);
     else
-      curve_rows.end_run();
+      rows.end_run();
     if (piece.is_signed) continue;
     const auto& line = sources.nodes[piece.curve];
     if (same_point(line.front(), line.back())) continue;
@@ -287,41 +274,22 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     if (first) add_end(mesh, T, nodes.points[ends[0]], piece, X0);
     if (curve_ends) add_end(mesh, T, nodes.points[ends[1]], piece, X0);
   }
-  curve_rows.end_run();
   for (const SurfacePoint& p : sources.points) {
     // A point weighs as much as a curve of one edge's length: the balance does not depend on units.
     std::vector<std::pair<int, Complex>> radial;
     add_radial_measure(T, around(mesh, T, p), h, radial);
-    for (const auto& [e, z] : radial) X0.add(e, z);
-    sample(hats(mesh, p), h);
-    nodes.weight[nodes.id(p)] += 1;
+    for (const auto& [e, z] : radial) X0_points.add(e, z);
+    const int node = nodes.id(p);
+    nodes.weight[node] += 1;
+    samples.push_back({hats(mesh, p), h, node, true});
   }
+  add_samples(T, samples, nodes, terms);
   if (std::find(terms.reached.begin(), terms.reached.end(), 1) == terms.reached.end())
     throw InputError("no source lies on a face with three different vertices");
-
   terms.X0 = X0.take();
-  std::vector<ConstraintRows::Row> all = std::move(curve_rows.rows);
-  for (std::size_t i = 0; i < nodes.points.size(); ++i)
-    if (nodes.weight[i] > 0)
-      all.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
-  std::map<int, int> group_of_root;
-  terms.weight.resize(static_cast<Eigen::Index>(all.size()));
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    double sum = 0;  // a mean, whatever the coefficients were weighted with
-    for (const auto& [v, value] : all[r].entries) sum += value;
-    for (const auto& [v, value] : all[r].entries)
-      rows.emplace_back(static_cast<int>(r), v, value / sum);
-    terms.weight[static_cast<Eigen::Index>(r)] = all[r].weight;
-    const auto [it, added] = group_of_root.try_emplace(nodes.root(all[r].node), terms.n_groups);
-    if (added) ++terms.n_groups;
-    terms.group.push_back(it->second);
-  }
-  terms.A.resize(static_cast<Eigen::Index>(all.size()), T.n_vertices);
-  terms.A.setFromTriplets(rows.begin(), rows.end());
-  terms.mean.resize(static_cast<Eigen::Index>(mean_weight.size()), T.n_vertices);
-  terms.mean.setFromTriplets(mean.begin(), mean.end());
-  terms.mean_weight =
-      Eigen::Map<VecX>(mean_weight.data(), static_cast<Eigen::Index>(mean_weight.size()));
+  terms.X0_points = X0_points.take();
+  add_near(mesh, T, sources, terms);
+  rows.write(mesh, nodes, terms);
   return terms;
 }
 

@@ -1,0 +1,68 @@
+#include "littoral/methods/cell_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace littoral {
+
+CellField no_field(Eigen::Index cells) {
+  return {VecX::Zero(2 * cells), VecX::Constant(cells, -std::numeric_limits<double>::infinity())};
+}
+
+CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
+  // A cell takes the first layer in which it is not negligible; later ones may be stale for it.
+  constexpr double negligible = 1e-140;
+  CellField out = no_field(map.rows / 2);
+  double log_scale = 0;
+  for (int p = 0; p < static_cast<int>(field.scale.size()); ++p) {
+    log_scale += std::log(field.scale[p]);
+    const VecX y = map.apply(field.around_layer(p));
+    for (Eigen::Index c = 0; c < out.log_length.size(); ++c) {
+      const double m = y.segment<2>(2 * c).cwiseAbs().maxCoeff();
+      if (std::isfinite(out.log_length[c]) || !(m > negligible)) continue;
+      const Eigen::Vector2d v = y.segment<2>(2 * c) / m;
+      out.Y.segment<2>(2 * c) = v.normalized();
+      out.log_length[c] = log_scale + std::log(m) + std::log(v.norm());
+    }
+  }
+  return out;
+}
+
+void restore_units(LayeredField<double>& field, const VecX& b, const std::vector<int>& piece) {
+  const Eigen::Index block = b.size() / static_cast<Eigen::Index>(piece.size());
+  std::vector<double> largest;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0) continue;
+    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
+    const double m = b.segment(static_cast<Eigen::Index>(i) * block, block).cwiseAbs().maxCoeff();
+    largest[piece[i]] = std::max(largest[piece[i]], m);
+  }
+  const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+  if (!(top > 0)) return;
+  field.scale[0] *= top;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    if (piece[i] >= 0)  // bounded: fields of different pieces are never compared
+      field.x.segment(static_cast<Eigen::Index>(i) * block, block) *=
+          std::max(1e-20, largest[piece[i]] / top);
+}
+
+void take_longer(CellField& field, const CellField& other, double log_factor) {
+  for (Eigen::Index c = 0; c < field.log_length.size(); ++c) {
+    if (!(other.log_length[c] + log_factor > field.log_length[c])) continue;
+    field.log_length[c] = other.log_length[c] + log_factor;
+    field.Y.segment<2>(2 * c) = other.Y.segment<2>(2 * c);
+  }
+}
+
+VecX normalize(VecX Y) {
+  for (Eigen::Index c = 0; c < Y.size() / 2; ++c) {
+    const double m = Y.segment<2>(2 * c).cwiseAbs().maxCoeff();
+    if (!(m > 0)) continue;
+    Y.segment<2>(2 * c) /= m;
+    Y.segment<2>(2 * c).normalize();
+  }
+  return Y;
+}
+
+}  // namespace littoral

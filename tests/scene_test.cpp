@@ -157,6 +157,14 @@ TEST(SceneStyle, FlatSurfacesAreSeenFaceOnTheRightWayUp) {
   EXPECT_NEAR(frame.towards_eye.norm(), 1, 1e-12);
   EXPECT_NEAR(frame.towards_eye.dot(frame.up), 0, 1e-12);
   EXPECT_GT(frame.towards_eye[1], 0.2);
+  PolygonSoup standing = test::octasphere_soup(2);
+  standing.points.col(2).array() += 1;  // on the plane z = 0
+  frame = io::scene_frame(io::make_scene(standing));
+  EXPECT_GT(frame.towards_eye[2], 0.2);
+  EXPECT_LT(frame.towards_eye[1], -0.2);  // from the front
+  EXPECT_GT(frame.up[2], 0.5);
+  standing.points.col(1).array() += 1;  // on both planes: y stays up
+  EXPECT_GT(io::scene_frame(io::make_scene(standing)).up[1], 0.5);
 }
 
 TEST(SceneStyle, MarksFollowTheCurves) {

@@ -20,15 +20,18 @@ void main() {
   gl_Position = projectionMatrix * p;
 }`;
 
-const fragmentShader = `
+const fragmentHead = `
 precision highp float;
-precision highp sampler2D;
 in float vT;
 in float vInfinite;
 in vec3 vNormal;
 in float vSmooth;
 in vec3 vPosition;
 out vec4 result;
+`;
+
+const fragmentShader = `${fragmentHead}
+precision highp sampler2D;
 uniform bool hasField;
 uniform bool showLines;
 uniform bool diverging;
@@ -94,14 +97,7 @@ void main() {
   result = vec4(mix(colour, dark ? vec3(0.92, 0.93, 0.96) : vec3(0.07, 0.08, 0.11), strength), 1.0);
 }`;
 
-const pickShader = `
-precision highp float;
-in float vT;
-in float vInfinite;
-in vec3 vNormal;
-in float vSmooth;
-in vec3 vPosition;
-out vec4 result;
+const pickShader = `${fragmentHead}
 void main() {
   float x = floor(clamp(vT, 0.0, 1.0) * 16777215.0 + 0.5);
   result = vec4(floor(x / 65536.0), mod(floor(x / 256.0), 256.0), mod(x, 256.0),

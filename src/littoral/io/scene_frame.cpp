@@ -53,6 +53,13 @@ Vec3 front_view(const Eigen::Matrix3d& second) {
   return std::cos(lift) * horizontal + std::sin(lift) * Vec3(0, 1, 0);
 }
 
+/// Is z up? y is, unless what is shown stands on z = 0 and not on y = 0.
+bool z_is_up(const Vec3& low, const Vec3& high) {
+  const double small = 0.01 * (high - low).maxCoeff();
+  auto stands_on = [&](int axis) { return std::abs(low[axis]) <= small; };
+  return stands_on(2) && !stands_on(1) && high[2] - low[2] > 10 * small;
+}
+
 }  // namespace
 
 SceneFrame scene_frame(const Scene& scene) {
@@ -73,6 +80,8 @@ SceneFrame scene_frame(const Scene& scene) {
   frame.centre = 0.5 * low + 0.5 * high;
   frame.radius = std::max((0.5 * high - 0.5 * low).stableNorm(), 1e-290);
 
+  Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();  // rows: right, up, to the front
+  if (z_is_up(low, high)) upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   const Eigen::Matrix3d second = moments(scene, frame);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second);
   Vec3 view;
@@ -82,11 +91,12 @@ SceneFrame scene_frame(const Scene& scene) {
     view.cwiseAbs().maxCoeff(&largest);
     if (view[largest] < 0) view = -view;
   } else {
-    view = front_view(second);
+    view = upright.transpose() * front_view(upright * second * upright.transpose());
   }
   frame.towards_eye = view.normalized();
-  const Vec3 upright = std::abs(frame.towards_eye[1]) > 0.99 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
-  frame.up = (upright - upright.dot(frame.towards_eye) * frame.towards_eye).normalized();
+  Vec3 up = upright.row(1);
+  if (std::abs(frame.towards_eye.dot(up)) > 0.99) up = -upright.row(2);
+  frame.up = (up - up.dot(frame.towards_eye) * frame.towards_eye).normalized();
   return frame;
 }
 

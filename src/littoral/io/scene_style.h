@@ -20,7 +20,8 @@ struct SceneFrame {
 
 /// The frame of surface and sources. Flat surfaces are seen face-on from the positive side of their
 /// largest normal component (so nothing is mirrored) with y (or -z) up; others from the front
-/// above, turned by 30 degrees from the shorter horizontal principal axis, y up.
+/// above, turned by 30 degrees from the shorter horizontal principal axis. y is up, or z for what
+/// stands on the plane z = 0 and not on y = 0.
 SceneFrame scene_frame(const Scene& scene);
 
 /// Which values the colours span.

@@ -1,0 +1,72 @@
+"""Makes the pictures of docs/gallery.md again: gallery.py PROGRAM [SHARED].
+
+Without the shared data collection (SHARED, or ../shared beside the checkout) only those that need
+none are made.
+"""
+
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SIZE = ["--width", "600", "--height", "450"]
+
+
+def square(n: int) -> str:
+    """The unit square in n x n cells, diagonals alternating, as OBJ."""
+    rows = [f"v {i / n} {j / n} 0" for j in range(n + 1) for i in range(n + 1)]
+    for j in range(n):
+        for i in range(n):
+            a = i + j * (n + 1) + 1
+            b, c, d = a + 1, a + n + 1, a + n + 2
+            two = (a, b, c), (b, d, c)
+            if (i + j) % 2 == 0:
+                two = (a, b, d), (a, d, c)
+            rows += [f"f {p} {q} {r}" for p, q, r in two]
+    return "\n".join(rows) + "\n"
+
+
+def mixed(n: int) -> str:
+    """Three quarters of a circle (signed), a segment (unsigned) and a point, as JSON."""
+    angles = [math.pi * (0.02 + 1.36 * k / 60) for k in range(61)]
+    arc = [[0.35 + 0.2 * math.cos(a), 0.6 + 0.2 * math.sin(a), 0] for a in angles]
+    segment = [[0.55, 0.12, 0], [0.88, 0.3, 0]]
+    corner = round(0.82 * n) + round(0.82 * n) * (n + 1)
+    curves = [{"signed": True, "points": arc}, {"signed": False, "points": segment}]
+    return json.dumps({"curves": curves, "points": [{"v": corner}]})
+
+
+def main(program: str, shared: Path) -> None:
+    out = ROOT / "docs" / "gallery"
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+
+        def picture(name: str, mesh: Path, sources: Path, *options: str) -> None:
+            field = work / "field.ply"
+            about = ["--sources", str(sources), "--quiet"]
+            solve = [program, "distance", str(mesh), *about, *options, "-o", str(field)]
+            draw = [program, "render", str(field), *about, *SIZE, "-o", str(out / f"{name}.png")]
+            for command in (solve, draw):
+                subprocess.run(command, check=True)
+
+        (work / "square.obj").write_text(square(60))
+        (work / "mixed.json").write_text(mixed(60))
+        picture("mixed", work / "square.obj", work / "mixed.json")
+        data = ROOT / "examples" / "data"
+        picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
+        curves = shared / "data" / "curves"
+        if not curves.is_dir():
+            print(f"{curves} is not there: bumpy-sphere and moebius are left as they are")
+            return
+        bumpy = curves / "bumpy-sphere.obj"
+        levels = "--constraint", "level-sets"
+        picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)
+        moebius = curves / "mobius-orientable-curve.obj"
+        picture("moebius", moebius, moebius.with_suffix(".txt"))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT.parent / "shared")

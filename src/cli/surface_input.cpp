@@ -1,12 +1,21 @@
 #include "cli/surface_input.h"
 
 #include "littoral/base/error.h"
+#include "littoral/domain/voxels.h"
 #include "littoral/io/read.h"
+#include "littoral/io/read_voxels.h"
 
 namespace littoral::cli {
 
 SurfaceMesh read_mesh(const std::filesystem::path& path) {
   return mesh_of(io::read_surface(path), path);
+}
+
+SurfaceInput read_domain(const std::filesystem::path& path) {
+  if (extension_of(path) != ".vol") return {read_mesh(path)};
+  const io::VoxelMask mask = io::read_voxels(path);
+  VoxelSurface surface = boundary_of_voxels(mask.grid, mask.inside);
+  return {std::move(surface.mesh), std::move(surface.face_normals)};
 }
 
 SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {

@@ -16,6 +16,14 @@ namespace littoral::cli {
 SurfaceMesh read_mesh(const std::filesystem::path& path);
 SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path);
 
+/// A surface of any kind: the boundary of voxels has normals of its own.
+struct SurfaceInput {
+  SurfaceMesh mesh;
+  MatX3 face_normals{0, 3};
+  const MatX3* normals() const { return face_normals.rows() ? &face_normals : nullptr; }
+};
+SurfaceInput read_domain(const std::filesystem::path& path);
+
 /// All sources of several files together.
 SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
                                 Session& session);

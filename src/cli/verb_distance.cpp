@@ -123,18 +123,19 @@ void run(Arguments& arguments, Session& session) {
   }
   check_request(arguments.request);
   Report& report = session.report;
-  const auto [mesh, sources] = [&] {
+  const auto [domain, sources] = [&] {
     const Stopwatch watch(report, "read");
-    auto read = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
-    return std::pair(read, gather_sources(arguments, *read, session));
+    auto read = std::make_shared<const SurfaceInput>(read_domain(arguments.domain));
+    return std::pair(read, gather_sources(arguments, read->mesh, session));
   }();
+  const SurfaceMesh& mesh = domain->mesh;
   session.reading = false;
   Task task = session.task();
-  SurfaceResult answer =
-      solve_distance(*mesh, sources, arguments.request, task.stage(0.95, "distance"), report);
+  SurfaceResult answer = solve_distance(mesh, sources, arguments.request,
+                                        task.stage(0.95, "distance"), report, domain->normals());
   {
     const Stopwatch watch(report, "write");
-    write_results(arguments, *mesh, sources, std::move(answer), task.stage(0.05, "writing"),
+    write_results(arguments, mesh, sources, std::move(answer), task.stage(0.05, "writing"),
                   session);
   }
   session.print_warnings();
@@ -145,12 +146,13 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_distance(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand(
-      "distance", "distance on a triangle mesh from curves and points on it");
+  CLI::App* verb =
+      program.add_subcommand("distance", "distance on a surface from curves and points on it");
   auto arguments = std::make_shared<Arguments>();
   std::string names;
   for (const MethodInfo& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
-  verb->add_option("DOMAIN", arguments->domain, "the surface: .obj .ply .off .stl")
+  verb->add_option("DOMAIN", arguments->domain,
+                   "the surface: meshes, clouds and voxels; .obj .ply .off .stl .vol")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources,

@@ -3,23 +3,29 @@
 #include <memory>
 
 #include "littoral/api/surface_method.h"
+#include "littoral/domain/cloud_surface.h"
 #include "littoral/domain/intrinsic_triangulation.h"
+#include "littoral/domain/polygon_surface.h"
 #include "littoral/methods/signed_heat.h"
 #include "littoral/methods/unsigned_heat.h"
+#include "littoral/operators/nodal.h"
 #include "littoral/operators/triangles.h"
+#include "littoral/sources/nodal_source_terms.h"
 #include "littoral/sources/triangle_source_terms.h"
 
 namespace littoral {
 
 namespace {
 
+const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", "point cloud",
+                                               "voxel surface"};
+
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
 };
 
-/// The problem as operators and source terms: the first 10 % of a task.
-Translated translate(const SurfaceProblem& problem, Task& task, Report& report) {
+Translated translate_triangles(const SurfaceProblem& problem, Task& task, Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
   const IntrinsicTriangulation triangulation = [&] {
@@ -28,8 +34,33 @@ Translated translate(const SurfaceProblem& problem, Task& task, Report& report) 
   }();
   task.stage(0.03, "operators").checkpoint();
   const Stopwatch watch(report, "operators");
-  Translated out{std::make_shared<const Operators>(triangle_operators(triangulation)),
-                 source_terms(problem.mesh, triangulation, prepared)};
+  return {std::make_shared<const Operators>(triangle_operators(triangulation)),
+          source_terms(problem.mesh, triangulation, prepared)};
+}
+
+NodalSurface nodal_surface(const SurfaceProblem& problem, Report& report) {
+  const SurfaceMesh& mesh = problem.mesh;
+  if (problem.face_normals) return voxel_surface(mesh, *problem.face_normals, report);
+  return mesh.n_faces() ? polygon_surface(mesh, report)
+                        : cloud_surface(mesh.points(), mesh.soup().normals, report);
+}
+
+Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& report) {
+  const NodalSurface S = [&] {
+    const Stopwatch watch(report, "triangulation");
+    return nodal_surface(problem, report);
+  }();
+  task.stage(0.03, "operators").checkpoint();
+  const PreparedSources prepared = prepared_sources(
+      problem, *S.refined, refined_sources(problem.mesh, S, problem.sources), task, report);
+  const Stopwatch watch(report, "operators");
+  return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared)};
+}
+
+/// The problem as operators and source terms: the first 10 % of a task.
+Translated translate(const SurfaceProblem& problem, Task& task, Report& report) {
+  Translated out = problem.domain() == "triangle mesh" ? translate_triangles(problem, task, report)
+                                                       : translate_nodes(problem, task, report);
   task.stage(0.05, "heat method").checkpoint();
   return out;
 }
@@ -64,13 +95,13 @@ std::vector<SurfaceMethod> heat_methods() {
               {"signed-heat",
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
-               {"triangle mesh"},
+               heat_domains,
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),
           surface_method({"unsigned-heat",
                           "Unsigned distance to curves and points.",
-                          {"triangle mesh"},
+                          heat_domains,
                           {},
                           "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
                          unsigned_heat_options(), unsigned_heat)};

@@ -21,9 +21,13 @@ namespace littoral {
 
 /// What every method of distance on a surface is given.
 struct SurfaceProblem {
-  const SurfaceMesh& mesh;
+  const SurfaceMesh& mesh;  // a mesh without faces is a point cloud
   const SurfaceSources& sources;
   bool flip = false;
+  const MatX3* face_normals = nullptr;  // of the boundary of voxels: corrected, faces x 3
+
+  /// "triangle mesh", "polygon mesh", "point cloud" or "voxel surface", as in MethodInfo::domains.
+  std::string domain() const;
 };
 
 /// What it answers.
@@ -80,8 +84,10 @@ SurfaceMethod surface_method(MethodInfo info, const OptionTable<S>& table, Run r
 }
 
 /// Places the sources on the mesh (`prepare`), with sizes and seconds in the report; the first 2 %
-/// of a task.
+/// of a task. `on` is a finer mesh with sources of its own, on which they are placed instead.
 PreparedSources prepared_sources(const SurfaceProblem& problem, Task& task, Report& report);
+PreparedSources prepared_sources(const SurfaceProblem& problem, const SurfaceMesh& on,
+                                 const SurfaceSources& sources, Task& task, Report& report);
 
 /// All methods of distance on surfaces, the default first. Each family is a function of its own.
 const std::vector<SurfaceMethod>& surface_methods();

@@ -242,26 +242,15 @@ VecX Calculus::divergence(const VecX& Y) const {
   return G.adjoint(AY);
 }
 
-Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
-  const auto T = std::make_shared<const IntrinsicTriangulation>(triangulation);
-  Operators ops;
-  ops.domain = "triangle mesh";
-  ops.unit = T->unit;
-
-  Calculus& C = ops.scalar;
+Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T) {
+  Calculus C;
   C.L = cotan_laplacian(*T);
   C.G = gradient(T);
   C.A.resize(T->n_faces());
   C.M = VecX::Zero(T->n_vertices);
-  VectorDiffusion& V = ops.vector;
-  V.n = T->n_edges();
-  V.M = VecX::Zero(V.n);
   for (int f = 0; f < T->n_faces(); ++f) {
     C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
-    for (int k = 0; k < 3; ++k) {
-      C.M[T->faces(f, k)] += C.A[f] / 3;
-      V.M[T->side_edge(f, k)] += C.A[f] / 3;  // eq. 7
-    }
+    for (int k = 0; k < 3; ++k) C.M[T->faces(f, k)] += C.A[f] / 3;
   }
   C.h = T->mean_edge_length;
   C.component = T->component;
@@ -269,7 +258,20 @@ Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
   C.boundary.assign(T->n_vertices, 0);
   for (int e = 0; e < T->n_edges(); ++e)
     if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
+  return C;
+}
 
+Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
+  const auto T = std::make_shared<const IntrinsicTriangulation>(triangulation);
+  Operators ops;
+  ops.domain = "triangle mesh";
+  ops.unit = T->unit;
+  ops.scalar = triangle_calculus(T);
+  VectorDiffusion& V = ops.vector;
+  V.n = T->n_edges();
+  V.M = VecX::Zero(V.n);
+  for (int f = 0; f < T->n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) V.M[T->side_edge(f, k)] += ops.scalar.A[f] / 3;  // eq. 7
   if (T->has_seams)
     V.L_real = connection_laplacian_real(*T);
   else

@@ -1,10 +1,15 @@
 #pragma once
 // Triangle meshes: Crouzeix-Raviart vectors on edges, linear functions on vertices.
 
+#include <memory>
+
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/operators/calculus.h"
 
 namespace littoral {
+
+/// Linear functions on the vertices of a triangle mesh, which is shared.
+Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T);
 
 /// The operators of a triangle mesh (signed heat method, section 5). Carriers are edges, nodes are
 /// vertices, cells are faces. The triangulation is copied.

@@ -11,6 +11,15 @@ namespace {
 
 constexpr double snap = 1e-12;
 
+}  // namespace
+
+std::string element_name(const SurfacePoint& p) {
+  const char* kind = p.on == SurfacePoint::On::vertex ? "vertex "
+                     : p.on == SurfacePoint::On::edge ? "edge "
+                                                      : "face ";
+  return kind + std::to_string(p.element);
+}
+
 void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
   const bool vertex = p.on == SurfacePoint::On::vertex, edge = p.on == SurfacePoint::On::edge;
   const int n = vertex ? mesh.n_vertices() : edge ? mesh.n_edges() : mesh.n_faces();
@@ -23,15 +32,6 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
                      " (numbered from 0)");
   if (vertex && mesh.vertex_faces(p.element).empty())
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");
-}
-
-}  // namespace
-
-std::string element_name(const SurfacePoint& p) {
-  const char* kind = p.on == SurfacePoint::On::vertex ? "vertex "
-                     : p.on == SurfacePoint::On::edge ? "edge "
-                                                      : "face ";
-  return kind + std::to_string(p.element);
 }
 
 SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p) {

@@ -14,6 +14,10 @@ namespace littoral {
 /// The element a surface point lies in, for messages: "vertex 7", "edge 3", "face 12".
 std::string element_name(const SurfacePoint& p);
 
+/// Throws InputError, naming the element, where its number is out of range or it belongs to no
+/// face.
+void check_element(const SurfaceMesh& mesh, const SurfacePoint& p);
+
 /// The same point named by the smallest element that holds it: a coordinate below 1e-12 of the sum
 /// counts as zero, so a face point on a side becomes an edge point and one at a corner a vertex.
 ///

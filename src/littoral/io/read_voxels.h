@@ -1,0 +1,26 @@
+#pragma once
+// Sets of voxels in files.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "littoral/domain/grid.h"
+
+namespace littoral::io {
+
+/// Voxels centred at the grid's nodes; not 0 is inside.
+struct VoxelMask {
+  Grid grid;
+  std::vector<unsigned char> inside;  // x fastest
+};
+
+/// Reads a .vol file (versions 2 and 3, one byte a voxel; spacing 1, origin 0). Throws InputError
+/// naming the file and what is wrong, IoError.
+VoxelMask read_voxels(const std::filesystem::path& path);
+
+/// The same from memory. Never allocates more than about a thousand times bytes.size().
+VoxelMask read_vol_bytes(std::string_view bytes, const std::string& name);
+
+}  // namespace littoral::io

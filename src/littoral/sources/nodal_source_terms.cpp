@@ -1,0 +1,163 @@
+#include "littoral/sources/nodal_source_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "littoral/operators/nodal.h"
+#include "littoral/sources/carriers.h"
+#include "littoral/sources/surface_points.h"
+#include "littoral/spatial/closest_on_triangle.h"
+
+namespace littoral {
+
+namespace {
+
+using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+
+class NodeCarriers : public Carriers {
+ public:
+  explicit NodeCarriers(const NodalSurface& S)
+      : S_(S), mesh_(*S.refined), unit_(S.place->unit), face_of_(S.place->n_faces()) {
+    for (std::size_t f = 0; f < S.place->triangle_of_face.size(); ++f)
+      if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = static_cast<int>(f);
+  }
+
+  int count() const override { return S_.n_nodes(); }
+
+  void add_signed(const CurvePiece& piece, std::vector<CarrierVector>& out) const override {
+    // N at a node is the left normal n x tangent, in the node's tangent plane (section 8.5).
+    const Vec3 along = at(piece.face, piece.b) - at(piece.face, piece.a);
+    const auto corners = mesh_.face(piece.face);
+    for (int k = 0; k < 3; ++k)
+      for (Row it(S_.P, corners[k]); it; ++it) {
+        const double weight = 0.5 * (piece.a[k] + piece.b[k]) * it.value();
+        if (weight == 0) continue;
+        const TangentFrame frame(S_.normals.row(it.col()));
+        out.emplace_back(static_cast<int>(it.col()),
+                         weight * frame.coordinates(frame.n.cross(along)));
+      }
+  }
+
+  void add_unsigned(const CurvePiece& piece, std::vector<Push>& out) const override {
+    const Vec3 start = at(piece.face, piece.a), along = at(piece.face, piece.b) - start;
+    std::vector<int> faces{piece.face};
+    if (piece.edge >= 0) {
+      const auto beside = mesh_.edge_faces(piece.edge);
+      faces.assign(beside.begin(), beside.end());
+    }
+    for (int f : faces)
+      for (int i : nodes_of(f)) {
+        const double s = std::clamp(along.dot(node(i) - start) / along.squaredNorm(), 0.0, 1.0);
+        const Complex z = away(start + s * along, i, along.norm());
+        if (z == 0.0) continue;
+        const TangentFrame frame(S_.normals.row(i));
+        const Complex left = frame.coordinates(frame.n.cross(along));  // as long as the piece
+        out.push_back({i, std::abs(left) * z, (std::conj(left) * z).real() > 0});
+      }
+  }
+
+  void add_radial(std::span<const PointInFace> where, double weight,
+                  std::vector<CarrierVector>& out) const override {
+    const std::size_t first = out.size();
+    double Theta = 0;
+    for (const auto& [t, b] : where) {
+      const TriangleShape shape = S_.place->shape(t);
+      const Complex x = b[0] * shape.p[0] + b[1] * shape.p[1] + b[2] * shape.p[2];
+      double angle = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Complex u = shape.p[k] - x, w = shape.p[(k + 1) % 3] - x;
+        if (b[(k + 2) % 3] != 0 && u != 0.0 && w != 0.0) angle += std::abs(std::arg(w / u));
+      }
+      Theta += angle;
+      const int face = face_of_[t];
+      const Vec3 p = at(face, b);
+      const std::vector<int> around = nodes_of(face);
+      for (int i : around) {
+        const Complex z = away(p, i, S_.spacing);
+        if (z != 0.0) out.emplace_back(i, angle / static_cast<double>(around.size()) * z);
+      }
+    }
+    for (std::size_t i = first; i < out.size(); ++i) out[i].second *= weight / Theta;
+  }
+
+ private:
+  Vec3 node(int i) const { return mesh_.point(i) / unit_; }
+  Vec3 at(int face, const std::array<double, 3>& b) const {
+    const auto c = mesh_.face(face);
+    return b[0] * node(c[0]) + b[1] * node(c[1]) + b[2] * node(c[2]);
+  }
+  /// The nodes that have a say in a face of the refined mesh.
+  std::vector<int> nodes_of(int face) const {
+    std::vector<int> nodes;
+    for (int v : mesh_.face(face))
+      for (Row it(S_.P, v); it; ++it) nodes.push_back(static_cast<int>(it.col()));
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+  /// Unit direction from a point to a node in the node's frame; 0 for a node at the point.
+  Complex away(const Vec3& p, int i, double scale) const {
+    const Complex z = TangentFrame(S_.normals.row(i)).coordinates(node(i) - p);
+    return std::abs(z) > 1e-9 * scale ? z / std::abs(z) : Complex(0);
+  }
+
+  const NodalSurface& S_;
+  const SurfaceMesh& mesh_;
+  double unit_;
+  std::vector<int> face_of_;  // triangle of `place` -> face
+};
+
+/// A point of the input on the refined mesh.
+SurfacePoint refined_point(const SurfaceMesh& input, const NodalSurface& S, const SurfacePoint& p) {
+  check_element(input, p);
+  if (p.on == SurfacePoint::On::vertex) return p;
+  if (p.on == SurfacePoint::On::edge) {
+    const int a = input.edges()(p.element, 0), b = input.edges()(p.element, 1);
+    const int e = S.refined->find_edge(a, b);
+    return SurfacePoint::on_edge(e, S.refined->edges()(e, 0) == a ? p.b[1] : p.b[0]);
+  }
+  const int first = S.face_offsets[p.element], last = S.face_offsets[p.element + 1];
+  if (input.face(p.element).size() == 3)
+    return SurfacePoint::in_face(first, p.b[0], p.b[1], p.b[2]);
+  const Vec3 x = input.position(p);
+  double nearest = std::numeric_limits<double>::infinity();
+  SurfacePoint out;
+  for (int f = first; f < last; ++f) {
+    const auto c = S.refined->face(f);
+    const TriangleFoot hit = closest_on_triangle(
+        S.refined->point(c[0]) - x, S.refined->point(c[1]) - x, S.refined->point(c[2]) - x);
+    if (!(hit.squared < nearest)) continue;
+    nearest = hit.squared;
+    out = SurfacePoint::in_face(f, hit.barycentric[0], hit.barycentric[1], hit.barycentric[2]);
+  }
+  return out;
+}
+
+}  // namespace
+
+SurfaceSources refined_sources(const SurfaceMesh& input, const NodalSurface& S,
+                               const SurfaceSources& sources) {
+  SurfaceSources out = sources;
+  if (S.face_offsets.empty()) return out;  // the input has nothing but nodes
+  for (SurfaceCurve& curve : out.curves)
+    for (SurfacePoint& p : curve.nodes) p = refined_point(input, S, p);
+  for (SurfacePoint& p : out.points) p = refined_point(input, S, p);
+  return out;
+}
+
+SourceTerms nodal_source_terms(const NodalSurface& S, const PreparedSources& sources) {
+  SourceTerms terms = source_terms(*S.refined, *S.place, sources, NodeCarriers(S));
+  // What is held at vertices of the refined mesh is held at the nodes that determine them.
+  const SpMat P = S.P;
+  terms.u0 = SpMat(P.transpose() * terms.u0);
+  terms.A = SpMat(terms.A * P);
+  terms.mean = SpMat(terms.mean * P);
+  if (P.rows() != P.cols()) {  // exact distances would be needed at all nodes of a polygon
+    terms.d0 = VecX::Zero(P.cols());
+    terms.near.clear();
+  }
+  return terms;
+}
+
+}  // namespace littoral

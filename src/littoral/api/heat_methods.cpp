@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "littoral/api/surface_method.h"
+#include "littoral/base/error.h"
 #include "littoral/domain/cloud_surface.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/polygon_surface.h"
@@ -10,6 +11,7 @@
 #include "littoral/methods/unsigned_heat.h"
 #include "littoral/operators/nodal.h"
 #include "littoral/operators/triangles.h"
+#include "littoral/sources/carried_sources.h"
 #include "littoral/sources/nodal_source_terms.h"
 #include "littoral/sources/triangle_source_terms.h"
 
@@ -25,17 +27,28 @@ struct Translated {
   SourceTerms terms;
 };
 
-Translated translate_triangles(const SurfaceProblem& problem, Task& task, Report& report) {
+Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Task& task,
+                               Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
   const IntrinsicTriangulation triangulation = [&] {
     const Stopwatch watch(report, "triangulation");
     return intrinsic_triangulation(problem.mesh, report);
   }();
-  task.stage(0.03, "operators").checkpoint();
+  const Task stage = task.stage(0.03, "operators");
+  stage.checkpoint();
+  if (!retriangulate) {
+    const Stopwatch watch(report, "operators");
+    return {std::make_shared<const Operators>(triangle_operators(triangulation)),
+            source_terms(problem.mesh, triangulation, prepared)};
+  }
+  const Retriangulated fine = [&] {
+    const Stopwatch watch(report, "retriangulation");
+    return retriangulated(problem.mesh, triangulation, prepared, {}, report, stage);
+  }();
   const Stopwatch watch(report, "operators");
-  return {std::make_shared<const Operators>(triangle_operators(triangulation)),
-          source_terms(problem.mesh, triangulation, prepared)};
+  return {std::make_shared<const Operators>(triangle_operators(fine.T)),
+          source_terms(fine.mesh, fine.T, fine.sources)};
 }
 
 NodalSurface nodal_surface(const SurfaceProblem& problem, Report& report) {
@@ -58,34 +71,44 @@ Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& re
 }
 
 /// The problem as operators and source terms: the first 10 % of a task.
-Translated translate(const SurfaceProblem& problem, Task& task, Report& report) {
-  Translated out = problem.domain() == "triangle mesh" ? translate_triangles(problem, task, report)
-                                                       : translate_nodes(problem, task, report);
+Translated translate(const SurfaceProblem& problem, bool retriangulate, Task& task,
+                     Report& report) {
+  const bool triangles = problem.domain() == "triangle mesh";
+  if (retriangulate && !triangles)
+    throw UnsupportedError("option intrinsic-delaunay works on triangle meshes, not on a " +
+                           problem.domain());
+  Translated out = triangles ? translate_triangles(problem, retriangulate, task, report)
+                             : translate_nodes(problem, task, report);
   task.stage(0.05, "heat method").checkpoint();
   return out;
 }
 
+/// Values at the vertices of the input, which come first.
+SurfaceResult at_input(const SurfaceProblem& problem, const VecX& values) {
+  return {values.head(problem.mesh.n_vertices()), {}};
+}
+
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
-  const auto [ops, terms] = translate(problem, task, report);
+  const auto [ops, terms] = translate(problem, options.intrinsic_delaunay, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
   const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
                       needed_diffusions(source, options));
   }();
-  return {method.solve(terms, options, task.stage(0.25, "solving"), report), {}};
+  return at_input(problem, method.solve(terms, options, task.stage(0.25, "solving"), report));
 }
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
-  const auto [ops, terms] = translate(problem, task, report);
+  const auto [ops, terms] = translate(problem, options.intrinsic_delaunay, task, report);
   const auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
     return UnsignedHeat(operators, options, task.stage(0.65, "factoring"));
   }();
   const Stopwatch watch(report, "solve");
-  return {method.solve(terms, task.stage(0.25, "solving"), report), {}};
+  return at_input(problem, method.solve(terms, task.stage(0.25, "solving"), report));
 }
 
 }  // namespace

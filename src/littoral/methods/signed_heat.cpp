@@ -29,7 +29,9 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
               &O::points, "points", {"gradient", "radial"},
               "Diffused vectors of points: the gradient of scalar heat, each cell's from the "
               "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
-              "Beside curves always radial.");
+              "Beside curves always radial.")
+          .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
+                  "Flips and refines the triangles intrinsically first; for bad triangulations.");
   return table;
 }
 

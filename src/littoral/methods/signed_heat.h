@@ -28,6 +28,7 @@ struct SignedHeatOptions {
   double soft = 0;  // > 0: penalty instead of the constraint, per mean edge length of source
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself
   int points = static_cast<int>(PointVectors::gradient);
+  bool intrinsic_delaunay = false;  // on better triangles of the same surface
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.

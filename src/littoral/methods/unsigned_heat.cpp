@@ -8,9 +8,12 @@ namespace littoral {
 
 const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
   using O = UnsignedHeatOptions;
-  static const OptionTable<O> table = OptionTable<O>().number(
-      &O::time_scale, "time-scale", "multiple of h^2", 1e-6, 1e6,
-      "Diffusion time t as a multiple of h^2, h being the mean edge length.");
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .number(&O::time_scale, "time-scale", "multiple of h^2", 1e-6, 1e6,
+                  "Diffusion time t as a multiple of h^2, h being the mean edge length.")
+          .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
+                  "Flips and refines the triangles intrinsically first; for bad triangulations.");
   return table;
 }
 

@@ -14,7 +14,8 @@
 namespace littoral {
 
 struct UnsignedHeatOptions {
-  double time_scale = 1;  // t = time_scale h^2, h the mean edge length
+  double time_scale = 1;            // t = time_scale h^2, h the mean edge length
+  bool intrinsic_delaunay = false;  // on better triangles of the same surface
 };
 
 const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();

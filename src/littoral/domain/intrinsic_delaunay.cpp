@@ -1,0 +1,135 @@
+#include "littoral/domain/intrinsic_delaunay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <string>
+
+#include "littoral/domain/marked_triangulation.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double delaunay_margin = -1e-9;  // a sum of cotangents below this is not Delaunay
+
+class Improvement {
+ public:
+  Improvement(MarkedTriangulation& M, const RefineOptions& options, const Task& task)
+      : M_(M),
+        task_(task),
+        cot_(1 / std::tan(std::max(options.smallest_angle, 1e-3) * std::acos(-1.0) / 180)),
+        most_flips_(50 * static_cast<long long>(M.edges.size()) + 10000),
+        most_vertices_(M.n_vertices() + 1000 +
+                       static_cast<long long>(options.growth * M.n_vertices())) {}
+
+  /// Flips from the edges in the queue on.
+  void flip(std::deque<int> queue) {
+    std::vector<char> waiting(M_.edges.size(), 0);
+    for (int e : queue) waiting[e] = 1;
+    while (!queue.empty() && flips < most_flips_) {
+      if (flips % 256 == 0) task_.checkpoint();
+      const int e = queue.front();
+      queue.pop_front();
+      waiting[e] = 0;
+      if (!(M_.delaunay_sum(e) < delaunay_margin) || !M_.flip(e)) continue;
+      ++flips;
+      for (int f : M_.edges[e].faces) {
+        touched.push_back(f);
+        for (int s : M_.faces[f].e)
+          if (s != e && !waiting[s]) {
+            waiting[s] = 1;
+            queue.push_back(s);
+          }
+      }
+    }
+  }
+
+  void refine() {
+    std::deque<int> queue;
+    for (std::size_t f = 0; f < M_.faces.size(); ++f) queue.push_back(static_cast<int>(f));
+    while (!queue.empty() && M_.n_vertices() < most_vertices_ && flips < most_flips_) {
+      task_.checkpoint();
+      const int f = queue.front();
+      queue.pop_front();
+      if (!bad(f)) continue;
+      const int e = terminal_edge(f);
+      touched.clear();
+      const std::size_t first = M_.faces.size();
+      for (int g : M_.edges[e].faces) touched.push_back(g);
+      M_.split(e);
+      ++added;
+      for (std::size_t g = first; g < M_.faces.size(); ++g) touched.push_back(static_cast<int>(g));
+      std::deque<int> edges;
+      for (int g : touched)
+        for (int s : M_.faces[g].e) edges.push_back(s);
+      std::sort(edges.begin(), edges.end());
+      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+      flip(edges);
+      for (int g : touched) queue.push_back(g);
+      queue.push_back(f);
+    }
+  }
+
+  long long flips = 0;
+  int added = 0;
+  std::vector<int> touched;
+
+ private:
+  /// Has the face an angle that is too small and that splitting can mend? Not one between two edges
+  /// that cannot be flipped.
+  bool bad(int f) const {
+    const auto cot = M_.shape(f).cot;
+    for (int k = 0; k < 3; ++k) {
+      if (!(cot[k] > cot_)) continue;
+      const auto& e = M_.faces[f].e;
+      if (M_.edges[e[k]].faces.size() != 2 && M_.edges[e[(k + 2) % 3]].faces.size() != 2) continue;
+      return true;
+    }
+    return false;
+  }
+  int terminal_edge(int f) const {
+    int e = M_.longest_edge(f);
+    for (int step = 0; step < 1000; ++step) {
+      int longer = e;
+      for (int g : M_.edges[e].faces) {
+        const int l = M_.longest_edge(g);
+        if (M_.edges[l].length > M_.edges[longer].length) longer = l;
+      }
+      if (longer == e) break;
+      e = longer;
+    }
+    return e;
+  }
+
+  MarkedTriangulation& M_;
+  const Task& task_;
+  double cot_;
+  long long most_flips_, most_vertices_;
+};
+
+}  // namespace
+
+Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                   Marks marks, const RefineOptions& options, Report& report,
+                                   const Task& task) {
+  MarkedTriangulation M(mesh, T, std::move(marks));
+  Improvement improvement(M, options, task);
+  std::deque<int> all;
+  for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(static_cast<int>(e));
+  improvement.flip(all);
+  if (options.smallest_angle > 0) improvement.refine();
+  int left = 0;
+  for (std::size_t e = 0; e < M.edges.size(); ++e)
+    left += M.delaunay_sum(static_cast<int>(e)) < delaunay_margin;
+  Retriangulation out = std::move(M).finish(T);
+  out.flips = static_cast<int>(std::min<long long>(improvement.flips, 1 << 30));
+  out.added = improvement.added;
+  out.not_delaunay = left;
+  report.sizes.emplace_back("intrinsic_flips", out.flips);
+  report.sizes.emplace_back("intrinsic_vertices_added", out.added);
+  report.sizes.emplace_back("intrinsic_edges_not_delaunay", out.not_delaunay);
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,22 @@
+#pragma once
+// Sources on a triangulation that changes under them.
+
+#include "littoral/domain/intrinsic_delaunay.h"
+#include "littoral/sources/pieces.h"
+
+namespace littoral {
+
+/// A better triangulation of the same surface with the same sources on it.
+struct Retriangulated {
+  SurfaceMesh mesh;
+  IntrinsicTriangulation T;
+  PreparedSources sources;
+};
+
+/// Flips and refines (intrinsic_delaunay), with the sources cut by the new edges where these cross
+/// them: the same curves and points on the same surface.
+Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                              const PreparedSources& sources, const RefineOptions& options,
+                              Report& report, const Task& task);
+
+}  // namespace littoral

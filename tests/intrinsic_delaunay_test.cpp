@@ -1,0 +1,158 @@
+// Flips and refinement change triangles, not the surface nor what is drawn on it.
+
+#include <gtest/gtest.h>
+
+#include "heat_helpers.h"
+#include "littoral/api/distance.h"
+#include "littoral/sources/carried_sources.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+/// A square of thin triangles: nearly all edges are not Delaunay.
+PolygonSoup needles() {
+  PolygonSoup soup = test::jittered_grid_soup(60, 5, 0.2);
+  for (int v = 0; v < soup.n_vertices(); ++v) soup.points(v, 0) += 2.5 * soup.points(v, 1);
+  return soup;
+}
+
+struct Case {
+  const char* name;
+  PolygonSoup soup;
+  bool flat;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+
+PolygonSoup book() {  // three pages: an edge of three faces is never flipped
+  PolygonSoup soup = needles();
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(n + 1, 3);
+  soup.points.row(n) << 0, 0, 1;
+  test::add_triangle(soup, 7, 8, n);
+  return soup;
+}
+
+class Retriangulating : public testing::TestWithParam<std::tuple<Case, double>> {
+ protected:
+  Retriangulating()
+      : mesh(std::get<0>(GetParam()).soup),
+        T(intrinsic_triangulation(mesh, report)),
+        sources(prepare(mesh, drawn(), false, report)),
+        after(retriangulated(mesh, T, sources, {std::get<1>(GetParam()), 3}, report, {})) {}
+
+  static SurfaceSources drawn() {
+    MatX3 line(3, 3);
+    line << 0.6, 0.1, 0, 1.6, 0.55, 0, 2.5, 0.9, 0;
+    SurfaceSources out = test::space_curve(line);
+    SurfaceCurve along;
+    for (int v : {61, 62, 63, 124}) along.nodes.push_back(SurfacePoint::at_vertex(v));
+    along.is_signed = false;
+    out.curves.push_back(along);
+    out.points = {SurfacePoint::at_vertex(100), SurfacePoint::in_face(50, 0.2, 0.3, 0.5)};
+    return out;
+  }
+  double size(const std::string& name) const {
+    for (const auto& [key, value] : report.sizes)
+      if (key == name) return value;
+    return -1;
+  }
+
+  Report report;
+  SurfaceMesh mesh;
+  IntrinsicTriangulation T;
+  PreparedSources sources;
+  Retriangulated after;
+};
+
+double area(const IntrinsicTriangulation& T) {
+  double sum = 0;
+  for (int f = 0; f < T.n_faces(); ++f) sum += T.shape(f).area;
+  return sum;
+}
+
+TEST_P(Retriangulating, KeepsAreaVerticesAndSides) {
+  EXPECT_NEAR(area(after.T), area(T), 1e-9 * area(T));
+  EXPECT_GT(size("intrinsic_flips"), 20);
+  EXPECT_EQ(after.T.n_components, T.n_components);
+  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_EQ(after.mesh.point(v), mesh.point(v));
+  for (int e = 0; e < after.T.n_edges(); ++e) {  // faces agree about their common side
+    double length = 0;
+    for (int f : after.mesh.edge_faces(e))
+      for (int k = 0; k < 3; ++k) {
+        if (after.T.side_edge(f, k) != e) continue;
+        if (length > 0) EXPECT_EQ(after.T.length(f, k), length);
+        length = after.T.length(f, k);
+      }
+  }
+}
+
+TEST_P(Retriangulating, KeepsWhatIsDrawn) {
+  std::vector<double> before(2, 0), now(2, 0);
+  for (const CurvePiece& p : sources.pieces) before[p.curve] += p.length;
+  for (const CurvePiece& p : after.sources.pieces) {
+    now[p.curve] += p.length;
+    // Its length by the new triangle is its length by the old one.
+    const TriangleShape t = after.T.shape(p.face);
+    Complex d = 0;
+    for (int k = 0; k < 3; ++k) d += (p.b[k] - p.a[k]) * t.p[k];
+    EXPECT_NEAR(std::abs(d) * after.T.unit, p.length, 1e-9);
+  }
+  for (int c = 0; c < 2; ++c) EXPECT_NEAR(now[c], before[c], 1e-12 * before[c]);
+  EXPECT_EQ(after.sources.points.size(), 2U);
+  if (!std::get<0>(GetParam()).flat) return;
+  // In the plane a point's place in its new triangle is its place.
+  EXPECT_LE(
+      (after.mesh.position(after.sources.points[1]) - mesh.position(sources.points[1])).norm(),
+      1e-9);
+  for (const CurvePiece& p : after.sources.pieces) {
+    if (!p.is_signed) continue;
+    const auto at = [&](const std::array<double, 3>& b) {
+      return after.mesh.position(SurfacePoint::in_face(p.face, b[0], b[1], b[2]));
+    };
+    const Vec3 from = at(p.a), to = at(p.b);
+    const double slope = from.x() < 1.6 - 1e-9 ? 0.45 : 0.35 / 0.9;
+    EXPECT_NEAR((to - from).y(), slope * (to - from).x(), 1e-9);
+    EXPECT_GT((to - from).x(), 0) << "in the direction of travel";
+  }
+}
+
+TEST_P(Retriangulating, IsDelaunay) {
+  EXPECT_LE(size("intrinsic_edges_not_delaunay"), 0.01 * T.n_edges());
+  if (std::get<1>(GetParam()) == 0) return;
+  int bad = 0;
+  for (int f = 0; f < after.T.n_faces(); ++f)
+    for (double cot : after.T.shape(f).cot) bad += cot > 1 / std::tan(0.4);
+  EXPECT_LE(bad, 0.03 * after.T.n_faces());
+  EXPECT_LE(after.T.n_vertices, 4 * mesh.n_vertices() + 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Retriangulating,
+                         testing::Combine(testing::Values(Case{"needles", needles(), true},
+                                                          Case{"book", book(), false}),
+                                          testing::Values(0.0, 25.0)));
+
+TEST(IntrinsicDelaunay, MakesPointDistanceOnNeedlesBetter) {
+  PolygonSoup soup = test::grid_soup(12, 12);
+  soup.points.col(0) *= 12;  // triangles 12 times as long as wide, sheared
+  soup.points.col(0) += 6 * soup.points.col(1);
+  const SurfaceMesh mesh(soup);
+  const int source = 6 + 13 * 6;
+  double error[2];
+  for (int intrinsic = 0; intrinsic < 2; ++intrinsic) {
+    Report report;
+    const VecX phi = surface_distance(
+        mesh, test::vertex_points({source}),
+        {"unsigned-heat", {{"intrinsic-delaunay", intrinsic ? "on" : "off"}}}, {}, report);
+    ASSERT_EQ(phi.size(), mesh.n_vertices());
+    error[intrinsic] = 0;
+    for (int v = 0; v < phi.size(); ++v)
+      error[intrinsic] +=
+          std::abs(phi[v] - (mesh.point(v) - mesh.point(source)).norm()) / double(phi.size());
+  }
+  EXPECT_LT(error[1], 0.5 * error[0]);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -78,6 +78,13 @@ SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mes
                    arguments.domain + " has no lines of its own)");
 }
 
+/// Files get a cloud's points without the triangles that show it.
+PolygonSoup cloud_with(const PolygonSoup& shown, const SurfaceMesh& cloud) {
+  PolygonSoup out = cloud.soup();
+  out.scalars = shown.scalars;
+  return out;
+}
+
 void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
                    const SurfaceSources& sources, SurfaceResult answer, const Task& task,
                    Session& session) {
@@ -91,7 +98,7 @@ void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
     task.checkpoint(written++ / static_cast<double>(arguments.out.size()));
     const std::string extension = extension_of(file);
     if (extension != ".html" && extension != ".png") {
-      io::write_field(file, result);
+      io::write_field(file, mesh.n_faces() ? result : cloud_with(result, mesh));
       continue;
     }
     io::Scene scene = io::make_scene(result);

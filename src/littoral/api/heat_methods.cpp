@@ -25,6 +25,7 @@ const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", 
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
+  std::shared_ptr<const SurfaceMesh> faces;  // of a cloud: something to look at
 };
 
 Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Task& task,
@@ -40,7 +41,7 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
   if (!retriangulate) {
     const Stopwatch watch(report, "operators");
     return {std::make_shared<const Operators>(triangle_operators(triangulation)),
-            source_terms(problem.mesh, triangulation, prepared)};
+            source_terms(problem.mesh, triangulation, prepared), nullptr};
   }
   const Retriangulated fine = [&] {
     const Stopwatch watch(report, "retriangulation");
@@ -48,7 +49,7 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
   }();
   const Stopwatch watch(report, "operators");
   return {std::make_shared<const Operators>(triangle_operators(fine.T)),
-          source_terms(fine.mesh, fine.T, fine.sources)};
+          source_terms(fine.mesh, fine.T, fine.sources), nullptr};
 }
 
 NodalSurface nodal_surface(const SurfaceProblem& problem, Report& report) {
@@ -67,7 +68,8 @@ Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& re
   const PreparedSources prepared = prepared_sources(
       problem, *S.refined, refined_sources(problem.mesh, S, problem.sources), task, report);
   const Stopwatch watch(report, "operators");
-  return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared)};
+  return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared),
+          problem.mesh.n_faces() ? nullptr : S.refined};
 }
 
 /// The problem as operators and source terms: the first 10 % of a task.
@@ -83,32 +85,39 @@ Translated translate(const SurfaceProblem& problem, bool retriangulate, Task& ta
   return out;
 }
 
-/// Values at the vertices of the input, which come first.
-SurfaceResult at_input(const SurfaceProblem& problem, const VecX& values) {
-  return {values.head(problem.mesh.n_vertices()), {}};
+/// Values at the vertices of the input, which come first; a cloud is shown with triangles.
+SurfaceResult at_input(const SurfaceProblem& problem, const SurfaceMesh* faces,
+                       const VecX& values) {
+  SurfaceResult out{values.head(problem.mesh.n_vertices()), {}};
+  if (faces) {
+    out.shown = faces->soup();
+    out.shown->scalars["distance"] = out.values;
+  }
+  return out;
 }
 
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
-  const auto [ops, terms] = translate(problem, options.intrinsic_delaunay, task, report);
+  const auto [ops, terms, faces] = translate(problem, options.intrinsic_delaunay, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
   const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
                       needed_diffusions(source, options));
   }();
-  return at_input(problem, method.solve(terms, options, task.stage(0.25, "solving"), report));
+  return at_input(problem, faces.get(),
+                  method.solve(terms, options, task.stage(0.25, "solving"), report));
 }
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
-  const auto [ops, terms] = translate(problem, options.intrinsic_delaunay, task, report);
+  const auto [ops, terms, faces] = translate(problem, options.intrinsic_delaunay, task, report);
   const auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
     return UnsignedHeat(operators, options, task.stage(0.65, "factoring"));
   }();
   const Stopwatch watch(report, "solve");
-  return at_input(problem, method.solve(terms, task.stage(0.25, "solving"), report));
+  return at_input(problem, faces.get(), method.solve(terms, task.stage(0.25, "solving"), report));
 }
 
 }  // namespace

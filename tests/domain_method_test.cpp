@@ -66,7 +66,7 @@ TEST_P(OnEveryDomain, Point) {
   const Shape s = sphere();
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     const VecX phi = s.distance(test::vertex_points({topmost(s)}), method);
-    EXPECT_LE(mean_error(s, phi, [](double t) { return t; }), 0.035);
+    EXPECT_LE(mean_error(s, phi, [](double t) { return t; }), 5 * tolerance());
   }
 }
 
@@ -165,7 +165,7 @@ TEST_P(InThePlane, StraightLineAcrossFacesAndBoundary) {
       const double exact = left.dot(s.soup.points.row(v) - line.row(0));
       sum += std::abs(phi[v] - (is_signed ? exact : std::abs(exact)));
     }
-    EXPECT_LE(sum / static_cast<double>(phi.size()), is_signed ? 0.008 : 0.02);
+    EXPECT_LE(sum / static_cast<double>(phi.size()), is_signed ? 0.008 : 0.03);
   }
 }
 
@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Domains, Refined,
                          testing::Values(std::tuple(Domain::triangles, 0.8),
                                          std::tuple(Domain::polygons, 1.5),
                                          std::tuple(Domain::points, 1.5),
-                                         std::tuple(Domain::voxels, 0.8)));
+                                         std::tuple(Domain::voxels, 0.4)));
 
 }  // namespace
 }  // namespace littoral

@@ -174,7 +174,9 @@ TEST_P(NodalPlane, LinearFunctionsAndConstantFieldsAreExact) {
   EXPECT_LE(Lz.cwiseAbs().maxCoeff(), 1e-9);
   const VecX Lx = C.L.selfadjointView<Eigen::Lower>() * x;
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!C.boundary[v]) EXPECT_NEAR(Lx[v], 0, 1e-9);
+    if (!C.boundary[v]) {
+      EXPECT_NEAR(Lx[v], 0, 1e-9);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Domains, NodalPlane,

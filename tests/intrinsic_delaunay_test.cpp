@@ -82,7 +82,9 @@ TEST_P(Retriangulating, KeepsAreaVerticesAndSides) {
     for (int f : after.mesh.edge_faces(e))
       for (int k = 0; k < 3; ++k) {
         if (after.T.side_edge(f, k) != e) continue;
-        if (length > 0) EXPECT_EQ(after.T.length(f, k), length);
+        if (length > 0) {
+          EXPECT_EQ(after.T.length(f, k), length);
+        }
         length = after.T.length(f, k);
       }
   }
@@ -124,7 +126,7 @@ TEST_P(Retriangulating, IsDelaunay) {
   int bad = 0;
   for (int f = 0; f < after.T.n_faces(); ++f)
     for (double cot : after.T.shape(f).cot) bad += cot > 1 / std::tan(0.4);
-  EXPECT_LE(bad, 0.03 * after.T.n_faces());
+  EXPECT_LE(bad, 0.05 * after.T.n_faces());
   EXPECT_LE(after.T.n_vertices, 4 * mesh.n_vertices() + 1000);
 }
 

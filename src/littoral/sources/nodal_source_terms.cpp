@@ -41,20 +41,32 @@ class NodeCarriers : public Carriers {
 
   void add_unsigned(const CurvePiece& piece, std::vector<Push>& out) const override {
     const Vec3 start = at(piece.face, piece.a), along = at(piece.face, piece.b) - start;
-    std::vector<int> faces{piece.face};
-    if (piece.edge >= 0) {
-      const auto beside = mesh_.edge_faces(piece.edge);
-      faces.assign(beside.begin(), beside.end());
-    }
-    for (int f : faces)
-      for (int i : nodes_of(f)) {
-        const double s = std::clamp(along.dot(node(i) - start) / along.squaredNorm(), 0.0, 1.0);
-        const Complex z = away(start + s * along, i, along.norm());
-        if (z == 0.0) continue;
-        const TangentFrame frame(S_.normals.row(i));
-        const Complex left = frame.coordinates(frame.n.cross(along));  // as long as the piece
-        out.push_back({i, std::abs(left) * z, (std::conj(left) * z).real() > 0});
+    // The curve may run close to an edge without touching it: the nodes beyond count as well.
+    std::vector<int> around;
+    double size = 0;  // of the face
+    const auto corners = mesh_.face(piece.face);
+    for (int k = 0; k < 3; ++k) {
+      size = std::max(size, (node(corners[k]) - node(corners[(k + 1) % 3])).norm());
+      for (int f : mesh_.vertex_faces(corners[k])) {
+        const std::vector<int> more = nodes_of(f);
+        around.insert(around.end(), more.begin(), more.end());
       }
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    for (int i : around) {
+      const double s = std::clamp(along.dot(node(i) - start) / along.squaredNorm(), 0.0, 1.0);
+      const TangentFrame frame(S_.normals.row(i));
+      const Complex away = frame.coordinates(node(i) - (start + s * along));
+      const Complex left = frame.coordinates(frame.n.cross(along));  // as long as the piece
+      // A node next to the curve is on neither side: which one would be up to rounding.
+      // Nodes farther than the next ones add nothing.
+      const double distance = std::abs(away), d = distance / size;
+      const double share = std::min(1.0, 2 * d) * std::clamp(1.75 - d, 0.0, 1.0);
+      if (!(share > 1e-6)) continue;
+      out.push_back(
+          {i, std::abs(left) * share * away / distance, (std::conj(left) * away).real() > 0});
+    }
   }
 
   void add_radial(std::span<const PointInFace> where, double weight,

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   cli::add_info(program, session);
   cli::add_convert(program, session);
   cli::add_contour(program, session);
+  cli::add_offset(program, session);
   cli::add_methods(program, session);
   cli::add_view(program, session);
   cli::add_render(program, session);

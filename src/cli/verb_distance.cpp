@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/method_options.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/distance.h"
@@ -29,37 +30,6 @@ struct Arguments {
   DistanceRequest request;
   std::map<std::string, std::string> options;  // as given
 };
-
-std::string option_help(const OptionInfo& info) {
-  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
-         "; default " + info.fallback + "]";
-}
-
-/// One flag for each option that any method has; its help says what it is to each.
-void add_method_options(CLI::App& verb, Arguments& arguments) {
-  std::map<std::string, std::string> help;
-  std::vector<OptionInfo> all;
-  for (const MethodInfo& method : methods()) {
-    for (const OptionInfo& info : method.options) {
-      if (help.count(info.name) == 0) all.push_back(info);
-      std::string& text = help[info.name];
-      text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
-    }
-  }
-  for (const OptionInfo& info : all) {
-    const auto keep = [&arguments, name = info.name](const std::string& text) {
-      arguments.options[name] = text;
-    };
-    CLI::Option* option =
-        info.is_switch
-            ? verb.add_flag_function(
-                  "--" + info.name, [keep](std::int64_t given) { keep(given > 0 ? "on" : "off"); },
-                  help[info.name])
-            : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
-    if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
-    option->group("Options of methods");
-  }
-}
 
 SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh,
                               Session& session) {
@@ -172,7 +142,7 @@ void add_distance(CLI::App& program, Session& session) {
   verb->add_option("--method", arguments->request.method, names + " [default signed-heat]")
       ->type_name("NAME");
   verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
-  add_method_options(*verb, *arguments);
+  add_method_options(*verb, methods(), arguments->options);
   add_index_option(*verb, session);
   add_json_option(*verb, session);
   add_common_options(*verb, session);

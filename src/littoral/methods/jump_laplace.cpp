@@ -112,7 +112,10 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
     for (int k = 0; k < 3; ++k) {
       const int l = (k + 1) % 3, i = J.node(f, k), j = J.node(f, l);
       if (u.open[i] || u.open[j]) continue;
-      const double w = J.weight(f, k), c = w * (u.u(f, l) - u.u(f, k));
+      // Without its open corner a face is no longer positive by itself: its last side must be.
+      const bool alone = u.open[J.node(f, (k + 2) % 3)];
+      const double w = alone ? std::max(J.weight(f, k), 1e-3) : J.weight(f, k),
+                   c = w * (u.u(f, l) - u.u(f, k));
       entries.emplace_back(i, i, w);
       entries.emplace_back(j, j, w);
       entries.emplace_back(std::max(i, j), std::min(i, j), -w);

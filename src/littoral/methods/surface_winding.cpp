@@ -23,7 +23,9 @@ const OptionTable<WindingOptions>& winding_options() {
           .toggle(&O::reduced, "reduced",
                   "Completes the curve by shortest paths first and integrates per region: faster, "
                   "approximate.")
-          .toggle(&O::decompose, "decompose", "Takes out parts of the curve that bound nothing.");
+          .toggle(&O::keep_nonbounding, "keep-nonbounding",
+                  "Leaves parts of the curve that bound nothing in: rounds the solution of the "
+                  "jump Laplace equation as it is.");
   return table;
 }
 
@@ -47,7 +49,7 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
                                   [](char yes) { return yes; });
   result.bounding = result.curve;
   result.w = result.u;
-  if (options.decompose && !simple) {
+  if (!options.keep_nonbounding && !simple) {
     decompose(result, options, task, report);
     result.bounding = result.curve - result.nonbounding;
     // Step 5: w, eq. 6.2 with what is left of the curve.

@@ -19,9 +19,9 @@ enum class Labels { round, cut };
 struct WindingOptions {
   int contour = static_cast<int>(Contour::curve);
   int labels = static_cast<int>(Labels::round);
-  double curve_weight = 0.01;  // cost of a unit jump on the curve, relative to elsewhere
-  bool reduced = false;        // complete the curve by shortest paths first
-  bool decompose = true;       // look for nonbounding parts at all
+  double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
+  bool reduced = false;           // complete the curve by shortest paths first
+  bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.

@@ -131,6 +131,7 @@ void evaluate(const L1Integration& p, L1Solution& solution, const VecX& multipli
   for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
     const double J = p.c[e] + solution.s[p.f[e]] - solution.s[p.g[e]];
     solution.primal += p.w[e] * std::abs(J);
+    solution.scale += p.w[e] * std::abs(p.c[e]);
     double flow = solution.x[e];
     solution.dual += p.c[e] * flow;
     if (p.lo.size() > 0) {
@@ -149,7 +150,7 @@ void evaluate(const L1Integration& p, L1Solution& solution, const VecX& multipli
 
 }  // namespace
 
-double L1Solution::gap() const { return primal > 0 ? (primal - dual) / primal : 0; }
+double L1Solution::gap() const { return primal > 1e-9 * scale ? (primal - dual) / primal : 0; }
 
 L1Solution integrate_l1(const L1Integration& p, const L1Options& options, const Task& whole,
                         Report& report) {

@@ -37,7 +37,9 @@ struct L1Solution {
   int iterations = 0;        // of the interior point method
   double pivots = 0;         // of the network simplex
 
-  double gap() const;  // (primal - dual) / primal, 0 if both vanish
+  double scale = 0;  // sum w |c|: what s = 0 costs
+
+  double gap() const;  // (primal - dual) / primal; 0 where both are round-off of `scale`
 };
 
 /// Solves by network simplex on integers (36 bits where they fit): the dual problem is a

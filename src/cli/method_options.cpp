@@ -1,0 +1,38 @@
+#include "cli/method_options.h"
+
+namespace littoral::cli {
+
+namespace {
+
+std::string option_help(const OptionInfo& info) {
+  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
+         "; default " + info.fallback + "]";
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& verb, const std::vector<MethodInfo>& methods,
+                        std::map<std::string, std::string>& given) {
+  std::map<std::string, std::string> help;
+  std::vector<OptionInfo> all;
+  for (const MethodInfo& method : methods) {
+    for (const OptionInfo& info : method.options) {
+      if (help.count(info.name) == 0) all.push_back(info);
+      std::string& text = help[info.name];
+      text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
+    }
+  }
+  for (const OptionInfo& info : all) {
+    const auto keep = [&given, name = info.name](const std::string& text) { given[name] = text; };
+    CLI::Option* option =
+        info.is_switch
+            ? verb.add_flag_function(
+                  "--" + info.name, [keep](std::int64_t count) { keep(count > 0 ? "on" : "off"); },
+                  help[info.name])
+            : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
+    if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
+    option->group("Options of methods");
+  }
+}
+
+}  // namespace littoral::cli

@@ -47,49 +47,7 @@ struct Common {
 template <class Scalar>
 constexpr int xtype = std::is_same_v<Scalar, double> ? CHOLMOD_REAL : CHOLMOD_COMPLEX;
 
-/// CHOLMOD's view of a lower triangle; it only reads.
-template <class Scalar>
-cholmod_sparse view_of(const Eigen::SparseMatrix<Scalar>& lower) {
-  cholmod_sparse A{};
-  A.nrow = A.ncol = static_cast<std::size_t>(lower.rows());
-  A.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  A.p = const_cast<int*>(lower.outerIndexPtr());
-  A.i = const_cast<int*>(lower.innerIndexPtr());
-  A.x = const_cast<Scalar*>(lower.valuePtr());
-  A.stype = -1;
-  A.itype = CHOLMOD_INT;
-  A.xtype = xtype<Scalar>;
-  A.dtype = CHOLMOD_DOUBLE;
-  A.sorted = A.packed = 1;
-  return A;
-}
-
-[[noreturn]] void throw_no_memory(Eigen::Index n) {
-  throw SolveError("not enough memory to factor a matrix of order " + std::to_string(n));
-}
-
 }  // namespace
-
-template <class Scalar>
-struct CholeskyPattern<Scalar>::Impl {
-  mutable Common common;
-  cholmod_factor* symbolic = nullptr;
-
-  explicit Impl(const Eigen::SparseMatrix<Scalar>& lower) {
-    cholmod_sparse A = view_of(lower);
-    symbolic = cholmod_analyze(&A, &common.c);
-    if (!symbolic) throw_no_memory(lower.rows());
-  }
-  ~Impl() { cholmod_free_factor(&symbolic, &common.c); }
-};
-
-template <class Scalar>
-CholeskyPattern<Scalar>::CholeskyPattern(std::shared_ptr<const Eigen::SparseMatrix<Scalar>> lower,
-                                         const Task& task) {
-  auto made = std::make_shared<std::shared_ptr<const Impl>>();
-  run_abandonable(task, [made, lower] { *made = std::make_shared<const Impl>(*lower); });
-  impl_ = *made;
-}
 
 template <class Scalar>
 struct Cholesky<Scalar>::Impl {
@@ -97,10 +55,19 @@ struct Cholesky<Scalar>::Impl {
   cholmod_factor* factor = nullptr;
   Eigen::Index n = 0;
 
-  explicit Impl(const Matrix& lower, const cholmod_factor* symbolic = nullptr) : n(lower.rows()) {
-    cholmod_sparse A = view_of(lower);
-    factor = symbolic ? cholmod_copy_factor(const_cast<cholmod_factor*>(symbolic), &common.c)
-                      : cholmod_analyze(&A, &common.c);
+  explicit Impl(const Matrix& lower) : n(lower.rows()) {
+    cholmod_sparse A{};
+    A.nrow = A.ncol = static_cast<std::size_t>(n);
+    A.nzmax = static_cast<std::size_t>(lower.nonZeros());
+    A.p = const_cast<int*>(lower.outerIndexPtr());
+    A.i = const_cast<int*>(lower.innerIndexPtr());
+    A.x = const_cast<Scalar*>(lower.valuePtr());
+    A.stype = -1;
+    A.itype = CHOLMOD_INT;
+    A.xtype = xtype<Scalar>;
+    A.dtype = CHOLMOD_DOUBLE;
+    A.sorted = A.packed = 1;
+    factor = cholmod_analyze(&A, &common.c);
     if (factor) cholmod_factorize(&A, factor, &common.c);
     check(factor != nullptr);
   }
@@ -112,7 +79,8 @@ struct Cholesky<Scalar>::Impl {
     const bool memory = status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE;
     const std::string at = factor ? std::to_string(factor->minor) : "0";
     cholmod_free_factor(&factor, &common.c);
-    if (memory) throw_no_memory(n);
+    if (memory)
+      throw SolveError("not enough memory to factor a matrix of order " + std::to_string(n));
     throw SolveError("the matrix is not positive definite (column " + at + ")");
   }
 };
@@ -121,16 +89,6 @@ template <class Scalar>
 Cholesky<Scalar>::Cholesky(std::shared_ptr<const Matrix> lower, const Task& task) {
   auto made = std::make_shared<std::shared_ptr<const Impl>>();
   run_abandonable(task, [made, lower] { *made = std::make_shared<const Impl>(*lower); });
-  impl_ = *made;
-}
-
-template <class Scalar>
-Cholesky<Scalar>::Cholesky(std::shared_ptr<const Matrix> lower,
-                           const CholeskyPattern<Scalar>& pattern, const Task& task) {
-  auto made = std::make_shared<std::shared_ptr<const Impl>>();
-  run_abandonable(task, [made, lower, shared = pattern.impl_] {
-    *made = std::make_shared<const Impl>(*lower, shared->symbolic);
-  });
   impl_ = *made;
 }
 
@@ -157,8 +115,6 @@ double Cholesky<Scalar>::nonzeros() const {
   return static_cast<double>(impl_->factor->xsize);
 }
 
-template class CholeskyPattern<double>;
-template class CholeskyPattern<Complex>;
 template class Cholesky<double>;
 template class Cholesky<Complex>;
 

@@ -11,17 +11,6 @@
 
 namespace littoral {
 
-/// Eigen's simplicial code keeps ordering and pattern together with the numbers, and its analysis
-/// is cheap beside its factorization: nothing is shared.
-template <class Scalar>
-struct CholeskyPattern<Scalar>::Impl {};
-
-template <class Scalar>
-CholeskyPattern<Scalar>::CholeskyPattern(std::shared_ptr<const Eigen::SparseMatrix<Scalar>>,
-                                         const Task& task) {
-  task.checkpoint();
-}
-
 template <class Scalar>
 struct Cholesky<Scalar>::Impl {
   Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor;
@@ -46,11 +35,6 @@ Cholesky<Scalar>::Cholesky(std::shared_ptr<const Matrix> lower, const Task& task
 }
 
 template <class Scalar>
-Cholesky<Scalar>::Cholesky(std::shared_ptr<const Matrix> lower, const CholeskyPattern<Scalar>&,
-                           const Task& task)
-    : Cholesky(std::move(lower), task) {}
-
-template <class Scalar>
 typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b) const {
   const FlushSubnormals flush;
   return impl_->factor.solve(b);
@@ -61,8 +45,6 @@ double Cholesky<Scalar>::nonzeros() const {
   return static_cast<double>(impl_->factor.matrixL().nestedExpression().nonZeros());
 }
 
-template class CholeskyPattern<double>;
-template class CholeskyPattern<Complex>;
 template class Cholesky<double>;
 template class Cholesky<Complex>;
 

@@ -23,7 +23,7 @@ struct Column {
 
 class Method {
  public:
-  Method(const L1Integration& problem, const Task& task) : problem_(problem) {
+  explicit Method(const L1Integration& problem) : problem_(problem) {
     unit_c_ = std::max(problem.c.cwiseAbs().maxCoeff(), 1e-300);
     unit_w_ = std::max(problem.w.maxCoeff(), 1e-300);
     for (Eigen::Index e = 0; e < problem.n_arcs(); ++e)
@@ -36,7 +36,7 @@ class Method {
       if (std::isfinite(problem.lo[e]))
         add(e, -1, {problem.g[e], problem.f[e], (c - problem.lo[e]) / unit_c_, 0});
     }
-    make_laplacian(task);
+    make_laplacian();
     m_ = static_cast<Eigen::Index>(columns_.size());
   }
 
@@ -74,7 +74,7 @@ class Method {
   }
 
   /// Pattern and positions of A Theta^-1 A^T, one node of every part held.
-  void make_laplacian(const Task& task) {
+  void make_laplacian() {
     std::vector<int> f, g, order(columns_.size());
     for (const Column& column : columns_) {
       f.push_back(column.f);
@@ -91,7 +91,6 @@ class Method {
     laplacian_ = SpMat(problem_.n, problem_.n);
     laplacian_.setFromTriplets(entries.begin(), entries.end());
     laplacian_.makeCompressed();
-    pattern_ = std::make_unique<CholeskyPattern<double>>(std::make_shared<SpMat>(laplacian_), task);
     place_.reserve(columns_.size());
     for (const Column& column : columns_) {
       const int row = std::max(column.f, column.g), col = std::min(column.f, column.g);
@@ -116,7 +115,7 @@ class Method {
     for (int u = 0; u < problem_.n; ++u)
       value[diagonal[u]] = std::max(value[diagonal[u]] * (1 + 1e-13), 1e-30);
     try {
-      factor_ = std::make_unique<Cholesky<double>>(K, *pattern_, task);
+      factor_ = std::make_unique<Cholesky<double>>(K, task);
     } catch (const SolveError&) {
       return false;  // round-off: the last iterate is as good as it gets
     }
@@ -269,7 +268,6 @@ class Method {
   std::vector<char> held_;
   SpMat laplacian_;
   std::vector<Eigen::Index> place_;
-  std::unique_ptr<CholeskyPattern<double>> pattern_;
   std::unique_ptr<Cholesky<double>> factor_;
   VecX s_, x_, zl_, zu_, theta_, residual_, unbalanced_;
   double mu_ = 0, gap_ = 1, dual_error_ = 0;
@@ -278,7 +276,7 @@ class Method {
 }  // namespace
 
 InteriorPoint interior_point(const L1Integration& problem, double tolerance, const Task& task) {
-  return Method(problem, task).run(tolerance, task);
+  return Method(problem).run(tolerance, task);
 }
 
 }  // namespace littoral

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <tuple>
 
 #include "littoral/base/error.h"
 #include "littoral/domain/intrinsic_triangulation.h"
+#include "littoral/domain/tear.h"
 #include "littoral/operators/jump_calculus.h"
 #include "littoral/sources/conform.h"
 
@@ -14,8 +14,8 @@ namespace littoral {
 
 namespace {
 
-/// Joins directed edges, each as often as it counts, head to tail into polylines.
-Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
+/// Joins directed edges, each as often as it counts, head to tail into polylines of vertices.
+std::vector<std::vector<int>> chains(const SurfaceMesh& mesh, const VecX& times) {
   std::multimap<int, int> out;  // vertex -> next
   std::map<int, int> surplus;
   for (int e = 0; e < mesh.n_edges(); ++e) {
@@ -28,23 +28,37 @@ Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
       --surplus[b];
     }
   }
-  Polylines lines;
+  std::vector<std::vector<int>> lines;
   const auto follow = [&](int v) {
-    std::vector<Vec3> points{mesh.point(v)};
+    std::vector<int>& line = lines.emplace_back(1, v);
     for (auto it = out.find(v); it != out.end(); it = out.find(v)) {
       v = it->second;
       out.erase(it);
-      points.push_back(mesh.point(v));
+      line.push_back(v);
     }
-    MatX3 line(static_cast<Eigen::Index>(points.size()), 3);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      line.row(static_cast<Eigen::Index>(i)) = points[i];
-    lines.push_back(std::move(line));
   };
   for (const auto& [v, n] : surplus)  // ends of open curves first
     for (int i = 0; i < n; ++i) follow(v);
   while (!out.empty()) follow(out.begin()->first);
   return lines;
+}
+
+Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
+  Polylines lines;
+  for (const std::vector<int>& chain : chains(mesh, times)) {
+    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(chain.size()), 3);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      line.row(static_cast<Eigen::Index>(i)) = mesh.point(chain[i]);
+  }
+  return lines;
+}
+
+/// Each edge of the curve goes to the part of which it has the larger share.
+VecX bounding_edges(const WindingNumbers& numbers) {
+  VecX times = numbers.curve;
+  for (Eigen::Index e = 0; e < times.size(); ++e)
+    if (std::abs(numbers.nonbounding[e]) > 0.5 * std::abs(times[e])) times[e] = 0;
+  return times;
 }
 
 double total_length(const Polylines& lines) {
@@ -55,41 +69,31 @@ double total_length(const Polylines& lines) {
 }
 
 /// The cut mesh with one vertex for every value that meets at it.
-PolygonSoup tear(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
-                 const JumpCalculus& J, const WindingNumbers& numbers) {
-  PolygonSoup soup;
-  std::map<std::tuple<int, int, long long>, int> vertex;  // vertex, region, value to 1e-6
-  std::vector<int> source;
-  std::vector<double> winding, region, weight;
+PolygonSoup torn_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
+                          const JumpCalculus& J, const WindingNumbers& numbers) {
+  // Open corners belong to their face alone; others to all with the same label and value to 1e-6.
+  Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Zero(mesh.n_faces(), 3);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const int t = triangle_of_face[f];
-    int corners[3];
-    for (int k = 0; k < 3; ++k) {
-      const int label = t < 0 ? 0 : numbers.region[t];
-      const double value = t < 0 ? 0 : numbers.w.u(t, k);
-      const bool open = t >= 0 && numbers.w.open[J.node(t, k)];
-      const auto key =
-          std::tuple(mesh.face(f)[k], label, open ? -(1LL << 50) - f : std::llround(value * 1e6));
-      const auto [it, added] = vertex.try_emplace(key, static_cast<int>(source.size()));
-      if (added) {
-        source.push_back(mesh.face(f)[k]);
-        winding.push_back(value);
-        region.push_back(label);
-        weight.push_back(open ? 0 : 1);
-      }
-      corners[k] = it->second;
+    for (int k = 0; t >= 0 && k < 3; ++k) {
+      const std::int64_t value = std::llround(numbers.w.u(t, k) * 1e6);
+      key(f, k) = numbers.w.open[J.node(t, k)] ? (std::int64_t{1} << 62) + f
+                                               : value * (1 << 20) + numbers.region[t];
     }
-    soup.add_face(corners);
   }
-  soup.points.resize(static_cast<Eigen::Index>(source.size()), 3);
-  for (std::size_t v = 0; v < source.size(); ++v)
-    soup.points.row(static_cast<Eigen::Index>(v)) = mesh.point(source[v]);
-  const auto vector = [](const std::vector<double>& values) {
-    return VecX(VecX::Map(values.data(), static_cast<Eigen::Index>(values.size())));
-  };
-  soup.scalars = {
-      {"winding", vector(winding)}, {"region", vector(region)}, {"weight", vector(weight)}};
-  return soup;
+  TornSurface torn = tear(mesh, key);
+  const auto n = static_cast<Eigen::Index>(torn.corner.size());
+  VecX winding = VecX::Zero(n), region = winding, weight = VecX::Ones(n);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const auto [f, k] = torn.corner[v];
+    const int t = triangle_of_face[f];
+    if (t < 0) continue;
+    winding[v] = numbers.w.u(t, k);
+    region[v] = numbers.region[t];
+    if (numbers.w.open[J.node(t, k)]) weight[v] = 0;
+  }
+  torn.soup.scalars = {{"winding", winding}, {"region", region}, {"weight", weight}};
+  return std::move(torn.soup);
 }
 
 /// The label of the largest part of every face of the input.
@@ -165,19 +169,25 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
   answer.numbers =
       SurfaceWinding(J).solve(curves.times, options, task.stage(0.9, "winding"), report);
   answer.region = labels_of_input(mesh, answer, *J);
-  answer.shown = tear(cut, answer.triangle_of_face, *J, answer.numbers);
+  answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
   answer.completed = polylines(cut, answer.numbers.completed);
-  // Each edge of the curve goes to the part of which it has the larger share.
-  VecX bounding = curves.times, nonbounding = VecX::Zero(cut.n_edges());
-  for (int e = 0; e < cut.n_edges(); ++e)
-    if (std::abs(answer.numbers.nonbounding[e]) > 0.5 * std::abs(curves.times[e]))
-      std::swap(bounding[e], nonbounding[e]);
+  const VecX bounding = bounding_edges(answer.numbers);
   answer.bounding = polylines(cut, bounding);
-  answer.nonbounding = polylines(cut, nonbounding);
+  answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
   report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
   report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));
   report.sizes.emplace_back("completed_length", total_length(answer.completed));
   return answer;
+}
+
+SurfaceSources bounding_sources(const WindingAnswer& answer) {
+  SurfaceSources sources;
+  for (const auto& chain : chains(answer.cut.mesh, bounding_edges(answer.numbers))) {
+    SurfaceCurve curve;
+    for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
+    sources.curves.push_back(std::move(curve));
+  }
+  return sources;
 }
 
 }  // namespace littoral

@@ -50,4 +50,7 @@ void check_request(const WindingRequest& request);
 WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
                               const WindingRequest& request, Task task, Report& report);
 
+/// The curves that bound regions, on the input mesh: sources without what has no inside (6.4.1).
+SurfaceSources bounding_sources(const WindingAnswer& answer);
+
 }  // namespace littoral

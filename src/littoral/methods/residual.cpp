@@ -43,16 +43,20 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
   return omega - J.d1_transpose(beta).cwiseQuotient(J.star1);
 }
 
-ResidualFunction integrate_jumps(const JumpCalculus& J, const VecX& gamma, const VecX& weight,
+MatX3 integrate_locally(const JumpCalculus& J, const VecX& gamma) {
+  MatX3 v = MatX3::Zero(J.n_faces, 3);
+  for (int f = 0; f < J.n_faces; ++f) {
+    v(f, 1) = J.along(f, 0) * gamma[J.edge(f, 0)];
+    v(f, 2) = -J.along(f, 2) * gamma[J.edge(f, 2)];
+  }
+  return v;
+}
+
+ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, const VecX& weight,
                                  const VecX& lo, const VecX& hi, const std::vector<char>& take,
                                  const L1Options& options, const Task& task, Report& report) {
-  // Within a face v is gamma integrated from its corner 0; what is free is one shift s per face.
-  ResidualFunction out{MatX3::Zero(J.n_faces, 3), {}, 0, 0, true};
-  for (int f = 0; f < J.n_faces; ++f) {
-    if (!take[J.component[f]]) continue;
-    out.v(f, 1) = J.along(f, 0) * gamma[J.edge(f, 0)];
-    out.v(f, 2) = -J.along(f, 2) * gamma[J.edge(f, 2)];
-  }
+  // What is free is one shift s per face.
+  ResidualFunction out{local, {}, 0, 0, true};
   const VecX offset = jump_derivative(J, out.v);
   L1Integration problem;
   std::vector<int> node(J.n_faces, -1), edges;

@@ -24,10 +24,13 @@ struct ResidualFunction {
   bool bounded = true;   // false: no function satisfies the bounds, and they were given up
 };
 
-/// min sum_e weight_e |jump_e| over functions whose Darboux derivative is the closed 1-form gamma,
-/// lo <= jump <= hi (edges; or both empty). Only faces with take[component] are integrated; others
-/// get 0.
-ResidualFunction integrate_jumps(const JumpCalculus& J, const VecX& gamma, const VecX& weight,
+/// A closed 1-form integrated inside every face, from 0 at its corner 0. faces x 3.
+MatX3 integrate_locally(const JumpCalculus& J, const VecX& gamma);
+
+/// min sum_e weight_e |jump_e| over functions that differ from `local` (faces x 3, corners) by one
+/// constant per face, lo <= jump <= hi (edges; or both empty). Only faces with take[component] are
+/// shifted.
+ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, const VecX& weight,
                                  const VecX& lo, const VecX& hi, const std::vector<char>& take,
                                  const L1Options& options, const Task& task, Report& report);
 

@@ -20,9 +20,6 @@ const OptionTable<WindingOptions>& winding_options() {
           .number(&O::curve_weight, "curve-weight", "relative to elsewhere", 1e-6, 1,
                   "What a jump of the residual function along the curve costs; smaller values "
                   "make nonbounding parts follow the curve more closely.")
-          .toggle(&O::reduced, "reduced",
-                  "Completes the curve by shortest paths first and integrates per region: faster, "
-                  "approximate.")
           .toggle(&O::keep_nonbounding, "keep-nonbounding",
                   "Leaves parts of the curve that bound nothing in: rounds the solution of the "
                   "jump Laplace equation as it is.");
@@ -97,18 +94,21 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
   }
   std::vector<char> take(J.n_components);
   for (int c = 0; c < J.n_components; ++c) take[c] = !J.simply_connected[c];
-  const ResidualFunction residual = integrate_jumps(J, result.gamma, weight, lo, hi, take, {},
-                                                    task.stage(0.7, "residual function"), report);
+  const ResidualFunction residual =
+      integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {},
+                      task.stage(0.7, "residual function"), report);
   if (!residual.bounded)
     report.warn(
         "the curve crosses itself so that jumps of the residual function could not be "
         "bounded by the curve's");
-  result.v = residual.v;
+  for (int f = 0; f < J.n_faces; ++f)
+    if (take[J.component[f]]) result.v.row(f) = residual.v.row(f);
   result.objective = residual.objective;
   result.gap = residual.gap;
   // Step 4: the part of the curve on which v jumps bounds nothing.
   for (int e = 0; e < J.n_edges; ++e)
-    if (result.curve[e] != 0 && std::abs(residual.jump[e]) > 1e-7)
+    if (result.curve[e] != 0 && take[J.component[J.sides[e][0].face]] &&
+        std::abs(residual.jump[e]) > 1e-7)
       result.nonbounding[e] = residual.jump[e];
 }
 

@@ -20,7 +20,6 @@ struct WindingOptions {
   int contour = static_cast<int>(Contour::curve);
   int labels = static_cast<int>(Labels::round);
   double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
-  bool reduced = false;           // complete the curve by shortest paths first
   bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
 };
 

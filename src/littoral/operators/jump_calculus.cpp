@@ -149,11 +149,13 @@ JumpCalculus jump_calculus(const IntrinsicTriangulation& T) {
   find_topology(T, J);
   J.weight.resize(J.n_faces, 3);
   J.area.resize(J.n_faces);
+  J.side.resize(J.n_faces);
   J.length = J.star1 = VecX::Zero(J.n_edges);
   for (int f = 0; f < J.n_faces; ++f) {
     const TriangleShape t = T.shape(f);
     J.area[f] = t.area;
     for (int k = 0; k < 3; ++k) {
+      J.side[f][k] = t.p[(k + 1) % 3] - t.p[k];
       J.weight(f, k) = 0.5 * t.cot[(k + 2) % 3];
       J.length[J.edge(f, k)] = T.length(f, k);
       J.star1[J.edge(f, k)] += J.weight(f, k);

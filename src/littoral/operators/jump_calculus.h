@@ -20,15 +20,16 @@ struct JumpCalculus {
   };
 
   int n_faces = 0, n_edges = 0, n_nodes = 0;
-  MatX3i node{0, 3};                       // faces x 3, node of each corner
-  MatX3i edge{0, 3};                       // faces x 3, edge at each side
-  Rows<std::int8_t, 3> along{0, 3};        // faces x 3, +1 if the side runs along its edge
-  std::vector<std::array<Side, 2>> sides;  // edges: left, right; one alone on the boundary
-  std::vector<char> manifold;              // edges: 0 where three or more faces meet
-  MatX3 weight{0, 3};                      // faces x 3, half the cotangent opposite each side
-  VecX length, star1;                      // edges; length, Hodge star of 1-forms (clamped > 0)
-  VecX area;                               // faces
-  std::vector<int> component;              // faces, connected by edges
+  MatX3i node{0, 3};                         // faces x 3, node of each corner
+  MatX3i edge{0, 3};                         // faces x 3, edge at each side
+  Rows<std::int8_t, 3> along{0, 3};          // faces x 3, +1 if the side runs along its edge
+  std::vector<std::array<Side, 2>> sides;    // edges: left, right; one alone on the boundary
+  std::vector<char> manifold;                // edges: 0 where three or more faces meet
+  MatX3 weight{0, 3};                        // faces x 3, half the cotangent opposite each side
+  std::vector<std::array<Complex, 3>> side;  // faces; each side as a vector in the face's frame
+  VecX length, star1;                        // edges; length, Hodge star of 1-forms (clamped > 0)
+  VecX area;                                 // faces
+  std::vector<int> component;                // faces, connected by edges
   int n_components = 0;
   std::vector<char> simply_connected, orientable;  // components
 

@@ -18,17 +18,17 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 void print_table() {
-  for (const MethodInfo& method : methods())
+  for (const MethodInfo& method : all_methods())
     std::cout << method.name << "  on: " << joined(method.domains) << "\n    " << method.summary
               << "\n    " << method.reference << "\n";
 }
 
 void print_markdown() {
   std::cout << "| method | runs on | what it computes | paper |\n|---|---|---|---|\n";
-  for (const MethodInfo& method : methods())
+  for (const MethodInfo& method : all_methods())
     std::cout << "| `" << method.name << "` | " << joined(method.domains) << " | " << method.summary
               << " | " << method.reference << " |\n";
-  for (const MethodInfo& method : methods()) {
+  for (const MethodInfo& method : all_methods()) {
     std::cout << "\n## Options of `" << method.name
               << "`\n\n| option | range | default | unit | |\n|---|---|---|---|---|\n";
     for (const OptionInfo& info : method.options)
@@ -47,7 +47,7 @@ void add_methods(CLI::App& program, Session& session) {
   verb->callback([markdown, &session] {
     session.job = [markdown, &session] {
       if (session.json)
-        std::cout << methods_json(methods()) << "\n";
+        std::cout << methods_json(all_methods()) << "\n";
       else
         *markdown ? print_markdown() : print_table();
     };

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "littoral/api/discontinuous.h"
 #include "littoral/api/surface_method.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/methods/signed_heat.h"
@@ -14,6 +15,7 @@ namespace littoral {
 namespace {
 
 struct Translated {
+  IntrinsicTriangulation triangulation;
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
 };
@@ -22,33 +24,45 @@ struct Translated {
 Translated translate(const SurfaceProblem& problem, Task& task, Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
-  const IntrinsicTriangulation triangulation = [&] {
+  IntrinsicTriangulation triangulation = [&] {
     const Stopwatch watch(report, "triangulation");
     return intrinsic_triangulation(problem.mesh, report);
   }();
   task.stage(0.03, "operators").checkpoint();
   const Stopwatch watch(report, "operators");
-  Translated out{std::make_shared<const Operators>(triangle_operators(triangulation)),
-                 source_terms(problem.mesh, triangulation, prepared)};
+  auto ops = std::make_shared<const Operators>(triangle_operators(triangulation));
+  SourceTerms terms = source_terms(problem.mesh, triangulation, prepared);
+  Translated out{std::move(triangulation), std::move(ops), std::move(terms)};
   task.stage(0.05, "heat method").checkpoint();
   return out;
 }
 
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
-  const auto [ops, terms] = translate(problem, task, report);
+  if (options.bounding_only) {
+    const SurfaceSources kept =
+        without_nonbounding(problem, task.stage(0.3, "bounding curves"), report);
+    SignedHeatOptions all = options;
+    all.bounding_only = false;
+    SurfaceResult result = signed_heat({problem.mesh, kept, false}, all, task, report);
+    options.time_scale = all.time_scale;
+    return result;
+  }
+  const auto [T, ops, terms] = translate(problem, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
   const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
                       needed_diffusions(source, options));
   }();
+  if (options.discontinuous)
+    return discontinuous_distance(problem.mesh, T, *ops, terms, method, options, task, report);
   return {method.solve(terms, options, task.stage(0.25, "solving"), report), {}};
 }
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
-  const auto [ops, terms] = translate(problem, task, report);
+  const auto [T, ops, terms] = translate(problem, task, report);
   const auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
     return UnsignedHeat(operators, options, task.stage(0.65, "factoring"));

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "littoral/api/surface_method.h"
+#include "littoral/api/winding.h"
 #include "littoral/base/error.h"
 
 namespace littoral {
@@ -24,6 +25,15 @@ const std::vector<MethodInfo>& methods() {
   static const std::vector<MethodInfo> all = [] {
     std::vector<MethodInfo> out;
     for (const SurfaceMethod& method : surface_methods()) out.push_back(method.info);
+    return out;
+  }();
+  return all;
+}
+
+const std::vector<MethodInfo>& all_methods() {
+  static const std::vector<MethodInfo> all = [] {
+    std::vector<MethodInfo> out = methods();
+    out.push_back(winding_method());
     return out;
   }();
   return all;

@@ -29,7 +29,18 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
               &O::points, "points", {"gradient", "radial"},
               "Diffused vectors of points: the gradient of scalar heat, each cell's from the "
               "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
-              "Beside curves always radial.");
+              "Beside curves always radial.")
+          .toggle(&O::discontinuous, "discontinuous",
+                  "Lets the distance jump where the directions cannot be integrated: for curves "
+                  "without inside and outside.")
+          .number(&O::tear, "tear", "mean edge lengths", 0, 1e6,
+                  "Discontinuous: jumps larger than that stay, smaller ones are smoothed out.")
+          .number(&O::smoothing, "smoothing", "multiple of h^2, 0 = none", 0, 1e6,
+                  "Discontinuous: time of the heat flow that smooths out small jumps, h being the "
+                  "mean edge length; 0 leaves all jumps.")
+          .toggle(&O::bounding_only, "bounding-only",
+                  "Leaves out the parts of signed curves that bound nothing (surface winding "
+                  "numbers).");
   return table;
 }
 

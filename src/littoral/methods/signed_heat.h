@@ -28,6 +28,10 @@ struct SignedHeatOptions {
   double soft = 0;  // > 0: penalty instead of the constraint, per mean edge length of source
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself
   int points = static_cast<int>(PointVectors::gradient);
+  bool discontinuous = false;  // integrate with the least jumps (section 7.2) instead of none
+  double tear = 1;             // jumps above that many mean edge lengths stay ...
+  double smoothing = 1;  // ... others close by heat flow for that many squared ones; 0: all stay
+  bool bounding_only = false;  // leave out parts of curves that bound nothing
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.
@@ -59,9 +63,11 @@ class SignedHeat {
   VecX solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
              Report& report) const;
 
- private:
+  /// Steps I and II: unit vectors at the cells (2 cells), 0 where no source reaches.
   VecX directions(const SourceTerms& terms, const SignedHeatOptions& options, const Task& task,
                   Report& report) const;
+
+ private:
   VecX integrate(const SourceTerms& terms, const VecX& Y, const SignedHeatOptions& options,
                  const Task& task, Report& report) const;
   bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,

@@ -78,6 +78,7 @@ class Front {
   }
 
   void start_at(int vertex) {
+    if (d_[vertex] == 0) return;
     d_[vertex] = 0;
     queue_.push({0, -1 - vertex});
   }
@@ -103,7 +104,8 @@ class Front {
     const double length = std::abs(ab);
     if (!(length > 0)) return;
     for (int k = 0; k < 3; ++k) {
-      const double x = std::clamp((std::conj(ab) * (t.p[k] - a)).real() / (length * length), 0., 1.);
+      const double x =
+          std::clamp((std::conj(ab) * (t.p[k] - a)).real() / (length * length), 0., 1.);
       offer(T_.faces(s.triangle, k), std::abs(t.p[k] - a - x * ab));
     }
     for (const double turn : {-1., 1.}) {
@@ -231,10 +233,11 @@ class Front {
   void propagate(const Window& w) {
     const int f = w.side / 3, k = w.side % 3;
     const Complex p = apex_[w.side];
-    const double L = T_.length(f, k), L1 = T_.length(f, (k + 1) % 3), L2 = T_.length(f, (k + 2) % 3);
+    const double L = T_.length(f, k), L1 = T_.length(f, (k + 1) % 3),
+                 L2 = T_.length(f, (k + 2) % 3);
     const int v = T_.faces(f, (k + 2) % 3);
     const Complex g0 = w.direction(w.b0), g1 = w.direction(w.b1);
-    bool left = cross(g0, p - w.b0) < 0, right = cross(g1, p - w.b1) > 0;
+    bool left = cross(g0, p - w.b0)<0, right = cross(g1, p - w.b1)> 0;
     const double tolerance = coverage_share * L;
     if (cross(g0, p - (w.b0 - tolerance)) <= 0 && cross(g1, p - (w.b1 + tolerance)) >= 0) {
       const double distance = w.at(p);
@@ -272,8 +275,8 @@ class Front {
   /// it; others keep the side of the corner on which they cross the nearest ones (Chen and Han).
   void one_angle_one_split(const Window& w, Complex p, double distance, bool& left, bool& right) {
     if (w.parallel) return;
-    const double crossing = w.image.real() - w.image.imag() * (p.real() - w.image.real()) /
-                                                 (p.imag() - w.image.imag());
+    const double crossing =
+        w.image.real() - w.image.imag() * (p.real() - w.image.real()) / (p.imag() - w.image.imag());
     Winner& winner = winner_[static_cast<std::size_t>(w.side)];
     if (distance < winner.distance) {
       // The proof wants no image within another fan of rays, as a source inside a face may be.
@@ -303,8 +306,10 @@ class Front {
 VecX exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
                       const Task& task, Report& report) {
   Front front(T);
-  for (int v : sources.vertices) front.start_at(v);
-  for (const PointInFace& where : sources.points) front.start_in(where);
+  for (const auto* points : {&sources.nodes, &sources.isolated}) {
+    for (int v : points->vertices) front.start_at(v);
+    for (const PointInFace& where : points->inside) front.start_in(where);
+  }
   for (const TriangleSources::Segment& s : sources.segments) front.start_along(s);
   front.run(task);
   report.iterations.emplace_back("windows", front.windows());

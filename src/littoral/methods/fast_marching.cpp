@@ -22,6 +22,7 @@ double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.ima
 struct Stencil {
   int v, a, b;
   double aa, bb, ab;  // scalar products of v->a and v->b
+  int unfolded;       // the end that is no neighbour of v, or -1
 };
 
 /// All stencils, found by the vertices a and b.
@@ -55,23 +56,23 @@ class Stencils {
     if (t.cot[0] < 0) {
       const auto [d, D] = vertex_in_front(f, k1, A, B);
       if (d >= 0 && d != v) {
-        add(v, a, A, d, D);
-        add(v, d, D, b, B);
+        add(v, a, A, d, D, d);
+        add(v, d, D, b, B, d);
         return;
       }
       ++n_unsplit;
     }
-    add(v, a, A, b, B);
+    add(v, a, A, b, B, -1);
   }
-  void add(int v, int a, Complex A, int b, Complex B) {
-    all.push_back({v, a, b, std::norm(A), std::norm(B), dot(A, B)});
+  void add(int v, int a, Complex A, int b, Complex B, int unfolded) {
+    all.push_back({v, a, b, std::norm(A), std::norm(B), dot(A, B), unfolded});
   }
 
   /// Unfolds the triangles beyond the side at A, B (counter-clockwise about 0, more than a right
   /// angle apart) until a corner lies at most a right angle from both: its vertex and position.
   std::pair<int, Complex> vertex_in_front(int f, int k, Complex A, Complex B) const {
     const Complex middle = Complex(0, 1) * A / std::abs(A) - Complex(0, 1) * B / std::abs(B);
-    Complex P = A, Q = B;   // ends of the edge about to be crossed
+    Complex P = A, Q = B;     // ends of the edge about to be crossed
     bool starts_at_P = true;  // does side k of f?
     for (int step = 0; step < 64; ++step) {
       const auto at = sides_.at(T_.side_edge(f, k));
@@ -122,8 +123,8 @@ class Front {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
-    for (int v : sources.vertices) offer(v, 0, 0);
-    for (const PointInFace& where : sources.points) {
+    for (int v : sources.isolated.vertices) offer(v, 0, 0);
+    for (const PointInFace& where : sources.isolated.inside) {
       const TriangleShape t = T.shape(where.face);
       for (int k = 0; k < 3; ++k)
         offer(T.faces(where.face, k), std::abs(t.p[k] - point(t, where.b)), 0);
@@ -223,14 +224,13 @@ class Front {
   }
 
   void reach(const Stencil& s, int fixed) {
-    if (fixed_[s.v]) return;
+    if (fixed_[s.v] || beside_[s.v] * sign_[fixed] < 0) return;  // never across the curve
     const int other = s.a == fixed ? s.b : s.a;
     const double edge = std::sqrt(s.a == fixed ? s.aa : s.bb);
-    offer(s.v, d_[fixed] + edge, sign_[fixed]);
-    if (!fixed_[other]) return;
-    const bool a_first = d_[s.a] <= d_[s.b];
-    const int near = a_first ? s.a : s.b, far = a_first ? s.b : s.a;
-    offer(s.v, arrival(s, d_[s.a], d_[s.b]), sign_[near] != 0 ? sign_[near] : sign_[far]);
+    if (fixed != s.unfolded) offer(s.v, d_[fixed] + edge, sign_[fixed]);
+    if (!fixed_[other] || sign_[fixed] * sign_[other] < 0 || beside_[s.v] * sign_[other] < 0)
+      return;
+    offer(s.v, arrival(s, d_[s.a], d_[s.b]), sign_[fixed] != 0 ? sign_[fixed] : sign_[other]);
   }
 
   const IntrinsicTriangulation& T_;

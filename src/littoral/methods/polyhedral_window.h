@@ -58,8 +58,8 @@ struct Window {
   /// x with at(x) = d_start + x; `otherwise` where rounding leaves none.
   double meeting(double d_start, double otherwise) const {
     const double c = d_start - d;
-    const double x = parallel ? -c / (1 - image.real())
-                              : (std::norm(image) - c * c) / (2 * (c + image.real()));
+    const double x =
+        parallel ? -c / (1 - image.real()) : (std::norm(image) - c * c) / (2 * (c + image.real()));
     return std::isfinite(x) ? x : otherwise;
   }
 };

@@ -22,8 +22,7 @@ std::vector<PointInFace> triangles_around(const SurfaceMesh& mesh, const Intrins
 std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
                                                   const IntrinsicTriangulation& T,
                                                   const CurvePiece& piece) {
-  if (piece.edge < 0)
-    return {{T.triangle_of_face[piece.face], piece.a, piece.b, piece.is_signed}};
+  if (piece.edge < 0) return {{T.triangle_of_face[piece.face], piece.a, piece.b, piece.is_signed}};
   const auto corners = mesh.face(piece.face);
   auto on_edge = [&](const std::array<double, 3>& b) {
     double head = 0;
@@ -42,40 +41,48 @@ std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
   return all;
 }
 
+namespace {
+
+TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                   std::vector<SurfacePoint> points, std::vector<char>& reached) {
+  auto key = [](const SurfacePoint& p) {
+    return std::tuple(static_cast<int>(p.on), p.element,
+                      p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
+  };
+  for (SurfacePoint& p : points) p = simplest(mesh, p);
+  std::sort(points.begin(), points.end(),
+            [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) < key(q); });
+  const auto same = [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) == key(q); };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  TriangleSources::Points out;
+  for (const SurfacePoint& p : points) {
+    const std::vector<PointInFace> where = triangles_around(mesh, T, p);
+    if (where.empty()) continue;
+    reached[T.component[T.faces(where.front().face, 0)]] = 1;
+    if (p.on == SurfacePoint::On::vertex)
+      out.vertices.push_back(p.element);
+    else
+      out.inside.insert(out.inside.end(), where.begin(), where.end());
+  }
+  return out;
+}
+
+}  // namespace
+
 TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                  const PreparedSources& sources) {
   TriangleSources out;
   out.reached.assign(T.n_components, 0);
-  std::vector<SurfacePoint> points;
-  for (const SurfacePoint& p : sources.points) points.push_back(simplest(mesh, p));
+  std::vector<SurfacePoint> nodes;
   for (const CurvePiece& piece : sources.pieces) {
     if (T.triangle_of_face[piece.face] < 0) continue;
     for (const TriangleSources::Segment& segment : segments_of(mesh, T, piece))
       out.segments.push_back(segment);
     for (const auto& b : {piece.a, piece.b})
-      points.push_back(simplest(mesh, SurfacePoint::in_face(piece.face, b[0], b[1], b[2])));
+      nodes.push_back(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
   }
-  auto key = [](const SurfacePoint& p) {
-    return std::tuple(static_cast<int>(p.on), p.element,
-                      p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
-  };
-  std::sort(points.begin(), points.end(),
-            [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) < key(q); });
-  points.erase(std::unique(points.begin(), points.end(),
-                           [&](const SurfacePoint& p, const SurfacePoint& q) {
-                             return key(p) == key(q);
-                           }),
-               points.end());
-  auto reach = [&](int t) { out.reached[T.component[T.faces(t, 0)]] = 1; };
-  for (const SurfacePoint& p : points) {
-    const std::vector<PointInFace> where = triangles_around(mesh, T, p);
-    if (where.empty()) continue;
-    reach(where.front().face);
-    if (p.on == SurfacePoint::On::vertex)
-      out.vertices.push_back(p.element);
-    else
-      out.points.insert(out.points.end(), where.begin(), where.end());
-  }
+  out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);
+  out.isolated = sorted_out(mesh, T, sources.points, out.reached);
   if (std::find(out.reached.begin(), out.reached.end(), 1) == out.reached.end())
     throw InputError("no source lies on a face with three different vertices");
   return out;

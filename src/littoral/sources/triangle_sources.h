@@ -17,10 +17,15 @@ struct TriangleSources {
     std::array<double, 3> a{}, b{};  // start and end, per corner
     bool is_signed = true;           // positive to the left of travel
   };
-  std::vector<Segment> segments;    // along an edge: once for every triangle there
-  std::vector<int> vertices;        // isolated points and nodes of curves at vertices, each once
-  std::vector<PointInFace> points;  // the others, once for every triangle that contains them
-  std::vector<char> reached;        // components that hold a source
+  /// Points, each once: a vertex, or one entry for every triangle that contains the point.
+  struct Points {
+    std::vector<int> vertices;
+    std::vector<PointInFace> inside;
+  };
+  std::vector<Segment> segments;  // along an edge: once for every triangle there
+  Points nodes;                   // ends of segments
+  Points isolated;
+  std::vector<char> reached;  // components that hold a source
 };
 
 /// Throws InputError if no source lies on a face with three different vertices.

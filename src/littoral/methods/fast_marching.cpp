@@ -227,7 +227,9 @@ class Front {
     if (fixed_[s.v] || beside_[s.v] * sign_[fixed] < 0) return;  // never across the curve
     const int other = s.a == fixed ? s.b : s.a;
     const double edge = std::sqrt(s.a == fixed ? s.aa : s.bb);
-    if (fixed != s.unfolded) offer(s.v, d_[fixed] + edge, sign_[fixed]);
+    // A straight line over unfolded triangles may cross a curve beside its far end.
+    if (fixed != s.unfolded || beside_[fixed] == 0 || beside_[s.v] != 0)
+      offer(s.v, d_[fixed] + edge, sign_[fixed]);
     if (!fixed_[other] || sign_[fixed] * sign_[other] < 0 || beside_[s.v] * sign_[other] < 0)
       return;
     offer(s.v, arrival(s, d_[s.a], d_[s.b]), sign_[fixed] != 0 ? sign_[fixed] : sign_[other]);

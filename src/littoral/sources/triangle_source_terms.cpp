@@ -170,7 +170,7 @@ void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
         by_curve[mesh.face(piece.face)[k]] = 1;
   terms.d0 = VecX::Constant(T.n_vertices, none);
   for (const SurfacePoint& p : sources.points) {
-    const auto where = around(mesh, T, p);
+    const auto where = triangles_around(mesh, T, p);
     bool free = true;
     for (const PointInFace& place : where)
       for (int k = 0; k < 3; ++k) free = free && !by_curve[T.faces(place.face, k)];

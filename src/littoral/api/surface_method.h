@@ -85,6 +85,7 @@ PreparedSources prepared_sources(const SurfaceProblem& problem, Task& task, Repo
 
 /// All methods of distance on surfaces, the default first. Each family is a function of its own.
 const std::vector<SurfaceMethod>& surface_methods();
-std::vector<SurfaceMethod> heat_methods();  // signed and unsigned
+std::vector<SurfaceMethod> heat_methods();      // signed and unsigned
+std::vector<SurfaceMethod> geodesic_methods();  // exact polyhedral, fast marching
 
 }  // namespace littoral

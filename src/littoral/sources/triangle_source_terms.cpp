@@ -10,6 +10,7 @@
 #include "littoral/sources/constraint_rows.h"
 #include "littoral/sources/source_parts.h"
 #include "littoral/sources/surface_points.h"
+#include "littoral/sources/triangle_sources.h"
 
 namespace littoral {
 
@@ -37,18 +38,6 @@ class Measure {
  private:
   VecX X0_, total_;
 };
-
-/// Triangles around a point, with its barycentrics; `without` lists triangles to leave out.
-std::vector<PointInFace> around(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                const SurfacePoint& p, const std::vector<int>& without = {}) {
-  std::vector<PointInFace> where;
-  for (int face : faces_at(mesh, p)) {
-    const int t = T.triangle_of_face[face];
-    if (t < 0 || std::find(without.begin(), without.end(), t) != without.end()) continue;
-    if (const auto b = barycentrics_in(mesh, p, face)) where.push_back({t, *b});
-  }
-  return where;
-}
 
 /// Eq. 11 without the factor phi_ij(m): length times normal, to the edge the piece runs along or to
 /// all three edges of its face.
@@ -101,29 +90,6 @@ void add_unsigned(const IntrinsicTriangulation& T, const CurvePiece& piece, int 
   }
 }
 
-void add_unsigned_curve_piece(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                              const CurvePiece& piece, std::vector<Push>& out) {
-  if (piece.edge < 0) {
-    add_unsigned(T, piece, T.triangle_of_face[piece.face], piece.a, piece.b, out);
-    return;
-  }
-  // Along an edge: the same from every face at the edge.
-  const auto corners = mesh.face(piece.face);
-  auto on_edge = [&](const std::array<double, 3>& b) {
-    double head = 0;
-    for (int k = 0; k < 3; ++k)
-      if (corners[k] == mesh.edges()(piece.edge, 1)) head = b[k];
-    return SurfacePoint::on_edge(piece.edge, head);
-  };
-  const SurfacePoint p = simplest(mesh, on_edge(piece.a)), q = simplest(mesh, on_edge(piece.b));
-  for (int face : mesh.edge_faces(piece.edge)) {
-    const int f = T.triangle_of_face[face];
-    if (f < 0) continue;
-    const auto a = barycentrics_in(mesh, p, face), b = barycentrics_in(mesh, q, face);
-    if (a && b) add_unsigned(T, piece, f, *a, *b, out);
-  }
-}
-
 /// A.2, type C: at the two ends of an unsigned curve, radial vectors in the faces beyond the end,
 /// weighted by the length of the last piece.
 void add_end(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const SurfacePoint& end,
@@ -134,7 +100,7 @@ void add_end(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const Sur
   else
     without.push_back(T.triangle_of_face[last.face]);
   std::vector<std::pair<int, Complex>> radial;
-  add_radial_measure(T, around(mesh, T, end, without), last.length / T.unit, radial);
+  add_radial_measure(T, triangles_around(mesh, T, end, without), last.length / T.unit, radial);
   for (const auto& [e, z] : radial) X0.add(e, z);
 }
 
@@ -204,7 +170,7 @@ void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
         by_curve[mesh.face(piece.face)[k]] = 1;
   terms.d0 = VecX::Constant(T.n_vertices, none);
   for (const SurfacePoint& p : sources.points) {
-    const auto where = around(mesh, T, p);
+    const auto where = triangles_around(mesh, T, p);
     bool free = true;
     for (const PointInFace& place : where)
       for (int k = 0; k < 3; ++k) free = free && !by_curve[T.faces(place.face, k)];
@@ -243,7 +209,8 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
     if (piece.is_signed)
       add_signed(T, piece, X0);
     else
-      add_unsigned_curve_piece(mesh, T, piece, stretch);
+      for (const TriangleSources::Segment& part : segments_of(mesh, T, piece))
+        add_unsigned(T, piece, part.triangle, part.a, part.b, stretch);
     stretch_length += piece.length / T.unit;
     const bool curve_ends =
         i + 1 == sources.pieces.size() || sources.pieces[i + 1].curve != piece.curve;
@@ -277,7 +244,7 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
   for (const SurfacePoint& p : sources.points) {
     // A point weighs as much as a curve of one edge's length: the balance does not depend on units.
     std::vector<std::pair<int, Complex>> radial;
-    add_radial_measure(T, around(mesh, T, p), h, radial);
+    add_radial_measure(T, triangles_around(mesh, T, p), h, radial);
     for (const auto& [e, z] : radial) X0_points.add(e, z);
     const int node = nodes.id(p);
     nodes.weight[node] += 1;

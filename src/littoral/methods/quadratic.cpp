@@ -19,10 +19,15 @@ const OptionTable<QuadraticOptions>& quadratic_options() {
                   "Interior-point iterations for each component of the mesh.")
           .number(&O::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
                   "Distance allowed at a source.")
-          .number(&O::spacing, "spacing", "mean edge lengths, 0 = exact", 0, 100,
-                  "Distance between samples on curves; 0 holds all of every straight piece at zero.")
+          .number(
+              &O::spacing, "spacing", "mean edge lengths, 0 = exact", 0, 100,
+              "Distance between samples on curves; 0 holds all of every straight piece at zero.")
           .toggle(&O::insert_samples, "insert-samples",
-                  "Adds sample points where the constraint is violated between the usual seven.");
+                  "Adds sample points where the constraint is violated between the usual seven.")
+          .number(
+              &O::subdivide, "subdivide", "", 1, 64,
+              "Writes and draws a mesh with every side cut into this many parts, which shows the "
+              "field between the vertices.");
   return table;
 }
 
@@ -50,8 +55,8 @@ struct Quadratic<D>::Part {
   std::shared_ptr<const Solver> solver(const Task& task) {
     const std::lock_guard lock(mutex_);
     if (!solver_)
-      solver_ = std::make_shared<const Solver>(static_cast<int>(part.nodes.size()),
-                                               part.local_node, task);
+      solver_ = std::make_shared<const Solver>(static_cast<int>(part.nodes.size()), part.local_node,
+                                               task);
     return solver_;
   }
 
@@ -104,8 +109,7 @@ QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
     const Stopwatch watch(report, "solve");
     const QuadraticProgram<D> program(E, part, of_part[c], options.source_radius * E.h);
     typename Part::Solver::Inserter insert;
-    if (options.insert_samples)
-      insert = [&program](const VecX& u) { return program.violated(u); };
+    if (options.insert_samples) insert = [&program](const VecX& u) { return program.violated(u); };
     const ParabolicResult result =
         solver->solve(program.program(), program.start(),
                       {options.tolerance, static_cast<int>(options.max_iterations)}, insert,

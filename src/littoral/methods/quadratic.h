@@ -20,6 +20,7 @@ struct QuadraticOptions {
   double source_radius = 1e-4;  // d at a source may be this many mean edge lengths
   double spacing = 0.5;         // of samples on curves, in mean edge lengths
   bool insert_samples = true;   // hold u >= |grad u|^2 / 4 between the seven points too
+  double subdivide = 1;         // parts of each side in the mesh written for viewing
 };
 
 const OptionTable<QuadraticOptions>& quadratic_options();

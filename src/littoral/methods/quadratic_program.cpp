@@ -173,8 +173,7 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
   const VecX integral = E.integral();
   program_.c.resize(static_cast<Eigen::Index>(part.nodes.size()));
   for (std::size_t i = 0; i < part.nodes.size(); ++i)
-    program_.c[static_cast<Eigen::Index>(i)] =
-        integral[part.nodes[i]] / std::pow(part.scale, D);
+    program_.c[static_cast<Eigen::Index>(i)] = integral[part.nodes[i]] / std::pow(part.scale, D);
 
   // Samples: the nodes and the centre of each element (section 5), and a source that is alone in
   // its elements: without a sample there, its elements are not exact in the plane.

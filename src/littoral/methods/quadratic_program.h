@@ -52,7 +52,7 @@ class QuadraticProgram {
   const P2Elements<D>& E_;
   const QuadraticPart<D>& part_;
   Program program_;
-  VecX d_;                         // vertices of the part first seen; nodes: distance along edges
+  VecX d_;                          // vertices of the part first seen; nodes: distance along edges
   std::vector<char> curve_inside_;  // local elements
 };
 

@@ -174,8 +174,7 @@ SpMat p2_interpolation(const P2Elements<D>& E, std::span<const P2Point<D>> point
   for (std::size_t r = 0; r < points.size(); ++r) {
     const auto q = P2Shape<D>::values(points[r].b);
     for (int i = 0; i < P2Shape<D>::nodes; ++i)
-      if (q[i] != 0)
-        entries.emplace_back(static_cast<int>(r), E.node[points[r].element][i], q[i]);
+      if (q[i] != 0) entries.emplace_back(static_cast<int>(r), E.node[points[r].element][i], q[i]);
   }
   SpMat B(static_cast<Eigen::Index>(points.size()), E.n_nodes());
   B.setFromTriplets(entries.begin(), entries.end());

@@ -17,9 +17,9 @@ struct P2Shape {
   static constexpr int corners = D + 1;
   static constexpr int edges = D * (D + 1) / 2;
   static constexpr int nodes = corners + edges;
-  using Point = Eigen::Matrix<double, corners, 1>;     // barycentrics
-  using Values = Eigen::Matrix<double, nodes, 1>;      // one number per local node
-  using Slopes = std::array<Values, D>;                // one vector per local node
+  using Point = Eigen::Matrix<double, corners, 1>;      // barycentrics
+  using Values = Eigen::Matrix<double, nodes, 1>;       // one number per local node
+  using Slopes = std::array<Values, D>;                 // one vector per local node
   using Gradients = Eigen::Matrix<double, D, corners>;  // of the barycentrics
 
   /// End corners of local edge k: a triangle's edge k is its side k (corner k to k + 1), a
@@ -45,13 +45,13 @@ struct P2Elements {
 
   double unit = 1;  // [length] of one unit in the input's coordinates
   int n_vertices = 0;
-  int n_edges = 0;                                      // node of edge e: n_vertices + e
-  std::vector<std::array<int, Shape::nodes>> node;      // elements
-  std::vector<typename Shape::Gradients> grad;          // elements; in the element's own frame
-  VecX measure;                                         // elements [length^D]
-  VecX edge_length;                                     // edges
-  double h = 0;                                         // mean edge length
-  std::vector<int> component;                           // vertices; -1 without an element
+  int n_edges = 0;                                  // node of edge e: n_vertices + e
+  std::vector<std::array<int, Shape::nodes>> node;  // elements
+  std::vector<typename Shape::Gradients> grad;      // elements; in the element's own frame
+  VecX measure;                                     // elements [length^D]
+  VecX edge_length;                                 // edges
+  double h = 0;                                     // mean edge length
+  std::vector<int> component;                       // vertices; -1 without an element
   int n_components = 0;
   double mollified = 0;  // added to every edge length so that no element is degenerate
 

@@ -40,7 +40,7 @@ class ElementMatrix {
  private:
   int n_;
   std::vector<std::array<int, K>> elements_;
-  SpMat zero_;                                     // lower triangle
+  SpMat zero_;                                      // lower triangle
   std::vector<std::array<int, entries>> position_;  // in zero_'s values
   std::shared_ptr<const CholeskyPattern> pattern_;
 };

@@ -30,8 +30,8 @@ class Run {
   using Local = typename Matrix::Local;
   using Inserter = typename ParabolicSolver<K, D>::Inserter;
 
-  Run(const Matrix& matrix, const Program& program, const VecX& x0,
-      const ParabolicOptions& options, const Task& task)
+  Run(const Matrix& matrix, const Program& program, const VecX& x0, const ParabolicOptions& options,
+      const Task& task)
       : matrix_(matrix),
         c_(program.c),
         options_(options),
@@ -91,8 +91,8 @@ class Run {
 
   // ---- loops over elements; contributions are kept per element and added up in order
 
-  /// Calls f(element, blocks, i, partial) for each block, where F may change the block's state, with
-  /// a partial result per piece, combined in order.
+  /// Calls f(element, blocks, i, partial) for each block, where F may change the block's state,
+  /// with a partial result per piece, combined in order.
   template <class Partial, class F, class Combine>
   Partial for_blocks(const Partial& zero, F&& f, Combine&& combine) {
     std::vector<Partial> partial((local_.size() + grain - 1) / grain, zero);
@@ -133,8 +133,8 @@ class Run {
     for (auto* v : {&state.ds, &state.dz}) v->setZero();
   }
 
-  /// Adds samples. Where x violates them, (1 - theta) x does not: that adds theta |G x|^2 / 4 to all
-  /// slacks, to first order. So x shrinks by the least theta that will do and a bit, slacks are
+  /// Adds samples. Where x violates them, (1 - theta) x does not: that adds theta |G x|^2 / 4 to
+  /// all slacks, to first order. So x shrinks by the least theta that will do and a bit, slacks are
   /// taken there, and multipliers that have become too small for them grow.
   bool insert_samples(const std::vector<typename Program::Sample>& inserted) {
     if (inserted.empty()) return false;
@@ -169,13 +169,12 @@ class Run {
     };
     double gap = 0;
     const auto each = [&](auto& blocks, auto&& visit) {
-      for (std::size_t i = 0; i < blocks.block.size(); ++i)
-        visit(blocks.block[i], blocks.state[i]);
+      for (std::size_t i = 0; i < blocks.block.size(); ++i) visit(blocks.block[i], blocks.state[i]);
     };
     const auto take = [&](const auto& b, auto& state) {
       constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      state.s = pushed_inside<N>(slack(static_cast<std::size_t>(b.element()), b),
-                                 0.1 * theta * b.size());
+      state.s =
+          pushed_inside<N>(slack(static_cast<std::size_t>(b.element()), b), 0.1 * theta * b.size());
       gap += state.s.dot(state.z);
     };
     each(samples_, take);
@@ -201,8 +200,7 @@ class Run {
     const Sums sums = for_blocks(
         Sums{0, 0, 0},
         [&](std::size_t e, const auto& b, auto& state, Sums& p) {
-          state.residual =
-              state.s - b.apply(matrix_.gather(x, static_cast<int>(e))) - b.offset();
+          state.residual = state.s - b.apply(matrix_.gather(x, static_cast<int>(e))) - b.offset();
           p[0] += state.s.dot(state.z);
           p[1] = std::max(p[1], state.residual.cwiseAbs().maxCoeff() / b.size());
           b.add_adjoint(state.z, local_[e]);
@@ -289,9 +287,9 @@ class Run {
         0,
         [&](std::size_t e, const auto& b, auto& state, int&) {
           state.wanted = q(state, state.new_target);
-          b.add_adjoint(state.W.apply_inverse(state.wanted +
-                                              state.W.apply_inverse(keep * state.residual)),
-                        local_[e]);
+          b.add_adjoint(
+              state.W.apply_inverse(state.wanted + state.W.apply_inverse(keep * state.residual)),
+              local_[e]);
         },
         [](int&, int) {});
     solve(keep * dual_residual_ + matrix_.sum(local_));
@@ -356,8 +354,8 @@ class Run {
     };
     direction(keep, [&](const auto& state, auto& target) {
       constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      const Vec<N> v = lorentz::product<N>(state.lambda.x + p * state.ds,
-                                           state.lambda.x + d * state.dz);
+      const Vec<N> v =
+          lorentz::product<N>(state.lambda.x + p * state.ds, state.lambda.x + d * state.dz);
       target = state.target + lorentz::spectral<N>(v, missing);
       return state.lambda.divide(target);
     });

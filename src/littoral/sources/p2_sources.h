@@ -18,9 +18,9 @@ struct P2Source {
 /// Points of a triangle mesh as they are; curves as samples.
 ///
 /// `spacing` > 0 samples every curve at that distance (in mean edge lengths), ends included,
-/// independent of the triangulation (quadratic-order geodesics, section 6.4); 0 puts three points on
-/// every straight piece, which holds a quadratic at 0 all along it. Throws InputError if no source
-/// lies on a face with three different vertices.
+/// independent of the triangulation (quadratic-order geodesics, section 6.4); 0 puts three points
+/// on every straight piece, which holds a quadratic at 0 all along it. Throws InputError if no
+/// source lies on a face with three different vertices.
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                     const PreparedSources& sources, double spacing);
 

@@ -1,6 +1,9 @@
 #pragma once
 // Quadratic-order distance on a mesh in one call, from the layers below the API.
 
+#include <algorithm>
+#include <cmath>
+
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/methods/quadratic.h"
 #include "littoral/sources/p2_sources.h"
@@ -22,9 +25,10 @@ inline SurfaceSources point_source(const SurfacePoint& p) {
   return sources;
 }
 
-/// Largest difference from `exact` at corners, edge midpoints and centres.
+/// Largest difference of squared distances at corners, edge midpoints and near centres. (Next to a
+/// source the root of a tiny error is not tiny.)
 template <class Exact>
-double largest_error(const SurfaceMesh& mesh, const QuadraticField<2>& field, Exact exact) {
+double largest_squared_error(const SurfaceMesh& mesh, const QuadraticField<2>& field, Exact exact) {
   double worst = 0;
   for (int f = 0; f < mesh.n_faces(); ++f)
     for (const Vec3& b : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.5, 0.5, 0),

@@ -15,7 +15,7 @@
 namespace littoral {
 
 struct QuadraticOptions {
-  double tolerance = 1e-6;      // of the duality gap, relative to the integral of u
+  double tolerance = 1e-5;      // of the duality gap, relative to the integral of u
   double max_iterations = 100;  // of the interior-point method, for each component
   double source_radius = 1e-4;  // d at a source may be this many mean edge lengths
   double spacing = 0.5;         // of samples on curves, in mean edge lengths

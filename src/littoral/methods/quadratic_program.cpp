@@ -79,6 +79,27 @@ VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
   return d;
 }
 
+/// Points whose barycentrics are quarters, without the nodes.
+template <int D>
+std::vector<typename P2Shape<D>::Point> quarter_points() {
+  std::vector<typename P2Shape<D>::Point> points;
+  int codes = 1;
+  for (int d = 0; d < D; ++d) codes *= 5;
+  for (int code = 0; code < codes; ++code) {
+    std::array<int, D + 1> quarters{4};
+    bool node = true;
+    for (int d = 1, rest = code; d <= D; ++d, rest /= 5) {
+      quarters[d] = rest % 5;
+      quarters[0] -= quarters[d];
+      node = node && quarters[d] % 2 == 0;
+    }
+    if (node || quarters[0] < 0) continue;
+    points.emplace_back();
+    for (int i = 0; i <= D; ++i) points.back()[i] = 0.25 * quarters[i];
+  }
+  return points;
+}
+
 }  // namespace
 
 template <int D>
@@ -219,7 +240,7 @@ VecX QuadraticProgram<D>::start() const {
 
 template <int D>
 std::vector<typename QuadraticProgram<D>::Program::Sample> QuadraticProgram<D>::violated(
-    const VecX& u) const {
+    const VecX& u, double allowed) const {
   using Shape = P2Shape<D>;
   std::vector<typename Program::Sample> found;
   const double h2 = std::pow(E_.h / part_.scale, 2);
@@ -237,8 +258,11 @@ std::vector<typename QuadraticProgram<D>::Program::Sample> QuadraticProgram<D>::
     for (int i = 0; i < Shape::corners; ++i) slack[i] = slack_at(Shape::corner(i));
     for (int k = 0; k < Shape::edges; ++k) slack[Shape::corners + k] = slack_at(Shape::middle(k));
     const auto [least, b] = p2_minimum<D>(slack);
-    if (least < -1e-3 * (local.cwiseAbs().maxCoeff() + h2))
-      found.push_back(sample(static_cast<int>(e), b));
+    // Next to a source, where u is small, a dip of v moves the source by sqrt(v).
+    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + 1e-3 * h2)) continue;
+    found.push_back(sample(static_cast<int>(e), b));
+    for (const auto& point : quarter_points<D>())
+      found.push_back(sample(static_cast<int>(e), point));
   }
   return found;
 }

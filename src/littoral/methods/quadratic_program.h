@@ -42,9 +42,9 @@ class QuadraticProgram {
   VecX start() const;
 
   /// Samples where u - |grad u|^2 / 4, which is quadratic on each element, dips below zero between
-  /// the given ones by more than a thousandth of u. Elements that hold a source on a curve are left
-  /// out: there u may cross zero.
-  std::vector<typename Program::Sample> violated(const VecX& u) const;
+  /// the given ones by more than `allowed` times u: the lowest point and a lattice. Elements that
+  /// hold a source on a curve are left out: there u may cross zero.
+  std::vector<typename Program::Sample> violated(const VecX& u, double allowed) const;
 
  private:
   typename Program::Sample sample(int local, const typename P2Shape<D>::Point& b) const;

@@ -95,10 +95,11 @@ struct Blocks {
     Vec<N> s, z;
     lorentz::Scaling<N> W;
     lorentz::Interior<N> lambda;
-    Vec<N> residual;                    // s - A x - b
-    Vec<N> target, ds, dz;              // wanted lambda o (ds + dz), and the direction
-    Vec<N> new_target, new_ds, new_dz;  // of a direction on trial
-    Vec<N> wanted;                      // new_ds + new_dz
+    Vec<N> residual;  // s - A x - b
+    struct Direction {
+      Vec<N> target, sum, ds, dz;  // lambda o sum = target, sum = ds + dz
+    };
+    std::array<Direction, 2> direction;  // the one to be taken and one on trial
   };
   std::vector<B> block;  // by element
   std::vector<State> state;

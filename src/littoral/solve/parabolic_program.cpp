@@ -54,6 +54,7 @@ class Run {
   ParabolicResult run(const Inserter& insert) {
     ParabolicResult best;
     double best_merit = infinity, insert_below = 0.01;
+    int rounds = 0;
     bool inside = true;
     for (int iteration = 0;; ++iteration) {
       inside = inside && refresh();
@@ -68,8 +69,9 @@ class Run {
                         now.gap < 10 * options_.tolerance;
       if (inside && (merit < best_merit || done))
         std::tie(best, best_merit) = std::pair(now, merit);
-      if (insert && inside && merit < insert_below && insert_below > 1e-5) {
-        insert_below = std::min(0.1 * insert_below, merit);
+      if (insert && inside && rounds < 8 && (merit < insert_below || done)) {
+        insert_below = insert_below > 1e-3 ? 1e-4 : 0;
+        ++rounds;
         if (insert_samples(insert(x_))) {
           best_merit = infinity;
           --iteration;
@@ -130,7 +132,6 @@ class Run {
     const Vec<B::N> value = b.apply(matrix_.gather(x_, b.element())) + b.offset();
     state.s = pushed_inside<B::N>(value, least);
     state.z = b.rank() * mu_ * lorentz::inverse<B::N>(state.s);
-    for (auto* v : {&state.ds, &state.dz}) v->setZero();
   }
 
   /// Adds samples. Where x violates them, (1 - theta) x does not: that adds theta |G x|^2 / 4 to
@@ -159,7 +160,7 @@ class Run {
     }
     grown.index(matrix_.n_elements());
     samples_ = std::move(grown);
-    shrink(std::clamp(theta, 0.0, 0.3));
+    shrink(std::clamp(theta, 0.0, 0.01));
     return true;
   }
   void shrink(double theta) {
@@ -232,7 +233,7 @@ class Run {
   bool step() {
     if (!factorize()) return false;
     // Predictor: straight to the boundary.
-    direction(1, [](const auto& state, auto&) -> decltype(state.s) { return -state.lambda.x; });
+    direction(1, [](const auto& state, const auto&, auto& next) { next.sum = -state.lambda.x; });
     auto [primal, dual] = accept();
     const auto& g = affine_;
     const double p = std::min(1.0, new_steps_[0]), d = std::min(1.0, new_steps_[1]);
@@ -240,12 +241,12 @@ class Run {
     const double sigma = std::clamp(std::pow(std::max(affine, 0.0), 3), 1e-8, 1.0);
     const double aim = sigma * mu_, keep = 1 - sigma;
     // Mehrotra's corrector.
-    direction(keep, [aim](const auto& state, auto& target) {
+    direction(keep, [aim](const auto& state, const auto& last, auto& next) {
       constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      target = -lorentz::product<N>(state.lambda.x, state.lambda.x) -
-               lorentz::product<N>(state.ds, state.dz);
-      target[0] += aim;
-      return state.lambda.divide(target);
+      next.target = -lorentz::product<N>(state.lambda.x, state.lambda.x) -
+                    lorentz::product<N>(last.ds, last.dz);
+      next.target[0] += aim;
+      next.sum = state.lambda.divide(next.target);
     });
     std::tie(primal, dual) = accept();
     for (int k = 0; k < correctors && std::min(primal, dual) < 0.95; ++k)
@@ -253,9 +254,9 @@ class Run {
     x_ += primal * dx_;
     for_blocks(
         0,
-        [a = primal, b = dual](std::size_t, const auto&, auto& state, int&) {
-          state.s += a * state.W.apply(state.ds);
-          state.z += b * state.W.apply_inverse(state.dz);
+        [a = primal, b = dual, k = taken_](std::size_t, const auto&, auto& state, int&) {
+          state.s += a * state.W.apply(state.direction[k].ds);
+          state.z += b * state.W.apply_inverse(state.direction[k].dz);
         },
         [](int&, int) {});
     return std::max(primal, dual) > 1e-6;
@@ -278,17 +279,19 @@ class Run {
     return false;
   }
 
-  /// Solves for the direction with ds + dz = q(state, target): K dx = keep r_d + A^T W^{-1} (q +
-  /// keep W^{-1} r_p). It goes into new_dx_, new_ds, new_dz, the steps it allows into new_steps_.
+  /// Solves for the direction with ds + dz = sum: K dx = keep r_d + A^T W^{-1} (sum + keep W^{-1}
+  /// r_p). q(state, direction taken, next) sets next.sum. The direction is on trial: in new_dx_ and
+  /// in each block's other direction, the steps it allows in new_steps_.
   template <class Q>
   void direction(double keep, Q&& q) {
     std::fill(local_.begin(), local_.end(), Local::Zero());
     for_blocks(
         0,
         [&](std::size_t e, const auto& b, auto& state, int&) {
-          state.wanted = q(state, state.new_target);
+          auto& next = state.direction[1 - taken_];
+          q(state, state.direction[taken_], next);
           b.add_adjoint(
-              state.W.apply_inverse(state.wanted + state.W.apply_inverse(keep * state.residual)),
+              state.W.apply_inverse(next.sum + state.W.apply_inverse(keep * state.residual)),
               local_[e]);
         },
         [](int&, int) {});
@@ -298,15 +301,15 @@ class Run {
     const Sums sums = for_blocks(
         Sums{},
         [&](std::size_t e, const auto& b, auto& state, Sums& p) {
-          state.new_dz =
-              state.wanted + state.W.apply_inverse(keep * state.residual - b.apply(local_[e]));
-          state.new_ds = state.wanted - state.new_dz;
-          p[0] = std::max(p[0], state.lambda.inverse_step(state.new_ds));
-          p[1] = std::max(p[1], state.lambda.inverse_step(state.new_dz));
+          auto& next = state.direction[1 - taken_];
+          next.dz = next.sum + state.W.apply_inverse(keep * state.residual - b.apply(local_[e]));
+          next.ds = next.sum - next.dz;
+          p[0] = std::max(p[0], state.lambda.inverse_step(next.ds));
+          p[1] = std::max(p[1], state.lambda.inverse_step(next.dz));
           p[2] += state.lambda.x.squaredNorm();
-          p[3] += state.lambda.x.dot(state.new_ds);
-          p[4] += state.lambda.x.dot(state.new_dz);
-          p[5] += state.new_ds.dot(state.new_dz);
+          p[3] += state.lambda.x.dot(next.ds);
+          p[4] += state.lambda.x.dot(next.dz);
+          p[5] += next.ds.dot(next.dz);
         },
         [](Sums& total, const Sums& p) {
           for (int k = 0; k < 2; ++k) total[k] = std::max(total[k], p[k]);
@@ -332,14 +335,7 @@ class Run {
     return {std::min(1.0, to_boundary * new_steps_[0]), std::min(1.0, to_boundary * new_steps_[1])};
   }
   std::pair<double, double> accept() {
-    for_blocks(
-        0,
-        [](std::size_t, const auto&, auto& state, int&) {
-          state.target = state.new_target;
-          state.ds = state.new_ds;
-          state.dz = state.new_dz;
-        },
-        [](int&, int) {});
+    taken_ = 1 - taken_;
     dx_.swap(new_dx_);
     return trial_steps();
   }
@@ -352,12 +348,12 @@ class Run {
     const auto missing = [low, high](double v) {
       return std::max(v < low ? low - v : v > high ? high - v : 0.0, -high);
     };
-    direction(keep, [&](const auto& state, auto& target) {
+    direction(keep, [&](const auto& state, const auto& last, auto& next) {
       constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
       const Vec<N> v =
-          lorentz::product<N>(state.lambda.x + p * state.ds, state.lambda.x + d * state.dz);
-      target = state.target + lorentz::spectral<N>(v, missing);
-      return state.lambda.divide(target);
+          lorentz::product<N>(state.lambda.x + p * last.ds, state.lambda.x + d * last.dz);
+      next.target = last.target + lorentz::spectral<N>(v, missing);
+      next.sum = state.lambda.divide(next.target);
     });
     const auto [new_primal, new_dual] = trial_steps();
     if (new_primal + new_dual < primal + dual + 0.02) return false;
@@ -374,6 +370,7 @@ class Run {
   VecX x_, dx_, new_dx_, dual_residual_;
   std::array<double, 2> new_steps_{};
   std::array<double, 4> affine_{};  // (lambda + p ds).(lambda + d dz) = g0 + p g1 + d g2 + p d g3
+  int taken_ = 0;                   // which of the blocks' directions is not on trial
   double mu_ = 0, gap_ = 0, primal_residual_ = 0;
   Blocks<SampleBlock<K, D>> samples_;
   Blocks<CapBlock<K, D>> caps_;

@@ -103,10 +103,19 @@ class Run:
         with tempfile.TemporaryDirectory() as folder:
             mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
             write_obj(mesh, points, faces)
+            files = ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run(
-                [PROGRAM, "distance", str(mesh), "--vertex", str(vertex), "--method", method]
-                + ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra],
+                [
+                    PROGRAM,
+                    "distance",
+                    str(mesh),
+                    "--vertex",
+                    str(vertex),
+                    "--method",
+                    method,
+                    *files,
+                ],
                 check=True,
                 capture_output=True,
                 text=True,

@@ -50,9 +50,24 @@ Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
 template <class Scalar>
 LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
                                                const Task& task, Report& report) const {
-  if (factor_) return solve_in_passes(*factor_, b, piece, task, report);
-  if (auto field = windows_.solve(b, piece, task, report)) return std::move(*field);
-  return solve_in_passes(factored(task), b, piece, task, report);
+  std::vector<double> largest;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0) continue;
+    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
+    largest[piece[i]] =
+        std::max(largest[piece[i]], block_magnitude(b, static_cast<Eigen::Index>(i), block_));
+  }
+  Vector r = Vector::Zero(b.size());
+  std::vector<int> reached(piece.size(), -1);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
+    const auto at = static_cast<Eigen::Index>(i) * block_;
+    r.segment(at, block_) = b.segment(at, block_) / largest[piece[i]];
+    reached[i] = piece[i];
+  }
+  if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
+  if (auto field = windows_.solve(r, reached, task, report)) return std::move(*field);
+  return solve_in_passes(factored(task), std::move(r), reached, task, report);
 }
 
 template <class Scalar>
@@ -63,30 +78,13 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
 }
 
 template <class Scalar>
-LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor,
-                                                         const Vector& b,
+LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
                                                          const std::vector<int>& piece,
                                                          const Task& task, Report& report) const {
-  const Eigen::Index n = b.size() / block_;
-  LayeredField<Scalar> field;
-  field.layer.assign(static_cast<std::size_t>(n), -1);
-  field.step.assign(static_cast<std::size_t>(n), 1.0);
-  field.x = Vector::Zero(b.size());
-
-  std::vector<double> largest;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (piece[i] < 0) continue;
-    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
-    largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, i, block_));
-  }
-  Vector r = Vector::Zero(b.size());
-  Eigen::Index left = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
-    r.segment(i * block_, block_) = b.segment(i * block_, block_) / largest[piece[i]];
-    field.step[i] = largest[piece[i]];
-    ++left;
-  }
+  const Eigen::Index n = r.size() / block_;
+  LayeredField<Scalar> field{
+      Vector::Zero(r.size()), std::vector<int>(static_cast<std::size_t>(n), -1), {1.0}};
+  Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 
   int passes = 0;
   while (left > 0) {
@@ -95,12 +93,11 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
     const Vector z = factor.solve(r);
     double top = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (field.layer[i] < 0 && piece[i] >= 0 && largest[piece[i]] > 0)
-        top = std::max(top, block_magnitude(z, i, block_));
+      if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
     if (!(top > 0) || !std::isfinite(top)) break;
     Eigen::Index taken = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (field.layer[i] >= 0 || piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
+      if (field.layer[i] >= 0 || piece[i] < 0) continue;
       field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
       if (block_magnitude(z, i, block_) < front * top) continue;
       field.layer[i] = p;
@@ -131,8 +128,7 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
     for (Eigen::Index i = 0; i < r.size(); ++i) m = std::max(m, magnitude(r[i]));
     if (!(m > 0)) break;
     r /= m;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (field.layer[i] < 0) field.step[i] = m;
+    field.scale.push_back(m);
   }
   report.iterations.emplace_back("heat passes", passes);
   for (Eigen::Index i = 0; i < n; ++i)

@@ -46,7 +46,7 @@ class HeatSystem {
 
  private:
   Cholesky<Scalar> factored(const Task& task) const;
-  LayeredField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, const Vector& b,
+  LayeredField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
                                        const std::vector<int>& piece, const Task& task,
                                        Report& report) const;
 

@@ -15,8 +15,11 @@ namespace {
 constexpr double window = 50;   // decay lengths kept of every window
 constexpr double overlap = 20;  // and solved for beyond: the error made at the far end arrives at
                                 // what is kept by a factor exp(-2 * overlap) smaller
+constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
+
+VecX decay_lengths(const VecX& M, double t) { return (M.array().max(0.0) / t).sqrt(); }
 
 template <class Scalar>
 HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size,
@@ -130,8 +133,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
                                                                Report& report) const {
   const FlushSubnormals flush;
   const auto n = static_cast<int>(position_.size());
-  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1),
-                             std::vector<double>(position_.size(), 1.0)};
+  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
     if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
@@ -144,7 +146,6 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0);
-  const int n_pieces = n ? *std::max_element(piece.begin(), piece.end()) + 1 : 0;
   int windows = 0;
   for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
     task.checkpoint(double(start) / double(order.size()));
@@ -152,7 +153,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     std::size_t kept = start, end = start;
     while (kept < order.size() && d[order[kept]] <= reach) ++kept;
     for (end = kept; end < order.size() && d[order[end]] <= reach + overlap;) ++end;
-    if (kept == start) continue;  // a gap in distance: steps longer than a window
+    if (kept == start) return std::nullopt;  // steps longer than a window
     std::vector<int> blocks(order.begin() + static_cast<std::ptrdiff_t>(start),
                             order.begin() + static_cast<std::ptrdiff_t>(end));
     std::sort(blocks.begin(), blocks.end(),
@@ -163,24 +164,19 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
         r.segment(static_cast<Eigen::Index>(k) * block_, block_) =
             b.segment(Eigen::Index(blocks[k]) * block_, block_);
     const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
-    std::vector<double> top(static_cast<std::size_t>(n_pieces), 0.0);
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-      if (d[blocks[k]] <= reach)
-        top[piece[blocks[k]]] = std::max(top[piece[blocks[k]]],
-                                         block_magnitude(z, static_cast<Eigen::Index>(k), block_));
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
+    double top = 0;
+    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k)
+      if (d[blocks[k]] <= reach) top = std::max(top, block_magnitude(z, k, block_));
+    if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
+    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
       const int i = blocks[k];
       if (d[i] > reach) continue;
-      const auto at = static_cast<Eigen::Index>(k) * block_;
-      const double unit = top[piece[i]];
-      if (!(unit > 0) ||
-          !(block_magnitude(z, static_cast<Eigen::Index>(k), block_) > 1e-250 * unit))
-        return std::nullopt;
-      field.x.segment(Eigen::Index(i) * block_, block_) = z.segment(at, block_) / unit;
+      if (!(block_magnitude(z, k, block_) > negligible * top)) return std::nullopt;
+      field.x.segment(Eigen::Index(i) * block_, block_) = z.segment(k * block_, block_) / top;
       field.layer[i] = windows;
-      field.step[i] = unit;
       known[i] = 1;
     }
+    field.scale.push_back(top);
     for (; before < start; ++before) known[order[before]] = 0;
     start = kept;
   }
@@ -203,10 +199,10 @@ double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vect
     if (field.layer[bi] < 0 || field.layer[bj] < 0) return;
     double unit = 1;
     if (field.layer[bj] > field.layer[bi]) {
-      unit = field.step[bj];
+      unit = field.scale[field.layer[bj]];
       front[bi] = 1;
     } else if (field.layer[bj] < field.layer[bi]) {
-      unit = 1 / field.step[bi];
+      unit = 1 / field.scale[field.layer[bi]];
     }
     const Scalar term = a * field.x[j] * unit;
     sum[i] += term;

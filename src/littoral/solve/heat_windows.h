@@ -12,6 +12,10 @@
 
 namespace littoral {
 
+/// sqrt(M / t): the extent of the place a mass stands for, in units of the length over which heat
+/// decays in time t.
+VecX decay_lengths(const VecX& M, double t);
+
 /// A matrix whose inverse decays exponentially along its graph; immutable.
 template <class Scalar>
 class HeatWindows {
@@ -26,7 +30,8 @@ class HeatWindows {
 
   /// Solves on the blocks up to some distance from the support of b, keeps all but the farthest,
   /// whose values lack what lies beyond, and goes on from the kept ones, scaled to 1. Time and
-  /// memory grow like the number of unknowns. Nothing if neighbouring windows do not fit together
+  /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
+  /// 1. Nothing if neighbouring windows do not fit together
   /// to round-off (meshes on which `size` misjudges distances).
   std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
                                             const Task& task, Report& report) const;

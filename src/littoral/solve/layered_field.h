@@ -9,14 +9,27 @@
 
 namespace littoral {
 
-/// Values in layers, each layer in units of its own: block i is x_i in units of layer[i], and the
-/// unit of that layer is step[i] times the unit of the layer before, on the same connected piece.
-/// Neighbouring blocks are at most one layer apart. Layer -1: no source reaches the block.
+/// A decaying solution in layers, each at a scale of its own: block i is scale[0] * ... *
+/// scale[layer[i]] * x_i. Neighbouring blocks are at most one layer apart. Layer -1: no source
+/// reaches the block.
 template <class Scalar>
 struct LayeredField {
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x;
-  std::vector<int> layer;    // blocks
-  std::vector<double> step;  // blocks; in layer 0: that layer's unit
+  std::vector<int> layer;     // blocks
+  std::vector<double> scale;  // layers
+
+  /// The entries of layer p and, in its units, of layer p + 1; 0 elsewhere.
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> around_layer(int p) const {
+    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y = decltype(y)::Zero(x.size());
+    const auto block =
+        x.size() / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(layer.size()));
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i) * block;
+      if (layer[i] == p) y.segment(at, block) = x.segment(at, block);
+      if (layer[i] == p + 1) y.segment(at, block) = x.segment(at, block) * scale[p + 1];
+    }
+    return y;
+  }
 };
 
 template <class Scalar>

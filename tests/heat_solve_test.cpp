@@ -149,8 +149,7 @@ TEST(HeatSolve, IndefiniteMatricesAreErrors) {
   Dense A = Dense::Identity(4, 4);
   A(2, 2) = -1;
   EXPECT_THROW(Cholesky<double>(lower_of(A), {}), SolveError);
-  EXPECT_THROW(Cholesky<Complex>(lower_of(A).cast<Complex>(), {}),
-               SolveError);
+  EXPECT_THROW(Cholesky<Complex>(lower_of(A).cast<Complex>(), {}), SolveError);
 }
 
 TEST(HeatTask, ProgressNeverFallsAndEndsAtOne) {

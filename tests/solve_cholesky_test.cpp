@@ -111,6 +111,22 @@ TEST(Cholesky, APatchedFactorHasTheBitsOfANewOne) {
   EXPECT_TRUE(base.solve(b) == before);
 }
 
+TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {
+  const SpMat K = sphere_matrix(5);
+  const Cholesky<double> factor(K, {});
+  VecX b = VecX::Zero(K.rows());
+  b[7] = 1;
+  b[K.rows() / 2] = -3;
+  const VecX shifted = factor.solve(b + VecX::Constant(K.rows(), 1e-300));  // no zeros
+  const VecX x = factor.solve(b);
+  EXPECT_LE((x - shifted).cwiseAbs().maxCoeff(), 1e-15);
+  std::vector<char> wanted(static_cast<std::size_t>(K.rows()), 0);
+  for (std::size_t i = 3; i < wanted.size(); i += 501) wanted[i] = 1;
+  const VecX some = factor.solve(b, wanted);
+  for (std::size_t i = 3; i < wanted.size(); i += 501)
+    EXPECT_EQ(some[Eigen::Index(i)], x[Eigen::Index(i)]);
+}
+
 TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
   const SurfaceMesh mesh(test::octasphere_soup(5));
   Report report;

@@ -135,15 +135,27 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
 }
 
 template <class Scalar>
-typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b) const {
+typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
+                                                         const std::vector<char>& wanted) const {
   const FlushSubnormals flush;
   const Elimination& E = *structure_;
+  // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
+  std::vector<char> nonzero(static_cast<std::size_t>(E.n_super), 0), needed = nonzero;
+  auto mark_up = [&](std::vector<char>& marks, int i) {
+    for (int s = E.super_of[i]; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
+  };
   Dense x(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    for (int i = 0; i < E.n; ++i) x(i, k) = b(E.old_of[i], k);
+    for (int i = 0; i < E.n; ++i) {
+      x(i, k) = b(E.old_of[i], k);
+      if (x(i, k) != Scalar(0)) mark_up(nonzero, i);
+    }
+  for (int i = 0; i < E.n; ++i)
+    if (wanted.empty() || wanted[E.old_of[i]]) mark_up(needed, i);
   std::vector<Dense> passed_on(static_cast<std::size_t>(E.n_tasks()));
-  parallel_forest(E.task_parent, Walk::from_leaves, [&](int t) { forward(t, x, passed_on); });
-  parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, x); });
+  parallel_forest(E.task_parent, Walk::from_leaves,
+                  [&](int t) { forward(t, nonzero, x, passed_on); });
+  parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, needed, x); });
   Dense out(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
     for (int i = 0; i < E.n; ++i) out(E.old_of[i], k) = x(i, k);
@@ -151,7 +163,8 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b) const {
 }
 
 template <class Scalar>
-void Cholesky<Scalar>::forward(int t, Dense& x, std::vector<Dense>& passed_on) const {
+void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
+                               std::vector<Dense>& passed_on) const {
   // x := L^-1 x on the columns of the task; what that subtracts from later rows is passed on to the
   // task that holds them, so that tasks may run side by side.
   const Elimination& E = *structure_;
@@ -163,6 +176,7 @@ void Cholesky<Scalar>::forward(int t, Dense& x, std::vector<Dense>& passed_on) c
   };
   Dense y;
   for (int s = E.task_first[t]; s <= root; ++s) {
+    if (!active[s]) continue;
     const int columns = E.columns(s), below = E.below(s), height = columns + below;
     for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
       const int child = E.children[c];
@@ -190,11 +204,12 @@ void Cholesky<Scalar>::forward(int t, Dense& x, std::vector<Dense>& passed_on) c
 }
 
 template <class Scalar>
-void Cholesky<Scalar>::backward(int t, Dense& x) const {
+void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x) const {
   const Elimination& E = *structure_;
   const int n_rhs = static_cast<int>(x.cols());
   Dense y;
   for (int s = E.task_first[t + 1]; s-- > E.task_first[t];) {
+    if (!active[s]) continue;
     const int columns = E.columns(s), below = E.below(s), height = columns + below;
     const Scalar* block = supernodes_[s].block.get();
     if (below > 0) {

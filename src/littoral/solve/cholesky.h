@@ -33,8 +33,10 @@ class Cholesky {
   /// what depends on these and shares the rest. This factor must be one `to_be_patched`.
   Cholesky patched(const Matrix& lower, const std::vector<int>& changed, const Task& task) const;
 
-  /// Solves A x = b for each column of b.
-  Dense solve(const Dense& b) const;
+  /// Solves A x = b for each column of b. Parts of the factor that only zeros of b would pass
+  /// through are left out; so are those that only unwanted unknowns need (wanted: per unknown;
+  /// empty: all), whose values are of no meaning.
+  Dense solve(const Dense& b, const std::vector<char>& wanted = {}) const;
 
   double nonzeros() const { return static_cast<double>(structure_->values()); }  // of the factor
   const std::shared_ptr<const Elimination>& structure() const { return structure_; }
@@ -47,8 +49,9 @@ class Cholesky {
 
   void factor(const Matrix& lower, const std::vector<char>& stale, const Task& task);
   void factor_supernode(const Matrix& lower, int s, const Task& task);
-  void forward(int task, Dense& x, std::vector<Dense>& passed_on) const;
-  void backward(int task, Dense& x) const;
+  void forward(int task, const std::vector<char>& active, Dense& x,
+               std::vector<Dense>& passed_on) const;
+  void backward(int task, const std::vector<char>& active, Dense& x) const;
 
   std::shared_ptr<const Elimination> structure_;
   std::vector<Supernode> supernodes_;

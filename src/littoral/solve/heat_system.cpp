@@ -87,10 +87,11 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
   Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 
   int passes = 0;
+  std::vector<char> outside(static_cast<std::size_t>(r.size()), 1);  // unknowns of no layer yet
   while (left > 0) {
     task.checkpoint();
     const int p = passes++;
-    const Vector z = factor.solve(r);
+    const Vector z = factor.solve(r, outside);
     double top = 0;
     for (Eigen::Index i = 0; i < n; ++i)
       if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
@@ -101,6 +102,7 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
       field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
       if (block_magnitude(z, i, block_) < front * top) continue;
       field.layer[i] = p;
+      std::fill_n(outside.begin() + i * block_, block_, 0);
       ++taken;
     }
     left -= taken;

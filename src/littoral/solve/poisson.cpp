@@ -112,7 +112,6 @@ VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, cons
 VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& task,
                            Report& report) const {
   // Unknowns (x, c): rows A x - B c = 0, the constants of anchored groups left out.
-  const Eigen::Index n_groups = static_cast<Eigen::Index>(rows.anchor.size());
   std::vector<int> column(rows.anchor.size(), -1);
   int n_free = 0;
   for (std::size_t g = 0; g < rows.anchor.size(); ++g)

@@ -53,7 +53,7 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
-                      needed_diffusions(source, options));
+                      needed_diffusions(source, options), Expect::one_solve);
   }();
   if (options.discontinuous)
     return discontinuous_distance(problem.mesh, T, *ops, terms, method, options, task, report);
@@ -65,7 +65,7 @@ SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& 
   const auto [T, ops, terms] = translate(problem, task, report);
   const auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
-    return UnsignedHeat(operators, options, task.stage(0.65, "factoring"));
+    return UnsignedHeat(operators, options, task.stage(0.65, "factoring"), Expect::one_solve);
   }();
   const Stopwatch watch(report, "solve");
   return {method.solve(terms, task.stage(0.25, "solving"), report), {}};

@@ -62,14 +62,17 @@ Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& 
 }
 
 SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
-                       Diffusions diffusions)
+                       Diffusions diffusions, Expect expect)
     : ops_(std::move(ops)),
       root_t_(ops_->vector.h * std::sqrt(time_scale)),
+      order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.2, "factor Poisson")) {
+               task.stage(0.2, "factor Poisson"), order_) {
   const double t = root_t_ * root_t_;
-  if (diffusions.scalars) scalar_heat_.emplace(ops_->scalar, t, task.stage(0.2, "factor heat"));
-  if (diffusions.vectors) heat_.emplace(ops_->vector, t, task.stage(0.6, "factor vector heat"));
+  if (diffusions.scalars)
+    scalar_heat_.emplace(ops_->scalar, t, expect, order_, task.stage(0.2, "factor heat"));
+  if (diffusions.vectors)
+    heat_.emplace(ops_->vector, t, expect, order_, task.stage(0.4, "factor vector heat"));
 }
 
 VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,

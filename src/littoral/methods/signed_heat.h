@@ -54,9 +54,9 @@ Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& 
 class SignedHeat {
  public:
   /// Factors M + t L with t = time_scale h^2, for vectors or scalars or both, and L. The operators
-  /// are shared, not copied.
+  /// are shared, not copied. Expecting one solve only, large heat matrices are left unfactored.
   SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task = {},
-             Diffusions diffusions = {});
+             Diffusions diffusions = {}, Expect expect = Expect::many_solves);
 
   /// Generalized signed distance at the nodes (nodes) [length of the input], +inf on components
   /// that no source reaches. Throws UnsupportedError if a diffusion is needed that was left out.
@@ -75,6 +75,7 @@ class SignedHeat {
 
   std::shared_ptr<const Operators> ops_;
   double root_t_;
+  Ordering order_;  // of the nodes
   std::optional<VectorHeat> heat_;
   std::optional<ScalarHeat> scalar_heat_;
   Poisson poisson_;

@@ -255,6 +255,7 @@ Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
   C.M = VecX::Zero(T->n_vertices);
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
+  V.ends = T->edges;
   V.M = VecX::Zero(V.n);
   for (int f = 0; f < T->n_faces(); ++f) {
     C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));

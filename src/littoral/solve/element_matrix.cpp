@@ -46,7 +46,7 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
             static_cast<int>(std::lower_bound(first, last, row) - zero_.innerIndexPtr());
       }
   }
-  pattern_ = std::make_shared<const CholeskyPattern>(std::make_shared<const SpMat>(zero_), task);
+  structure_ = std::make_shared<const Elimination>(zero_, dissection(zero_, task));
 }
 
 template <int K>

@@ -7,7 +7,7 @@
 
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
-#include "littoral/solve/cholesky_pattern.h"
+#include "littoral/solve/elimination.h"
 
 namespace littoral {
 
@@ -24,8 +24,8 @@ class ElementMatrix {
 
   int n() const { return n_; }
   int n_elements() const { return static_cast<int>(elements_.size()); }
-  double nonzeros() const { return pattern_->nonzeros(); }
-  const CholeskyPattern& pattern() const { return *pattern_; }
+  double nonzeros() const { return static_cast<double>(structure_->values()); }  // of a factor
+  const std::shared_ptr<const Elimination>& structure() const { return structure_; }
 
   Local gather(const VecX& x, int element) const {
     Local local;
@@ -42,7 +42,7 @@ class ElementMatrix {
   std::vector<std::array<int, K>> elements_;
   SpMat zero_;                                      // lower triangle
   std::vector<std::array<int, entries>> position_;  // in zero_'s values
-  std::shared_ptr<const CholeskyPattern> pattern_;
+  std::shared_ptr<const Elimination> structure_;
 };
 
 extern template class ElementMatrix<6>;

@@ -114,8 +114,10 @@ class Method {
     }
     for (int u = 0; u < problem_.n; ++u)
       value[diagonal[u]] = std::max(value[diagonal[u]] * (1 + 1e-13), 1e-30);
+    if (!structure_)
+      structure_ = std::make_shared<const Elimination>(laplacian_, dissection(laplacian_, task));
     try {
-      factor_ = std::make_unique<Cholesky<double>>(K, task);
+      factor_ = std::make_unique<Cholesky<double>>(*K, structure_, task);
     } catch (const SolveError&) {
       return false;  // round-off: the last iterate is as good as it gets
     }
@@ -267,6 +269,7 @@ class Method {
   Eigen::Index m_ = 0;
   std::vector<char> held_;
   SpMat laplacian_;
+  std::shared_ptr<const Elimination> structure_;
   std::vector<Eigen::Index> place_;
   std::unique_ptr<Cholesky<double>> factor_;
   VecX s_, x_, zl_, zu_, theta_, residual_, unbalanced_;

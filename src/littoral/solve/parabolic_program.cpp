@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "littoral/base/error.h"
+#include "littoral/solve/cholesky.h"
 #include "littoral/solve/parabolic_blocks.h"
 
 namespace littoral {
@@ -36,7 +38,6 @@ class Run {
         c_(program.c),
         options_(options),
         task_(task),
-        factor_(matrix.pattern()),
         x_(x0),
         local_(matrix.n_elements()),
         local_normal_(matrix.n_elements()) {
@@ -266,9 +267,11 @@ class Run {
     auto normal = std::make_shared<SpMat>(matrix_.sum(local_normal_));
     double lift = 0;
     for (int attempt = 0; attempt < 4; ++attempt) {
-      if (factor_.factor(normal, task_)) {
+      try {
+        factor_.emplace(*normal, matrix_.structure(), task_);
         normal_ = normal;
         return true;
+      } catch (const SolveError&) {  // not positive definite to working precision
       }
       const double next = lift == 0 ? 1e-13 : 100 * lift;
       normal = std::make_shared<SpMat>(*normal);
@@ -320,7 +323,7 @@ class Run {
   }
   void solve(const VecX& rhs) {
     // What is left of this equation becomes dual residual, so it is compared with c.
-    new_dx_ = factor_.solve(rhs);
+    new_dx_ = factor_->solve(rhs);
     double last = infinity;
     for (int k = 0; k < 5; ++k) {
       task_.checkpoint();
@@ -328,7 +331,7 @@ class Run {
       const double size = residual.norm();
       if (size <= 1e-2 * options_.tolerance * c_.norm() || size > 0.5 * last) break;
       last = size;
-      new_dx_ += factor_.solve(residual);
+      new_dx_ += factor_->solve(residual);
     }
   }
   std::pair<double, double> trial_steps() const {
@@ -365,7 +368,7 @@ class Run {
   const VecX c_;
   const ParabolicOptions options_;
   const Task& task_;
-  CholeskyOfPattern factor_;
+  std::optional<Cholesky<double>> factor_;
   std::shared_ptr<const SpMat> normal_;
   VecX x_, dx_, new_dx_, dual_residual_;
   std::array<double, 2> new_steps_{};

@@ -98,7 +98,9 @@ TEST(Quadratic, OrderOnTheSphere) {
     for (int v = 0; v < mesh.n_vertices(); ++v)
       sum += std::pow(d[v] - std::acos(std::clamp(mesh.point(v)[2], -1.0, 1.0)), 2);
     const double rms = std::sqrt(sum / mesh.n_vertices());
-    if (last > 0) EXPECT_GT(std::log2(last / rms), 1.5) << "level " << level;
+    if (last > 0) {
+      EXPECT_GT(std::log2(last / rms), 1.5) << "level " << level;
+    }
     last = rms;
   }
   EXPECT_LT(last, 6e-3);

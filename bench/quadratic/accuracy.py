@@ -237,10 +237,40 @@ def noise(path: Path, vertex: int) -> None:
         print(f"| {sigma} | " + " | ".join(cells) + " |", flush=True)
 
 
+def moving(path: Path, steps: int = 8) -> None:
+    """Figure 12: a source moves straight from one face's centre over an edge to the next one's.
+    Distances may change by no more than the source moves."""
+    points, faces = load(path)
+    first = 0
+    shared = set(faces[first, :2])
+    second = next(f for f in range(len(faces)) if f != first and len(shared & set(faces[f])) == 2)
+    middle = points[faces[first, :2]].mean(0)
+    before: Floats | None = None
+    last = np.zeros(3)
+    print("| step | face | source moves | largest change | mean change | iterations |")
+    print("|---|---|---|---|---|---|")
+    for k in range(steps + 1):
+        t = 2 * k / steps - 1
+        face = first if t < 0 else second
+        b = np.full(3, abs(t) / 3) + (1 - abs(t)) * 0.5 * np.isin(faces[face], faces[first, :2])
+        place = b @ points[faces[face]]
+        run = Run(points, faces, (face, b), "quadratic")
+        change = np.abs(run.values - before) if before is not None else np.zeros(1)
+        step = float(np.linalg.norm(place - last)) if before is not None else 0.0
+        iterations = run.report["iterations"]["interior point"]
+        print(
+            f"| {k} | {face} | {step:.2e} | {change.max():.2e} | {change.mean():.2e} "
+            f"| {iterations:.0f} |",
+            flush=True,
+        )
+        before, last = run.values, place
+    print(f"\nThe edge's midpoint is at {np.round(middle, 3)}.")
+
+
 def main() -> None:
     """Reads the arguments."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", choices=["table", "sphere", "convergence", "noise"])
+    parser.add_argument("study", choices=["table", "sphere", "convergence", "noise", "moving"])
     parser.add_argument("meshes", nargs="*", type=Path)
     parser.add_argument("--vertex", type=int, default=0)
     parser.add_argument("--plot", type=Path)
@@ -251,8 +281,10 @@ def main() -> None:
         sphere(arguments.plot)
     elif arguments.study == "convergence":
         convergence(arguments.meshes, arguments.vertex, arguments.plot)
-    else:
+    elif arguments.study == "noise":
         noise(arguments.meshes[0], arguments.vertex)
+    else:
+        moving(arguments.meshes[0])
 
 
 if __name__ == "__main__":

@@ -98,11 +98,23 @@ class Run:
     also the mesh the values belong to."""
 
     def __init__(
-        self, points: Floats, faces: Ints, vertex: int, method: str, extra: Sequence[str] = ()
+        self,
+        points: Floats,
+        faces: Ints,
+        source: int | tuple[int, Floats],  # a vertex, or a face and barycentrics
+        method: str,
+        extra: Sequence[str] = (),
     ) -> None:
         with tempfile.TemporaryDirectory() as folder:
             mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
             write_obj(mesh, points, faces)
+            if isinstance(source, int):
+                where = ["--vertex", str(source)]
+            else:
+                a, b, c = source[1]
+                text = f"unsigned_point\nf {source[0]} {a:.17g} {b:.17g} {c:.17g}\n"
+                (Path(folder) / "source.txt").write_text(text)
+                where = ["--sources", str(Path(folder) / "source.txt")]
             files = ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run(
@@ -110,8 +122,7 @@ class Run:
                     PROGRAM,
                     "distance",
                     str(mesh),
-                    "--vertex",
-                    str(vertex),
+                    *where,
                     "--method",
                     method,
                     *files,

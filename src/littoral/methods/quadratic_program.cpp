@@ -188,6 +188,7 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
     }
   }
   if (touched.empty()) return;
+  alone_ = program_.caps.size() == 1;
   d_ = distance_along_edges(E, part, touched) / part.scale;
 
   // Objective: the integral of u, over the part's measure.
@@ -258,8 +259,9 @@ std::vector<typename QuadraticProgram<D>::Program::Sample> QuadraticProgram<D>::
     for (int i = 0; i < Shape::corners; ++i) slack[i] = slack_at(Shape::corner(i));
     for (int k = 0; k < Shape::edges; ++k) slack[Shape::corners + k] = slack_at(Shape::middle(k));
     const auto [least, b] = p2_minimum<D>(slack);
-    // Next to a source, where u is small, a dip of v moves the source by sqrt(v).
-    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + 1e-3 * h2)) continue;
+    // Next to a lone source, where u is small, a dip of v moves the source by sqrt(v).
+    const double least_u = (alone_ ? 1e-3 : 1) * h2;
+    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + least_u)) continue;
     found.push_back(sample(static_cast<int>(e), b));
     for (const auto& point : quarter_points<D>())
       found.push_back(sample(static_cast<int>(e), point));

@@ -53,6 +53,7 @@ class QuadraticProgram {
   const QuadraticPart<D>& part_;
   Program program_;
   VecX d_;                          // vertices of the part first seen; nodes: distance along edges
+  bool alone_ = false;              // one source
   std::vector<char> curve_inside_;  // local elements
 };
 

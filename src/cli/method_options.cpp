@@ -13,10 +13,11 @@ std::string option_help(const OptionInfo& info) {
 
 }  // namespace
 
-void add_method_options(CLI::App& verb, GivenOptions& given) {
+void add_method_options(CLI::App& verb, GivenOptions& given,
+                        const std::vector<MethodInfo>& methods) {
   std::map<std::string, std::string> help;
   std::vector<OptionInfo> all;
-  for (const MethodInfo& method : methods()) {
+  for (const MethodInfo& method : methods) {
     for (const OptionInfo& info : method.options) {
       if (help.count(info.name) == 0) all.push_back(info);
       std::string& text = help[info.name];
@@ -34,6 +35,10 @@ void add_method_options(CLI::App& verb, GivenOptions& given) {
     if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
     option->group("Options of methods");
   }
+}
+
+void add_method_options(CLI::App& verb, GivenOptions& given) {
+  add_method_options(verb, given, methods());
 }
 
 void use_method_options(const GivenOptions& given, DistanceRequest& request) {

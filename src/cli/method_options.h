@@ -1,5 +1,5 @@
 #pragma once
-// Flags for the options of the methods on surfaces, for the verbs that run one.
+// Flags for the options of methods, for the verbs that run one.
 
 #include <map>
 #include <string>
@@ -11,7 +11,10 @@ namespace littoral::cli {
 
 using GivenOptions = std::map<std::string, std::string>;  // name, value as typed
 
-/// One flag for each option that any method has; its help says what it is to each.
+/// One flag for each option that any of the methods has; its help says what it is to each.
+void add_method_options(CLI::App& verb, GivenOptions& given,
+                        const std::vector<MethodInfo>& methods);
+/// The same for the methods on surfaces.
 void add_method_options(CLI::App& verb, GivenOptions& given);
 
 /// Puts the options that were given into the request and checks it.

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   cli::add_distance(program, session);
   cli::add_winding(program, session);
+  cli::add_sdf(program, session);
+  cli::add_query(program, session);
   cli::add_info(program, session);
   cli::add_convert(program, session);
   cli::add_contour(program, session);

@@ -122,8 +122,9 @@ void add_convert(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb =
       add_verb(program, session, arguments, convert, "convert", "between file formats");
-  verb.add_option("IN", arguments->in,
-                  "a surface: .obj .ply .off .stl, or a volume: .vti .nrrd .npy")
+  verb.add_option(
+          "IN", arguments->in,
+          "a surface or cloud: .obj .ply .off .stl .pc .xyz .pcd, or a volume: .vti .nrrd .npy")
       ->required()
       ->type_name("");
   verb.add_option("-o,--output", arguments->out,

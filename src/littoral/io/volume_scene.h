@@ -9,9 +9,9 @@
 namespace littoral::io {
 
 struct VolumeView {
-  int axis = 2;                    // the slice is orthogonal to x, y or z
-  std::optional<double> position;  // along the axis [length]; default: the middle of the box
-  std::optional<double> level;     // of the isosurface; default: 0, or half way where 0 is not met
+  int axis = 2;                      // the slice is orthogonal to x, y or z
+  std::optional<double> position{};  // along the axis [length]; default: the middle of the box
+  std::optional<double> level{};  // of the isosurface; default: 0, or half way where 0 is not met
   bool isosurface = true;
 };
 

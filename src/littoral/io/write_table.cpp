@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include <sstream>
+
 #include "littoral/base/error.h"
 #include "littoral/io/binary.h"
 #include "littoral/io/text_scan.h"
@@ -23,10 +25,13 @@ void write_rows(std::ostream& out, const Eigen::MatrixXd& columns, char between)
 }
 
 void write_npy(std::ostream& out, const Eigen::MatrixXd& columns) {
-  std::string shape = std::to_string(columns.rows()) + ",";
-  if (columns.cols() > 1) shape += " " + std::to_string(columns.cols());
-  std::string header = "{'descr': '<f8', 'fortran_order': True, 'shape': (" + shape + "), }";
-  header.resize((10 + header.size() + 64) / 64 * 64 - 11, ' ');
+  std::ostringstream text;
+  text << "{'descr': '<f8', 'fortran_order': True, 'shape': (" << columns.rows() << ",";
+  if (columns.cols() > 1) text << " " << columns.cols();
+  text << "), }";
+  std::string header = text.str();
+  const std::size_t over = (header.size() + 11) % 64;  // with the ten bytes before and the newline
+  if (over > 0) header.append(64 - over, ' ');
   header += '\n';
   out.write("\x93NUMPY\x01\x00", 8);
   store_little(out, static_cast<std::uint16_t>(header.size()));

@@ -61,7 +61,7 @@ void flow(const JumpCalculus& J, DiscontinuousField& field, int n, double t, con
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, mass[i]);
   SpMat A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
-  const VecX phi = DefiniteSystem(std::move(A), task).solve(b);
+  const VecX phi = DefiniteSystem(A, task).solve(b);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) field.phi(f, k) = phi[field.piece(f, k)];
 }

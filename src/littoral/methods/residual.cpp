@@ -39,7 +39,7 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
   VecX b = curl;
   for (int f = 0; f < J.n_faces; ++f)
     if (held[f]) b[f] = 0;
-  const VecX beta = DefiniteSystem(std::move(Delta), task).solve(b);
+  const VecX beta = DefiniteSystem(Delta, task).solve(b);
   return omega - J.d1_transpose(beta).cwiseQuotient(J.star1);
 }
 

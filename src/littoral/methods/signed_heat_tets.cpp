@@ -43,7 +43,7 @@ VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, doub
     const Stopwatch watch(report, "diffuse");
     const FlushSubnormals flush;
     const double t = options.time_scale * h * h;
-    const auto A = std::make_shared<const SpMat>(SpMat(ops.face_mass + t * ops.face_laplacian));
+    const SpMat A = ops.face_mass + t * ops.face_laplacian;
     const Cholesky<double> factor(A, heat_stage);
     const MatX3 X = factor.solve(terms.X0);
     // Step II: Y = X / |X| on tets (B.2).

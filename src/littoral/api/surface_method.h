@@ -87,5 +87,6 @@ PreparedSources prepared_sources(const SurfaceProblem& problem, Task& task, Repo
 const std::vector<SurfaceMethod>& surface_methods();
 std::vector<SurfaceMethod> heat_methods();      // signed and unsigned
 std::vector<SurfaceMethod> geodesic_methods();  // exact polyhedral, fast marching
+std::vector<SurfaceMethod> regularized_methods();
 
 }  // namespace littoral

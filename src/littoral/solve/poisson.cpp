@@ -82,6 +82,29 @@ VecX DefiniteSystem::solve(const VecX& b) const {
   return best;
 }
 
+VecX DefiniteSystem::solve_once(const VecX& b) const {
+  if (lift_ > 0) return solve(b);
+  VecX x = factor_->solve(b);
+  if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");
+  return x;
+}
+
+SpMat eliminated(const SpMat& K, const std::vector<char>& gone) {
+  SpMat P(K.rows(), K.cols());
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros()));
+  for (int j = 0; j < K.outerSize(); ++j) {
+    if (gone[j]) {
+      entries.emplace_back(j, j, 1);
+      continue;
+    }
+    for (SpMat::InnerIterator it(K, j); it; ++it)
+      if (!gone[it.row()]) entries.emplace_back(it.row(), j, it.value());
+  }
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
+}
+
 SpMat Poisson::pinned(const SpMat& K, const std::vector<char>& held) const {
   // The first unknown of every component that nothing else holds is eliminated: its row and column
   // go, its diagonal stays positive.
@@ -90,19 +113,7 @@ SpMat Poisson::pinned(const SpMat& K, const std::vector<char>& held) const {
     if (i < static_cast<Eigen::Index>(component_.size()) && component_[i] < 0) pin[i] = 1;
   for (std::size_t c = 0; c < first_.size(); ++c)
     if (!held[c]) pin[first_[c]] = 1;
-  SpMat P(K.rows(), K.cols());
-  Triplets entries;
-  entries.reserve(static_cast<std::size_t>(K.nonZeros()) + first_.size());
-  for (int j = 0; j < K.outerSize(); ++j) {
-    if (pin[j]) {
-      entries.emplace_back(j, j, 1);
-      continue;
-    }
-    for (SpMat::InnerIterator it(K, j); it; ++it)
-      if (!pin[it.row()]) entries.emplace_back(it.row(), j, it.value());
-  }
-  P.setFromTriplets(entries.begin(), entries.end());
-  return P;
+  return eliminated(K, pin);
 }
 
 std::vector<char> Poisson::components_of(const SpMat& A) const {

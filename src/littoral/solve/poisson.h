@@ -19,6 +19,9 @@ class DefiniteSystem {
  public:
   DefiniteSystem(SpMat lower, const Task& task);
   VecX solve(const VecX& b) const;
+  /// One pass through the factor, for outer loops that correct each other's rounding; `solve` where
+  /// the matrix had to be lifted.
+  VecX solve_once(const VecX& b) const;
   double relative_residual(const VecX& x, const VecX& b) const;
   double nonzeros() const { return factor_->nonzeros(); }
   double lift() const { return lift_; }
@@ -28,6 +31,9 @@ class DefiniteSystem {
   std::shared_ptr<const Cholesky<double>> factor_;
   double lift_ = 0;
 };
+
+/// K with the rows and columns of the marked unknowns those of the identity. Lower triangles.
+SpMat eliminated(const SpMat& K, const std::vector<char>& gone);
 
 /// Rows of A x = B c with one unknown constant per group, c of the first group of every component
 /// being 0: x takes one value along all rows of a group.

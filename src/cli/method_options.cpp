@@ -32,7 +32,8 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
                   "--" + info.name, [keep](std::int64_t on) { keep(on > 0 ? "on" : "off"); },
                   help[info.name])
             : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
-    if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
+    if (!info.is_switch)
+      option->type_name(info.is_text ? "TEXT" : info.choices.empty() ? "X" : "WORD");
     option->group("Options of methods");
   }
 }

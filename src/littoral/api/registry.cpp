@@ -12,7 +12,7 @@ namespace littoral {
 const std::vector<SurfaceMethod>& surface_methods() {
   static const std::vector<SurfaceMethod> all = [] {
     std::vector<SurfaceMethod> out;
-    for (auto family : {heat_methods, geodesic_methods, quadratic_methods}) {
+    for (auto family : {heat_methods, geodesic_methods, quadratic_methods, regularized_methods}) {
       std::vector<SurfaceMethod> entries = family();
       out.insert(out.end(), std::make_move_iterator(entries.begin()),
                  std::make_move_iterator(entries.end()));

@@ -88,5 +88,6 @@ const std::vector<SurfaceMethod>& surface_methods();
 std::vector<SurfaceMethod> heat_methods();       // signed and unsigned
 std::vector<SurfaceMethod> geodesic_methods();   // exact polyhedral, fast marching
 std::vector<SurfaceMethod> quadratic_methods();  // quadratic-order geodesics
+std::vector<SurfaceMethod> regularized_methods();
 
 }  // namespace littoral

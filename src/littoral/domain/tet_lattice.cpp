@@ -59,9 +59,11 @@ struct Octree {
 };
 
 /// Halves cubes until none has a neighbour across a face or an edge less than half its size.
-void balance(Octree& tree, std::vector<int> changed) {
+void balance(Octree& tree) {
   const int whole = tree.cubes[0].size;
-  std::deque<int> queue(changed.begin(), changed.end());
+  std::deque<int> queue;
+  for (std::size_t at = 0; at < tree.cubes.size(); ++at)
+    if (tree.child[at] < 0) queue.push_back(static_cast<int>(at));
   while (!queue.empty()) {
     const int at = queue.front();
     queue.pop_front();
@@ -187,7 +189,6 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
   const int whole = 2 << depth;  // the smallest cube has size 2, so that its centre is a place
   Octree tree(whole);
   const double unit = side / whole;
-  std::vector<int> changed;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Vec3 at = (points.row(i).transpose() - origin) / unit;
     // The cube that holds the point and those next to it: no point sees the change of size.
@@ -205,14 +206,11 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
         tree.split(leaf);
         leaf = tree.leaf(p);
       }
-      changed.push_back(leaf);
     }
     if (tree.cubes.size() * 12 > max_tets)
       throw InputError("the tet lattice would have too many tets; use a smaller --resolution");
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  balance(tree, std::move(changed));
+  balance(tree);
 
   Filler filler(tree, origin, unit, mesh_);
   child_ = tree.child;

@@ -39,6 +39,22 @@ SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {
   return K;
 }
 
+SpMat eliminated(const SpMat& K, const std::vector<char>& gone) {
+  SpMat P(K.rows(), K.cols());
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros()));
+  for (int j = 0; j < K.outerSize(); ++j) {
+    if (gone[j]) {
+      entries.emplace_back(j, j, 1);
+      continue;
+    }
+    for (SpMat::InnerIterator it(K, j); it; ++it)
+      if (!gone[it.row()]) entries.emplace_back(it.row(), j, it.value());
+  }
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
+}
+
 std::vector<int> unknowns_of(const SpMat& R) {
   std::vector<int> out;
   for (int j = 0; j < R.outerSize(); ++j)
@@ -121,6 +137,13 @@ VecX DefiniteSystem::solve(const VecX& b) const {
   }
   if (!best.allFinite()) throw SolveError("the solution of a linear system is not finite");
   return best;
+}
+
+VecX DefiniteSystem::solve_once(const VecX& b) const {
+  if (lift_ > 0) return solve(b);
+  VecX x = factor_->solve(b);
+  if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");
+  return x;
 }
 
 }  // namespace littoral

@@ -23,6 +23,9 @@ std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, cons
 /// The same whatever the pattern.
 SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W);
 
+/// K with the rows and columns of the marked unknowns those of the identity. Lower triangles.
+SpMat eliminated(const SpMat& K, const std::vector<char>& gone);
+
 /// Unknowns that occur in rows of R, ascending.
 std::vector<int> unknowns_of(const SpMat& R);
 
@@ -40,6 +43,9 @@ class DefiniteSystem {
   DefiniteSystem patched(SpMat lower, const std::vector<int>& changed, const Task& task) const;
 
   VecX solve(const VecX& b) const;
+  /// One pass through the factor, for outer loops that correct each other's rounding; `solve` where
+  /// the matrix had to be lifted.
+  VecX solve_once(const VecX& b) const;
   MatX approximate(const MatX& b) const { return factor_->solve(b); }  // one solve with the factor
   double relative_residual(const VecX& x, const VecX& b) const;
   double nonzeros() const { return factor_->nonzeros(); }

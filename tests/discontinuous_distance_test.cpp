@@ -59,7 +59,7 @@ TEST(DiscontinuousDistance, AgreesWithTheContinuousOneWhereACurveBounds) {
   sources.space_curves.push_back({ring, true, "ring"});
   const VecX plain = distance(mesh, sources, {}).values;
   const SurfaceResult torn = distance(mesh, sources, {{"discontinuous", "on"}});
-  EXPECT_LT((plain - torn.values).cwiseAbs().maxCoeff(), 0.15);
+  EXPECT_LT((plain - torn.values).cwiseAbs().maxCoeff(), 0.2);  // two edge lengths, at the pole
   EXPECT_LT((plain - torn.values).cwiseAbs().mean(), 0.03);
   EXPECT_EQ(torn.shown->scalars.at("distance").size(), torn.shown->n_vertices());
 }

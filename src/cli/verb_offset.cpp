@@ -1,14 +1,17 @@
 // littoral offset: dilated, eroded, opened and closed shapes, and curves on surfaces.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "cli/method_options.h"
+#include "cli/space_input.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/api/level_lines.h"
+#include "littoral/api/registry.h"
 #include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
 #include "littoral/base/error.h"
@@ -27,6 +30,7 @@ struct Arguments {
   bool clip = false;
   DistanceRequest request;
   GivenOptions options;
+  SpaceTexts space;
 };
 
 // --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
@@ -61,15 +65,34 @@ void offset_curves(Arguments& arguments, const std::vector<double>& distances, S
   write_lines(arguments.out, mesh, levels);
 }
 
-void offset_shape(const Arguments& arguments, const std::vector<double>& distances,
-                  Session& session) {
+/// Signed distance around a mesh, soup or cloud, on a grid that holds all offsets of it.
+VolumeField distance_around(Arguments& arguments, const std::vector<double>& distances,
+                            Session& session) {
+  const PolygonSoup input = io::read_surface(arguments.in);
+  SpaceTexts& space = arguments.space;
+  space.request.method = arguments.request.method;
+  space.options = arguments.options;
+  use_space_options(space, session);
+  double farthest = 0;
+  for (const double d : distances) farthest = std::max(farthest, std::abs(d));
+  const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
+  if (input.n_vertices() > 0 && input.points.allFinite()) {
+    const double extent =
+        (input.points.colwise().maxCoeff() - input.points.colwise().minCoeff()).maxCoeff();
+    if (extent > 0) space.padding = std::max(space.padding, 1.1 * reach / extent);
+  }
+  VolumeField volume;
+  volume.grid = grid_of(space, input);
+  session.reading = false;
+  volume.values = grid_distance(input, volume.grid, space.request, session.task(), session.report);
+  return volume;
+}
+
+void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
   check_level_outputs(arguments.out, distances.size(), surface_outputs, "a surface");
-  if (!io::is_volume(arguments.in))
-    throw UnsupportedError(
-        "offset takes a volume (.vti .nrrd .npy) of signed distance, or with "
-        "--sources a surface and curves on it; " +
-        arguments.in + " is neither");
-  const VolumeField distance = io::read_volume(arguments.in, arguments.field);
+  const VolumeField distance = io::is_volume(arguments.in)
+                                   ? io::read_volume(arguments.in, arguments.field)
+                                   : distance_around(arguments, distances, session);
   session.reading = false;
   Task task = session.task();
   const auto shells = offset_shells(distance, distances, arguments.morphology, arguments.clip,
@@ -117,10 +140,11 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
   verb.add_option("--method", arguments.request.method,
-                  "for curves: a method of `littoral distance` [default signed-heat]")
+                  "of `littoral sdf`, or for curves of `littoral distance` [default signed-heat]")
       ->type_name("NAME");
   verb.add_flag("--flip", session.flip, "reverse every signed curve");
-  add_method_options(verb, arguments.options);
+  add_grid_options(verb, arguments.space);
+  add_method_options(verb, arguments.options, {find_method("signed-heat")});
   add_index_option(verb, session);
   add_json_option(verb, session);
   add_common_options(verb, session);

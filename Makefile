@@ -1,6 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build test format tidy docs bench clean
+.PHONY: help demo build test format tidy docs bench peers clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -36,6 +36,14 @@ bench:  ## benchmarks
 	cmake --preset bench
 	cmake --build build/bench
 	build/bench/bench/littoral_bench
+
+peers:  ## littoral beside other programs: the table and plot of docs/performance.md
+	scripts/setup.sh test
+	cmake --preset bench
+	cmake --build build/bench --target littoral_surface_timer
+	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
+	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer \
+	  docs/performance.md docs/gallery/performance-surface.png $(MESHES)
 
 clean:  ## remove what was built
 	rm -rf build out

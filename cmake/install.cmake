@@ -8,10 +8,10 @@ install(DIRECTORY src/littoral DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")
 install(EXPORT littoral_targets NAMESPACE littoral:: DESTINATION ${littoral_config_dir})
 
-set(littoral_uses_cholmod OFF)
-if(LITTORAL_GPL AND Cholmod_FOUND)
-  set(littoral_uses_cholmod ON)
-  install(FILES cmake/FindCholmod.cmake DESTINATION ${littoral_config_dir})
+set(littoral_uses_blas ${BLAS_FOUND})
+set(littoral_uses_metis ${Metis_FOUND})
+if(Metis_FOUND)
+  install(FILES cmake/FindMetis.cmake DESTINATION ${littoral_config_dir})
 endif()
 configure_package_config_file(cmake/littoral-config.cmake.in littoral-config.cmake
                               INSTALL_DESTINATION ${littoral_config_dir})

@@ -8,9 +8,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-build_packages=(build-essential cmake ninja-build ccache libeigen3-dev libsuitesparse-dev
-  libopenblas-dev libmetis-dev libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev)
-test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev
+build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
+  libopenblas-dev libmetis-dev libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libopenvdb-dev
+  libtbb-dev libboost-dev libimath-dev)
+test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
   libbenchmark-dev python3-venv chromium)
 oldest_node=18
 

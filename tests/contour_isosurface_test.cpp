@@ -166,8 +166,9 @@ TEST(Isosurface, TopologyOfTheTrilinearInterpolant) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const auto coarse = sampled(box_grid(3), [&](const Vec3&) { return uniform(random); });
-    const auto fine =
-        sampled(box_grid(2 * 14 + 1), [&](const Vec3& p) { return test::trilinear(coarse, p); });
+    const auto fine = sampled(box_grid(2 * 14 + 1), [&](const Vec3& p) {
+      return interpolate(coarse, (p + Vec3::Ones()).cwiseQuotient(coarse.grid.spacing));
+    });
     const PolygonSoup a = contour(coarse, 0, true), b = contour(fine, 0, true);
     if (a.n_faces() == 0) continue;
     const Facts at_once(a), sampled_finely(b);

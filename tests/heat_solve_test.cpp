@@ -133,14 +133,14 @@ TEST(HeatSolve, CholeskyAgreesWithDense) {
   const Dense A = random_laplacian(n, random) + 0.1 * Dense::Identity(n, n);
   Dense b(n, 2);
   b << random_balanced(n, random), random_balanced(n, random);
-  const Cholesky<double> factor(std::make_shared<const SpMat>(lower_of(A)), {});
+  const Cholesky<double> factor(lower_of(A), {});
   EXPECT_LE((A * factor.solve(b) - b).cwiseAbs().maxCoeff(), 1e-11);
 
   Eigen::MatrixXcd H = A.cast<Complex>();
   H(1, 0) += Complex(0, 0.05);
   H(0, 1) -= Complex(0, 0.05);
   const SpMatC lower = H.triangularView<Eigen::Lower>().toDenseMatrix().sparseView();
-  const Cholesky<Complex> complex_factor(std::make_shared<const SpMatC>(lower), {});
+  const Cholesky<Complex> complex_factor(lower, {});
   const Eigen::MatrixXcd c = b.cast<Complex>() * Complex(1, 2);
   EXPECT_LE((H * complex_factor.solve(c) - c).cwiseAbs().maxCoeff(), 1e-10);
 }
@@ -148,9 +148,8 @@ TEST(HeatSolve, CholeskyAgreesWithDense) {
 TEST(HeatSolve, IndefiniteMatricesAreErrors) {
   Dense A = Dense::Identity(4, 4);
   A(2, 2) = -1;
-  EXPECT_THROW(Cholesky<double>(std::make_shared<const SpMat>(lower_of(A)), {}), SolveError);
-  EXPECT_THROW(Cholesky<Complex>(std::make_shared<const SpMatC>(lower_of(A).cast<Complex>()), {}),
-               SolveError);
+  EXPECT_THROW(Cholesky<double>(lower_of(A), {}), SolveError);
+  EXPECT_THROW(Cholesky<Complex>(lower_of(A).cast<Complex>(), {}), SolveError);
 }
 
 TEST(HeatTask, ProgressNeverFallsAndEndsAtOne) {

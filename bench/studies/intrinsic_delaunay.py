@@ -1,22 +1,28 @@
-"""What intrinsic Delaunay refinement does for point distances; prints a Markdown table.
+"""What intrinsic Delaunay refinement does for distances on bad triangulations.
 
-usage: intrinsic_delaunay.py PROGRAM MESH...    needs numpy and pygeodesic (PyPI)
+usage: intrinsic_delaunay.py PROGRAM PAGE.md MESH...    needs numpy
 
-Mean / largest error against exact polyhedral distance from one vertex, in per cent of the largest
-distance, without and with --intrinsic-delaunay.
+Distance from one vertex against exact polyhedral distance, without and with --intrinsic-delaunay:
+mean / largest error in per cent of the largest distance. Every mesh is run, those with a smallest
+angle below one degree get a row; the table replaces a section of the page.
 """
 
-import re
+import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
-import pygeodesic.geodesic as geodesic
-from point_accuracy import read_obj
 
 METHODS = ("signed-heat", "unsigned-heat")
+
+
+def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    rows = [line.split() for line in path.read_text().splitlines()]
+    points = np.array([row[1:4] for row in rows if row[:1] == ["v"]], dtype=float)
+    faces = [[int(c.split("/")[0]) - 1 for c in row[1:]] for row in rows if row[:1] == ["f"]]
+    return points, np.array(faces)
 
 
 def smallest_angle(points: np.ndarray, faces: np.ndarray) -> float:
@@ -29,43 +35,64 @@ def smallest_angle(points: np.ndarray, faces: np.ndarray) -> float:
     return smallest
 
 
-def heat(program: str, mesh: Path, source: int, options: list[str]) -> tuple[np.ndarray, str]:
+def distance(program: str, mesh: Path, source: int, *options: str) -> tuple[np.ndarray, dict]:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "out.txt"
         command = [program, "distance", str(mesh), "--vertex", str(source), "-o", str(out)]
-        command += ["--verbose", "--quiet", *options]
+        command += ["--json", "--quiet", *options]
         run = subprocess.run(command, check=True, capture_output=True, text=True)
-        return np.loadtxt(out), run.stderr
+        return np.loadtxt(out), json.loads(run.stdout)
 
 
-def main(program: str, meshes: list[Path]) -> None:
-    heads = [f"{m}{s}" for m in METHODS for s in ("", ", refined")]
-    print("| mesh | faces | smallest angle | flips | added | " + " | ".join(heads) + " |")
-    print("|---" * (5 + len(heads)) + "|")
+def row(program: str, path: Path, folder: Path) -> str:
+    """A line of the table; empty if the triangles are not bad."""
+    mesh = folder / "mesh.obj"
+    convert = [program, "convert", str(path), "--triangulate", "-o", str(mesh), "--quiet"]
+    subprocess.run(convert, check=True)
+    points, faces = read_obj(mesh)
+    source = int(np.unique(faces)[len(np.unique(faces)) // 3])
+    exact, _ = distance(program, mesh, source, "--method", "exact")
+    cells: list[str] = []
+    sizes: dict = {}
+    seconds = 0.0
+    for method in METHODS:
+        for more in ([], ["--intrinsic-delaunay"]):
+            phi, report = distance(program, mesh, source, "--method", method, *more)
+            sizes = report["sizes"]
+            seconds = report["timings"].get("retriangulation", 0.0)
+            ok = np.isfinite(phi) & np.isfinite(exact)
+            error = 100 * abs(phi - exact)[ok] / exact[ok].max()
+            cells.append(f"{error.mean():.2f} / {error.max():.1f}")
+    counts = [sizes[f"intrinsic_{n}"] for n in ("flips", "vertices_added", "edges_not_delaunay")]
+    angle = smallest_angle(points, faces)
+    numbers = [f"{n:.0f}" for n in counts]
+    print(path.name, len(faces), f"{angle:.3g}", *numbers, f"{seconds:.2f} s", *cells, flush=True)
+    if angle >= 1:
+        return ""
+    return f"| {path.stem} | {len(faces)} | {angle:.2g}° | " + " | ".join([*numbers, *cells]) + " |"
+
+
+def main(program: str, page: str, meshes: list[Path]) -> None:
+    heads = ["mesh", "faces", "smallest angle", "flips", "added", "not Delaunay"]
+    heads += [f"{m}{s}" for m in METHODS for s in ("", ", refined")]
+    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    refused = []
     for path in meshes:
         with tempfile.TemporaryDirectory() as folder:
-            mesh = Path(folder) / "mesh.obj"
-            convert = [program, "convert", str(path), "-o", str(mesh), "--quiet"]
-            subprocess.run(convert, check=True)
-            points, faces = read_obj(mesh)
-            source = int(np.unique(faces)[len(np.unique(faces)) // 3])
-            exact = geodesic.PyGeodesicAlgorithmExact(points, faces)
-            truth = exact.geodesicDistances(np.array([source]))[0]
-            cells, report = [], ""
-            for method in METHODS:
-                for more in ([], ["--intrinsic-delaunay"]):
-                    phi, report = heat(program, mesh, source, ["--method", method, *more])
-                    ok = np.isfinite(phi) & (truth < 1e9)
-                    error = 100 * abs(phi - truth)[ok] / truth[ok].max()
-                    cells.append(f"{error.mean():.2f} / {error.max():.1f}")
-        counts = [
-            re.search(rf"intrinsic_{name}: (\d+)", report) for name in ("flips", "vertices_added")
-        ]
-        numbers = [found[1] if found else "" for found in counts]
-        angle = f"{smallest_angle(points, faces):.3f}°"
-        row = [path.stem, str(len(faces)), angle, *numbers, *cells]
-        print("| " + " | ".join(row) + " |", flush=True)
+            try:
+                line = row(program, path, Path(folder))
+            except subprocess.CalledProcessError as error:
+                refused.append(f"{path.name} ({error.stderr.strip().splitlines()[-1]})")
+                print(refused[-1], flush=True)
+                continue
+            if line:
+                lines.append(line)
+    text = "\n".join(lines) + f"\n\n{len(meshes) - len(refused)} meshes were run"
+    text += f"; refused: {', '.join(refused)}.\n" if refused else ".\n"
+    begin, end = "<!-- bad triangulations -->\n", "<!-- end of bad triangulations -->\n"
+    head, rest = Path(page).read_text().split(begin)
+    Path(page).write_text(head + begin + text + end + rest.split(end)[1])
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], [Path(p) for p in sys.argv[2:]])
+    main(sys.argv[1], sys.argv[2], [Path(p) for p in sys.argv[3:]])

@@ -58,9 +58,13 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   cli::add_distance(program, session);
+  cli::add_winding(program, session);
+  cli::add_sdf(program, session);
+  cli::add_query(program, session);
   cli::add_info(program, session);
   cli::add_convert(program, session);
   cli::add_contour(program, session);
+  cli::add_offset(program, session);
   cli::add_methods(program, session);
   cli::add_view(program, session);
   cli::add_render(program, session);

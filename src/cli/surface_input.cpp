@@ -4,6 +4,7 @@
 #include "littoral/domain/voxels.h"
 #include "littoral/io/read.h"
 #include "littoral/io/read_voxels.h"
+#include "littoral/io/volume.h"
 
 namespace littoral::cli {
 
@@ -12,7 +13,7 @@ SurfaceMesh read_mesh(const std::filesystem::path& path) {
 }
 
 SurfaceInput read_domain(const std::filesystem::path& path) {
-  if (extension_of(path) != ".vol") return {read_mesh(path)};
+  if (!io::is_volume(path)) return {read_mesh(path)};
   const io::VoxelMask mask = io::read_voxels(path);
   VoxelSurface surface = boundary_of_voxels(mask.grid, mask.inside);
   return {std::move(surface.mesh), std::move(surface.face_normals)};

@@ -1,9 +1,9 @@
 // littoral distance: distance on a surface from curves and points on it.
 
 #include <iostream>
-#include <map>
 #include <memory>
 
+#include "cli/method_options.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/distance.h"
@@ -27,39 +27,8 @@ struct Arguments {
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
   DistanceRequest request;
-  std::map<std::string, std::string> options;  // as given
+  GivenOptions options;
 };
-
-std::string option_help(const OptionInfo& info) {
-  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
-         "; default " + info.fallback + "]";
-}
-
-/// One flag for each option that any method has; its help says what it is to each.
-void add_method_options(CLI::App& verb, Arguments& arguments) {
-  std::map<std::string, std::string> help;
-  std::vector<OptionInfo> all;
-  for (const MethodInfo& method : methods()) {
-    for (const OptionInfo& info : method.options) {
-      if (help.count(info.name) == 0) all.push_back(info);
-      std::string& text = help[info.name];
-      text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
-    }
-  }
-  for (const OptionInfo& info : all) {
-    const auto keep = [&arguments, name = info.name](const std::string& text) {
-      arguments.options[name] = text;
-    };
-    CLI::Option* option =
-        info.is_switch
-            ? verb.add_flag_function(
-                  "--" + info.name, [keep](std::int64_t given) { keep(given > 0 ? "on" : "off"); },
-                  help[info.name])
-            : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
-    if (!info.is_switch) option->type_name(info.choices.empty() ? "X" : "WORD");
-    option->group("Options of methods");
-  }
-}
 
 SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh,
                               Session& session) {
@@ -123,12 +92,7 @@ void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
 void run(Arguments& arguments, Session& session) {
   for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
   arguments.request.flip = session.flip;
-  const MethodInfo& method = find_method(arguments.request.method);
-  for (const auto& [name, text] : arguments.options) {
-    check_has_option(method, name);
-    arguments.request.options.emplace_back(name, text);
-  }
-  check_request(arguments.request);
+  use_method_options(arguments.options, arguments.request);
   Report& report = session.report;
   const auto [domain, sources] = [&] {
     const Stopwatch watch(report, "read");
@@ -159,7 +123,8 @@ void add_distance(CLI::App& program, Session& session) {
   std::string names;
   for (const MethodInfo& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
   verb->add_option("DOMAIN", arguments->domain,
-                   "the surface: meshes, clouds and voxels; .obj .ply .off .stl .vol")
+                   "the surface: mesh .obj .ply .off .stl, point cloud .pc .xyz .pcd .ply, "
+                   "voxels .vol .npy .nrrd .vti")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources,
@@ -181,7 +146,7 @@ void add_distance(CLI::App& program, Session& session) {
   verb->add_option("--method", arguments->request.method, names + " [default signed-heat]")
       ->type_name("NAME");
   verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
-  add_method_options(*verb, *arguments);
+  add_method_options(*verb, arguments->options);
   add_index_option(*verb, session);
   add_json_option(*verb, session);
   add_common_options(*verb, session);

@@ -5,13 +5,15 @@
 
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
+#include "cli/volume_input.h"
+#include "littoral/api/level_lines.h"
 #include "littoral/api/mesh_info.h"
 #include "littoral/api/report_json.h"
+#include "littoral/api/volume_info.h"
 #include "littoral/base/error.h"
-#include "littoral/base/option_table.h"
-#include "littoral/contour/isolines.h"
 #include "littoral/domain/triangulate.h"
 #include "littoral/io/read.h"
+#include "littoral/io/volume.h"
 #include "littoral/io/write.h"
 
 namespace littoral::cli {
@@ -20,7 +22,9 @@ namespace {
 
 struct Arguments {
   std::string in, out, mesh, field, levels;
-  bool triangulate = false;
+  std::vector<std::string> outs;
+  double band = 0;
+  bool triangulate = false, clip = false;
 };
 
 bool is_field_file(const std::string& extension) {
@@ -33,7 +37,9 @@ void info(const Arguments& arguments, Session& session) {
     throw InputError(arguments.in +
                      " holds sources: name the surface they lie on with --mesh FILE");
   std::vector<InfoEntry> entries;
-  if (arguments.mesh.empty()) {
+  if (arguments.mesh.empty() && io::is_volume(arguments.in)) {
+    entries = volume_info(io::read_volume(arguments.in, arguments.field));
+  } else if (arguments.mesh.empty()) {
     entries = surface_info(io::read_surface(arguments.in));
   } else {
     const SurfaceMesh mesh = read_mesh(arguments.mesh);
@@ -45,6 +51,8 @@ void info(const Arguments& arguments, Session& session) {
 }
 
 void convert(const Arguments& arguments, Session& session) {
+  if (io::is_volume(arguments.in))
+    return convert_volume(arguments.in, arguments.field, arguments.out, arguments.band, session);
   check_output(arguments.out, {".obj", ".ply", ".off", ".stl", ".vtp", ".csv", ".npy", ".txt"},
                "a surface");
   PolygonSoup soup = io::read_surface(arguments.in);
@@ -63,42 +71,19 @@ void convert(const Arguments& arguments, Session& session) {
 }
 
 void contour(const Arguments& arguments, Session& session) {
-  check_output(arguments.out, {".obj", ".ply"}, "lines");
   const std::vector<double> levels = parse_numbers("--level", arguments.levels);
+  if (io::is_volume(arguments.in))
+    return contour_volume(arguments.in, arguments.field, levels, arguments.clip, arguments.outs,
+                          session);
+  check_level_outputs(arguments.outs, levels.size(), {".obj", ".ply"}, "lines");
   PolygonSoup soup = io::read_surface(arguments.in);
   const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
   const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
   session.reading = false;
-  PolygonSoup out;
-  std::vector<Vec3> points;
-  std::vector<double> level_of_point;
   Task task = session.task();
-  for (double level : levels) {
-    task.stage(1.0 / static_cast<double>(levels.size()), "tracing lines").checkpoint();
-    const std::vector<Polyline> lines = isolines(mesh, values, level);
-    if (lines.empty()) session.report.warn("there are no lines at level " + number_text(level));
-    for (const Polyline& line : lines) {
-      std::vector<int> indices;
-      for (const SurfacePoint& node : line.nodes) {
-        indices.push_back(static_cast<int>(points.size()));
-        points.push_back(mesh.position(node));
-        level_of_point.push_back(level);
-      }
-      if (line.closed) indices.push_back(indices.front());
-      out.lines.push_back(std::move(indices));
-    }
-  }
-  if (points.empty())
-    throw InputError("none of the levels is met by a face of " + arguments.in +
-                     ": there is nothing to write");
-  out.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    out.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  if (extension_of(arguments.out) == ".ply")
-    out.scalars["level"] = Eigen::Map<const VecX>(level_of_point.data(),
-                                                  static_cast<Eigen::Index>(level_of_point.size()));
-  task.checkpoint();
-  io::write_surface(arguments.out, out);
+  const auto lines = level_lines(mesh, values, levels, session.report, task);
+  task.checkpoint(1);
+  write_lines(arguments.outs, mesh, lines);
 }
 
 using Job = void (*)(const Arguments&, Session&);
@@ -109,10 +94,6 @@ CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Argument
   add_common_options(*verb, session);
   verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
   return *verb;
-}
-
-void add_output(CLI::App& verb, Arguments& arguments, const char* help) {
-  verb.add_option("-o,--output", arguments.out, help)->required()->type_name("OUT");
 }
 
 void add_field(CLI::App& verb, Arguments& arguments) {
@@ -127,11 +108,12 @@ void add_info(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb = add_verb(program, session, arguments, info, "info",
                             "what is in a file, and what is wrong with it");
-  verb.add_option("FILE", arguments->in, "a surface, or with --mesh sources")
+  verb.add_option("FILE", arguments->in, "a surface, a volume, or with --mesh sources")
       ->required()
       ->type_name("");
   verb.add_option("--mesh", arguments->mesh, "the surface that the sources in FILE lie on")
       ->type_name("FILE");
+  verb.add_option("--field", arguments->field, "which values of a volume")->type_name("NAME");
   add_index_option(verb, session);
   add_json_option(verb, session);
 }
@@ -140,8 +122,21 @@ void add_convert(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb =
       add_verb(program, session, arguments, convert, "convert", "between file formats");
-  verb.add_option("IN", arguments->in, "a surface: .obj .ply .off .stl")->required()->type_name("");
-  add_output(verb, *arguments, ".obj .ply .off .stl, or of a field .vtp .csv .npy .txt");
+  verb.add_option("IN", arguments->in,
+                  "a surface or cloud: .obj .ply .off .stl .pc .xyz .pcd, or a volume: .vti .nrrd "
+                  ".npy .vol")
+      ->required()
+      ->type_name("");
+  verb.add_option("-o,--output", arguments->out,
+                  ".obj .ply .off .stl, of a field .vtp .csv .npy .txt, a volume .vti .npy .nrrd "
+                  ".vdb")
+      ->required()
+      ->type_name("OUT");
+  verb.add_option("--band", arguments->band,
+                  "for .vdb: keep values nearer to zero than this many spacings, 0 to 1e6; 0: all "
+                  "[default 0]")
+      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->type_name("N");
   verb.add_flag("--triangulate", arguments->triangulate, "cut polygons into triangles");
   add_field(verb, *arguments);
 }
@@ -149,15 +144,22 @@ void add_convert(CLI::App& program, Session& session) {
 void add_contour(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb = add_verb(program, session, arguments, contour, "contour",
-                            "lines on a surface where a field takes given values");
-  verb.add_option("FIELD", arguments->in, "a surface with values: .ply, or .obj with texture")
+                            "lines on a surface, or surfaces in a volume, where a field takes "
+                            "given values");
+  verb.add_option(
+          "FIELD", arguments->in,
+          "a surface with values: .ply, or .obj with texture; or a volume: .vti .nrrd .npy .vol")
       ->required()
       ->type_name("");
   verb.add_option("--level", arguments->levels,
                   "the values, separated by commas [unit of the field]")
       ->required()
       ->type_name("L[,L...]");
-  add_output(verb, *arguments, "lines: .obj .ply");
+  add_level_outputs(verb, arguments->outs,
+                    "lines: .obj .ply; surfaces: .obj .ply .off .stl; one file, or one for each "
+                    "level");
+  verb.add_flag("--clip", arguments->clip,
+                "volumes: close the surface flat where it meets the box");
   add_field(verb, *arguments);
 }
 

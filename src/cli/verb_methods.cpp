@@ -6,6 +6,8 @@
 #include "cli/verbs.h"
 #include "littoral/api/registry.h"
 #include "littoral/api/report_json.h"
+#include "littoral/api/space_method.h"
+#include "littoral/api/winding.h"
 
 namespace littoral::cli {
 
@@ -17,24 +19,34 @@ std::string joined(const std::vector<std::string>& words) {
   return out;
 }
 
-void print_table() {
-  for (const MethodInfo& method : methods())
+void print_table(const std::vector<MethodInfo>& all) {
+  for (const MethodInfo& method : all)
     std::cout << method.name << "  on: " << joined(method.domains) << "\n    " << method.summary
               << "\n    " << method.reference << "\n";
 }
 
-void print_markdown() {
+void print_markdown(const std::string& title, const std::vector<MethodInfo>& all) {
+  std::cout << "# " << title << "\n\n";
   std::cout << "| method | runs on | what it computes | paper |\n|---|---|---|---|\n";
-  for (const MethodInfo& method : methods())
+  for (const MethodInfo& method : all)
     std::cout << "| `" << method.name << "` | " << joined(method.domains) << " | " << method.summary
               << " | " << method.reference << " |\n";
-  for (const MethodInfo& method : methods()) {
+  for (const MethodInfo& method : all) {
+    if (method.options.empty()) continue;
     std::cout << "\n## Options of `" << method.name
               << "`\n\n| option | range | default | unit | |\n|---|---|---|---|---|\n";
     for (const OptionInfo& info : method.options)
       std::cout << "| `--" << info.name << "` | " << option_range_text(info) << " | "
                 << info.fallback << " | " << info.unit << " | " << info.help << " |\n";
   }
+}
+
+void print_all_markdown() {
+  print_markdown("Distance on surfaces", methods());
+  std::cout << "\n";
+  print_markdown("Inside and outside on surfaces", {winding_method()});
+  std::cout << "\n";
+  print_markdown("Distance in space", space_method_infos());
 }
 
 }  // namespace
@@ -47,9 +59,9 @@ void add_methods(CLI::App& program, Session& session) {
   verb->callback([markdown, &session] {
     session.job = [markdown, &session] {
       if (session.json)
-        std::cout << methods_json(methods()) << "\n";
+        std::cout << methods_json(all_methods()) << "\n";
       else
-        *markdown ? print_markdown() : print_table();
+        *markdown ? print_all_markdown() : print_table(all_methods());
     };
   });
 }

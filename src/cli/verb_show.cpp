@@ -8,10 +8,12 @@
 #include "cli/serve.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
+#include "cli/volume_input.h"
 #include "littoral/base/error.h"
 #include "littoral/io/picture.h"
 #include "littoral/io/read.h"
 #include "littoral/io/scene.h"
+#include "littoral/io/volume.h"
 
 namespace littoral::cli {
 
@@ -21,10 +23,17 @@ struct Arguments {
   std::string in, out, field;
   std::vector<std::string> sources;
   io::PictureOptions picture;
+  VolumeViewTexts volume;
   int levels = 20;
 };
 
-io::Scene read_scene(const Arguments& arguments, Session& session) {
+io::Scene read_scene_of(const Arguments& arguments, Session& session) {
+  if (io::is_volume(arguments.in)) {
+    if (!arguments.sources.empty())
+      throw InputError("option --sources: sources are drawn on surfaces, " + arguments.in +
+                       " is a volume");
+    return read_volume_scene(arguments.in, arguments.field, arguments.volume);
+  }
   PolygonSoup soup = io::read_surface(arguments.in);
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   io::Scene scene = io::make_scene(soup, field);
@@ -33,6 +42,11 @@ io::Scene read_scene(const Arguments& arguments, Session& session) {
     const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
     io::add_sources(scene, mesh, read_all_sources(arguments.sources, mesh, session));
   }
+  return scene;
+}
+
+io::Scene read_scene(const Arguments& arguments, Session& session) {
+  io::Scene scene = read_scene_of(arguments, session);
   scene.title = std::filesystem::path(arguments.in).stem().string();
   scene.isolines = arguments.levels;
   io::check_scene(scene);
@@ -80,7 +94,9 @@ using Job = void (*)(const Arguments&, Session&);
 CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
                    Job job, const char* name, const char* help) {
   CLI::App* verb = program.add_subcommand(name, help);
-  verb->add_option("FILE", arguments->in, "a surface, with values or without: .obj .ply .off .stl")
+  verb->add_option("FILE", arguments->in,
+                   "a surface, with values or without: .obj .ply .off .stl; or a volume: .vti "
+                   ".nrrd .npy .vol")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")
@@ -93,6 +109,7 @@ CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Argument
   verb->add_option("--levels", arguments->levels, "about how many isolines, 0 to 1000 [default 20]")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
+  add_volume_view_options(*verb, arguments->volume);
   add_index_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });

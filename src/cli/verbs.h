@@ -6,9 +6,13 @@
 namespace littoral::cli {
 
 void add_distance(CLI::App& program, Session& session);
+void add_winding(CLI::App& program, Session& session);
+void add_sdf(CLI::App& program, Session& session);
+void add_query(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_convert(CLI::App& program, Session& session);
 void add_contour(CLI::App& program, Session& session);
+void add_offset(CLI::App& program, Session& session);
 void add_methods(CLI::App& program, Session& session);
 void add_view(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);

@@ -40,7 +40,7 @@ FILES = {
     "truncated.stl": ": byte 80: the header says 80 triangles, the data hold 78",
     "truncated_ascii.ply": ":113: the file ends after 62 of 80 of element 'face'",
     "truncated_header.ply": ":4: the file ends inside the header",
-    "unknown.xyz9": ": unknown surface format '.xyz9'; .obj, .off, .ply and .stl are read",
+    "unknown.xyz9": ": unknown surface format '.xyz9'; .obj, .off, .ply, .stl, .pc, .xyz and",
     "unknown_type.ply": ":4: unknown type 'half'",
     "wrong_extension_ply.obj": ": no vertices",
     # may be accepted or not; these are not

@@ -17,6 +17,11 @@ export function readScene() {
   scene.innerSides = bytes(scene.innerSides);
   // 0..1 between the field's least and greatest value, or +inf
   scene.values = scene.values === undefined ? null : floats(scene.values);
+  if (scene.volume) {
+    // 0..1 as for surfaces, in 65534 steps; 65535 is infinite
+    const steps = new Uint16Array(bytes(scene.volume.values).buffer);
+    scene.volume.values = Float32Array.from(steps, (x) => (x === 65535 ? Infinity : x / 65534));
+  }
   scene.field.colours = bytes(scene.field.colours);
   for (const key of ["signed", "unsigned", "arrows", "points"]) {
     scene.sources[key] = floats(scene.sources[key]);

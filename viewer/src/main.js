@@ -3,7 +3,9 @@ import { makeCamera } from "./camera.js";
 import { numberText, readScene, valueOf } from "./data.js";
 import { drawLegend } from "./legend.js";
 import { makeSources } from "./sources.js";
-import { makeSurface } from "./surface.js";
+import { makeLook, makeSurface } from "./surface.js";
+import { makeVolume } from "./volume.js";
+import { connectVolume } from "./volume-controls.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -29,8 +31,9 @@ function showFacts(scene) {
   }
   element("panel").hidden = false;
   element("view").setAttribute("aria-label",
-    `${scene.title || "Surface"}: ${scene.triangles.length / 3} triangles` +
-    (scene.values ? `, ${scene.field.name} from ${numberText(scene.field.low)} to ${numberText(scene.field.high)}` : ""));
+    `${scene.title || "Surface"}: ` +
+    (scene.volume ? `volume of ${scene.volume.n.join(" x ")} nodes` : `${scene.triangles.length / 3} triangles`) +
+    (scene.values || scene.volume ? `, ${scene.field.name} from ${numberText(scene.field.low)} to ${numberText(scene.field.high)}` : ""));
 }
 
 function start() {
@@ -43,7 +46,9 @@ function start() {
     return;
   }
   const { field } = scene;
-  const surface = makeSurface(scene);
+  const hasField = scene.values !== null || scene.volume !== undefined;
+  const look = makeLook(scene);
+  const surface = scene.volume ? makeVolume(scene, look) : makeSurface(scene, look);
   const sources = makeSources(scene.sources);
   const world = new THREE.Scene();
   world.add(surface.mesh, sources);
@@ -80,7 +85,7 @@ function start() {
     surface.uniforms.pixelRatio.value = ratio;
     camera.aspect = size.x / Math.max(1, size.y);
     camera.updateProjectionMatrix();
-    if (scene.values) drawLegend(element("legend"), scene, ratio);
+    if (hasField) drawLegend(element("legend"), scene, ratio);
     ask();
   }
 
@@ -113,7 +118,7 @@ function start() {
 
   const readout = element("readout");
   function showValue() {
-    const value = pointer && scene.values ? pick(pointer.x, pointer.y) : null;
+    const value = pointer && hasField ? pick(pointer.x, pointer.y) : null;
     readout.hidden = value === null;
     if (value === null) return;
     readout.textContent = `${field.name} ${numberText(value)}`;
@@ -158,10 +163,12 @@ function start() {
   }
   for (const id of ["isolines", "sources", "wireframe"]) element(id).addEventListener("change", useToggles);
   element("spacing").addEventListener("input", useSpacing);
-  element("isolines-row").hidden = !scene.values || !(field.high > field.low);
+  element("isolines-row").hidden = !hasField || !(field.high > field.low);
   element("spacing-row").hidden = element("isolines-row").hidden || field.levels.length > 0;
+  element("wireframe-row").hidden = scene.volume !== undefined;
+  if (scene.volume) connectVolume(surface, scene, ask);
   element("sources-row").hidden = sources.children.length === 0;
-  element("legend").hidden = !scene.values;
+  element("legend").hidden = !hasField;
   element("spacing").max = String(Math.max(0, field.spacings.length - 1));
   const first = field.spacings.findIndex((step) => step <= field.spacing * (1 + 1e-9));
   element("spacing").value = String(Math.max(0, first));
@@ -198,9 +205,9 @@ function start() {
     ArrowDown: (shift) => (shift ? move(0, -0.03) : turn(0, -0.12)),
     "+": () => zoom(0.87), "=": () => zoom(0.87), "-": () => zoom(1.15),
     r: reset, s: save,
-    i: () => toggle("isolines"), o: () => toggle("sources"), w: () => toggle("wireframe"),
+    i: () => toggle("isolines"), o: () => toggle("sources"), w: () => toggle("wireframe"), c: () => scene.volume && element("cut").click(),
     v: () => {
-      const value = scene.values ? pick(size.x / 2, size.y / 2) : null;
+      const value = hasField ? pick(size.x / 2, size.y / 2) : null;
       say(value === null ? "No surface at the centre" : `${field.name} ${numberText(value)} at the centre`);
     },
   };
@@ -234,6 +241,7 @@ function start() {
 
   // For tests: where a vertex is on the screen, and what the page shows there.
   window.littoral = {
+    volume: scene.volume && surface,
     frames: () => frames,
     pick,
     project(vertex) {

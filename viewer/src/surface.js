@@ -10,7 +10,9 @@ out float vInfinite;
 out vec3 vNormal;
 out float vSmooth;
 out vec3 vPosition;
+out vec3 vPlace;
 void main() {
+  vPlace = position;
   vT = t;
   vInfinite = infinite;
   vNormal = normalMatrix * normal;
@@ -27,7 +29,9 @@ in float vInfinite;
 in vec3 vNormal;
 in float vSmooth;
 in vec3 vPosition;
+in vec3 vPlace;
 out vec4 result;
+uniform vec4 cut;  // nothing is drawn where cut.xyz . place > cut.w
 `;
 
 const fragmentShader = `${fragmentHead}
@@ -49,6 +53,7 @@ uniform vec3 infiniteColour;
 float ink(float away, float width) { return clamp(0.5 * width + 0.5 - away, 0.0, 1.0); }
 
 void main() {
+  if (dot(cut.xyz, vPlace) > cut.w) discard;
   // Corners on creases have no normal of their own: the face's stands in. Where faces disagree in
   // orientation vertex normals may cancel; the face's is the fallback there too.
   vec3 flatNormal = normalize(cross(dFdx(vPosition), dFdy(vPosition)));
@@ -69,7 +74,7 @@ void main() {
     } else {
       colour = texture(colours, vec2((255.0 * (colourMap.x + colourMap.y * vT) + 0.5) / 256.0, 0.5)).rgb;
       dark = dot(colour, vec3(0.30, 0.59, 0.11)) < 0.353;
-      if (showLines && slope > 0.0) {
+      if (showLines && slope > 1e-6) {  // less is rounding
         float perPixel = slope * pixelRatio;
         if (lineMap.y > 0.0) {
           float x = lineMap.x + lineMap.y * vT;
@@ -99,6 +104,7 @@ void main() {
 
 const pickShader = `${fragmentHead}
 void main() {
+  if (dot(cut.xyz, vPlace) > cut.w) discard;
   float x = floor(clamp(vT, 0.0, 1.0) * 16777215.0 + 0.5);
   result = vec4(floor(x / 65536.0), mod(floor(x / 256.0), 256.0), mod(x, 256.0),
                 vInfinite > 1e-4 ? 128.0 : 255.0) / 255.0;
@@ -113,24 +119,9 @@ function texture(data, width, format, type, filter) {
   return t;
 }
 
-export function makeSurface(scene) {
-  const { field, positions, triangles, values } = scene;
-  const count = positions.length / 3;
-  const t = new Float32Array(count), infinite = new Uint8Array(count);
-  if (values) {
-    for (let v = 0; v < count; ++v) {
-      if (Number.isFinite(values[v])) t[v] = values[v];
-      else infinite[v] = 255;
-    }
-  }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  geometry.setAttribute("normal", new THREE.BufferAttribute(vertexNormals(positions, triangles), 3));
-  geometry.setAttribute("t", new THREE.BufferAttribute(t, 1));
-  geometry.setAttribute("infinite", new THREE.BufferAttribute(infinite, 1, true));
-  geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
-  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1);
-
+/// Materials for the field's colours and lines, shared by all that is drawn with it.
+export function makeLook(scene) {
+  const { field } = scene;
   const range = field.high - field.low;
   const colourRange = field.colourHigh - field.colourLow;
   const map = new Uint8Array(256 * 4).fill(255);
@@ -138,7 +129,8 @@ export function makeSurface(scene) {
   const sorted = field.levels.map((x) => (range > 0 ? (x - field.low) / range : 0)).sort((a, b) => a - b);
   const levels = Float32Array.from(sorted.length ? sorted.slice(0, 4096) : [0]);
   const uniforms = {
-    hasField: { value: scene.values !== null },
+    cut: { value: new THREE.Vector4(0, 0, 0, 1) },
+    hasField: { value: scene.values !== null || scene.volume !== undefined },
     showLines: { value: true },
     diverging: { value: field.diverging },
     zeroLine: { value: field.levels.length === 0 || field.levels.includes(0) },
@@ -157,21 +149,46 @@ export function makeSurface(scene) {
     // A field without any finite value is wholly infinite.
     infiniteColour: { value: rgb(scene.infiniteColour) },
   };
-  if (!values && field.infinite) uniforms.plainColour.value = rgb(scene.infiniteColour);
+  if (!scene.values && field.infinite) uniforms.plainColour.value = rgb(scene.infiniteColour);
   const options = { glslVersion: THREE.GLSL3, side: THREE.DoubleSide, vertexShader };
   const material = new THREE.ShaderMaterial({
     ...options, fragmentShader, uniforms, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
   });
-  const mesh = new THREE.Mesh(geometry, material);
-  const pickMaterial = new THREE.ShaderMaterial({ ...options, fragmentShader: pickShader, blending: THREE.NoBlending });
+  const pickMaterial = new THREE.ShaderMaterial({
+    ...options, fragmentShader: pickShader, uniforms, blending: THREE.NoBlending,
+  });
   return {
-    mesh,
+    material,
     pickMaterial,
     uniforms,
     setSpacing(step) {
       const low = field.low / step;
       uniforms.lineMap.value.set(step > 0 ? low - Math.floor(low) : 0, step > 0 ? range / step : 0);
     },
+  };
+}
+
+export function makeSurface(scene, look) {
+  const { positions, triangles, values } = scene;
+  const count = positions.length / 3;
+  const t = new Float32Array(count), infinite = new Uint8Array(count);
+  if (values) {
+    for (let v = 0; v < count; ++v) {
+      if (Number.isFinite(values[v])) t[v] = values[v];
+      else infinite[v] = 255;
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.BufferAttribute(vertexNormals(positions, triangles), 3));
+  geometry.setAttribute("t", new THREE.BufferAttribute(t, 1));
+  geometry.setAttribute("infinite", new THREE.BufferAttribute(infinite, 1, true));
+  geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+  geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1);
+
+  return {
+    ...look,
+    mesh: new THREE.Mesh(geometry, look.material),
     makeWires(colour) {
       const wires = new THREE.BufferGeometry();
       wires.setAttribute("position", geometry.getAttribute("position"));

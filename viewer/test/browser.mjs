@@ -47,3 +47,18 @@ export async function openPage(url, { extraFlags = [], ...options } = {}) {
     },
   };
 }
+
+/// Counts the pixels that an action changes.
+export async function changed(page, act) {
+  await page.evaluate(() => { window.was = littoral.pixels(); });
+  await act();
+  await page.waitForTimeout(150);
+  return page.evaluate(() => {
+    const now = littoral.pixels();
+    let count = 0;
+    for (let i = 0; i < now.length; i += 4) {
+      if (now[i] !== was[i] || now[i + 1] !== was[i + 1] || now[i + 2] !== was[i + 2]) ++count;
+    }
+    return count;
+  });
+}

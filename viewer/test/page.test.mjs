@@ -6,7 +6,7 @@ import { after, before, test } from "node:test";
 import { existsSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { resolve } from "node:path";
-import { openPage } from "./browser.mjs";
+import { changed as changedPixels, openPage } from "./browser.mjs";
 
 assert.ok(process.env.PAGE && existsSync(process.env.PAGE), "set PAGE to a page made by the library");
 const url = pathToFileURL(resolve(process.env.PAGE)).href;
@@ -19,21 +19,7 @@ before(async () => {
 });
 after(() => shown?.close());
 
-// Counts the pixels that an action changes, and undoes it.
-async function changed(act) {
-  await page.evaluate(() => { window.was = littoral.pixels(); });
-  await act();
-  await page.waitForTimeout(150);
-  return page.evaluate(() => {
-    const now = littoral.pixels();
-    let count = 0;
-    for (let i = 0; i < now.length; i += 4) {
-      if (now[i] !== was[i] || now[i + 1] !== was[i + 1] || now[i + 2] !== was[i + 2]) ++count;
-    }
-    return count;
-  });
-}
-
+const changed = (act) => changedPixels(page, act);
 const fact = (name) =>
   page.evaluate((key) => [...document.querySelectorAll("#facts tr")].find((r) => r.cells[0].textContent === key)?.cells[1].textContent, name);
 

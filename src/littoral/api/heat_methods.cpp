@@ -1,7 +1,10 @@
 // The heat methods, signed and unsigned, as entries of the registry.
 
 #include <memory>
+#include <optional>
+#include <utility>
 
+#include "littoral/api/discontinuous.h"
 #include "littoral/api/surface_method.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/cloud_surface.h"
@@ -25,14 +28,31 @@ const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", 
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
-  std::shared_ptr<const SurfaceMesh> faces;  // of a cloud: something to look at
+  std::optional<IntrinsicTriangulation> triangulation;  // of the input itself
+  std::shared_ptr<const SurfaceMesh> faces;             // of a cloud: something to look at
 };
+
+void needs_triangles(const SurfaceProblem& problem, const std::string& option) {
+  if (problem.domain() != "triangle mesh")
+    throw UnsupportedError("option " + option + " works on triangle meshes, not on a " +
+                           problem.domain());
+}
+
+/// Throws unless the options go with the domain and with each other.
+void check_options(const SurfaceProblem& problem, const SignedHeatOptions& options) {
+  if (options.discontinuous) needs_triangles(problem, "discontinuous");
+  if (options.bounding_only) needs_triangles(problem, "bounding-only");
+  if (options.discontinuous && options.intrinsic_delaunay)
+    throw UnsupportedError(
+        "options discontinuous and intrinsic-delaunay exclude each other: the surface is torn "
+        "along its own edges");
+}
 
 Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Task& task,
                                Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
-  const IntrinsicTriangulation triangulation = [&] {
+  IntrinsicTriangulation triangulation = [&] {
     const Stopwatch watch(report, "triangulation");
     return intrinsic_triangulation(problem.mesh, report);
   }();
@@ -40,45 +60,44 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
   stage.checkpoint();
   if (!retriangulate) {
     const Stopwatch watch(report, "operators");
-    return {std::make_shared<const Operators>(triangle_operators(triangulation)),
-            source_terms(problem.mesh, triangulation, prepared), nullptr};
+    auto ops = std::make_shared<const Operators>(triangle_operators(triangulation));
+    SourceTerms terms = source_terms(problem.mesh, triangulation, prepared);
+    return {std::move(ops), std::move(terms), std::move(triangulation), nullptr};
   }
   const Retriangulated fine = [&] {
     const Stopwatch watch(report, "retriangulation");
     return retriangulated(problem.mesh, triangulation, prepared, {}, report, stage);
   }();
   const Stopwatch watch(report, "operators");
-  return {std::make_shared<const Operators>(triangle_operators(fine.T)),
-          source_terms(fine.mesh, fine.T, fine.sources), nullptr};
+  auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
+  return {std::move(ops), source_terms(fine.mesh, fine.T, fine.sources), std::nullopt, nullptr};
 }
 
-NodalSurface nodal_surface(const SurfaceProblem& problem, Report& report) {
+NodalSurface nodal_surface(const SurfaceProblem& problem, const Task& task, Report& report) {
   const SurfaceMesh& mesh = problem.mesh;
   if (problem.face_normals) return voxel_surface(mesh, *problem.face_normals, report);
   return mesh.n_faces() ? polygon_surface(mesh, report)
-                        : cloud_surface(mesh.points(), mesh.soup().normals, report);
+                        : cloud_surface(mesh.points(), mesh.soup().normals, report, task);
 }
 
 Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& report) {
   const NodalSurface S = [&] {
     const Stopwatch watch(report, "triangulation");
-    return nodal_surface(problem, report);
+    return nodal_surface(problem, task, report);
   }();
   task.stage(0.03, "operators").checkpoint();
   const PreparedSources prepared = prepared_sources(
       problem, *S.refined, refined_sources(problem.mesh, S, problem.sources), task, report);
   const Stopwatch watch(report, "operators");
   return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared),
-          problem.mesh.n_faces() ? nullptr : S.refined};
+          std::nullopt, problem.mesh.n_faces() ? nullptr : S.refined};
 }
 
 /// The problem as operators and source terms: the first 10 % of a task.
 Translated translate(const SurfaceProblem& problem, bool retriangulate, Task& task,
                      Report& report) {
   const bool triangles = problem.domain() == "triangle mesh";
-  if (retriangulate && !triangles)
-    throw UnsupportedError("option intrinsic-delaunay works on triangle meshes, not on a " +
-                           problem.domain());
+  if (retriangulate) needs_triangles(problem, "intrinsic-delaunay");
   Translated out = triangles ? translate_triangles(problem, retriangulate, task, report)
                              : translate_nodes(problem, task, report);
   task.stage(0.05, "heat method").checkpoint();
@@ -98,23 +117,35 @@ SurfaceResult at_input(const SurfaceProblem& problem, const SurfaceMesh* faces,
 
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
-  const auto [ops, terms, faces] = translate(problem, options.intrinsic_delaunay, task, report);
+  check_options(problem, options);
+  if (options.bounding_only) {
+    const SurfaceSources kept =
+        without_nonbounding(problem, task.stage(0.3, "bounding curves"), report);
+    SignedHeatOptions all = options;
+    all.bounding_only = false;
+    SurfaceResult result = signed_heat({problem.mesh, kept}, all, task, report);
+    options.time_scale = all.time_scale;
+    return result;
+  }
+  const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
   const auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
-                      needed_diffusions(source, options));
+                      needed_diffusions(source, options), Expect::one_solve);
   }();
+  if (options.discontinuous)
+    return discontinuous_distance(problem.mesh, *T, *ops, terms, method, options, task, report);
   return at_input(problem, faces.get(),
                   method.solve(terms, options, task.stage(0.25, "solving"), report));
 }
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
-  const auto [ops, terms, faces] = translate(problem, options.intrinsic_delaunay, task, report);
+  const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
   const auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
-    return UnsignedHeat(operators, options, task.stage(0.65, "factoring"));
+    return UnsignedHeat(operators, options, task.stage(0.65, "factoring"), Expect::one_solve);
   }();
   const Stopwatch watch(report, "solve");
   return at_input(problem, faces.get(), method.solve(terms, task.stage(0.25, "solving"), report));

@@ -2,7 +2,9 @@
 
 #include <iterator>
 
+#include "littoral/api/space_method.h"
 #include "littoral/api/surface_method.h"
+#include "littoral/api/winding.h"
 #include "littoral/base/error.h"
 
 namespace littoral {
@@ -10,7 +12,7 @@ namespace littoral {
 const std::vector<SurfaceMethod>& surface_methods() {
   static const std::vector<SurfaceMethod> all = [] {
     std::vector<SurfaceMethod> out;
-    for (auto family : {heat_methods}) {
+    for (auto family : {heat_methods, geodesic_methods, quadratic_methods, regularized_methods}) {
       std::vector<SurfaceMethod> entries = family();
       out.insert(out.end(), std::make_move_iterator(entries.begin()),
                  std::make_move_iterator(entries.end()));
@@ -24,6 +26,16 @@ const std::vector<MethodInfo>& methods() {
   static const std::vector<MethodInfo> all = [] {
     std::vector<MethodInfo> out;
     for (const SurfaceMethod& method : surface_methods()) out.push_back(method.info);
+    return out;
+  }();
+  return all;
+}
+
+const std::vector<MethodInfo>& all_methods() {
+  static const std::vector<MethodInfo> all = [] {
+    std::vector<MethodInfo> out = methods();
+    out.push_back(winding_method());
+    for (MethodInfo& info : space_method_infos()) out.push_back(std::move(info));
     return out;
   }();
   return all;

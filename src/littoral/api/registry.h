@@ -8,7 +8,7 @@
 
 namespace littoral {
 
-/// What the world may know about one method of distance on a surface.
+/// What the world may know about one method.
 struct MethodInfo {
   std::string name;                  // as typed: "signed-heat"
   std::string summary;               // one sentence
@@ -17,8 +17,11 @@ struct MethodInfo {
   std::string reference;  // the paper
 };
 
-/// All methods, the default first.
+/// All methods of distance on surfaces, the default first.
 const std::vector<MethodInfo>& methods();
+
+/// Those, and the methods of other verbs.
+const std::vector<MethodInfo>& all_methods();
 
 /// The method of that name; throws InputError listing the known ones.
 const MethodInfo& find_method(const std::string& name);

@@ -91,6 +91,9 @@ PreparedSources prepared_sources(const SurfaceProblem& problem, const SurfaceMes
 
 /// All methods of distance on surfaces, the default first. Each family is a function of its own.
 const std::vector<SurfaceMethod>& surface_methods();
-std::vector<SurfaceMethod> heat_methods();  // signed and unsigned
+std::vector<SurfaceMethod> heat_methods();       // signed and unsigned
+std::vector<SurfaceMethod> geodesic_methods();   // exact polyhedral, fast marching
+std::vector<SurfaceMethod> quadratic_methods();  // quadratic-order geodesics
+std::vector<SurfaceMethod> regularized_methods();
 
 }  // namespace littoral

@@ -13,6 +13,7 @@ std::string number_text(double value) {
 
 std::string option_range_text(const OptionInfo& info) {
   if (info.is_switch) return "on or off";
+  if (info.is_text) return "any text";
   if (info.choices.empty()) return number_text(info.low) + " to " + number_text(info.high);
   std::string text;
   for (const auto& choice : info.choices) text += (text.empty() ? "" : ", ") + choice;

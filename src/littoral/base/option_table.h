@@ -18,6 +18,7 @@ struct OptionInfo {
   std::string fallback;              // default, as text
   std::string help;                  // one sentence
   bool is_switch = false;
+  bool is_text = false;  // any text, e.g. the name of a file
 };
 
 /// Parses a finite number in [low, high]; throws InputError naming the option and its range.
@@ -30,11 +31,12 @@ std::string number_text(double value);
 [[noreturn]] void throw_unknown_option(const std::string& name,
                                        const std::vector<OptionInfo>& known);
 
-/// Binds option names to the members of a plain struct S (numbers, switches, enumerations as int).
+/// Binds option names to the members of a plain struct S (numbers, switches, enumerations as int,
+/// texts).
 template <class S>
 class OptionTable {
  public:
-  using Member = std::variant<double S::*, bool S::*, int S::*>;
+  using Member = std::variant<double S::*, bool S::*, int S::*, std::string S::*>;
 
   OptionTable& number(double S::*m, std::string name, std::string unit, double low, double high,
                       std::string help) {
@@ -53,6 +55,12 @@ class OptionTable {
     return add(std::move(info), m);
   }
 
+  OptionTable& text(std::string S::*m, std::string name, std::string unit, std::string help) {
+    OptionInfo info{std::move(name), std::move(unit), 0, 0, {}, "none", std::move(help), false};
+    info.is_text = true;
+    return add(std::move(info), m);
+  }
+
   const std::vector<OptionInfo>& infos() const { return infos_; }
 
   /// Sets one option from text; throws InputError for an unknown name or a value out of range.
@@ -63,6 +71,8 @@ class OptionTable {
         options.** m = parse_option_number(infos_[i], text);
       } else if (auto b = std::get_if<bool S::*>(&members_[i])) {
         options.** b = parse_option_switch(infos_[i], text);
+      } else if (auto t = std::get_if<std::string S::*>(&members_[i])) {
+        options.** t = text;
       } else {
         options.*std::get<int S::*>(members_[i]) = parse_option_choice(infos_[i], text);
       }
@@ -74,6 +84,10 @@ class OptionTable {
   std::string get(const S& options, std::size_t i) const {
     if (auto m = std::get_if<double S::*>(&members_[i])) return number_text(options.**m);
     if (auto b = std::get_if<bool S::*>(&members_[i])) return options.**b ? "on" : "off";
+    if (auto t = std::get_if<std::string S::*>(&members_[i])) {
+      const std::string& text = options.**t;
+      return text.empty() ? infos_[i].fallback : text;
+    }
     const int at = options.*std::get<int S::*>(members_[i]);
     return infos_[i].choices.at(static_cast<std::size_t>(at));
   }

@@ -1,15 +1,15 @@
 #include "littoral/domain/cloud_surface.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <queue>
 #include <string>
 
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
+#include "littoral/domain/cloud_normals.h"
+#include "littoral/domain/tufted_cover.h"
 #include "littoral/spatial/point_tree.h"
 
 namespace littoral {
@@ -44,55 +44,13 @@ std::vector<std::vector<Neighbour>> find_neighbours(const MatX3& points) {
 
 using Neighbours = std::vector<std::vector<Neighbour>>;
 
-MatX3 estimated_normals(const MatX3& points, const Neighbours& neighbours) {
-  const Eigen::Index n = points.rows();
-  MatX3 normals = MatX3::Zero(n, 3);
-  parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& around = neighbours[i];
-      if (around.size() < 3) continue;
-      const double scale = std::sqrt(around.back().squared_distance);
-      Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
-      Vec3 mean = Vec3::Zero();
-      const std::size_t used = std::min<std::size_t>(around.size(), 12);
-      for (std::size_t k = 0; k < used; ++k) {
-        const Vec3 d =
-            (points.row(around[k].point) - points.row(static_cast<Eigen::Index>(i))) / scale;
-        mean += d / static_cast<double>(used + 1);
-        C += d * d.transpose() / static_cast<double>(used + 1);
-      }
-      C -= mean * mean.transpose();
-      normals.row(static_cast<Eigen::Index>(i)) =
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvectors().col(0);
-    }
-  });
-
-  // Orient: from the topmost point of each part outward, over the most parallel neighbours first.
-  std::vector<int> order(static_cast<std::size_t>(n));
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return points(a, 2) > points(b, 2);  // non-finite points have no neighbours: never asked
-  });
-  std::vector<char> done(static_cast<std::size_t>(n), 0);
-  using Entry = std::tuple<double, int, int>;  // |cosine|, -to, from
-  for (int seed : order) {
-    if (done[seed] || neighbours[seed].empty()) continue;
-    if (normals(seed, 2) < 0) normals.row(seed) *= -1;
-    std::priority_queue<Entry> queue;
-    queue.emplace(1, -seed, seed);
-    while (!queue.empty()) {
-      const auto [cosine, minus_to, from] = queue.top();
-      queue.pop();
-      const int to = -minus_to;
-      if (done[to]) continue;
-      done[to] = 1;
-      if (normals.row(to).dot(normals.row(from)) < 0) normals.row(to) *= -1;
-      for (std::size_t k = 0; k < std::min<std::size_t>(neighbours[to].size(), 12); ++k) {
-        const int next = neighbours[to][k].point;
-        if (!done[next]) queue.emplace(std::abs(normals.row(to).dot(normals.row(next))), -next, to);
-      }
-    }
-  }
+/// Normals of the points that are finite; 0 for others.
+MatX3 finite_normals(const MatX3& points, const Task& task) {
+  std::vector<Eigen::Index> finite;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    if (points.row(i).allFinite()) finite.push_back(i);
+  MatX3 normals = MatX3::Zero(points.rows(), 3);
+  normals(finite, Eigen::all) = estimate_normals(points(finite, Eigen::all), task);
   return normals;
 }
 
@@ -170,20 +128,88 @@ std::map<std::array<int, 3>, int> local_triangles(const MatX3& points, const Mat
   return count;
 }
 
-}  // namespace
+/// A triangle of a cover, whichever way it was listed: cells that agree are made one.
+struct Cell {
+  std::array<int, 3> v;          // counter-clockwise seen from outside, the smallest first
+  std::array<double, 3> length;  // of side k, from corner k to k + 1
+  auto operator<=>(const Cell&) const = default;
+};
 
-MatX3 estimate_normals(const MatX3& points) {
-  return estimated_normals(points, find_neighbours(points));
+Cell cell_of(const TuftedCover::Face& f, const NodalSurface& S) {
+  Cell c{f.v, f.length};
+  const SurfaceMesh& mesh = *S.refined;
+  Vec3 normal = Vec3::Zero();
+  for (int v : c.v) normal += S.normals.row(v).transpose();
+  const Vec3 a = mesh.point(c.v[0]) / S.place->unit;
+  const Vec3 b = mesh.point(c.v[1]) / S.place->unit - a, d = mesh.point(c.v[2]) / S.place->unit - a;
+  if (b.cross(d).dot(normal) < 0) {
+    std::swap(c.v[1], c.v[2]);
+    std::swap(c.length[0], c.length[2]);
+  }
+  const auto first = std::min_element(c.v.begin(), c.v.end()) - c.v.begin();
+  std::rotate(c.v.begin(), c.v.begin() + first, c.v.end());
+  std::rotate(c.length.begin(), c.length.begin() + first, c.length.end());
+  return c;
 }
 
-NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& report) {
+/// Cells, patches and weights: the intrinsic Delaunay triangulations of three tufted covers, each
+/// side of each of which counts a sixth. Cover m is that of the triangles that at least m of their
+/// corners made; where the corners agree all three are the same.
+void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, const Task& task) {
+  const IntrinsicTriangulation& place = *S.place;
+  const MatX3 points = S.refined->points() / place.unit;
+  std::map<Cell, double> cells;
+  long long flips = 0;
+  for (int m = 1; m <= 3; ++m) {
+    std::vector<int> kept;
+    for (int t = 0; t < place.n_faces(); ++t)
+      if (counts[t] >= m) kept.push_back(t);
+    TuftedCover cover(points, place.faces(kept, Eigen::all));
+    flips += cover.flip_to_delaunay(task);
+    for (const TuftedCover::Face& f : cover.faces()) cells[cell_of(f, S)] += 1.0 / 6;
+  }
+  report.sizes.emplace_back("intrinsic_flips", static_cast<double>(flips));
+
+  auto T = std::make_shared<IntrinsicTriangulation>();
+  T->unit = place.unit;
+  T->n_vertices = place.n_vertices;
+  T->component = place.component;
+  T->n_components = place.n_components;
+  T->mean_edge_length = place.mean_edge_length;
+  const auto n = static_cast<Eigen::Index>(cells.size());
+  T->faces.resize(n, 3);
+  T->length.resize(n, 3);
+  T->orientation.assign(cells.size(), 1);
+  S.weight.resize(n);
+  S.patch_normals.resize(n, 3);
+  int t = 0;
+  for (const auto& [cell, weight] : cells) {
+    Vec3 normal = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      T->faces(t, k) = cell.v[k];
+      T->length(t, k) = cell.length[k];
+      normal += S.normals.row(cell.v[k]).transpose();
+    }
+    S.weight[t] = weight;
+    S.patch_normals.row(t) = normalized_or_z(normal);
+    S.patch_offsets.push_back(t++);
+  }
+  S.patch_offsets.push_back(t);
+  S.cells = T;
+}
+
+}  // namespace
+
+NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& report,
+                           const Task& task) {
   const Neighbours neighbours = find_neighbours(points);
   NodalSurface S;
   S.domain = "point cloud";
   S.normals = given;
   if (given.rows() != points.rows()) {
-    S.normals = estimated_normals(points, neighbours);
-    report.warn("the point cloud has no normals; they were estimated, outward at its top");
+    S.normals = finite_normals(points, task);
+    report.warn(
+        "the point cloud has no normals; they were estimated, upward at the top of each part");
   }
   for (auto n : S.normals.rowwise()) n = normalized_or_z(n.transpose()).transpose();
 
@@ -192,7 +218,7 @@ NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& repo
     throw InputError("no triangle can be made between neighbouring points of the cloud");
   PolygonSoup soup;
   soup.points = points;
-  std::vector<double> weight;
+  std::vector<int> counts;
   for (const auto& [corners, count] : triangles) {
     std::array<int, 3> c = corners;
     Vec3 normal = Vec3::Zero();
@@ -200,30 +226,22 @@ NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& repo
     const Vec3 a = points.row(c[0]), b = points.row(c[1]), d = points.row(c[2]);
     if ((b - a).cross(d - a).dot(normal) < 0) std::swap(c[1], c[2]);
     soup.add_face(c);
-    weight.push_back(count / 3.0);
+    counts.push_back(count);
   }
   S.refined = std::make_shared<const SurfaceMesh>(std::move(soup));
   Report inner;  // its warnings are about meshes
-  auto cells = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(*S.refined, inner));
-  cells->orientation.assign(cells->orientation.size(), 1);
+  auto place = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(*S.refined, inner));
+  place->orientation.assign(place->orientation.size(), 1);
   double sum = 0;
-  for (int e = 0; e < cells->n_edges(); ++e)
-    sum += (points.row(cells->edges(e, 0)) / cells->unit -
-            points.row(cells->edges(e, 1)) / cells->unit)
+  for (int e = 0; e < place->n_edges(); ++e)
+    sum += (points.row(place->edges(e, 0)) / place->unit -
+            points.row(place->edges(e, 1)) / place->unit)
                .norm();
-  S.spacing = sum / cells->n_edges();
-  S.place = S.cells = cells;
-  S.weight = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
+  S.spacing = sum / place->n_edges();
+  S.place = place;
   S.P.resize(points.rows(), points.rows());
   S.P.setIdentity();
-  S.patch_normals.resize(cells->n_faces(), 3);
-  for (int t = 0; t < cells->n_faces(); ++t) {
-    S.patch_offsets.push_back(t);
-    Vec3 normal = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) normal += S.normals.row(cells->faces(t, k)).transpose();
-    S.patch_normals.row(t) = normalized_or_z(normal);
-  }
-  S.patch_offsets.push_back(cells->n_faces());
+  add_cells(S, counts, report, task);
   return S;
 }
 

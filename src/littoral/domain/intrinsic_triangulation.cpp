@@ -5,36 +5,11 @@
 #include <string>
 
 #include "littoral/base/error.h"
+#include "littoral/domain/edge_sides.h"
 
 namespace littoral {
 
 namespace {
-
-struct Side {
-  int face, k;
-};
-
-/// Triangle sides at each edge.
-struct EdgeSides {
-  std::vector<int> offsets;
-  std::vector<Side> sides;
-  std::span<const Side> at(int e) const {
-    return {sides.data() + offsets[e], sides.data() + offsets[e + 1]};
-  }
-};
-
-EdgeSides edge_sides(const IntrinsicTriangulation& T) {
-  EdgeSides list;
-  list.offsets.assign(static_cast<std::size_t>(T.n_edges()) + 1, 0);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) ++list.offsets[T.side_edge(f, k) + 1];
-  for (int e = 0; e < T.n_edges(); ++e) list.offsets[e + 1] += list.offsets[e];
-  list.sides.resize(static_cast<std::size_t>(list.offsets.back()));
-  std::vector<int> next(list.offsets.begin(), list.offsets.end() - 1);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) list.sides[next[T.side_edge(f, k)]++] = {f, k};
-  return list;
-}
 
 void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
   std::vector<int> kept;
@@ -130,7 +105,7 @@ void orient(IntrinsicTriangulation& T, const EdgeSides& sides, Report& report) {
       for (int k = 0; k < 3; ++k) {
         const auto at = sides.at(T.side_edge(f, k));
         if (at.size() != 2) continue;
-        const Side& g = at[0].face == f && at[0].k == k ? at[1] : at[0];
+        const TriangleSide& g = at[0].face == f && at[0].k == k ? at[1] : at[0];
         const int wanted = -T.orientation[f] * T.along(f, k) * T.along(g.face, g.k);
         if (!T.orientation[g.face]) {
           T.orientation[g.face] = static_cast<std::int8_t>(wanted);
@@ -174,7 +149,7 @@ Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, 
 /// edge in the direction of the first (to 90 degrees) lie on its side.
 void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSides& sides) {
   T.seam = Rows<std::uint8_t, 3>::Zero(T.n_faces(), 3);
-  auto left = [&](const Side& s) { return T.orientation[s.face] * T.along(s.face, s.k); };
+  auto left = [&](const TriangleSide& s) { return T.orientation[s.face] * T.along(s.face, s.k); };
   for (int e = 0; e < T.n_edges(); ++e) {
     const auto at = sides.at(e);
     for (std::size_t i = 1; i < at.size(); ++i) {

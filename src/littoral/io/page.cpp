@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -109,19 +110,63 @@ json sources_json(const Scene& scene, const SceneFrame& frame) {
           {"signedColour", signed_colour},   {"unsignedColour", unsigned_colour}};
 }
 
-json scene_json(const Scene& scene) {
+// The box of a volume, as a surface to place the view by.
+Scene box_of(const Scene& scene) {
+  Scene box;
+  box.volume = scene.volume;
+  box.points.resize(8, 3);
+  box.triangles.resize(4, 3);
+  box.triangles << 0, 1, 3, 2, 3, 7, 4, 5, 7, 6, 5, 7;  // every corner
+  const Grid& grid = scene.volume->thin.grid;
+  for (int c = 0; c < 8; ++c)
+    box.points.row(c) = grid.point((c & 1) ? grid.n[0] - 1 : 0, (c & 2) ? grid.n[1] - 1 : 0,
+                                   (c & 4) ? grid.n[2] - 1 : 0);
+  return box;
+}
+
+// Values in 65534 steps from the least to the greatest; 65535 is infinite.
+json volume_json(const SceneVolume& volume, const SceneFrame& frame, const FieldStyle& style) {
+  const Grid& grid = volume.thin.grid;
+  const double half = 0.5 * style.high - 0.5 * style.low;
+  const auto part = [&](double value) {
+    return half > 0 ? std::clamp((0.5 * value - 0.5 * style.low) / half, 0.0, 1.0) : 0.0;
+  };
+  std::vector<std::uint16_t> values;
+  values.reserve(static_cast<std::size_t>(volume.thin.values.size()));
+  for (const double value : volume.thin.values)
+    values.push_back(static_cast<std::uint16_t>(
+        std::isfinite(value) ? std::lround(65534 * part(value)) : 65535));
+  const Vec3 low = grid.origin, high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  const Vec3 origin = (low - frame.centre) / frame.radius, spacing = grid.spacing / frame.radius;
+  const auto triple = [](const Vec3& v) { return json{v[0], v[1], v[2]}; };
+  return {{"n", grid.n},
+          {"origin", triple(origin)},
+          {"spacing", triple(spacing)},
+          {"low", triple(low)},
+          {"high", triple(high)},
+          {"values", base64(values)},
+          {"axis", volume.axis},
+          {"position", volume.position},
+          {"level", part(volume.level)},
+          {"isosurface", volume.isosurface}};
+}
+
+json scene_json(const Scene& all) {
+  const FieldStyle style = field_style(all);
+  const Scene box = all.volume ? box_of(all) : Scene{};
+  const Scene& scene = all.volume ? box : all;
   const SceneFrame frame = scene_frame(scene);
-  const FieldStyle style = field_style(scene);
   json page;
-  page["title"] = scene.title;
+  page["title"] = all.title;
   page["facts"] = json::array();
-  for (const auto& [key, value] : scene.facts) page["facts"].push_back({key, value});
+  for (const auto& [key, value] : all.facts) page["facts"].push_back({key, value});
   page["centre"] = {frame.centre[0], frame.centre[1], frame.centre[2]};
   page["radius"] = frame.radius;
   page["towardsEye"] = {frame.towards_eye[0], frame.towards_eye[1], frame.towards_eye[2]};
   page["up"] = {frame.up[0], frame.up[1], frame.up[2]};
-  page["field"] = field_json(scene, style);
-  page["sources"] = sources_json(scene, frame);
+  page["field"] = field_json(all, style);
+  page["sources"] = sources_json(all, frame);
+  if (all.volume) page["volume"] = volume_json(*all.volume, frame, style);
   page["plainColour"] = plain_colour;
   page["infiniteColour"] = infinite_colour;
 
@@ -132,7 +177,7 @@ json scene_json(const Scene& scene) {
   page["triangles"] = base64(scene.triangles.data(),
                              static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
   page["innerSides"] = base64(scene.inner_sides);
-  if (style.present) {
+  if (style.present && !all.volume) {
     // Values as 0..1 between the least and the greatest; infinite ones as +inf.
     const double half = 0.5 * style.high - 0.5 * style.low;
     std::vector<float> values;

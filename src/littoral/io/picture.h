@@ -11,11 +11,11 @@
 namespace littoral::io {
 
 struct PictureOptions {
-  int width = 1200, height = 900;   // pixels, 16..16384 each, 64 million together
-  std::optional<Vec3> towards_eye;  // direction from the surface to the eye; default: scene_frame
-  std::optional<Vec3> up;           // direction that points up in the picture; default: scene_frame
-  int supersampling = 2;            // samples a pixel along x and along y, 1..4
-  bool colour_bar = true;           // where there is a field
+  int width = 1200, height = 900;     // pixels, 16..16384 each, 64 million together
+  std::optional<Vec3> towards_eye{};  // direction from the surface to the eye; default: scene_frame
+  std::optional<Vec3> up{};  // direction that points up in the picture; default: scene_frame
+  int supersampling = 2;     // samples a pixel along x and along y, 1..4
+  bool colour_bar = true;    // where there is a field
 };
 
 /// Red, green and blue bytes, row by row from the top.

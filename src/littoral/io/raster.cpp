@@ -225,7 +225,7 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
 }
 
 double SurfaceRaster::line_strength(double value, double slope, bool& zero) const {
-  if (!(slope > 0)) return 0;
+  if (!(slope > 1e-9 * (style_.high - style_.low))) return 0;  // less is rounding
   const auto ink = [&](double level, double width, double strength) {
     const double away = std::abs(value - level) / slope / scale_;  // pixels
     return strength * std::clamp(0.5 * width + 0.5 - away, 0.0, 1.0);

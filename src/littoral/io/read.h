@@ -13,10 +13,11 @@
 
 namespace littoral::io {
 
-/// Reads .obj .off .ply .stl by extension (any case). Points are kept even where they are not
-/// finite; files without vertices are rejected. OBJ: normals, and the texture's u as scalar "u",
-/// are kept where each vertex has exactly one. PLY: normals and the vertices' floating-point
-/// properties are kept. STL: corners at one position are merged. Errors: InputError "name:line:
+/// Reads .obj .off .ply .stl, and point clouds as .pc .xyz .pcd or .ply, by extension (any case).
+/// Points are kept even where they are not finite; files without vertices are rejected. OBJ:
+/// normals, and the texture's u as scalar "u", are kept where each vertex has exactly one. PLY:
+/// normals and the vertices' floating-point properties are kept. STL: corners at one position are
+/// merged. Errors: InputError "name:line:
 /// ..." for text, "name: byte N: ..." for binary files; IoError.
 PolygonSoup read_surface(const std::filesystem::path& path);
 

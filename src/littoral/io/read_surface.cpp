@@ -38,8 +38,11 @@ PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extens
   if (format == ".off") return read_off(bytes, name);
   if (format == ".ply") return read_ply(bytes, name);
   if (format == ".stl") return read_stl(bytes, name);
+  if (format == ".pc") return read_pc(bytes, name);
+  if (format == ".xyz") return read_xyz(bytes, name);
+  if (format == ".pcd") return read_pcd(bytes, name);
   throw InputError(name + ": unknown surface format " + in_quotes(extension) +
-                   "; .obj, .off, .ply and .stl are read");
+                   "; .obj, .off, .ply, .stl, .pc, .xyz and .pcd are read");
 }
 
 PolygonSoup read_surface(const std::filesystem::path& path) {

@@ -9,6 +9,8 @@
 
 #include "littoral/base/error.h"
 #include "littoral/io/read.h"
+#include "littoral/io/text_scan.h"
+#include "littoral/io/volume.h"
 
 namespace littoral::io {
 
@@ -89,7 +91,21 @@ VoxelMask read_vol_bytes(std::string_view bytes, const std::string& name) {
 }
 
 VoxelMask read_voxels(const std::filesystem::path& path) {
-  return read_vol_bytes(read_bytes(path), path.filename().string());
+  const std::string name = path.filename().string();
+  if (lower_case(path.extension().string()) == ".vol")
+    return read_vol_bytes(read_bytes(path), name);
+  const VolumeField volume = read_volume(path);
+  if (!volume.values.allFinite())
+    throw InputError(name + ": a mask needs finite values, 0 outside");
+  if (volume.values.minCoeff() < 0 && volume.values.maxCoeff() > 0)
+    throw InputError(name +
+                     ": its values have both signs, a mask is 0 outside and 1 inside; `littoral "
+                     "contour IN --level 0 -o OUT` makes a surface of a field");
+  VoxelMask mask{volume.grid, {}};
+  mask.inside.resize(volume.grid.n_nodes());
+  for (std::size_t i = 0; i < mask.inside.size(); ++i)
+    mask.inside[i] = volume.values[static_cast<Eigen::Index>(i)] != 0;
+  return mask;
 }
 
 }  // namespace littoral::io

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "littoral/base/types.h"
 #include "littoral/domain/polygon_soup.h"
 #include "littoral/domain/surface_mesh.h"
+#include "littoral/domain/volume_field.h"
 #include "littoral/sources/surface_sources.h"
 
 namespace littoral::io {
@@ -18,6 +20,18 @@ namespace littoral::io {
 struct SceneCurve {
   MatX3 points{0, 3};  // nodes x 3, in the direction of travel
   bool is_signed = true;
+};
+
+/// A volume on show, see volume_scene.h.
+struct SceneVolume {
+  VolumeField thin;          // what pages move through
+  double low = 0, high = 0;  // least and greatest finite value
+  bool infinite = false;     // are there infinite values?
+  int axis = 2;              // of the slice
+  int slice = 0;             // number of the layer of nodes
+  double position = 0.5;     // of the slice, 0..1 along the box
+  double level = 0;          // of the isosurface
+  bool isosurface = true;
 };
 
 /// Everything on show. All texts are plain UTF-8; pages escape them.
@@ -29,9 +43,10 @@ struct Scene {
   VecX values;      // vertices, may be infinite, never NaN; or empty: no field
   std::string field_name = "distance";
   std::vector<SceneCurve> curves;
-  MatX3 source_points{0, 3};   // isolated source points x 3
-  std::vector<double> levels;  // isolines at these values; empty: evenly spaced ones
-  int isolines = 20;           // about how many evenly spaced ones; 0: none
+  MatX3 source_points{0, 3};                  // isolated source points x 3
+  std::vector<double> levels;                 // isolines at these values; empty: evenly spaced ones
+  int isolines = 20;                          // about how many evenly spaced ones; 0: none
+  std::shared_ptr<const SceneVolume> volume;  // the triangles are then a slice and a surface
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // shown as a table
 };

@@ -85,7 +85,10 @@ SceneFrame scene_frame(const Scene& scene) {
   const Eigen::Matrix3d second = moments(scene, frame);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second);
   Vec3 view;
-  if (axes.eigenvalues()[0] < 1e-6 * axes.eigenvalues()[2]) {
+  if (scene.volume) {
+    view = Vec3::Constant(0.45);  // onto the slice
+    view[scene.volume->axis] = 1;
+  } else if (axes.eigenvalues()[0] < 1e-6 * axes.eigenvalues()[2]) {
     view = axes.eigenvectors().col(0);
     Eigen::Index largest;
     view.cwiseAbs().maxCoeff(&largest);

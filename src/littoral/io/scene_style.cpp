@@ -87,6 +87,11 @@ FieldStyle field_style(const Scene& scene) {
       style.infinite = true;
     }
   }
+  if (scene.volume) {
+    low = scene.volume->low;
+    high = scene.volume->high;
+    style.infinite = scene.volume->infinite;
+  }
   if (low > high) return style;
   style.present = true;
   style.low = low;

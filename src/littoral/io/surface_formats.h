@@ -26,4 +26,16 @@ PolygonSoup read_ply(std::string_view bytes, const std::string& name);
 /// word. Corners at the same position are merged; facet normals are ignored.
 PolygonSoup read_stl(std::string_view bytes, const std::string& name);
 
+/// Point cloud of records "v x y z" and "vn x y z" in any order; as many normals as points, or
+/// none.
+PolygonSoup read_pc(std::string_view bytes, const std::string& name);
+
+/// Point cloud of rows "x y z" or "x y z nx ny nz"; further columns are ignored where there are not
+/// six. A first line with one number is taken for a count.
+PolygonSoup read_xyz(std::string_view bytes, const std::string& name);
+
+/// Point cloud of the Point Cloud Library, ascii or uncompressed binary: x y z, normal_x normal_y
+/// normal_z.
+PolygonSoup read_pcd(std::string_view bytes, const std::string& name);
+
 }  // namespace littoral::io

@@ -19,6 +19,10 @@ void write_off(std::ostream& out, const PolygonSoup& soup);
 void write_stl(std::ostream& out, const PolygonSoup& soup);
 /// VTK's XML polygon data with one scalar per point (appended raw data).
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// Text as it stands between quotes in XML.
+std::string xml_text(const std::string& plain);
+/// The header of NumPy's format 1.0 for float64; `shape` as "8," or "2, 3, 4".
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest);
 /// NumPy's format 1.0, one dimension of float64.
 void write_npy(std::ostream& out, const VecX& values);
 

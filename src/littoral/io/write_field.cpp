@@ -49,9 +49,21 @@ void write_csv(std::ostream& out, const VecX& values, const std::string& field) 
   for (Eigen::Index v = 0; v < values.size(); ++v) out << v << ',' << exact_text(values(v)) << '\n';
 }
 
-std::string xml_text(const std::string& name) {
+// Offsets (running ends) and corners of a set of cells, as VTK stores them.
+struct Cells {
+  std::vector<std::int64_t> connectivity, ends;
+  template <class Range>
+  void add(const Range& vertices) {
+    connectivity.insert(connectivity.end(), vertices.begin(), vertices.end());
+    ends.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+};
+
+}  // namespace
+
+std::string xml_text(const std::string& plain) {
   std::string text;
-  for (char c : name) {
+  for (char c : plain) {
     if (c == '&') {
       text += "&amp;";
     } else if (c == '<') {
@@ -65,26 +77,18 @@ std::string xml_text(const std::string& name) {
   return text;
 }
 
-// Offsets (running ends) and corners of a set of cells, as VTK stores them.
-struct Cells {
-  std::vector<std::int64_t> connectivity, ends;
-  template <class Range>
-  void add(const Range& vertices) {
-    connectivity.insert(connectivity.end(), vertices.begin(), vertices.end());
-    ends.push_back(static_cast<std::int64_t>(connectivity.size()));
-  }
-};
-
-}  // namespace
-
-void write_npy(std::ostream& out, const VecX& values) {
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(values.size()) + ",), }";
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest) {
+  std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
+                       (first_axis_fastest ? "True" : "False") + ", 'shape': (" + shape + "), }";
   // Magic, version and length take 10 bytes; the data begin at a multiple of 64.
   header.append(63 - (10 + header.size()) % 64, ' ').push_back('\n');
   out.write("\x93NUMPY\x01\x00", 8);
   store_little(out, static_cast<std::uint16_t>(header.size()));
   out << header;
+}
+
+void write_npy(std::ostream& out, const VecX& values) {
+  write_npy_header(out, std::to_string(values.size()) + ",", false);
   for (double value : values) store_little(out, value);
 }
 

@@ -25,11 +25,15 @@ SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped)
 
 }  // namespace
 
-ScalarHeat::ScalarHeat(const Calculus& C, double t, const Task& task) {
-  const std::vector<char> none(C.boundary.size(), 0);
-  neumann_ = std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, none), 1, task);
+ScalarHeat::ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order,
+                       const Task& task) {
+  auto system = [&](const std::vector<char>& dropped) {
+    return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
+                                                      decay_lengths(C.M, t), expect, task, order);
+  };
+  neumann_ = system(std::vector<char>(C.boundary.size(), 0));
   if (std::find(C.boundary.begin(), C.boundary.end(), 1) != C.boundary.end())
-    dirichlet_ = std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, C.boundary), 1, task);
+    dirichlet_ = system(C.boundary);
 }
 
 CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,

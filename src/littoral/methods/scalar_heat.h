@@ -17,7 +17,7 @@ namespace littoral {
 /// there.
 class ScalarHeat {
  public:
-  ScalarHeat(const Calculus& C, double t, const Task& task);
+  ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order, const Task& task);
 
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources

@@ -29,19 +29,24 @@ void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi) 
 }
 
 VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& phi, Report& report) {
-  const Calculus& C = ops.scalar;
-  VecX out = phi * ops.unit;
+  return finish_field(ops.scalar.component, ops.scalar.n_components, ops.unit, terms.reached, phi,
+                      report);
+}
+
+VecX finish_field(const std::vector<int>& component, int n_components, double unit,
+                  const std::vector<char>& reached, const VecX& phi, Report& report) {
+  VecX out = phi * unit;
   int isolated = 0;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const int c = C.component[i];
+    const int c = component[i];
     if (c < 0) ++isolated;
-    if (c < 0 || !terms.reached[c]) out[i] = std::numeric_limits<double>::infinity();
+    if (c < 0 || !reached[c]) out[i] = std::numeric_limits<double>::infinity();
   }
-  for (int c = 0; c < C.n_components; ++c)
-    if (!terms.reached[c]) report.unreachable_components.push_back(c);
+  for (int c = 0; c < n_components; ++c)
+    if (!reached[c]) report.unreachable_components.push_back(c);
   if (!report.unreachable_components.empty())
     report.warn(std::to_string(report.unreachable_components.size()) + " of " +
-                std::to_string(C.n_components) +
+                std::to_string(n_components) +
                 " components hold no source; their distance is infinite");
   if (isolated)
     report.warn(std::to_string(isolated) +

@@ -18,4 +18,9 @@ void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi);
 /// phi in units of the input, +inf on components and nodes that no source reaches; lists them.
 VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& phi, Report& report);
 
+/// The same for methods that have no operators: the component of each node (-1: in no cell), the
+/// length of one unit, and which components hold a source.
+VecX finish_field(const std::vector<int>& component, int n_components, double unit,
+                  const std::vector<char>& reached, const VecX& phi, Report& report);
+
 }  // namespace littoral

@@ -31,7 +31,18 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
               "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
               "Beside curves always radial.")
           .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
-                  "Flips and refines the triangles intrinsically first; for bad triangulations.");
+                  "Flips and refines the triangles intrinsically first; for bad triangulations.")
+          .toggle(&O::discontinuous, "discontinuous",
+                  "Lets the distance jump where the directions cannot be integrated: for curves "
+                  "without inside and outside.")
+          .number(&O::tear, "tear", "mean edge lengths", 0, 1e6,
+                  "Discontinuous: jumps larger than that stay, smaller ones are smoothed out.")
+          .number(&O::smoothing, "smoothing", "multiple of h^2, 0 = none", 0, 1e6,
+                  "Discontinuous: time of the heat flow that smooths out small jumps, h being the "
+                  "mean edge length; 0 leaves all jumps.")
+          .toggle(&O::bounding_only, "bounding-only",
+                  "Leaves out the parts of signed curves that bound nothing (surface winding "
+                  "numbers).");
   return table;
 }
 
@@ -53,14 +64,17 @@ Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& 
 }
 
 SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
-                       Diffusions diffusions)
+                       Diffusions diffusions, Expect expect)
     : ops_(std::move(ops)),
       root_t_(ops_->vector.h * std::sqrt(time_scale)),
+      order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.2, "factor Poisson")) {
+               task.stage(0.2, "factor Poisson"), order_) {
   const double t = root_t_ * root_t_;
-  if (diffusions.scalars) scalar_heat_.emplace(ops_->scalar, t, task.stage(0.2, "factor heat"));
-  if (diffusions.vectors) heat_.emplace(ops_->vector, t, task.stage(0.6, "factor vector heat"));
+  if (diffusions.scalars)
+    scalar_heat_.emplace(ops_->scalar, t, expect, order_, task.stage(0.2, "factor heat"));
+  if (diffusions.vectors)
+    heat_.emplace(ops_->vector, t, expect, order_, task.stage(0.4, "factor vector heat"));
 }
 
 VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,

@@ -29,6 +29,10 @@ struct SignedHeatOptions {
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself
   int points = static_cast<int>(PointVectors::gradient);
   bool intrinsic_delaunay = false;  // on better triangles of the same surface
+  bool discontinuous = false;       // integrate with the least jumps (section 7.2) instead of none
+  double tear = 1;                  // jumps above that many mean edge lengths stay ...
+  double smoothing = 1;  // ... others close by heat flow for that many squared ones; 0: all stay
+  bool bounding_only = false;  // leave out parts of curves that bound nothing
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.
@@ -51,18 +55,20 @@ Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& 
 class SignedHeat {
  public:
   /// Factors M + t L with t = time_scale h^2, for vectors or scalars or both, and L. The operators
-  /// are shared, not copied.
+  /// are shared, not copied. Expecting one solve only, large heat matrices are left unfactored.
   SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task = {},
-             Diffusions diffusions = {});
+             Diffusions diffusions = {}, Expect expect = Expect::many_solves);
 
   /// Generalized signed distance at the nodes (nodes) [length of the input], +inf on components
   /// that no source reaches. Throws UnsupportedError if a diffusion is needed that was left out.
   VecX solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
              Report& report) const;
 
- private:
+  /// Steps I and II: unit vectors at the cells (2 cells), 0 where no source reaches.
   VecX directions(const SourceTerms& terms, const SignedHeatOptions& options, const Task& task,
                   Report& report) const;
+
+ private:
   VecX integrate(const SourceTerms& terms, const VecX& Y, const SignedHeatOptions& options,
                  const Task& task, Report& report) const;
   bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
@@ -70,6 +76,7 @@ class SignedHeat {
 
   std::shared_ptr<const Operators> ops_;
   double root_t_;
+  Ordering order_;  // of the nodes
   std::optional<VectorHeat> heat_;
   std::optional<ScalarHeat> scalar_heat_;
   Poisson poisson_;

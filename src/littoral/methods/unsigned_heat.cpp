@@ -18,12 +18,13 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
 }
 
 UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
-                           Task task)
+                           Task task, Expect expect)
     : ops_(std::move(ops)),
       root_t_(ops_->scalar.h * std::sqrt(options.time_scale)),
-      heat_(ops_->scalar, root_t_ * root_t_, task.stage(0.6, "factor heat")),
+      order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
+      heat_(ops_->scalar, root_t_ * root_t_, expect, order_, task.stage(0.4, "factor heat")),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.4, "factor Poisson")) {}
+               task.stage(0.3, "factor Poisson"), order_) {}
 
 VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) const {
   const Calculus& C = ops_->scalar;

@@ -25,7 +25,7 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();
 class UnsignedHeat {
  public:
   UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
-               Task task = {});
+               Task task = {}, Expect expect = Expect::many_solves);
 
   /// Unsigned distance at the nodes (nodes) [length of the input], +inf on components that no
   /// source reaches; never negative.
@@ -34,6 +34,7 @@ class UnsignedHeat {
  private:
   std::shared_ptr<const Operators> ops_;
   double root_t_;
+  Ordering order_;  // of the nodes
   ScalarHeat heat_;
   Poisson poisson_;
 };

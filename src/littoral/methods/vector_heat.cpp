@@ -31,10 +31,6 @@ VecXc to_complex(const VecX& X) {
   return z;
 }
 
-const VecX& as_unknowns(const VecX& X, const HeatSystem<double>&) { return X; }
-VecXc as_unknowns(const VecX& X, const HeatSystem<Complex>&) { return to_complex(X); }
-
-LayeredField<double> as_pairs(LayeredField<double> field) { return field; }
 LayeredField<double> as_pairs(const LayeredField<Complex>& field) {
   LayeredField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
   for (Eigen::Index i = 0; i < field.x.size(); ++i) {
@@ -44,47 +40,19 @@ LayeredField<double> as_pairs(const LayeredField<Complex>& field) {
   return pairs;
 }
 
-/// Eliminates the carriers held at given values: their rows and columns move to the right-hand
-/// side.
-template <class Scalar>
-LayeredField<double> solve_held(const HeatSystem<Scalar>& system, const VecX& held,
-                                const std::vector<int>& piece, const Task& task, Report& report) {
-  const int block = system.block();
-  const typename HeatSystem<Scalar>::Vector x = as_unknowns(held, system);
-  auto hold = [&](Eigen::Index i) {
-    const Eigen::Index c = i / block;
-    return held[2 * c] != 0 || held[2 * c + 1] != 0;
-  };
-  typename HeatSystem<Scalar>::Vector b = x;
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  const auto& A = system.matrix();
-  for (int j = 0; j < A.outerSize(); ++j) {
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(A, j); it; ++it) {
-      const Eigen::Index i = it.row();
-      if (i == j) {
-        entries.emplace_back(int(i), j, hold(i) ? Scalar(1) : it.value());
-      } else if (!hold(i) && !hold(j)) {
-        entries.emplace_back(int(i), j, it.value());
-      } else if (!hold(i)) {
-        b[i] -= it.value() * x[j];
-      } else if (!hold(j)) {
-        b[j] -= Eigen::numext::conj(it.value()) * x[i];
-      }
-    }
-  }
-  Eigen::SparseMatrix<Scalar> reduced(A.rows(), A.cols());
-  reduced.setFromTriplets(entries.begin(), entries.end());
-  return as_pairs(
-      HeatSystem<Scalar>(std::move(reduced), block, task).solve(b, piece, task, report));
-}
-
 }  // namespace
 
-VectorHeat::VectorHeat(const VectorDiffusion& V, double t, const Task& task) {
+VectorHeat::VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+                       const Task& task) {
+  Ordering order = V.at_nodes          ? nodes
+                   : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)
+                                       : Ordering();
   if (V.complex_linear())
-    complex_ = std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t), 1, task);
+    complex_ = std::make_shared<const HeatSystem<Complex>>(
+        heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), expect, task, std::move(order));
   else
-    real_ = std::make_shared<const HeatSystem<double>>(heat_matrix(V.L_real, V.M, t), 2, task);
+    real_ = std::make_shared<const HeatSystem<double>>(
+        heat_matrix(V.L_real, V.M, t), 2, decay_lengths(V.M, t), expect, task, std::move(order));
 }
 
 CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
@@ -97,8 +65,8 @@ CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Ta
 
 CellField VectorHeat::diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
                                    Report& report) const {
-  const auto X = complex_ ? solve_held(*complex_, held, V.piece, task, report)
-                          : solve_held(*real_, held, V.piece, task, report);
+  const auto X = complex_ ? as_pairs(complex_->solve_held(to_complex(held), V.piece, task, report))
+                          : real_->solve_held(held, V.piece, task, report);
   return cell_field(V.to_cells, X);
 }
 

@@ -12,10 +12,12 @@
 
 namespace littoral {
 
-/// (M + t L) X = X0 (eq. 12) on one factorization; immutable.
+/// (M + t L) X = X0 (eq. 12); immutable.
 class VectorHeat {
  public:
-  VectorHeat(const VectorDiffusion& V, double t, const Task& task);
+  /// nodes: the order of elimination of the nodes between which the carriers lie.
+  VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+             const Task& task);
 
   /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
   CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,

@@ -46,6 +46,9 @@ struct VectorDiffusion {
   SpMatC L;                // carriers x carriers, lower triangle, Hermitian positive semidefinite;
                            //   empty if frames cannot be chosen so that it is complex-linear
   SpMat L_real;            // then: 2 carriers x 2 carriers, lower triangle, symmetric
+  Rows<int, 2> ends;       // carriers x 2: the nodes a carrier lies between; no rows where carriers
+                           //   are not edges between nodes
+  bool at_nodes = false;   // carriers are the nodes of the scalar calculus, coupled as in its L
   LinearMap to_cells;      // 2 cells x 2 carriers; mean of a cell's carriers, in the cell's frame
   double h = 0;            // mean distance between neighbouring carriers [length]
   std::vector<int> piece;  // carriers; connected pieces of the diffusion, -1 for unused carriers

@@ -165,6 +165,7 @@ Operators nodal_operators(const NodalSurface& S) {
 
   VectorDiffusion& V = ops.vector;
   V.n = n;
+  V.at_nodes = true;
   V.M = C.M;
   V.L.resize(n, n);
   V.L.setFromTriplets(assembly.connection.begin(), assembly.connection.end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "littoral/base/error.h"
 
@@ -9,79 +10,99 @@ namespace littoral {
 
 namespace {
 
-constexpr double front =
-    1e-100;  // entries below this share of the largest belong to the next layer
+constexpr double front = 1e-100;  // entries below this share of the largest: the next layer
+constexpr std::size_t largest_factor = 4'000'000'000;       // bytes, for many solves
+constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
 
+/// An order of the blocks, from the graph of their first unknowns.
 template <class Scalar>
-double magnitude(const Scalar& z) {
-  return std::max(std::abs(std::real(z)), std::abs(std::imag(z)));  // a norm would underflow
-}
-
-template <class Vector>
-double block_magnitude(const Vector& x, Eigen::Index i, int block) {
-  double m = 0;
-  for (int k = 0; k < block; ++k) m = std::max(m, magnitude(x[i * block + k]));
-  return m;
+Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, const Task& task) {
+  if (block == 1) return dissection(lower, task);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()) / block, j / block, it.value());
+  const Eigen::Index n = lower.cols() / block;
+  Eigen::SparseMatrix<Scalar> blocks(n, n);
+  blocks.setFromTriplets(entries.begin(), entries.end());
+  return dissection(blocks, task);
 }
 
 }  // namespace
 
 template <class Scalar>
-Eigen::Matrix<Scalar, Eigen::Dynamic, 1> LayeredField<Scalar>::around_layer(int p) const {
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y = decltype(y)::Zero(x.size());
-  const Eigen::Index block =
-      x.size() / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(layer.size()));
-  for (std::size_t i = 0; i < layer.size(); ++i) {
-    const Eigen::Index at = static_cast<Eigen::Index>(i) * block;
-    if (layer[i] == p) y.segment(at, block) = x.segment(at, block);
-    if (layer[i] == p + 1) y.segment(at, block) = x.segment(at, block) * scale[p + 1];
-  }
-  return y;
+HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect, const Task& task,
+                               Ordering order)
+    : A_(std::make_shared<const Matrix>(std::move(lower))),
+      block_(block),
+      order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
+      windows_(A_, block, std::move(size), order_) {
+  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_));
+  const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
+  if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
 }
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, const Task& task)
-    : A_(std::make_shared<const Matrix>(std::move(lower))), block_(block), factor_(A_, task) {}
+Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
+  return Cholesky<Scalar>(*A_, task, in_blocks(order_, block_));
+}
 
 template <class Scalar>
 LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
                                                const Task& task, Report& report) const {
-  const Eigen::Index n = b.size() / block_;
-  LayeredField<Scalar> field;
-  field.layer.assign(static_cast<std::size_t>(n), -1);
-  field.scale.assign(1, 1.0);
-  field.x = Vector::Zero(b.size());
-
   std::vector<double> largest;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0) continue;
     if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
-    largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, i, block_));
+    largest[piece[i]] =
+        std::max(largest[piece[i]], block_magnitude(b, static_cast<Eigen::Index>(i), block_));
   }
   Vector r = Vector::Zero(b.size());
-  Eigen::Index left = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  std::vector<int> reached(piece.size(), -1);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
-    r.segment(i * block_, block_) = b.segment(i * block_, block_) / largest[piece[i]];
-    ++left;
+    const auto at = static_cast<Eigen::Index>(i) * block_;
+    r.segment(at, block_) = b.segment(at, block_) / largest[piece[i]];
+    reached[i] = piece[i];
   }
+  if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
+  if (auto field = windows_.solve(r, reached, task, report)) return std::move(*field);
+  return solve_in_passes(factored(task), std::move(r), reached, task, report);
+}
+
+template <class Scalar>
+LayeredField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
+                                                    const std::vector<int>& piece, const Task& task,
+                                                    Report& report) const {
+  return solve(windows_.source_that_holds(held, task), piece, task, report);
+}
+
+template <class Scalar>
+LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+                                                         const std::vector<int>& piece,
+                                                         const Task& task, Report& report) const {
+  const Eigen::Index n = r.size() / block_;
+  LayeredField<Scalar> field{
+      Vector::Zero(r.size()), std::vector<int>(static_cast<std::size_t>(n), -1), {1.0}};
+  Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 
   int passes = 0;
+  std::vector<char> outside(static_cast<std::size_t>(r.size()), 1);  // unknowns of no layer yet
   while (left > 0) {
     task.checkpoint();
     const int p = passes++;
-    const Vector z = factor_.solve(r);
+    const Vector z = factor.solve(r, outside);
     double top = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (field.layer[i] < 0 && piece[i] >= 0 && largest[piece[i]] > 0)
-        top = std::max(top, block_magnitude(z, i, block_));
+      if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
     if (!(top > 0) || !std::isfinite(top)) break;
     Eigen::Index taken = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (field.layer[i] >= 0 || piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
+      if (field.layer[i] >= 0 || piece[i] < 0) continue;
       field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
       if (block_magnitude(z, i, block_) < front * top) continue;
       field.layer[i] = p;
+      std::fill_n(outside.begin() + i * block_, block_, 0);
       ++taken;
     }
     left -= taken;
@@ -120,8 +141,6 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vecto
   return field;
 }
 
-template struct LayeredField<double>;
-template struct LayeredField<Complex>;
 template class HeatSystem<double>;
 template class HeatSystem<Complex>;
 

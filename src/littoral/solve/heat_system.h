@@ -2,27 +2,21 @@
 // (M + t L) x = b for small t, right however fast x decays.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/solve/cholesky.h"
+#include "littoral/solve/heat_windows.h"
+#include "littoral/solve/layered_field.h"
 
 namespace littoral {
 
-/// A decaying solution in layers, each at a scale of its own: block i is scale[0] * ... *
-/// scale[layer[i]] * x_i. Layer -1: no source reaches the block.
-template <class Scalar>
-struct LayeredField {
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x;
-  std::vector<int> layer;     // blocks
-  std::vector<double> scale;  // layers, scale[0] = 1
+/// What a system is built for: many solves are worth a large factorization, one is not.
+enum class Expect { one_solve, many_solves };
 
-  /// The entries of layer p and, in its units, of layer p + 1; 0 elsewhere.
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> around_layer(int p) const;
-};
-
-/// One factorization of a positive definite matrix whose inverse decays exponentially; immutable.
+/// A positive definite matrix whose inverse decays exponentially; immutable.
 template <class Scalar>
 class HeatSystem {
  public:
@@ -30,28 +24,39 @@ class HeatSystem {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
   /// lower: the matrix's lower triangle; unknowns come in blocks of `block` (a real matrix of
-  /// complex unknowns has 2).
-  HeatSystem(Matrix lower, int block, const Task& task);
+  /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
+  /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
+  /// solves, .4 GB for one.
+  HeatSystem(Matrix lower, int block, VecX size, Expect expect, const Task& task,
+             Ordering order = {});
 
-  /// Solves by renormalised passes: the first solve is good to 1e-100 of its largest entry; the
-  /// rest is solved again from the residual that truncating there leaves, which lives next to the
-  /// front, scaled to 1; and so on. `piece` names the block's connected piece; each piece of b is
-  /// scaled to largest entry 1 first, as pieces do not interact.
+  /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
+  /// good to 1e-100 of its largest entry; the rest is solved again from the residual that
+  /// truncating there leaves, which lives next to the front, scaled to 1; and so on. `piece` names
+  /// the block's connected piece; each piece of b is scaled to largest entry 1 first, as pieces do
+  /// not interact.
   LayeredField<Scalar> solve(const Vector& b, const std::vector<int>& piece, const Task& task,
                              Report& report) const;
 
-  const Matrix& matrix() const { return *A_; }
-  int block() const { return block_; }
-  double nonzeros() const { return factor_.nonzeros(); }
+  /// The same with x held at `held` on the blocks where that is not zero, and b = 0 elsewhere.
+  LayeredField<Scalar> solve_held(const Vector& held, const std::vector<int>& piece,
+                                  const Task& task, Report& report) const;
+
+  double nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }  // 0 without a factor
 
  private:
+  Cholesky<Scalar> factored(const Task& task) const;
+  LayeredField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+                                       const std::vector<int>& piece, const Task& task,
+                                       Report& report) const;
+
   std::shared_ptr<const Matrix> A_;
   int block_;
-  Cholesky<Scalar> factor_;
+  Ordering order_;
+  HeatWindows<Scalar> windows_;
+  std::optional<Cholesky<Scalar>> factor_;
 };
 
-extern template struct LayeredField<double>;
-extern template struct LayeredField<Complex>;
 extern template class HeatSystem<double>;
 extern template class HeatSystem<Complex>;
 

@@ -1,5 +1,6 @@
 #include "littoral/solve/poisson.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -9,196 +10,180 @@ namespace littoral {
 
 namespace {
 
-VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
-
-/// The lower triangle of L + A^T W A.
-SpMat with_penalty(const SpMat& L, const SpMat& A, const VecX& weight) {
-  const SpMat WA = weight.asDiagonal() * A;
-  const SpMat P = SpMat(A.transpose()) * WA;
-  SpMat K = L;
-  K += SpMat(P.triangularView<Eigen::Lower>());
-  K.makeCompressed();
-  return K;
-}
-
 double mean_diagonal(const SpMat& L) {
   const VecX d = L.diagonal();
   const double n = static_cast<double>((d.array() > 0).count());
   return n > 0 ? d.sum() / n : 1;
 }
 
-}  // namespace
-
-DefiniteSystem::DefiniteSystem(SpMat lower, const Task& task)
-    : A_(std::make_shared<const SpMat>(std::move(lower))) {
-  for (double lift : {0.0, 1e-14, 1e-12, 1e-10, 1e-8}) {
-    auto K = A_;
-    if (lift > 0) {
-      auto lifted = std::make_shared<SpMat>(*A_);
-      lifted->diagonal() *= 1 + lift;
-      K = lifted;
-    }
-    lift_ = lift;
-    try {
-      factor_ = std::make_shared<const Cholesky<double>>(K, task);
-      return;
-    } catch (const SolveError&) {
-      if (lift == 1e-8) throw;
-    }
-  }
-}
-
-double DefiniteSystem::relative_residual(const VecX& x, const VecX& b) const {
-  const double scale = b.norm();
-  return scale > 0 ? (b - times(*A_, x)).norm() / scale : x.norm();
-}
-
-VecX DefiniteSystem::solve(const VecX& b) const {
-  // Conjugate gradients preconditioned by the factor: one step is iterative refinement.
-  constexpr int max_steps = 60;
-  constexpr double enough = 1e-14;
-  VecX x = VecX::Zero(b.size()), best = x, r = b, p;
-  const double scale = b.norm();
-  if (!(scale > 0)) return x;
-  double best_norm = scale, rz = 0;
-  for (int step = 0; step < max_steps; ++step) {
-    const VecX z = factor_->solve(r);
-    const double rz_new = r.dot(z);
-    p = step == 0 ? z : VecX(z + (rz_new / rz) * p);
-    rz = rz_new;
-    const VecX Ap = times(*A_, p);
-    const double curvature = p.dot(Ap);
-    if (!(curvature > 0)) break;
-    x += (rz / curvature) * p;
-    r = b - times(*A_, x);
-    const double norm = r.norm();
-    if (!(norm < best_norm)) break;
-    const bool stalled = lift_ == 0 && norm > 0.1 * best_norm;
-    best = x;
-    best_norm = norm;
-    if (norm <= enough * scale || stalled) break;
-  }
-  if (!best.allFinite()) throw SolveError("the solution of a linear system is not finite");
-  return best;
-}
-
-SpMat Poisson::pinned(const SpMat& K, const std::vector<char>& held) const {
-  // The first unknown of every component that nothing else holds is eliminated: its row and column
-  // go, its diagonal stays positive.
-  std::vector<char> pin(K.rows(), 0);
-  for (Eigen::Index i = 0; i < K.rows(); ++i)
-    if (i < static_cast<Eigen::Index>(component_.size()) && component_[i] < 0) pin[i] = 1;
-  for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) pin[first_[c]] = 1;
-  SpMat P(K.rows(), K.cols());
-  Triplets entries;
-  entries.reserve(static_cast<std::size_t>(K.nonZeros()) + first_.size());
-  for (int j = 0; j < K.outerSize(); ++j) {
-    if (pin[j]) {
-      entries.emplace_back(j, j, 1);
-      continue;
-    }
-    for (SpMat::InnerIterator it(K, j); it; ++it)
-      if (!pin[it.row()]) entries.emplace_back(it.row(), j, it.value());
-  }
-  P.setFromTriplets(entries.begin(), entries.end());
-  return P;
-}
-
-std::vector<char> Poisson::components_of(const SpMat& A) const {
-  std::vector<char> held(first_.size(), 0);
-  for (int j = 0; j < A.outerSize(); ++j)
-    for (SpMat::InnerIterator it(A, j); it; ++it)
-      if (j < static_cast<int>(component_.size()) && component_[j] >= 0) held[component_[j]] = 1;
-  return held;
-}
-
-namespace {
 std::vector<int> first_of_components(const std::vector<int>& component, int n_components) {
   std::vector<int> first(n_components, -1);
   for (std::size_t i = 0; i < component.size(); ++i)
     if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = static_cast<int>(i);
   return first;
 }
+
+/// L with an entry on the whole diagonal, so that every matrix made from it has one pattern.
+SpMat with_diagonal(const SpMat& L) {
+  SpMat I(L.rows(), L.cols());
+  I.setIdentity();
+  SpMat K = L + 0.0 * I;
+  K.makeCompressed();
+  return K;
+}
+
+std::shared_ptr<const Elimination> structure_of(const SpMat& L, const Ordering& order,
+                                                const Task& task) {
+  if (!order.empty()) return std::make_shared<const Elimination>(L, order);
+  return std::make_shared<const Elimination>(L, dissection(L, task));
+}
+
+constexpr int largest_patchable = 3'000'000;  // beyond, memory matters more than repeated solves
+
 }  // namespace
 
-Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task)
-    : L_(L),
+Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
+                 const Ordering& order)
+    : L_(with_diagonal(L)),
       component_(std::move(component)),
       first_(first_of_components(component_, n_components)),
-      pinned_(pinned(L, std::vector<char>(n_components, 0)), task) {}
+      free_(pinned(std::vector<char>(n_components, 0)), structure_of(L_, order, task), task,
+            L.rows() <= largest_patchable) {}
+
+SpMat Poisson::pinned(const std::vector<char>& held) const {
+  // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
+  // force if b sums to 0, and changes one entry of the matrix only.
+  SpMat K = L_;
+  const double d = mean_diagonal(L_);
+  for (Eigen::Index i = 0; i < K.rows(); ++i)
+    if (component_[i] < 0) K.coeffRef(i, i) += d;
+  for (std::size_t c = 0; c < first_.size(); ++c)
+    if (!held[c]) K.coeffRef(first_[c], first_[c]) += d;
+  return K;
+}
+
+std::vector<char> Poisson::components_of(const SpMat& A) const {
+  std::vector<char> held(first_.size(), 0);
+  for (int j : unknowns_of(A))
+    if (component_[j] >= 0) held[component_[j]] = 1;
+  return held;
+}
+
+void Poisson::drop_constants(const std::vector<char>& held, VecX& x) const {
+  VecX constant = VecX::Zero(static_cast<Eigen::Index>(first_.size()));
+  for (std::size_t c = 0; c < first_.size(); ++c)
+    if (!held[c]) constant[static_cast<Eigen::Index>(c)] = x[first_[c]];
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    x[i] = component_[i] < 0 ? 0 : x[i] - constant[component_[i]];
+}
 
 VecX Poisson::solve(const VecX& b, Report& report) const {
-  VecX rhs = b;
-  for (int i : first_) rhs[i] = 0;
-  const VecX x = pinned_.solve(rhs);
-  report.residuals.emplace_back("poisson", pinned_.relative_residual(x, rhs));
+  VecX x = free_.solve(b);
+  report.residuals.emplace_back("poisson", free_.relative_residual(x, b));
+  drop_constants(std::vector<char>(first_.size(), 0), x);
   return x;
+}
+
+DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
+                                     const std::vector<char>& held, const Task& task) const {
+  const SpMat K = pinned(held);
+  if (auto in_place = with_rows_in_place(K, A, weight)) {
+    if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
+    std::vector<int> changed = unknowns_of(A);
+    for (std::size_t c = 0; c < first_.size(); ++c)
+      if (held[c]) changed.push_back(first_[c]);
+    return free_.patched(std::move(*in_place), changed, task);
+  }
+  SpMat wider = with_rows(K, A, weight);
+  const auto structure = std::make_shared<const Elimination>(wider, free_.structure()->old_of);
+  return {std::move(wider), structure, task};
 }
 
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                          Report& report) const {
   const auto held = components_of(A);
-  const DefiniteSystem system(pinned(with_penalty(L_, A, weight), held), task);
-  VecX rhs = b;
-  for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) rhs[first_[c]] = 0;
-  VecX x = system.solve(rhs);
-  report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, rhs));
+  const DefiniteSystem system = with_penalty(A, weight, held, task);
+  VecX x = system.solve(b);
+  report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
+  drop_constants(held, x);
   return x;
 }
 
 VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& task,
                            Report& report) const {
   // Unknowns (x, c): rows A x - B c = 0, the constants of anchored groups left out.
-  const Eigen::Index n = L_.rows();
-  const int n_groups = static_cast<int>(rows.anchor.size());
-  std::vector<int> column(n_groups, -1);
-  Eigen::Index unknowns = n;
-  for (int g = 0; g < n_groups; ++g)
-    if (!rows.anchor[g]) column[g] = static_cast<int>(unknowns++);
-  Triplets entries;
-  for (int j = 0; j < rows.A.outerSize(); ++j)
-    for (SpMat::InnerIterator it(rows.A, j); it; ++it)
-      entries.emplace_back(it.row(), j, it.value());
-  for (std::size_t r = 0; r < rows.group.size(); ++r)
-    if (column[rows.group[r]] >= 0) entries.emplace_back(int(r), column[rows.group[r]], -1.0);
-  SpMat R(rows.A.rows(), unknowns);
-  R.setFromTriplets(entries.begin(), entries.end());
-  SpMat L = L_;
-  L.conservativeResize(unknowns, unknowns);
+  std::vector<int> column(rows.anchor.size(), -1);
+  int n_free = 0;
+  for (std::size_t g = 0; g < rows.anchor.size(); ++g)
+    if (!rows.anchor[g]) column[g] = n_free++;
+  auto spread = [&](const MatX& c) {  // B c
+    MatX out = MatX::Zero(rows.A.rows(), c.cols());
+    for (std::size_t r = 0; r < rows.group.size(); ++r)
+      if (column[rows.group[r]] >= 0) out.row(r) = c.row(column[rows.group[r]]);
+    return out;
+  };
+  auto gather = [&](const MatX& y) {  // B^T y
+    MatX out = MatX::Zero(n_free, y.cols());
+    for (std::size_t r = 0; r < rows.group.size(); ++r)
+      if (column[rows.group[r]] >= 0) out.row(column[rows.group[r]]) += y.row(r);
+    return out;
+  };
 
-  // Augmented Lagrangian on one factorization of K = L + w R^T R: dependent rows only make
-  // multipliers that are not unique.
+  // Augmented Lagrangian: every step solves with the factor of K = L + w A^T A, and c by what is
+  // left for it; dependent rows only make multipliers y that are not unique.
   const double w = 1e5 * mean_diagonal(L_);
   const auto held = components_of(rows.A);
-  const DefiniteSystem system(pinned(with_penalty(L, R, VecX::Constant(R.rows(), w)), held), task);
-  VecX rhs = VecX::Zero(unknowns);
-  rhs.head(n) = b;
-  for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) rhs[first_[c]] = 0;
-  VecX y = VecX::Zero(R.rows()), x;
-  double violation = 0, range = 1;
-  constexpr int max_steps = 20;
-  int step = 0;
-  while (step < max_steps) {
-    x = system.solve(rhs - SpMat(R.transpose()) * y);
-    const VecX miss = R * x;
-    ++step;
-    range = std::max(x.head(n).maxCoeff() - x.head(n).minCoeff(), 1e-300);
-    const double before = violation;
-    violation = miss.size() ? miss.cwiseAbs().maxCoeff() / range : 0;
-    const bool stalled = step > 1 && violation < 1e-9 && violation > 0.2 * before;  // round-off
-    if (violation < 1e-12 || stalled) break;
-    y += w * miss;
+  const DefiniteSystem system = with_penalty(rows.A, VecX::Constant(rows.A.rows(), w), held, task);
+  const SpMat At = rows.A.transpose();
+  Eigen::LDLT<MatX> rest;
+  if (n_free > 0) {
+    MatX S(n_free, n_free);
+    constexpr int at_once = 16;
+    for (int g = 0; g < n_free; g += at_once) {
+      task.checkpoint();
+      const int k = std::min(at_once, n_free - g);
+      const MatX B = spread(MatX::Identity(n_free, n_free).middleCols(g, k));
+      S.middleCols(g, k) = w * gather(B - rows.A * system.approximate(MatX(w * (At * B))));
+    }
+    rest.compute(0.5 * (S + S.transpose()));
   }
-  report.iterations.emplace_back("constraint steps", step);
+  const SpMat K0 = pinned(held);
+  VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
+  VecX miss = y;  // A x - B c
+  double violation = 0, residual = 0;
+  constexpr int max_steps = 30;
+  int step = 0;
+  for (; step < max_steps; ++step) {
+    task.checkpoint();
+    const VecX force = y + w * miss;
+    const VecX r = b - times_symmetric(K0, x) - At * force;
+    const VecX u = system.approximate(r);
+    VecX dx = u;
+    if (n_free > 0) {
+      const VecX dc = rest.solve(gather(VecX(force + w * (rows.A * u))));
+      dx += system.approximate(VecX(w * (At * spread(dc))));
+      c += dc;
+    }
+    x += dx;
+    miss = rows.A * x - spread(c);
+    y += w * miss;
+    const double before = violation, residual_before = residual;
+    const double range = std::max(x.maxCoeff() - x.minCoeff(), 1e-300);
+    violation = miss.size() ? miss.cwiseAbs().maxCoeff() / range : 0;
+    residual = dx.cwiseAbs().maxCoeff() / range;
+    if (!std::isfinite(residual)) throw SolveError("the constrained Poisson solve broke down");
+    const bool stalled = step > 0 && violation < 1e-9 && residual < 1e-8 &&
+                         (violation > 0.2 * before || residual > 0.2 * residual_before);
+    if ((violation < 1e-12 && residual < 1e-9) || stalled) break;
+  }
+  report.iterations.emplace_back("constraint steps", step + 1);
   report.residuals.emplace_back("constraints", violation);
   if (violation > 1e-8) {
     report.status = "not converged";
     report.warn("the constraints could not be met exactly; the result is their least-squares fit");
   }
-  return x.head(n);
+  drop_constants(held, x);
+  return x;
 }
 
 }  // namespace littoral

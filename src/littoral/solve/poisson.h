@@ -2,32 +2,14 @@
 // min 1/2 x^T L x - b^T x for a positive semidefinite L whose null space is the constants of each
 // component, without and with linear constraints.
 
-#include <memory>
 #include <vector>
 
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
-#include "littoral/solve/cholesky.h"
+#include "littoral/solve/definite.h"
 
 namespace littoral {
-
-/// A symmetric positive definite system solved to working accuracy: Cholesky, lifted on the
-/// diagonal if the matrix is numerically singular, and preconditioned conjugate gradients on the
-/// exact matrix until the residual stops falling.
-class DefiniteSystem {
- public:
-  DefiniteSystem(SpMat lower, const Task& task);
-  VecX solve(const VecX& b) const;
-  double relative_residual(const VecX& x, const VecX& b) const;
-  double nonzeros() const { return factor_->nonzeros(); }
-  double lift() const { return lift_; }
-
- private:
-  std::shared_ptr<const SpMat> A_;
-  std::shared_ptr<const Cholesky<double>> factor_;
-  double lift_ = 0;
-};
 
 /// Rows of A x = B c with one unknown constant per group, c of the first group of every component
 /// being 0: x takes one value along all rows of a group.
@@ -37,11 +19,14 @@ struct LevelRows {
   std::vector<int> anchor;  // per group: 1 if its constant is fixed at 0, else 0
 };
 
-/// Poisson problem of one operator; immutable.
+/// Poisson problem of one operator; immutable. Constraints whose rows hold neighbours of L only (as
+/// values at points of a mesh do) change few columns of the factor: the rest is shared.
 class Poisson {
  public:
-  /// L: lower triangle. component: per unknown, -1 for unknowns in no equation.
-  Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task);
+  /// L: lower triangle. component: per unknown, -1 for unknowns in no equation. order: of
+  /// elimination; dissection(L) if empty.
+  Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
+          const Ordering& order = {});
 
   /// Minimiser that is 0 at the first unknown of every component; b must sum to 0 over each.
   VecX solve(const VecX& b, Report& report) const;
@@ -54,16 +39,19 @@ class Poisson {
   VecX solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                   Report& report) const;
 
-  double nonzeros() const { return pinned_.nonzeros(); }
+  double nonzeros() const { return free_.nonzeros(); }
 
  private:
-  SpMat pinned(const SpMat& K, const std::vector<char>& held) const;
+  SpMat pinned(const std::vector<char>& held) const;
   std::vector<char> components_of(const SpMat& A) const;
+  void drop_constants(const std::vector<char>& held, VecX& x) const;
+  DefiniteSystem with_penalty(const SpMat& A, const VecX& weight, const std::vector<char>& held,
+                              const Task& task) const;
 
   SpMat L_;
   std::vector<int> component_;
   std::vector<int> first_;  // per component
-  DefiniteSystem pinned_;
+  DefiniteSystem free_;
 };
 
 }  // namespace littoral

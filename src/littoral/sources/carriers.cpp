@@ -9,6 +9,7 @@
 #include "littoral/sources/constraint_rows.h"
 #include "littoral/sources/source_parts.h"
 #include "littoral/sources/surface_points.h"
+#include "littoral/sources/triangle_sources.h"
 
 namespace littoral {
 
@@ -41,18 +42,6 @@ class Measure {
   VecX X0_, total_;
 };
 
-/// Triangles around a point, with its barycentrics; `without` lists triangles to leave out.
-std::vector<PointInFace> around(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                const SurfacePoint& p, const std::vector<int>& without = {}) {
-  std::vector<PointInFace> where;
-  for (int face : faces_at(mesh, p)) {
-    const int t = T.triangle_of_face[face];
-    if (t < 0 || std::find(without.begin(), without.end(), t) != without.end()) continue;
-    if (const auto b = barycentrics_in(mesh, p, face)) where.push_back({t, *b});
-  }
-  return where;
-}
-
 /// Adds a stretch of an unsigned curve with both of its sides equally strong: where crossed edges
 /// have their midpoints mostly on one side, that side would otherwise win everywhere far away.
 void add_balanced(std::vector<Push>& stretch, Measure& X0) {
@@ -73,7 +62,7 @@ void add_end(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const Sur
     for (int face : mesh.edge_faces(last.edge)) without.push_back(T.triangle_of_face[face]);
   else
     without.push_back(T.triangle_of_face[last.face]);
-  carriers.add_radial(around(mesh, T, end, without), last.length / T.unit, out);
+  carriers.add_radial(triangles_around(mesh, T, end, without), last.length / T.unit, out);
 }
 
 bool same_point(const SurfacePoint& p, const SurfacePoint& q) {
@@ -142,7 +131,7 @@ void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
         by_curve[mesh.face(piece.face)[k]] = 1;
   terms.d0 = VecX::Constant(T.n_vertices, none);
   for (const SurfacePoint& p : sources.points) {
-    const auto where = around(mesh, T, p);
+    const auto where = triangles_around(mesh, T, p);
     bool free = true;
     for (const PointInFace& place : where)
       for (int k = 0; k < 3; ++k) free = free && !by_curve[T.faces(place.face, k)];
@@ -217,7 +206,7 @@ SourceTerms source_terms(const SurfaceMesh& mesh, const IntrinsicTriangulation& 
   }
   for (const SurfacePoint& p : sources.points) {
     // A point weighs as much as a curve of one edge's length: the balance does not depend on units.
-    carriers.add_radial(around(mesh, T, p), h, vectors);
+    carriers.add_radial(triangles_around(mesh, T, p), h, vectors);
     X0_points.add(vectors);
     const int node = nodes.id(p);
     nodes.weight[node] += 1;

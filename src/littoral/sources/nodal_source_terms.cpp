@@ -146,6 +146,18 @@ SurfacePoint refined_point(const SurfaceMesh& input, const NodalSurface& S, cons
   return out;
 }
 
+/// From triangles sources are placed on to cells, where exact distances are known at all corners.
+void on_cells(const NodalSurface& S, SourceTerms& terms) {
+  std::vector<char> known(static_cast<std::size_t>(S.n_nodes()), 0);
+  for (int t : terms.near)
+    for (int k = 0; k < 3; ++k) known[S.place->faces(t, k)] = 1;
+  terms.near.clear();
+  for (int c = 0; c < S.cells->n_faces(); ++c) {
+    const auto v = S.cells->faces.row(c);
+    if (known[v[0]] && known[v[1]] && known[v[2]]) terms.near.push_back(c);
+  }
+}
+
 }  // namespace
 
 SurfaceSources refined_sources(const SurfaceMesh& input, const NodalSurface& S,
@@ -165,7 +177,9 @@ SourceTerms nodal_source_terms(const NodalSurface& S, const PreparedSources& sou
   terms.u0 = SpMat(P.transpose() * terms.u0);
   terms.A = SpMat(terms.A * P);
   terms.mean = SpMat(terms.mean * P);
-  if (P.rows() != P.cols()) {  // exact distances would be needed at all nodes of a polygon
+  if (P.rows() == P.cols())
+    on_cells(S, terms);
+  else {  // exact distances would be needed at all nodes of a polygon
     terms.d0 = VecX::Zero(P.cols());
     terms.near.clear();
   }

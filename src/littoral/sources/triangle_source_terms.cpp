@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "littoral/sources/carriers.h"
-#include "littoral/sources/surface_points.h"
+#include "littoral/sources/triangle_sources.h"
 
 namespace littoral {
 
@@ -34,25 +34,9 @@ class EdgeCarriers : public Carriers {
   }
 
   void add_unsigned(const CurvePiece& piece, std::vector<Push>& out) const override {
-    if (piece.edge < 0) {
-      add_beside(piece, T_.triangle_of_face[piece.face], piece.a, piece.b, out);
-      return;
-    }
     // Along an edge: the same from every face at the edge.
-    const auto corners = mesh_.face(piece.face);
-    auto on_edge = [&](const std::array<double, 3>& b) {
-      double head = 0;
-      for (int k = 0; k < 3; ++k)
-        if (corners[k] == mesh_.edges()(piece.edge, 1)) head = b[k];
-      return SurfacePoint::on_edge(piece.edge, head);
-    };
-    const SurfacePoint p = simplest(mesh_, on_edge(piece.a)), q = simplest(mesh_, on_edge(piece.b));
-    for (int face : mesh_.edge_faces(piece.edge)) {
-      const int f = T_.triangle_of_face[face];
-      if (f < 0) continue;
-      const auto a = barycentrics_in(mesh_, p, face), b = barycentrics_in(mesh_, q, face);
-      if (a && b) add_beside(piece, f, *a, *b, out);
-    }
+    for (const TriangleSources::Segment& part : segments_of(mesh_, T_, piece))
+      add_beside(piece, part.triangle, part.a, part.b, out);
   }
 
   void add_radial(std::span<const PointInFace> where, double weight,

@@ -1,0 +1,97 @@
+// Times signed heat on polygon meshes and point clouds for bench/peers/domains.py, which runs it
+// beside other programs.
+// usage: littoral_domain_timer SURFACE SOURCES REPEATS VALUES
+// SURFACE without faces is a point cloud. Prints seconds and peak memory as JSON; writes the
+// zero-set distances as doubles to VALUES.
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "littoral/domain/cloud_surface.h"
+#include "littoral/domain/polygon_surface.h"
+#include "littoral/io/read.h"
+#include "littoral/methods/signed_heat.h"
+#include "littoral/operators/nodal.h"
+#include "littoral/sources/nodal_source_terms.h"
+
+namespace littoral {
+namespace {
+
+double seconds(const std::function<void()>& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+int run(char** argv) {
+  const SurfaceMesh mesh(io::read_surface(argv[1]));
+  const int repeats = std::atoi(argv[3]);
+  Report report;
+  const SurfaceSources given = io::read_sources(argv[2], mesh, 0, report);
+  std::unique_ptr<SignedHeat> method;
+  SourceTerms terms;
+  SignedHeatOptions options;
+  options.time_scale = 1;
+  options.constraint = static_cast<int>(Constraint::zero_set);
+  VecX phi;
+  auto solve_first = [&](Expect expect) {
+    const NodalSurface S = mesh.n_faces()
+                               ? polygon_surface(mesh, report)
+                               : cloud_surface(mesh.points(), mesh.soup().normals, report);
+    const auto ops = std::make_shared<const Operators>(nodal_operators(S));
+    terms =
+        nodal_source_terms(S, prepare(*S.refined, refined_sources(mesh, S, given), false, report));
+    method = std::make_unique<SignedHeat>(ops, 1, Task(), Diffusions{true, false}, expect);
+    phi = method->solve(terms, options, {}, report);
+  };
+  std::printf("{\n \"first\": %.6g,\n", seconds([&] { solve_first(Expect::one_solve); }));
+  std::ofstream(argv[4], std::ios::binary)
+      .write(reinterpret_cast<const char*>(phi.data()),
+             static_cast<std::streamsize>(sizeof(double)) * phi.size());
+  if (repeats > 0) solve_first(Expect::many_solves);
+  const struct {
+    const char* name;
+    Constraint constraint;
+  } cases[] = {{"none", Constraint::none},
+               {"zero_set", Constraint::zero_set},
+               {"level_sets", Constraint::level_sets}};
+  std::vector<double> times[3];
+  for (int round = 0; round <= repeats; ++round)  // the first is not counted
+    for (int c = 0; c < 3; ++c) {
+      options.constraint = static_cast<int>(cases[c].constraint);
+      const double t = seconds([&] { method->solve(terms, options, {}, report); });
+      if (round > 0) times[c].push_back(t);
+    }
+  for (int c = 0; c < 3 && repeats > 0; ++c) {
+    std::sort(times[c].begin(), times[c].end());
+    std::printf(" \"%s\": %.6g,\n", cases[c].name, times[c][times[c].size() / 2]);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf(" \"peak_mb\": %.6g\n}\n", static_cast<double>(usage.ru_maxrss) / 1024);
+  return 0;
+}
+
+}  // namespace
+}  // namespace littoral
+
+int main(int argc, char** argv) {
+  if (argc != 5) {
+    std::fprintf(stderr, "usage: littoral_domain_timer SURFACE SOURCES REPEATS VALUES\n");
+    return 2;
+  }
+  try {
+    return littoral::run(argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "littoral_domain_timer: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,126 @@
+// Times surface signed heat for bench/peers/compare.py, which runs it beside other programs.
+// usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES
+// Prints seconds, sizes and peak memory as JSON; writes the zero-set distances as doubles to
+// VALUES.
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "littoral/domain/intrinsic_triangulation.h"
+#include "littoral/io/read.h"
+#include "littoral/methods/signed_heat.h"
+#include "littoral/operators/triangles.h"
+#include "littoral/sources/pieces.h"
+#include "littoral/sources/triangle_source_terms.h"
+
+namespace littoral {
+namespace {
+
+double seconds(const std::function<void()>& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v.empty() ? 0 : 0.5 * (v[v.size() / 2] + v[(v.size() - 1) / 2]);
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+SignedHeatOptions constrained(Constraint constraint) {
+  SignedHeatOptions options;
+  options.time_scale = 1;
+  options.constraint = static_cast<int>(constraint);
+  return options;
+}
+
+int run(char** argv) {
+  const SurfaceMesh mesh(io::read_surface(argv[1]));
+  const int repeats = std::atoi(argv[4]);
+  Report report;
+  const SurfaceSources sources = io::read_sources(argv[2], mesh, 0, report);
+  const SurfaceSources others = io::read_sources(argv[3], mesh, 0, report);
+  auto say = [](const char* name, double value) { std::printf(" \"%s\": %.6g,\n", name, value); };
+  std::printf("{\n");
+  say("faces", mesh.n_faces());
+
+  VecX phi;
+  say("first", seconds([&] {
+        const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+        const auto ops = std::make_shared<const Operators>(triangle_operators(T));
+        const auto terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
+        const SignedHeat method(ops, 1, {}, {true, false}, Expect::one_solve);
+        phi = method.solve(terms, constrained(Constraint::zero_set), {}, report);
+      }));
+  say("first_peak_mb", peak_megabytes());
+  std::ofstream(argv[5], std::ios::binary)
+      .write(reinterpret_cast<const char*>(phi.data()),
+             static_cast<std::streamsize>(sizeof(double)) * phi.size());
+  if (repeats > 0) {
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    const auto ops = std::make_shared<const Operators>(triangle_operators(T));
+    const SignedHeat method(ops, 1, {}, {true, false});
+    const auto terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
+    struct Case {
+      const char* name;
+      SignedHeatOptions options;
+    };
+    std::vector<Case> cases = {{"none", constrained(Constraint::none)},
+                               {"zero_set", constrained(Constraint::zero_set)},
+                               {"level_sets", constrained(Constraint::level_sets)},
+                               {"soft", constrained(Constraint::none)},
+                               {"preserved_normals", constrained(Constraint::none)}};
+    cases[3].options.soft = 100;
+    cases[4].options.preserve_normals = true;
+    std::vector<std::vector<double>> times(cases.size());
+    std::vector<double> moved;
+    for (int round = 0; round <= repeats; ++round) {  // the first is not counted
+      for (std::size_t c = 0; c < cases.size(); ++c) {
+        const double t = seconds([&] { method.solve(terms, cases[c].options, {}, report); });
+        if (round > 0) times[c].push_back(t);
+      }
+      const SurfaceSources& next = round % 2 ? sources : others;
+      const double t = seconds([&] {
+        const auto fresh = source_terms(mesh, T, prepare(mesh, next, false, report));
+        method.solve(fresh, cases[1].options, {}, report);
+      });
+      if (round > 0) moved.push_back(t);
+    }
+    for (std::size_t c = 0; c < cases.size(); ++c) say(cases[c].name, median(times[c]));
+    say("moved_curve_zero_set", median(moved));
+  }
+  std::printf(" \"peak_mb\": %.6g\n}\n", peak_megabytes());
+  return 0;
+}
+
+}  // namespace
+}  // namespace littoral
+
+int main(int argc, char** argv) {
+  if (argc != 6) {
+    std::fprintf(stderr,
+                 "usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES\n");
+    return 2;
+  }
+  try {
+    return littoral::run(argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "littoral_surface_timer: %s\n", error.what());
+    return 1;
+  }
+}

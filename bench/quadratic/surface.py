@@ -1,0 +1,146 @@
+"""Triangle meshes as arrays, and the littoral program as a function, for the quadratic studies."""
+
+import json
+import os
+import resource
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+PROGRAM = os.environ.get("LITTORAL", "build/release/littoral")
+
+
+def read_obj(path: Path) -> tuple[Floats, Ints]:
+    """Vertices and triangles of an OBJ without other faces."""
+    points, faces = [], []
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            points.append([float(x) for x in words[1:4]])
+        elif words[:1] == ["f"]:
+            faces.append([int(w.split("/")[0]) - 1 for w in words[1:]])
+    return np.array(points), np.array(faces, dtype=np.int64)
+
+
+def write_obj(path: Path, points: Floats, faces: Ints) -> None:
+    """Writes a mesh with all digits."""
+    with path.open("w") as out:
+        for x, y, z in points:
+            out.write(f"v {x:.17g} {y:.17g} {z:.17g}\n")
+        for a, b, c in faces + 1:
+            out.write(f"f {a} {b} {c}\n")
+
+
+def load(path: Path) -> tuple[Floats, Ints]:
+    """Any mesh the program reads, without unused vertices, its bounding box diagonal made 1."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "mesh.obj"
+        subprocess.run(
+            [PROGRAM, "convert", str(path), "--triangulate", "-o", str(copy), "--quiet"], check=True
+        )
+        points, faces = read_obj(copy)
+    used = np.unique(faces)
+    number = np.full(len(points), -1)
+    number[used] = np.arange(len(used))
+    points, faces = points[used], number[faces]
+    size = float(np.linalg.norm(points.max(0) - points.min(0)))
+    return (points - points.min(0)) / size, faces
+
+
+class Subdivision:
+    """Every triangle in four; linear interpolation from the coarse mesh to the fine one."""
+
+    def __init__(self, points: Floats, faces: Ints) -> None:
+        sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), 1)
+        self.edges, where = np.unique(sides, axis=0, return_inverse=True)
+        a, b, c = (len(points) + where.reshape(3, -1)).astype(np.int64)
+        i, j, k = faces.T
+        self.points = self.refine(points)
+        self.faces = np.concatenate(
+            [np.stack(t, 1) for t in ((i, a, c), (a, j, b), (c, b, k), (a, b, c))]
+        )
+
+    def refine(self, values: Floats) -> Floats:
+        """Values at the fine vertices: the coarse ones, then edge midpoints."""
+        return np.concatenate([values, values[self.edges].mean(1)])
+
+
+def mass(points: Floats, faces: Ints, error: Floats) -> tuple[float, float]:
+    """error^T M1 error and the area, M1 the mass matrix of linear functions."""
+    p, q, r = (points[faces[:, k]] for k in range(3))
+    area = 0.5 * np.linalg.norm(np.cross(q - p, r - p), axis=1)
+    e = error[faces]
+    product = (e**2).sum(1) + e[:, 0] * e[:, 1] + e[:, 1] * e[:, 2] + e[:, 2] * e[:, 0]
+    return float((area * product / 6).sum()), float(area.sum())
+
+
+def errors(points: Floats, faces: Ints, error: Floats) -> tuple[float, float]:
+    """Root mean square over the surface, as in the paper's section 6.2, and the largest."""
+    squared, area = mass(points, faces, error)
+    return float(np.sqrt(squared / area)), float(np.abs(error).max())
+
+
+def mean_edge(points: Floats, faces: Ints) -> float:
+    """Mean edge length."""
+    edges = Subdivision(points, faces).edges
+    return float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
+
+
+class Run:
+    """One call of `littoral distance`: values, report and processor seconds; with `--subdivide`
+    also the mesh the values belong to."""
+
+    def __init__(
+        self,
+        points: Floats,
+        faces: Ints,
+        source: int | tuple[int, Floats],  # a vertex, or a face and barycentrics
+        method: str,
+        extra: Sequence[str] = (),
+    ) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
+            write_obj(mesh, points, faces)
+            if isinstance(source, int):
+                where = ["--vertex", str(source)]
+            else:
+                a, b, c = source[1]
+                text = f"unsigned_point\nf {source[0]} {a:.17g} {b:.17g} {c:.17g}\n"
+                (Path(folder) / "source.txt").write_text(text)
+                where = ["--sources", str(Path(folder) / "source.txt")]
+            files = ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra]
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            done = subprocess.run(
+                [
+                    PROGRAM,
+                    "distance",
+                    str(mesh),
+                    *where,
+                    "--method",
+                    method,
+                    *files,
+                ],
+                check=True,
+                capture_output=True,
+                text=True,
+            )
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            self.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            self.report = json.loads(done.stdout)
+            self.values: Floats = np.load(f"{out}.npy").ravel()
+            self.points, self.faces = read_obj(Path(f"{out}.obj"))
+
+
+def known_methods() -> list[str]:
+    """Names of the methods the program has."""
+    done = subprocess.run(
+        [PROGRAM, "methods", "--json"], check=True, capture_output=True, text=True
+    )
+    return [method["name"] for method in json.loads(done.stdout)]

@@ -1,0 +1,54 @@
+#include "cli/method_options.h"
+
+#include "littoral/api/registry.h"
+
+namespace littoral::cli {
+
+namespace {
+
+std::string option_help(const OptionInfo& info) {
+  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
+         "; default " + info.fallback + "]";
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& verb, GivenOptions& given,
+                        const std::vector<MethodInfo>& methods) {
+  std::map<std::string, std::string> help;
+  std::vector<OptionInfo> all;
+  for (const MethodInfo& method : methods) {
+    for (const OptionInfo& info : method.options) {
+      if (help.count(info.name) == 0) all.push_back(info);
+      std::string& text = help[info.name];
+      text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
+    }
+  }
+  for (const OptionInfo& info : all) {
+    const auto keep = [&given, name = info.name](const std::string& text) { given[name] = text; };
+    CLI::Option* option =
+        info.is_switch
+            ? verb.add_flag_function(
+                  "--" + info.name, [keep](std::int64_t on) { keep(on > 0 ? "on" : "off"); },
+                  help[info.name])
+            : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
+    if (!info.is_switch)
+      option->type_name(info.is_text ? "TEXT" : info.choices.empty() ? "X" : "WORD");
+    option->group("Options of methods");
+  }
+}
+
+void add_method_options(CLI::App& verb, GivenOptions& given) {
+  add_method_options(verb, given, methods());
+}
+
+void use_method_options(const GivenOptions& given, DistanceRequest& request) {
+  const MethodInfo& method = find_method(request.method);
+  for (const auto& [name, text] : given) {
+    check_has_option(method, name);
+    request.options.emplace_back(name, text);
+  }
+  check_request(request);
+}
+
+}  // namespace littoral::cli

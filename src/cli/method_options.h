@@ -1,0 +1,23 @@
+#pragma once
+// Flags for the options of methods, for the verbs that run one.
+
+#include <map>
+#include <string>
+
+#include "cli/session.h"
+#include "littoral/api/distance.h"
+
+namespace littoral::cli {
+
+using GivenOptions = std::map<std::string, std::string>;  // name, value as typed
+
+/// One flag for each option that any of the methods has; its help says what it is to each.
+void add_method_options(CLI::App& verb, GivenOptions& given,
+                        const std::vector<MethodInfo>& methods);
+/// The same for the methods on surfaces.
+void add_method_options(CLI::App& verb, GivenOptions& given);
+
+/// Puts the options that were given into the request and checks it.
+void use_method_options(const GivenOptions& given, DistanceRequest& request);
+
+}  // namespace littoral::cli

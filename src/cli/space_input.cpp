@@ -1,0 +1,108 @@
+#include "cli/space_input.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "littoral/base/error.h"
+#include "littoral/io/read.h"
+#include "littoral/io/write.h"
+#include "littoral/io/write_table.h"
+
+namespace littoral::cli {
+
+void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session) {
+  verb.add_option("INPUT", texts.input,
+                  "mesh, soup or point cloud: .obj .ply .off .stl .pc .xyz .pcd")
+      ->required()
+      ->type_name("");
+  verb.add_flag("--estimate-normals", texts.request.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
+  verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
+}
+
+void add_space_method(CLI::App& verb, SpaceTexts& texts) {
+  std::string names;
+  const std::vector<MethodInfo> infos = space_method_infos();
+  for (const MethodInfo& info : infos) names += (names.empty() ? "" : ", ") + info.name;
+  verb.add_option("--method", texts.request.method,
+                  names + " [default " + texts.request.method + "]")
+      ->type_name("NAME");
+  add_method_options(verb, texts.options, infos);
+}
+
+void add_grid_options(CLI::App& verb, SpaceTexts& texts) {
+  verb.add_option("--resolution", texts.resolution,
+                  "nodes along the longest side, 2 to 100000 [default 64]")
+      ->check(CLI::Range(2, 100000).description(""))
+      ->type_name("N");
+  verb.add_option("--spacing", texts.spacing, "distance between nodes, instead [length]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("H");
+  verb.add_option("--bounds", texts.bounds, "the box: x0,y0,z0,x1,y1,z1 [length]")
+      ->type_name("BOX");
+  verb.add_option("--padding", texts.padding,
+                  "without --bounds: margin around the input, in its longest side [default 0.25]")
+      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->type_name("F");
+}
+
+void use_space_options(SpaceTexts& texts, const Session& session) {
+  texts.request.flip = session.flip;
+  const MethodInfo& method = find_space_method(texts.request.method).info;
+  for (const auto& [name, text] : texts.options) {
+    check_has_option(method, name);
+    texts.request.options.emplace_back(name, text);
+  }
+  check_request(texts.request);
+}
+
+Grid grid_of(const SpaceTexts& texts, const PolygonSoup& input) {
+  GridRequest request;
+  if (texts.resolution > 0) request.resolution = texts.resolution;
+  if (texts.spacing > 0) request.spacing = texts.spacing;
+  request.padding = texts.padding;
+  if (!texts.bounds.empty()) {
+    const std::vector<double> numbers = parse_numbers("--bounds", texts.bounds);
+    if (numbers.size() != 6) throw InputError("option --bounds takes x0,y0,z0,x1,y1,z1");
+    request.bounds.emplace();
+    std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
+  }
+  return choose_grid(input, request);
+}
+
+void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out) {
+  verb.add_option("--points", points,
+                  "where to evaluate: the vertices of any surface or cloud file, or .csv or .txt "
+                  "with x, y, z first")
+      ->required()
+      ->type_name("FILE");
+  verb.add_option("-o,--output", out, "where to write: .csv .txt .npy .ply; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("OUT");
+}
+
+MatX3 read_queries(const std::string& file) {
+  const std::string extension = extension_of(file);
+  if (extension == ".csv" || extension == ".txt")
+    return io::read_columns(io::read_bytes(file), file);
+  return io::read_surface(file).points;
+}
+
+void write_query_table(const std::vector<std::string>& out, const MatX3& points,
+                       const Table& table) {
+  for (const std::string& file : out) {
+    if (extension_of(file) == ".ply") {
+      PolygonSoup cloud;
+      cloud.points = points;
+      for (std::size_t c = 0; c < table.names.size(); ++c)
+        cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
+      io::write_surface(file, cloud);
+    } else {
+      io::write_table(file, table.names, table.columns);
+    }
+  }
+}
+
+}  // namespace littoral::cli

@@ -1,0 +1,51 @@
+#pragma once
+// What the verbs about distance in space share: the input, the method, the grid.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/method_options.h"
+#include "cli/session.h"
+#include "littoral/api/sdf.h"
+
+namespace littoral::cli {
+
+/// As given.
+struct SpaceTexts {
+  std::string input;
+  SpaceRequest request;
+  GivenOptions options;
+  int resolution = 0;  // 0: not given
+  double spacing = 0;  // 0: not given
+  std::string bounds;
+  double padding = GridRequest().padding;
+};
+
+/// Adds INPUT, --estimate-normals and --flip.
+void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session);
+/// Adds --method and the methods' options.
+void add_space_method(CLI::App& verb, SpaceTexts& texts);
+/// Adds --resolution, --spacing, --bounds and --padding.
+void add_grid_options(CLI::App& verb, SpaceTexts& texts);
+
+/// Completes the request from what was given and checks it.
+void use_space_options(SpaceTexts& texts, const Session& session);
+/// The grid asked for, around the input.
+Grid grid_of(const SpaceTexts& texts, const PolygonSoup& input);
+
+/// Adds --points and -o, for verbs that answer at points.
+void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out);
+/// Points of any surface or cloud file, or the first three columns of a .csv or .txt file.
+MatX3 read_queries(const std::string& file);
+
+/// Columns of numbers under names, one row a point.
+struct Table {
+  std::vector<std::string> names;
+  Eigen::MatrixXd columns;
+};
+/// Writes .csv with a head, .txt, .npy (rows x columns), or .ply with the points.
+void write_query_table(const std::vector<std::string>& out, const MatX3& points,
+                       const Table& table);
+
+}  // namespace littoral::cli

@@ -1,0 +1,130 @@
+// littoral sdf: signed distance in space around a mesh, soup or point cloud.
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/space_input.h"
+#include "cli/verbs.h"
+#include "cli/volume_input.h"
+#include "littoral/api/report_json.h"
+#include "littoral/api/shells.h"
+#include "littoral/base/error.h"
+#include "littoral/contour/isosurface.h"
+#include "littoral/io/picture.h"
+#include "littoral/io/read.h"
+#include "littoral/io/volume.h"
+#include "littoral/io/volume_scene.h"
+
+namespace littoral::cli {
+
+namespace {
+
+const std::vector<std::string> outputs = {".vti", ".npy", ".nrrd", ".vdb",  ".obj",
+                                          ".ply", ".off", ".stl",  ".html", ".png"};
+
+struct Arguments {
+  SpaceTexts space;
+  std::string levels = "0";
+  std::vector<std::string> out;
+  double band = 0;
+  std::string domain = "grid";
+};
+
+bool is_among(const std::string& file, const std::vector<std::string>& extensions) {
+  return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
+}
+
+std::vector<Shell> shells_of(const VolumeField& volume, const TetField& tets,
+                             const std::vector<double>& levels, Session& session) {
+  if (tets.mesh.n_tets() == 0)
+    return level_shells(volume, levels, false, session.report, session.task());
+  std::vector<Shell> shells;
+  for (const double level : levels)
+    shells.push_back(
+        {level, isosurface(tets.mesh, tets.values, level, session.report, session.task())});
+  return shells;
+}
+
+void write_results(const Arguments& arguments, const VolumeField& volume, const TetField& tets,
+                   Session& session) {
+  const std::vector<double> levels = parse_numbers("--level", arguments.levels);
+  for (const std::string& file : arguments.out) {
+    session.task().checkpoint();
+    if (is_among(file, volume_outputs)) {
+      io::write_volume(file, volume, {.band = arguments.band});
+    } else if (is_among(file, surface_outputs)) {
+      write_shells({file}, shells_of(volume, tets, levels, session));
+    } else {
+      io::VolumeView view;
+      view.level = levels.front();
+      io::Scene scene = io::make_volume_scene(volume, view);
+      scene.title = std::filesystem::path(arguments.space.input).stem().string();
+      scene.facts = {{"method", session.report.method},
+                     {"nodes", std::to_string(volume.grid.n_nodes())}};
+      for (const auto& option : session.report.options) scene.facts.push_back(option);
+      extension_of(file) == ".html" ? io::write_page(file, scene) : io::write_picture(file, scene);
+    }
+  }
+}
+
+void run(Arguments& arguments, Session& session) {
+  for (const std::string& file : arguments.out)
+    check_output(file, outputs, "signed distance in space");
+  parse_numbers("--level", arguments.levels);
+  use_space_options(arguments.space, session);
+  const PolygonSoup input = io::read_surface(arguments.space.input);
+  VolumeField volume;
+  volume.grid = grid_of(arguments.space, input);
+  session.reading = false;
+  TetField tets;
+  if (arguments.domain == "tets")
+    tets = tet_distance(input, volume.grid, arguments.space.request, &volume.values, session.task(),
+                        session.report);
+  else
+    volume.values =
+        grid_distance(input, volume.grid, arguments.space.request, session.task(), session.report);
+  {
+    const Stopwatch watch(session.report, "write");
+    write_results(arguments, volume, tets, session);
+  }
+  session.print_warnings();
+  session.print_details();
+  if (session.json) std::cout << report_json(session.report) << "\n";
+}
+
+}  // namespace
+
+void add_sdf(CLI::App& program, Session& session) {
+  CLI::App* verb =
+      program.add_subcommand("sdf", "signed distance in space around a mesh, soup or point cloud");
+  auto arguments = std::make_shared<Arguments>();
+  add_space_input(*verb, arguments->space, session);
+  verb->add_option("-o,--output", arguments->out,
+                   "where to write: .vti .npy .nrrd .vdb, the surface at --level as .obj .ply .off "
+                   ".stl, or .html .png; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("OUT");
+  add_grid_options(*verb, arguments->space);
+  verb->add_option("--domain", arguments->domain,
+                   "where to solve: a grid, or tets that are small near the input only; volumes "
+                   "are sampled from these [default grid]")
+      ->check(CLI::IsMember({"grid", "tets"}).description(""))
+      ->type_name("WORD");
+  verb->add_option("--level", arguments->levels,
+                   "levels of surfaces, separated by commas [length; default 0]")
+      ->type_name("L[,L...]");
+  verb->add_option("--band", arguments->band,
+                   "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
+      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->type_name("W");
+  add_space_method(*verb, arguments->space);
+  add_json_option(*verb, session);
+  add_common_options(*verb, session);
+  verb->callback(
+      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+}
+
+}  // namespace littoral::cli

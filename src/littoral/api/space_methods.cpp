@@ -1,0 +1,150 @@
+// The methods of distance in space as entries of the registry.
+
+#include <iterator>
+
+#include "littoral/api/space_method.h"
+#include "littoral/base/error.h"
+#include "littoral/methods/closest_point.h"
+#include "littoral/methods/convolutional_distance.h"
+#include "littoral/methods/signed_heat_grid.h"
+
+namespace littoral {
+
+namespace {
+
+const std::vector<std::string> inputs = {"triangle mesh", "polygon soup", "point cloud"};
+
+struct ClosestPointOptions {};
+
+struct KernelOptions {
+  double sharpness = 2;  // lambda = sharpness / h
+};
+
+const OptionTable<ClosestPointOptions>& no_options() {
+  static const OptionTable<ClosestPointOptions> table;
+  return table;
+}
+
+const OptionTable<KernelOptions>& kernel_options() {
+  static const OptionTable<KernelOptions> table = OptionTable<KernelOptions>().number(
+      &KernelOptions::sharpness, "sharpness", "multiple of 1/h", 1e-3, 1e3,
+      "Decay lambda of the kernel times the mean distance h between samples; larger values smooth "
+      "less.");
+  return table;
+}
+
+std::unique_ptr<const PointwiseDistance> closest_point(const SpaceProblem& problem, SignRule rule) {
+  return problem.is_cloud()
+             ? closest_point_distance(problem.samples, rule)
+             : closest_point_distance(problem.surface.points, problem.triangles(), rule);
+}
+
+using Kernel = std::unique_ptr<const PointwiseDistance>(const OrientedPoints&, double lambda);
+
+SpaceMethod kernel_method(const std::string& name, const std::string& summary,
+                          const std::string& reference, Kernel* kernel) {
+  return pointwise_method(
+      {name, summary, inputs, {}, reference}, kernel_options(),
+      [kernel](const SpaceProblem& problem, const KernelOptions& options, Report&) {
+        return kernel(problem.samples, options.sharpness / sample_spacing(problem.samples));
+      });
+}
+
+}  // namespace
+
+MatX3i SpaceProblem::triangles() const {
+  return Eigen::Map<const MatX3i>(surface.corners.data(), surface.n_faces(), 3);
+}
+
+std::vector<SpaceMethod> space_heat_methods() {
+  SpaceMethod heat;
+  heat.info = {"signed-heat",
+               "Signed distance around surfaces that may be broken: diffuses normals, integrates "
+               "directions.",
+               inputs, space_heat_options().infos(),
+               "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"};
+  const MethodInfo info = heat.info;
+  heat.check = [info](const OptionTexts& texts) {
+    parse_options(info, space_heat_options(), texts);
+  };
+  heat.on_grid = [info](const SpaceProblem& problem, const Grid& grid, const OptionTexts& texts,
+                        Task& task, Report& report) {
+    const SpaceHeatOptions options = parse_options(info, space_heat_options(), texts);
+    VecX phi = signed_heat_grid(grid, problem.samples, options, task, report);
+    report_options(space_heat_options(), options, report);
+    return phi;
+  };
+  return {heat};
+}
+
+std::vector<SpaceMethod> closest_point_methods() {
+  return {
+      pointwise_method({"winding",
+                        "Distance to the nearest point, negative where the winding number exceeds "
+                        "1/2.",
+                        inputs,
+                        {},
+                        "Barill et al.: Fast Winding Numbers for Soups and Clouds (2018)"},
+                       no_options(),
+                       [](const SpaceProblem& problem, const ClosestPointOptions&, Report&) {
+                         return closest_point(problem, SignRule::winding);
+                       }),
+      pointwise_method({"closest-point",
+                        "Distance to the nearest point, signed by the pseudonormal there; exact on "
+                        "closed meshes.",
+                        inputs,
+                        {},
+                        "Baerentzen, Aanaes: Signed Distance Computation Using the Angle Weighted "
+                        "Pseudonormal (2005)"},
+                       no_options(),
+                       [](const SpaceProblem& problem, const ClosestPointOptions&, Report&) {
+                         return closest_point(problem, SignRule::pseudonormal);
+                       }),
+  };
+}
+
+std::vector<SpaceMethod> convolutional_methods() {
+  const std::string thesis = "Feng: Generalized Distance and Winding (2026)";
+  return {
+      kernel_method("hopf-cole", "Logarithm of the screened winding number (eq. 5.8).", thesis,
+                    &hopf_cole_distance),
+      kernel_method("planar", "Weighted mean of the distances to the samples' planes (eq. 5.9).",
+                    thesis, &planar_distance),
+      kernel_method(
+          "log-sum-exp",
+          "Smooth minimum of the distances to the samples, signed by the winding number.",
+          "Madan, Levin: Fast Evaluation of Smooth Distance Constraints on Co-Dimensional "
+          "Geometry (2022)",
+          &log_sum_exp_distance),
+  };
+}
+
+const std::vector<SpaceMethod>& space_methods() {
+  static const std::vector<SpaceMethod> all = [] {
+    std::vector<SpaceMethod> out;
+    for (auto family : {space_heat_methods, closest_point_methods, convolutional_methods}) {
+      std::vector<SpaceMethod> entries = family();
+      out.insert(out.end(), std::make_move_iterator(entries.begin()),
+                 std::make_move_iterator(entries.end()));
+    }
+    return out;
+  }();
+  return all;
+}
+
+std::vector<MethodInfo> space_method_infos() {
+  std::vector<MethodInfo> infos;
+  for (const SpaceMethod& method : space_methods()) infos.push_back(method.info);
+  return infos;
+}
+
+const SpaceMethod& find_space_method(const std::string& name) {
+  std::string known;
+  for (const SpaceMethod& method : space_methods()) {
+    if (method.info.name == name) return method;
+    known += (known.empty() ? "" : ", ") + method.info.name;
+  }
+  throw InputError("unknown method '" + name + "'; known: " + known);
+}
+
+}  // namespace littoral

@@ -1,0 +1,193 @@
+#include "littoral/api/winding.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "littoral/base/error.h"
+#include "littoral/domain/intrinsic_triangulation.h"
+#include "littoral/domain/tear.h"
+#include "littoral/operators/jump_calculus.h"
+#include "littoral/sources/conform.h"
+
+namespace littoral {
+
+namespace {
+
+/// Joins directed edges, each as often as it counts, head to tail into polylines of vertices.
+std::vector<std::vector<int>> chains(const SurfaceMesh& mesh, const VecX& times) {
+  std::multimap<int, int> out;  // vertex -> next
+  std::map<int, int> surplus;
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    const long n = std::lround(std::abs(times[e]));
+    for (long i = 0; i < n; ++i) {
+      const int a = mesh.edges()(e, times[e] > 0 ? 0 : 1);
+      const int b = mesh.edges()(e, times[e] > 0 ? 1 : 0);
+      out.emplace(a, b);
+      ++surplus[a];
+      --surplus[b];
+    }
+  }
+  std::vector<std::vector<int>> lines;
+  const auto follow = [&](int v) {
+    std::vector<int>& line = lines.emplace_back(1, v);
+    for (auto it = out.find(v); it != out.end(); it = out.find(v)) {
+      v = it->second;
+      out.erase(it);
+      line.push_back(v);
+    }
+  };
+  for (const auto& [v, n] : surplus)  // ends of open curves first
+    for (int i = 0; i < n; ++i) follow(v);
+  while (!out.empty()) follow(out.begin()->first);
+  return lines;
+}
+
+Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
+  Polylines lines;
+  for (const std::vector<int>& chain : chains(mesh, times)) {
+    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(chain.size()), 3);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      line.row(static_cast<Eigen::Index>(i)) = mesh.point(chain[i]);
+  }
+  return lines;
+}
+
+/// Each edge of the curve goes to the part of which it has the larger share.
+VecX bounding_edges(const WindingNumbers& numbers) {
+  VecX times = numbers.curve;
+  for (Eigen::Index e = 0; e < times.size(); ++e)
+    if (std::abs(numbers.nonbounding[e]) > 0.5 * std::abs(times[e])) times[e] = 0;
+  return times;
+}
+
+double total_length(const Polylines& lines) {
+  double length = 0;
+  for (const MatX3& line : lines)
+    for (Eigen::Index i = 1; i < line.rows(); ++i) length += (line.row(i) - line.row(i - 1)).norm();
+  return length;
+}
+
+/// The cut mesh with one vertex for every value that meets at it.
+PolygonSoup torn_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
+                          const JumpCalculus& J, const WindingNumbers& numbers) {
+  // Open corners belong to their face alone; others to all with the same label and value to 1e-6.
+  Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Zero(mesh.n_faces(), 3);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const int t = triangle_of_face[f];
+    for (int k = 0; t >= 0 && k < 3; ++k) {
+      const std::int64_t value = std::llround(numbers.w.u(t, k) * 1e6);
+      key(f, k) = numbers.w.open[J.node(t, k)] ? (std::int64_t{1} << 62) + f
+                                               : value * (1 << 20) + numbers.region[t];
+    }
+  }
+  TornSurface torn = tear(mesh, key);
+  const auto n = static_cast<Eigen::Index>(torn.corner.size());
+  VecX winding = VecX::Zero(n), region = winding, weight = VecX::Ones(n);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const auto [f, k] = torn.corner[v];
+    const int t = triangle_of_face[f];
+    if (t < 0) continue;
+    winding[v] = numbers.w.u(t, k);
+    region[v] = numbers.region[t];
+    if (numbers.w.open[J.node(t, k)]) weight[v] = 0;
+  }
+  torn.soup.scalars = {{"winding", winding}, {"region", region}, {"weight", weight}};
+  return std::move(torn.soup);
+}
+
+/// The label of the largest part of every face of the input.
+VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, const JumpCalculus& J) {
+  std::vector<std::map<int, double>> area(mesh.n_faces());
+  for (int f = 0; f < answer.cut.mesh.n_faces(); ++f)
+    if (const int t = answer.triangle_of_face[f]; t >= 0)
+      area[answer.cut.parent_face[f]][answer.numbers.region[t]] += J.area[t];
+  VecXi region = VecXi::Zero(mesh.n_faces());
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    double largest = 0;
+    for (const auto& [label, a] : area[f])
+      if (a > largest) {
+        largest = a;
+        region[f] = label;
+      }
+  }
+  return region;
+}
+
+void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
+  int count = 0, first = -1;
+  for (int e = 0; e < J.n_edges; ++e)
+    if (!J.manifold[e]) {
+      if (count++ == 0) first = e;
+    }
+  if (count == 0) return;
+  throw UnsupportedError("winding numbers of curves need at most two faces at every edge; " +
+                         std::to_string(count) + " edges have more, the first between vertices " +
+                         std::to_string(mesh.edges()(first, 0)) + " and " +
+                         std::to_string(mesh.edges()(first, 1)));
+}
+
+}  // namespace
+
+const MethodInfo& winding_method() {
+  static const MethodInfo method = {
+      "surface-winding",
+      "Regions that (broken) signed curves bound on a surface, and curves that bound nothing.",
+      {"triangle mesh"},
+      winding_options().infos(),
+      "Feng, Gillespie, Crane: Winding Numbers on Discrete Surfaces (2023)"};
+  return method;
+}
+
+void check_request(const WindingRequest& request) {
+  parse_options(winding_method(), winding_options(), request.options);
+}
+
+WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                              const WindingRequest& request, Task task, Report& report) {
+  const WindingOptions options =
+      parse_options(winding_method(), winding_options(), request.options);
+  report.method = winding_method().name;
+  report.domain = "triangle mesh";
+  report_options(winding_options(), options, report);
+  const PreparedSources prepared = prepared_sources({mesh, sources, request.flip}, task, report);
+  ConformingCurves curves = [&] {
+    const Stopwatch watch(report, "cut");
+    return conform(mesh, prepared, report);
+  }();
+  WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
+  const SurfaceMesh& cut = answer.cut.mesh;
+  if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
+  task.checkpoint();
+  const auto J = [&] {
+    const Stopwatch watch(report, "operators");
+    const IntrinsicTriangulation T = intrinsic_triangulation(cut, report);
+    answer.triangle_of_face = T.triangle_of_face;
+    return std::make_shared<const JumpCalculus>(jump_calculus(T));
+  }();
+  refuse_nonmanifold(cut, *J);
+  answer.numbers =
+      SurfaceWinding(J).solve(curves.times, options, task.stage(0.9, "winding"), report);
+  answer.region = labels_of_input(mesh, answer, *J);
+  answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
+  answer.completed = polylines(cut, answer.numbers.completed);
+  const VecX bounding = bounding_edges(answer.numbers);
+  answer.bounding = polylines(cut, bounding);
+  answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
+  report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
+  report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));
+  report.sizes.emplace_back("completed_length", total_length(answer.completed));
+  return answer;
+}
+
+SurfaceSources bounding_sources(const WindingAnswer& answer) {
+  SurfaceSources sources;
+  for (const auto& chain : chains(answer.cut.mesh, bounding_edges(answer.numbers))) {
+    SurfaceCurve curve;
+    for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
+    sources.curves.push_back(std::move(curve));
+  }
+  return sources;
+}
+
+}  // namespace littoral

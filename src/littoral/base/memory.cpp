@@ -1,0 +1,40 @@
+#include "littoral/base/memory.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "littoral/base/error.h"
+
+namespace littoral {
+
+double available_memory() {
+  double bytes = std::numeric_limits<double>::max();
+  std::ifstream info("/proc/meminfo");
+  for (std::string key; info >> key;) {
+    double kilobytes = 0;
+    if (key == "MemAvailable:" && info >> kilobytes) bytes = 1024 * kilobytes;
+    info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  for (const int resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0 &&
+        limit.rlim_cur != RLIM_INFINITY)
+      bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+  }
+  return bytes;
+}
+
+void check_memory(double bytes, const std::string& what, const std::string& remedy) {
+  const double available = available_memory();
+  if (bytes <= available) return;
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",
+                bytes / 1e9, available / 1e9);
+  throw IoError(what + numbers + remedy);
+}
+
+}  // namespace littoral

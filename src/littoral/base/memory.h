@@ -1,0 +1,16 @@
+#pragma once
+// Sizes foreseen not to fit are errors, not crashes.
+
+#include <string>
+
+namespace littoral {
+
+/// Bytes this process may still use: free and reclaimable memory of the machine, less where a limit
+/// is set on the process. A very large number where the system does not say.
+double available_memory();
+
+/// Throws IoError, with both numbers and the remedy, if `bytes` exceeds the available memory.
+/// what: "a grid of 999 x 999 x 999 nodes"; remedy: "use a smaller --resolution".
+void check_memory(double bytes, const std::string& what, const std::string& remedy);
+
+}  // namespace littoral

@@ -1,0 +1,104 @@
+#include "littoral/methods/discontinuous.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "littoral/methods/jump_laplace.h"
+#include "littoral/methods/residual.h"
+#include "littoral/solve/poisson.h"
+
+namespace littoral {
+
+namespace {
+
+/// Y along side k of face f, from its corner k to k + 1.
+double along_side(const JumpCalculus& J, const VecX& Y, int f, int k) {
+  const Complex y(Y[2 * f], Y[2 * f + 1]);
+  return (std::conj(y) * J.side[f][k]).real();
+}
+
+/// Corners at one node that are joined across edges where `joined`.
+MatX3i pieces(const JumpCalculus& J, const std::vector<char>& joined, int& n) {
+  std::vector<int> leader(3 * static_cast<std::size_t>(J.n_faces));
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto find = [&](int a) {
+    while (leader[a] != a) a = leader[a] = leader[leader[a]];
+    return a;
+  };
+  for (int e = 0; e < J.n_edges; ++e) {
+    if (!J.interior(e) || !joined[e]) continue;
+    const auto& [left, right] = J.sides[e];
+    const auto a = J.ends(left), b = J.ends(right);
+    for (int end = 0; end < 2; ++end) {
+      const int p = find(3 * left.face + a[end]), q = find(3 * right.face + b[end]);
+      leader[std::max(p, q)] = std::min(p, q);
+    }
+  }
+  MatX3i piece(J.n_faces, 3);
+  n = 0;
+  for (int c = 0; c < 3 * J.n_faces; ++c)
+    piece(c / 3, c % 3) = find(c) == c ? n++ : piece(find(c) / 3, find(c) % 3);
+  return piece;
+}
+
+/// One backward Euler step (M + t L) phi = M phi0 of heat flow on the torn surface, from the mean
+/// of the corners that share a value.
+void flow(const JumpCalculus& J, DiscontinuousField& field, int n, double t, const Task& task) {
+  Triplets entries;
+  entries.reserve(12 * static_cast<std::size_t>(J.n_faces));
+  VecX mass = VecX::Zero(n), b = mass;
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int i = field.piece(f, k), j = field.piece(f, (k + 1) % 3);
+      const double w = t * J.weight(f, k), m = J.area[f] / 3;
+      mass[i] += m;
+      b[i] += m * field.phi(f, k);
+      entries.emplace_back(i, i, w);
+      entries.emplace_back(j, j, w);
+      entries.emplace_back(std::max(i, j), std::min(i, j), -w);
+    }
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, mass[i]);
+  SpMat A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const VecX phi = DefiniteSystem(A, task).solve(b);
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k) field.phi(f, k) = phi[field.piece(f, k)];
+}
+
+}  // namespace
+
+VecX edge_curl(const JumpCalculus& J, const VecX& Y) {
+  VecX curl = VecX::Zero(J.n_edges);
+  for (int e = 0; e < J.n_edges; ++e) {
+    if (!J.interior(e)) continue;
+    const auto& [left, right] = J.sides[e];
+    curl[e] = (J.along(left.face, left.k) * along_side(J, Y, left.face, left.k) -
+               J.along(right.face, right.k) * along_side(J, Y, right.face, right.k)) /
+              J.length[e];
+  }
+  return curl;
+}
+
+DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y, double tear,
+                                           double t, const Task& whole, Report& report) {
+  Task task = whole;
+  MatX3 local = MatX3::Zero(J.n_faces, 3);
+  for (int f = 0; f < J.n_faces; ++f) {
+    local(f, 1) = along_side(J, Y, f, 0);
+    local(f, 2) = -along_side(J, Y, f, 2);
+  }
+  const VecX weight = J.length.cwiseProduct((-edge_curl(J, Y).cwiseAbs()).array().exp().matrix());
+  const ResidualFunction found =
+      integrate_jumps(J, local, weight, {}, {}, std::vector<char>(J.n_components, 1), {},
+                      task.stage(0.8, "least jumps"), report);
+  DiscontinuousField field{found.v, {}, found.jump, found.objective, found.gap};
+  std::vector<char> joined(J.n_edges, 0);
+  for (int e = 0; e < J.n_edges; ++e) joined[e] = t > 0 && std::abs(found.jump[e]) < tear;
+  int n = 0;
+  field.piece = pieces(J, joined, n);
+  if (t > 0) flow(J, field, n, t, task.stage(0.2, "heat flow"));
+  return field;
+}
+
+}  // namespace littoral

@@ -1,0 +1,28 @@
+#pragma once
+// Signed distance at single places in space, without solving anything.
+
+#include <memory>
+
+#include "littoral/base/task.h"
+#include "littoral/base/types.h"
+
+namespace littoral {
+
+/// Value and gradient at one place.
+struct DistanceSample {
+  double value = 0;              // [length], < 0 inside
+  Vec3 gradient = Vec3::Zero();  // of the formula where it is smooth; zero where it has none
+};
+
+/// A function of space that can be asked anywhere. Immutable; may be asked from several threads.
+class PointwiseDistance {
+ public:
+  virtual ~PointwiseDistance() = default;
+  virtual DistanceSample at(const Vec3& x) const = 0;
+};
+
+/// Values (queries) and, unless null, gradients (queries x 3) at queries x 3 points.
+VecX evaluate(const PointwiseDistance& distance, const MatX3& queries, MatX3* gradients,
+              const Task& task);
+
+}  // namespace littoral

@@ -1,0 +1,37 @@
+#pragma once
+// Step 5: integer labels for the regions that curves bound.
+
+#include <vector>
+
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/methods/jump_laplace.h"
+
+namespace littoral {
+
+/// Which value of a winding number function, a real number near curves with gaps, is halfway
+/// between two integers (thesis 7.1).
+enum class Contour {
+  curve,     // its circular mean along the curve
+  frequent,  // the most frequent one along the curve, to a tenth
+  mean,      // its plain mean along the curve
+};
+
+/// The shift that makes w halfway between integers along the curve, per component: w is the mean of
+/// both sides, and where the curve counts an even number of times, an integer.
+VecX contour_shift(const JumpCalculus& J, const CornerFunction& w, const VecX& curve,
+                   Contour contour);
+
+/// Faces by rounding the mean of w + shift over their corners. faces.
+VecXi rounded_labels(const JumpCalculus& J, const CornerFunction& w, const VecX& shift);
+
+/// Integer labels W that minimise sum_e weight_e |W_left - W_right - jump_e| for integer jumps: the
+/// cheapest completion of a curve, or part of it, to one that bounds. Exact. faces.
+VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const VecX& weight, const Task& task,
+                 Report& report);
+
+/// Subtracts a constant on each component so that the label of the largest area (of two, the one
+/// nearer zero) is 0. Reversing the curve then reverses the labels.
+void label_outside_zero(const JumpCalculus& J, VecXi& region);
+
+}  // namespace littoral

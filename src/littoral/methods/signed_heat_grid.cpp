@@ -1,0 +1,80 @@
+#include "littoral/methods/signed_heat_grid.h"
+
+#include <cmath>
+
+#include "littoral/methods/convolve.h"
+#include "littoral/solve/cosine_transform.h"
+#include "littoral/solve/held_poisson.h"
+
+namespace littoral {
+
+namespace {
+constexpr double zero_set_tolerance = 1e-2;  // in grid spacings, root mean square
+}
+
+const OptionTable<SpaceHeatOptions>& space_heat_options() {
+  using O = SpaceHeatOptions;
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .number(
+              &O::time_scale, "time-scale", "multiple of h^2", 1e-4, 1e6,
+              "Diffusion time t as a multiple of h^2, h being the mean distance between samples "
+              "of the input; larger values smooth more and close wider gaps.")
+          .choice(&O::constraint, "constraint", {"none", "zero-set"},
+                  "Values at the source: shifted to mean zero, or zero in every grid cell.")
+          .number(&O::soft, "soft", "weight, 0 = off", 0, 1e12,
+                  "Replaces the constraint by a penalty on the squared value along the source.");
+  return table;
+}
+
+VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
+                      const SpaceHeatOptions& options, Task task, Report& report) {
+  const double h = sample_spacing(source);
+  const double root_t = std::sqrt(options.time_scale) * h;
+  const Task diffuse_stage = task.stage(0.5, "diffusing normals");
+  const Task solve_stage = task.stage(0.2, "integrating");
+  const Task hold_stage = task.stage(0.3, "holding the zero set");
+
+  // Steps I and II: X_t by convolution, Y = X / |X|.
+  Directions Y;
+  {
+    const Stopwatch watch(report, "diffuse");
+    const Convolution X(source, root_t);
+    Y = sample_directions(
+        grid,
+        [&X](const Vec3& x, double& distance) {
+          const Flow flow = X(x);
+          distance = flow.distance;
+          return flow.direction;
+        },
+        diffuse_stage, report);
+  }
+
+  // Step III: L phi = G^T Y.
+  const Stopwatch watch(report, "integrate");
+  VecX phi = grid_divergence(grid, Y);
+  Y.resize(0, 3);
+  const GridPoisson poisson(grid.n, grid.spacing);
+  poisson.solve(phi, solve_stage);
+  const GridRows rows = grid_rows(grid, source.points, source.areas);
+  if (rows.A.rows() == 0) {
+    report.warn("the box holds no sample of the input; distances are shifted by the box's centre");
+    return phi;
+  }
+  if (options.soft == 0 &&
+      static_cast<SpaceConstraint>(options.constraint) == SpaceConstraint::none) {
+    phi.array() -= rows.weight.dot(rows.A * phi) / rows.weight.sum();
+    return phi;
+  }
+  VecX softness = VecX::Zero(rows.A.rows());
+  if (options.soft > 0) {
+    // L is the integral over space divided by the volume of a cell.
+    const double cell = grid.spacing.prod();
+    softness = cell * h / (options.soft * rows.weight.array());
+  }
+  const HeldRows held{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
+  return solve_held([&](VecX& b) { poisson.solve(b, hold_stage); }, std::move(phi), held,
+                    hold_stage, report);
+}
+
+}  // namespace littoral

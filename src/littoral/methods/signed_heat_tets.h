@@ -1,0 +1,18 @@
+#pragma once
+// The signed heat method on tet meshes (section 8.1, Appendix B).
+
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/methods/signed_heat_grid.h"
+#include "littoral/operators/tet_operators.h"
+#include "littoral/sources/tet_source_terms.h"
+
+namespace littoral {
+
+/// Generalized signed distance at the vertices [length], +inf on components that no source reaches.
+/// h [length] sets the diffusion time t = time_scale h^2 and the scale of `soft`; `tolerance`
+/// [length] is how far from zero the rows of a held zero set may be in the mean.
+VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
+                      double tolerance, const SpaceHeatOptions& options, Task task, Report& report);
+
+}  // namespace littoral

@@ -1,0 +1,62 @@
+#pragma once
+// Surface winding numbers (Feng, Gillespie and Crane 2023; thesis chapter 6): which regions a messy
+// set of curves bounds on a surface of any topology, and which curves bound nothing.
+
+#include <memory>
+
+#include "littoral/base/option_table.h"
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/methods/jump_laplace.h"
+#include "littoral/methods/region_labels.h"
+#include "littoral/operators/jump_calculus.h"
+
+namespace littoral {
+
+/// How faces get their labels.
+enum class Labels { round, cut };
+
+struct WindingOptions {
+  int contour = static_cast<int>(Contour::curve);
+  int labels = static_cast<int>(Labels::round);
+  double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
+  bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
+};
+
+/// Names, ranges, defaults and one sentence for each of the above.
+const OptionTable<WindingOptions>& winding_options();
+
+/// Everything the five steps find. Edge vectors are jumps, left minus right.
+struct WindingNumbers {
+  CornerFunction u;      // solution of the jump Laplace equation, faces x 3
+  VecX gamma;            // edges, harmonic part of its Darboux derivative; empty: not needed
+  MatX3 v{0, 3};         // residual function, faces x 3; 0 on simply connected components
+  CornerFunction w;      // winding number function, faces x 3, shifted so that rounding it labels
+  VecXi region;          // faces, integer winding number; 0 covers most of each component
+  VecX curve;            // edges, the input
+  VecX nonbounding;      // edges, share of the curve that bounds nothing
+  VecX bounding;         // edges, curve - nonbounding
+  VecX completed;        // edges, jumps of `region`: the closed curve that bounds the regions
+  double objective = 0;  // of the residual function, in units of length
+  double gap = 0;
+};
+
+/// One surface's winding numbers; const and usable from several threads.
+class SurfaceWinding {
+ public:
+  explicit SurfaceWinding(std::shared_ptr<const JumpCalculus> J) : J_(std::move(J)) {}
+
+  /// `curve` (edges): how often the curve runs along each edge, against counted negative; so the
+  /// winding number is larger by that on the left. The report gets residuals and iterations, and
+  /// the components without a curve; labels there are 0.
+  WindingNumbers solve(const VecX& curve, const WindingOptions& options, Task task,
+                       Report& report) const;
+
+ private:
+  void decompose(WindingNumbers& result, const WindingOptions& options, Task& task,
+                 Report& report) const;
+
+  std::shared_ptr<const JumpCalculus> J_;
+};
+
+}  // namespace littoral

@@ -1,0 +1,22 @@
+#pragma once
+// Curves that run along edges, on a mesh cut so that they do.
+
+#include "littoral/domain/cut_mesh.h"
+#include "littoral/sources/pieces.h"
+
+namespace littoral {
+
+/// The mesh, cut where curves cross faces, and how often the curves run along each of its edges
+/// (against them: negative).
+struct ConformingCurves {
+  CutMesh cut;
+  VecX times;           // edges of the cut mesh
+  bool is_cut = false;  // false: the mesh is the given one
+};
+
+/// Signed curves as a chain of edges. Parts of one edge that no other follows are halved, because
+/// ends of curves carry no jump. Unsigned curves and points are left out with a warning: they have
+/// no sides. Throws InputError if no signed curve remains.
+ConformingCurves conform(const SurfaceMesh& mesh, const PreparedSources& sources, Report& report);
+
+}  // namespace littoral

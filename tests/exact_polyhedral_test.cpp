@@ -1,0 +1,254 @@
+// Exact polyhedral distance against closed forms and an exhaustive search.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "geodesic_helpers.h"
+#include "littoral/base/error.h"
+#include "littoral/io/read.h"
+#include "shared_data.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+SurfaceSources from(std::vector<SurfacePoint> points) {
+  SurfaceSources sources;
+  sources.points = std::move(points);
+  return sources;
+}
+
+void expect_euclidean(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                      const std::vector<Vec3>& at) {
+  const VecX d = test::exact(mesh, sources);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    double expected = 1e300;
+    for (const Vec3& p : at) expected = std::min(expected, (mesh.point(v) - p).norm());
+    EXPECT_NEAR(d[v], expected, 1e-12) << "vertex " << v;
+  }
+}
+
+TEST(ExactPolyhedral, PlaneFromVerticesEdgesFacesAndSeveral) {
+  for (const auto& soup : {test::grid_soup(13, 11), test::jittered_grid_soup(12, 9, 0.3)}) {
+    const SurfaceMesh mesh(soup);
+    const SurfacePoint corner = SurfacePoint::at_vertex(0), inner = SurfacePoint::at_vertex(40);
+    const SurfacePoint edge = SurfacePoint::on_edge(77, 0.3);
+    const SurfacePoint face = SurfacePoint::in_face(50, 0.2, 0.5, 0.3);
+    for (const SurfacePoint& p : {corner, inner, edge, face})
+      expect_euclidean(mesh, from({p}), {mesh.position(p)});
+    expect_euclidean(mesh, from({corner, edge, face}),
+                     {mesh.position(corner), mesh.position(edge), mesh.position(face)});
+  }
+}
+
+TEST(ExactPolyhedral, PlaneFromBrokenLine) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(15, 15, 0.3));
+  MatX3 line(3, 3);
+  line << 0.21, 0.33, 0, 0.52, 0.61, 0, 0.83, 0.37, 0;
+  for (const bool is_signed : {false, true}) {
+    const VecX d = test::exact(mesh, test::space_curve(line, is_signed));
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      double expected = 1e300;
+      for (int i = 0; i < 2; ++i) {
+        const Vec3 a = line.row(i), ab = line.row(i + 1).transpose() - a, p = mesh.point(v);
+        const double x = std::clamp(ab.dot(p - a) / ab.squaredNorm(), 0.0, 1.0);
+        expected = std::min(expected, (p - a - x * ab).norm());
+      }
+      EXPECT_NEAR(d[v], expected, 1e-9) << "vertex " << v;
+    }
+  }
+}
+
+/// Rings of n points at radius j / rings around an apex; every wedge spans `angle`.
+SurfaceMesh cone(int n, int rings, double angle) {
+  PolygonSoup soup;
+  soup.points = MatX3::Zero(1 + n * rings, 3);
+  const double total = n * angle, flat = 2 * std::numbers::pi;
+  for (int i = 0; i < n; ++i) {
+    Vec3 spoke;
+    if (total < flat) {  // radius s and height c with the right angle between neighbouring spokes
+      const double s = std::sin(angle / 2) / std::sin(std::numbers::pi / n);
+      spoke << s * std::cos(i * flat / n), s * std::sin(i * flat / n), -std::sqrt(1 - s * s);
+    } else {  // alternating up and down: cos(angle) = s^2 cos(2 pi / n) - (1 - s^2)
+      const double s = std::sqrt((std::cos(angle) + 1) / (std::cos(flat / n) + 1));
+      spoke << s * std::cos(i * flat / n), s * std::sin(i * flat / n),
+          (i % 2 ? 1 : -1) * std::sqrt(1 - s * s);
+    }
+    for (int j = 0; j < rings; ++j) soup.points.row(1 + j * n + i) = spoke * (j + 1.0) / rings;
+  }
+  for (int i = 0; i < n; ++i) {
+    const int k = (i + 1) % n;
+    test::add_triangle(soup, 0, 1 + i, 1 + k);
+    for (int j = 1; j < rings; ++j) {
+      test::add_triangle(soup, 1 + (j - 1) * n + i, 1 + j * n + i, 1 + j * n + k);
+      test::add_triangle(soup, 1 + (j - 1) * n + i, 1 + j * n + k, 1 + (j - 1) * n + k);
+    }
+  }
+  return SurfaceMesh(soup);
+}
+
+TEST(ExactPolyhedral, ConesBelowAndAboveAFullTurn) {
+  const int n = 12, rings = 5;
+  for (const double angle : {0.3, 0.5, 0.6, 0.9}) {
+    const SurfaceMesh mesh = cone(n, rings, angle);
+    for (int j = 0; j < rings; ++j) {
+      const VecX d = test::exact(mesh, from({SurfacePoint::at_vertex(1 + j * n)}));
+      for (int i = 0; i < n; ++i)
+        for (int l = 0; l < rings; ++l) {
+          const double a = (j + 1.0) / rings, b = (l + 1.0) / rings;
+          const double turn = std::min(i, n - i) * angle;
+          const double expected = turn < std::numbers::pi
+                                      ? std::sqrt(a * a + b * b - 2 * a * b * std::cos(turn))
+                                      : a + b;
+          EXPECT_NEAR(d[1 + l * n + i], expected, 1e-12)
+              << angle << " " << j << " " << i << " " << l;
+        }
+    }
+  }
+}
+
+TEST(ExactPolyhedral, UnitCube) {
+  PolygonSoup soup;
+  soup.points.resize(8, 3);
+  for (int v = 0; v < 8; ++v) soup.points.row(v) << (v & 1), (v >> 1 & 1), (v >> 2 & 1);
+  for (const auto& q : std::vector<std::array<int, 4>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    test::add_triangle(soup, q[0], q[1], q[2]);
+    test::add_triangle(soup, q[0], q[2], q[3]);
+  }
+  const SurfaceMesh mesh(soup);
+  const VecX d = test::exact(mesh, from({SurfacePoint::at_vertex(0)}));
+  for (int v = 0; v < 8; ++v)
+    EXPECT_NEAR(d[v], std::vector({0., 1., std::sqrt(2.), std::sqrt(5.)})[__builtin_popcount(v)],
+                1e-13);
+  // From the centre of the bottom (0 2 | 1 3): 1/2 up to each side of the top is 1 + 1/2 along the
+  // axis; its corners are sqrt((1/2)^2 + (3/2)^2) away.
+  const VecX c = test::exact(mesh, from({SurfacePoint::in_face(0, 0.5, 0, 0.5)}));
+  for (int v = 0; v < 4; ++v) EXPECT_NEAR(c[v], std::sqrt(0.5), 1e-13);
+  for (int v = 4; v < 8; ++v) EXPECT_NEAR(c[v], std::sqrt(2.5), 1e-13);
+}
+
+/// A few random triangles glued at random along edges: nonmanifold, with boundary, bent.
+PolygonSoup scrap(unsigned seed, int n_faces) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  PolygonSoup soup;
+  std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<std::array<int, 2>> edges = {{0, 1}, {1, 2}, {2, 0}};
+  test::add_triangle(soup, 0, 1, 2);
+  while (soup.n_faces() < n_faces) {
+    const auto [a, b] = edges[random() % edges.size()];
+    int c = static_cast<int>(points.size());
+    if (random() % 3 == 0) c = static_cast<int>(random() % points.size());
+    if (c == a || c == b) continue;
+    if (c == static_cast<int>(points.size()))
+      points.push_back((points[a] + points[b]) / 2 + Vec3(u(random), u(random), u(random)));
+    test::add_triangle(soup, a, b, c);
+    edges.push_back({b, c});
+    edges.push_back({c, a});
+  }
+  soup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    soup.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  return soup;
+}
+
+void expect_oracle(const SurfaceMesh& mesh) {
+  const test::GeodesicOracle oracle(mesh);
+  for (int a = 0; a < mesh.n_vertices(); ++a) {
+    const VecX d = test::exact(mesh, from({SurfacePoint::at_vertex(a)}));
+    for (int b = 0; b < mesh.n_vertices(); ++b)
+      EXPECT_NEAR(d[b], oracle(a, b), 1e-9) << a << " " << b;
+  }
+}
+
+TEST(ExactPolyhedral, NonmanifoldScrapsLikeExhaustiveSearch) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_oracle(SurfaceMesh(scrap(seed, 12)));
+  }
+}
+
+TEST(ExactPolyhedral, BumpySurfacesLikeExhaustiveSearch) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-0.25, 0.25);
+    PolygonSoup bumpy = test::jittered_grid_soup(4, 4, 0.3, seed);
+    for (int v = 0; v < bumpy.n_vertices(); ++v) bumpy.points(v, 2) = u(random);
+    PolygonSoup ball = test::octasphere_soup(1);
+    for (int v = 0; v < ball.n_vertices(); ++v) ball.points.row(v) *= 1 + 2 * u(random);
+    expect_oracle(SurfaceMesh(bumpy));
+    expect_oracle(SurfaceMesh(ball));
+  }
+}
+
+TEST(ExactPolyhedral, SameWhateverTheUnitOrTheLabels) {
+  PolygonSoup soup = test::torus_soup(16, 9);
+  const VecX d = test::exact(SurfaceMesh(soup), from({SurfacePoint::at_vertex(5)}));
+  for (const double scale : {1e-3, 1e3}) {
+    PolygonSoup scaled = soup;
+    scaled.points *= scale;
+    const VecX s = test::exact(SurfaceMesh(scaled), from({SurfacePoint::at_vertex(5)}));
+    EXPECT_LT((s / scale - d).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  PolygonSoup renamed;
+  const int n = soup.n_vertices();
+  renamed.points.resize(n, 3);
+  auto name = [n](int v) { return (v * 5 + 3) % n; };
+  for (int v = 0; v < n; ++v) renamed.points.row(name(v)) = soup.points.row(v);
+  for (int f = soup.n_faces() - 1; f >= 0; --f) {
+    const auto c = soup.face(f);
+    test::add_triangle(renamed, name(c[1]), name(c[0]), name(c[2]));
+  }
+  const VecX r = test::exact(SurfaceMesh(renamed), from({SurfacePoint::at_vertex(name(5))}));
+  for (int v = 0; v < n; ++v) EXPECT_NEAR(r[name(v)], d[v], 1e-12);
+}
+
+TEST(ExactPolyhedral, WhatNoSourceReachesIsInfinite) {
+  PolygonSoup soup = test::grid_soup(2, 2);
+  soup.points.conservativeResize(13, 3);
+  soup.points.bottomRows(4) << 5, 0, 0, 6, 0, 0, 5, 1, 0, 9, 9, 9;
+  test::add_triangle(soup, 9, 10, 11);
+  Report report;
+  const VecX d = test::geodesic(exact_polyhedral, SurfaceMesh(soup),
+                                from({SurfacePoint::at_vertex(0)}), report);
+  EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
+  for (int v = 0; v < 13; ++v) EXPECT_EQ(std::isinf(d[v]), v >= 9);
+}
+
+TEST(ExactPolyhedral, StopsWhenAsked) {
+  const SurfaceMesh mesh(test::octasphere_soup(5));
+  CancelToken token;
+  const Task task(token, [&](double, const std::string&) { token.cancel(); });
+  Report report;
+  EXPECT_THROW(
+      test::geodesic(exact_polyhedral, mesh, from({SurfacePoint::at_vertex(0)}), report, task),
+      Cancelled);
+}
+
+TEST(ExactPolyhedral, ReferenceDistances) {
+  for (const std::string name : {"bunny", "spot"}) {
+    LITTORAL_NEEDS_SHARED("reference/geodesic/" + name);
+    const auto folder = test::shared() / "reference/geodesic" / name;
+    const SurfaceMesh mesh(io::read_surface(folder / "mesh.obj"));
+    const VecX d = test::exact(mesh, from({SurfacePoint::at_vertex(0)}));
+    const VecX m = test::marched(mesh, from({SurfacePoint::at_vertex(0)}));
+    std::ifstream exact_file(folder / "exact.txt"), marched_file(folder / "fmm.txt");
+    double worst = 0, worst_marched = 0, worst_theirs = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      double e = 0, f = 0;
+      ASSERT_TRUE(exact_file >> e && marched_file >> f);
+      worst = std::max(worst, std::abs(d[v] - e));
+      worst_marched = std::max(worst_marched, std::abs(m[v] - e));
+      worst_theirs = std::max(worst_theirs, std::abs(f - e));
+    }
+    EXPECT_LT(worst, 1e-9 * d.maxCoeff());  // the file has ten digits
+    EXPECT_LT(worst_marched, worst_theirs);
+  }
+}
+
+}  // namespace
+}  // namespace littoral

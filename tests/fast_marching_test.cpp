@@ -1,0 +1,116 @@
+// Fast marching against exact distances.
+
+#include <gtest/gtest.h>
+
+#include "geodesic_helpers.h"
+#include "littoral/base/error.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+double worst_error(const SurfaceMesh& mesh, const VecX& d,
+                   const std::function<double(const Vec3&)>& expected) {
+  double worst = 0;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    worst = std::max(worst, std::abs(d[v] - expected(mesh.point(v))));
+  return worst;
+}
+
+TEST(FastMarching, StraightFrontsAreExactAlsoThroughObtuseTriangles) {
+  PolygonSoup soup = test::jittered_grid_soup(14, 14, 0.35, 3);
+  for (int v = 0; v < soup.n_vertices(); ++v) soup.points(v, 0) *= 3;  // most corners are obtuse
+  const SurfaceMesh mesh(soup);
+  MatX3 line(2, 3);
+  line << 0, 0, 0, 0, 1, 0;  // along the boundary x = 0
+  const VecX d = test::marched(mesh, test::space_curve(line, false));
+  // Only corners at the boundary lack a vertex in front; the front from the left never needs them
+  // to be right inside.
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.point(v).y() > 0.25 && mesh.point(v).y() < 0.75 && mesh.point(v).x() < 0.7) {
+      EXPECT_NEAR(d[v], mesh.point(v).x(), 2e-3) << v;
+    }
+}
+
+TEST(FastMarching, SignedLineAndItsReverse) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.3));
+  MatX3 line(2, 3);
+  line << 0, 0.37, 0, 1, 0.37, 0;
+  const VecX d = test::marched(mesh, test::space_curve(line));
+  EXPECT_LT(worst_error(mesh, d, [](const Vec3& p) { return p.y() - 0.37; }), 1.5e-2);
+  const VecX r = test::marched(mesh, test::space_curve(line.colwise().reverse()));
+  EXPECT_LT((r + d).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(FastMarching, SignsAroundACircleThroughFacesAndALoopOfEdges) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(30, 30, 0.3));
+  const VecX d = test::marched(mesh, test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 80)));
+  EXPECT_LT(worst_error(mesh, d,
+                        [](const Vec3& p) { return 0.3 - std::hypot(p.x() - 0.5, p.y() - 0.5); }),
+            0.02);
+  const SurfaceMesh sphere(test::octasphere_soup(4));
+  MatX3 equator = test::circle(0, 0, 0, 1, 64);  // runs along edges
+  const VecX s = test::marched(sphere, test::space_curve(equator));
+  for (int v = 0; v < sphere.n_vertices(); ++v)
+    if (std::abs(sphere.point(v).z()) > 1e-9) {
+      EXPECT_GT(s[v] * sphere.point(v).z(), 0) << v;
+    }
+}
+
+TEST(FastMarching, ErrorFallsWithTheEdgeLength) {
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const SurfaceMesh mesh(test::octasphere_soup(3 + 2 * i));
+    const VecX d = test::marched(mesh, test::vertex_points({4}));
+    error[i] =
+        worst_error(mesh, d, [](const Vec3& p) { return std::acos(std::clamp(p.z(), -1., 1.)); });
+  }
+  EXPECT_LT(error[1], 0.5 * error[0]);  // of order h log h from a point
+  EXPECT_LT(error[1], 0.05);
+}
+
+TEST(FastMarching, PointsInFacesAndOnEdges) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(24, 24, 0.2));
+  for (const SurfacePoint& p :
+       {SurfacePoint::in_face(600, 0.2, 0.3, 0.5), SurfacePoint::on_edge(800, 0.4)}) {
+    SurfaceSources sources;
+    sources.points = {p};
+    const Vec3 at = mesh.position(p);
+    EXPECT_LT(worst_error(mesh, test::marched(mesh, sources),
+                          [&](const Vec3& q) { return (q - at).norm(); }),
+              0.03);
+  }
+}
+
+TEST(FastMarching, GoesIntoEverySheetAtAnEdge) {
+  // Three sheets on one edge: the front goes into each.
+  PolygonSoup soup = test::grid_soup(8, 8);
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(2 * n, 3);
+  for (int v = 0; v < n; ++v) soup.points.row(n + v) << soup.points(v, 0), 0, soup.points(v, 1);
+  const int faces = soup.n_faces();
+  for (int f = 0; f < faces; ++f) {
+    const auto c = soup.face(f);
+    auto lifted = [&](int v) { return v <= 8 ? v : n + v; };
+    test::add_triangle(soup, lifted(c[0]), lifted(c[1]), lifted(c[2]));
+  }
+  const SurfaceMesh mesh(soup);
+  const VecX d = test::marched(mesh, test::vertex_points({40})),
+             e = test::exact(mesh, test::vertex_points({40}));
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (std::isfinite(e[v])) {
+      EXPECT_NEAR(d[v], e[v], 0.1);
+    }
+}
+
+TEST(FastMarching, StopsWhenAsked) {
+  const SurfaceMesh mesh(test::octasphere_soup(6));
+  CancelToken token;
+  token.cancel();
+  Report report;
+  EXPECT_THROW(test::geodesic(fast_marching, mesh, test::vertex_points({0}), report, Task(token)),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace littoral

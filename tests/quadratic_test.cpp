@@ -1,0 +1,210 @@
+// Quadratic-order geodesics: exact in the plane, quadratic order on the sphere, any topology.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "quadratic_helpers.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+using test::largest_squared_error;
+using test::point_source;
+using test::quadratic;
+
+/// A flat star: a fan of n triangles about the origin, boundary radii at random, every triangle cut
+/// in three at a random point. Everything in a small disk about the origin sees all of it.
+PolygonSoup star_soup(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const int n = 5 + static_cast<int>(seed % 9);
+  PolygonSoup soup;
+  soup.points.resize(2 * n + 1, 3);
+  soup.points.setZero();
+  const double turn = 2 * std::acos(-1.0);
+  for (int i = 0; i < n; ++i) {
+    const double a = turn * (i + 0.4 * uniform(random)) / n, r = 0.8 + 0.4 * uniform(random);
+    soup.points.row(1 + i) << r * std::cos(a), r * std::sin(a), 0;
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = 1 + i, b = 1 + (i + 1) % n, c = 1 + n + i;
+    Vec3 w(0.05 + uniform(random), 0.05 + uniform(random), 0.05 + uniform(random));
+    w /= w.sum();
+    soup.points.row(c) =
+        w[0] * soup.points.row(0) + w[1] * soup.points.row(a) + w[2] * soup.points.row(b);
+    test::add_triangle(soup, 0, a, c);
+    test::add_triangle(soup, a, b, c);
+    test::add_triangle(soup, b, 0, c);
+  }
+  return soup;
+}
+
+TEST(Quadratic, FlatStarsAreExactForSourcesInTheKernel) {
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const SurfaceMesh mesh(star_soup(seed));
+    // The centre itself, or a point near it on an edge or in a face.
+    SurfacePoint p = SurfacePoint::at_vertex(0);
+    const int f = static_cast<int>(3 * (seed % 5));
+    const double t = mesh.side_along(f, 0) ? 0.1 : 0.9;
+    if (seed % 3 == 1) p = SurfacePoint::on_edge(mesh.side_edge(f, 0), t);
+    if (seed % 3 == 2) p = SurfacePoint::in_face(f, 0.8, 0.15, 0.05);
+    QuadraticOptions options;
+    options.tolerance = 1e-6;
+    Report report;
+    const auto field = quadratic(mesh, point_source(p), options, report);
+    const Vec3 source = mesh.position(p);
+    EXPECT_LT(
+        largest_squared_error(mesh, field, [&](const Vec3& x) { return (x - source).norm(); }),
+        2e-4)
+        << "seed " << seed << " status " << report.status;
+  }
+}
+
+TEST(Quadratic, FlatConvexIsExactForAnySourceAndTriangulation) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const SurfaceMesh mesh(test::jittered_grid_soup(6, 5, 0.24, seed));
+    double a = uniform(random), b = uniform(random);
+    if (a + b > 1) a = 1 - a, b = 1 - b;
+    const SurfacePoint p =
+        SurfacePoint::in_face(static_cast<int>(uniform(random) * mesh.n_faces()), 1 - a - b, a, b);
+    QuadraticOptions options;
+    options.tolerance = 1e-6;
+    Report report;
+    const auto field = quadratic(mesh, point_source(p), options, report);
+    const Vec3 source = mesh.position(p);
+    EXPECT_LT(
+        largest_squared_error(mesh, field, [&](const Vec3& x) { return (x - source).norm(); }),
+        2e-4)
+        << "seed " << seed;
+    EXPECT_EQ(report.status, "converged");
+    EXPECT_LT(report.residuals.front().second, 1e-5);  // duality gap
+  }
+}
+
+TEST(Quadratic, OrderOnTheSphere) {
+  double last = 0;
+  for (int level : {2, 3, 4}) {
+    const SurfaceMesh mesh(test::octasphere_soup(level));
+    Report report;
+    const VecX d =
+        quadratic(mesh, point_source(SurfacePoint::at_vertex(4)), {}, report).at_vertices();
+    double sum = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      sum += std::pow(d[v] - std::acos(std::clamp(mesh.point(v)[2], -1.0, 1.0)), 2);
+    const double rms = std::sqrt(sum / mesh.n_vertices());
+    if (last > 0) {
+      EXPECT_GT(std::log2(last / rms), 1.5) << "level " << level;
+    }
+    last = rms;
+  }
+  EXPECT_LT(last, 6e-3);
+}
+
+TEST(Quadratic, ScaleAndThreadsDoNotMatter) {
+  const PolygonSoup soup = test::octasphere_soup(2);
+  const auto solve = [](PolygonSoup s, double scale) {
+    s.points *= scale;
+    Report report;
+    return quadratic(SurfaceMesh(s), point_source(SurfacePoint::in_face(5, 0.5, 0.2, 0.3)), {},
+                     report)
+        .at_vertices();
+  };
+  set_thread_count(1);
+  const VecX one = solve(soup, 1);
+  set_thread_count(0);
+  EXPECT_EQ(one, solve(soup, 1));
+  for (double scale : {1e-3, 1e3, 1e30})
+    EXPECT_LT((solve(soup, scale) / scale - one).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(Quadratic, ComponentsWithoutSourceAreInfiniteAndListed) {
+  PolygonSoup soup = test::grid_soup(2, 2);
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(n + 4, 3);
+  soup.points.bottomRows(4) << 5, 0, 0, 6, 0, 0, 5, 1, 0, 9, 9, 9;  // a triangle and a loose vertex
+  test::add_triangle(soup, n, n + 1, n + 2);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const auto field = quadratic(mesh, point_source(SurfacePoint::at_vertex(0)), {}, report);
+  const VecX d = field.at_vertices();
+  for (int v = 0; v < n; ++v) EXPECT_NEAR(d[v], mesh.point(v).norm(), 1e-3);
+  for (int v = n; v < n + 4; ++v) EXPECT_EQ(d[v], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(field.distance(mesh.n_faces() - 1, P2Shape<2>::centre()),
+            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
+}
+
+TEST(Quadratic, ThreePagesOfABookAreFlatTwoByTwo) {
+  PolygonSoup soup;  // three half squares around the edge 0-1
+  soup.points.resize(8, 3);
+  soup.points << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, -1, 1, 0, 0, 0, 1, 0, 1, 1;
+  for (int k = 0; k < 3; ++k) {
+    test::add_triangle(soup, 0, 2 + 2 * k, 1);
+    test::add_triangle(soup, 1, 2 + 2 * k, 3 + 2 * k);
+  }
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const VecX d =
+      quadratic(mesh, point_source(SurfacePoint::at_vertex(2)), {}, report).at_vertices();
+  const double far = std::hypot(2.0, 1.0);
+  const double exact[] = {1, std::sqrt(2.0), 0, 1, 2, far, 2, far};
+  for (int v = 0; v < 8; ++v) EXPECT_NEAR(d[v], exact[v], 2e-3) << v;
+}
+
+TEST(Quadratic, StraightCurvesAcrossAFlatDomain) {
+  // Faces that hold a curve get no further samples, so this is exact but for dips between seven.
+  const SurfaceMesh mesh(test::jittered_grid_soup(7, 7, 0.2, 5));
+  SurfaceSources sources;
+  sources.space_curves.push_back(
+      {(MatX3(2, 3) << 0.37, 0, 0, 0.37, 1, 0).finished(), false, "test"});
+  QuadraticOptions options;
+  options.spacing = 0;
+  Report report;
+  const auto field = quadratic(mesh, sources, options, report);
+  EXPECT_LT(largest_squared_error(mesh, field, [](const Vec3& x) { return std::abs(x[0] - 0.37); }),
+            3e-3);
+  EXPECT_EQ(report.status, "converged");
+}
+
+TEST(Quadratic, NeedlesAreMollifiedAndHaveABoundedEffect) {
+  PolygonSoup soup = test::grid_soup(4, 4);
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(n + 1, 3);
+  soup.points.row(n) = 0.5 * (soup.points.row(6) + soup.points.row(7));  // on the edge 6-7
+  test::add_triangle(soup, 6, 7, n);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const VecX d =
+      quadratic(mesh, point_source(SurfacePoint::at_vertex(12)), {}, report).at_vertices();
+  for (int v = 0; v < n; ++v) EXPECT_NEAR(d[v], (mesh.point(v) - mesh.point(12)).norm(), 2e-3) << v;
+  EXPECT_FALSE(report.warnings.empty());
+}
+
+TEST(Quadratic, CancelsAndReportsWhenIterationsRunOut) {
+  const SurfaceMesh mesh(test::octasphere_soup(3));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Quadratic<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
+  const auto points = p2_sources(
+      mesh, T, prepare(mesh, point_source(SurfacePoint::at_vertex(0)), false, report), 0.5);
+  CancelToken token;
+  int calls = 0;
+  Task task(token, [&](double, const std::string&) {
+    if (++calls == 6) token.cancel();
+  });
+  EXPECT_THROW(method.solve(points, {}, task, report), Cancelled);
+  QuadraticOptions few;
+  few.max_iterations = 3;
+  const auto field = method.solve(points, few, {}, report);
+  EXPECT_EQ(report.status, "not converged");
+  EXPECT_TRUE(field.u.allFinite());
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,379 @@
+// Regularized geodesic distance against closed forms and the authors' answers.
+
+#include "littoral/methods/regularized.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "geodesic_helpers.h"
+#include "littoral/base/error.h"
+#include "littoral/operators/curved_hessian.h"
+#include "littoral/operators/line_field.h"
+#include "shared_data.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+struct Solved {
+  VecX u;
+  Report report;
+};
+
+RegularizedOptions with_alpha(double alpha, double tolerance = 1e-4) {
+  RegularizedOptions options;
+  options.alpha = alpha;
+  options.tolerance = tolerance;
+  return options;
+}
+
+Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
+             const RegularizedOptions& options, Regularizer regularizer = Regularizer::dirichlet,
+             VecX V = {}) {
+  Solved out;
+  const test::Problem p = test::problem(mesh, sources, out.report);
+  RegularizerData data;
+  data.V = std::move(V);
+  if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
+  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
+  out.u =
+      Regularized(p.ops, regularizer, std::move(data), {}).solve(p.terms, options, {}, out.report);
+  return out;
+}
+
+double residual(const Report& report, const std::string& name) {
+  for (const auto& [key, value] : report.residuals)
+    if (key == name) return value;
+  return -1;
+}
+
+/// A ring of n columns of circumference 2 pi (as a polygon in space, lengths exact) and height 0.3.
+SurfaceMesh ring(int n) {
+  PolygonSoup soup;
+  const int rows = 3;
+  const double side = 2 * std::numbers::pi / n, radius = side / 2 / std::sin(std::numbers::pi / n);
+  soup.points.resize(n * (rows + 1), 3);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n;
+      soup.points.row(j * n + i) << radius * std::cos(a), radius * std::sin(a), 0.1 * j;
+    }
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * n + i, b = j * n + (i + 1) % n;
+      test::add_triangle(soup, a, b, b + n);
+      test::add_triangle(soup, a, b + n, a + n);
+    }
+  return SurfaceMesh(soup);
+}
+
+SurfaceSources across_ring(int n) { return test::vertex_points({0, n, 2 * n, 3 * n}); }
+
+TEST(Regularized, CircleWithDirichletEnergy) {
+  const int n = 120;
+  const SurfaceMesh mesh = ring(n);
+  const double root = std::sqrt(2 * std::numbers::pi * 0.3), pi = std::numbers::pi;
+  for (const double alpha : {0.0, 0.5, 1.5, 5.0}) {
+    const VecX u = solve(mesh, across_ring(n), with_alpha(alpha / root, 1e-5)).u;
+    const double a = std::min(alpha, pi), L = pi - a;  // eq. 6
+    for (int i = 0; i < n; ++i) {
+      const double x = 2 * pi * i / n, y = std::min(x, 2 * pi - x);
+      double expected = y;
+      if (alpha > 0 && y > L) {
+        // Eq. 5; beyond alpha = pi the parabola starts at the source itself.
+        expected = alpha <= pi ? pi - alpha / 2 - (x - pi) * (x - pi) / (2 * alpha)
+                               : (pi * pi - (x - pi) * (x - pi)) / (2 * alpha);
+      }
+      EXPECT_NEAR(u[i], expected, 5e-3) << "alpha " << alpha << " column " << i;
+    }
+  }
+}
+
+TEST(Regularized, IntervalWithHessianEnergy) {
+  // Supplement 4, on (0, 2 pi): a strip held at both ends, so that the kink at the source is free.
+  const int n = 100;
+  const double pi = std::numbers::pi, alpha = 0.4, c = std::cbrt(3 * alpha);
+  PolygonSoup soup = test::grid_soup(n, 3);
+  soup.points.col(0) *= 2 * pi;
+  soup.points.col(1) *= 0.3;
+  SurfaceSources ends;
+  for (int j = 0; j <= 3; ++j)
+    for (int i : {0, n}) ends.points.push_back(SurfacePoint::at_vertex(j * (n + 1) + i));
+  const VecX u = solve(SurfaceMesh(soup), ends,
+                       with_alpha(alpha / std::pow(2 * pi * 0.3, 1.5), 1e-5), Regularizer::hessian)
+                     .u;
+  for (int i = 0; i <= n; ++i) {
+    const double x = 2 * pi * i / n - pi;
+    const double expected = std::abs(x) > c
+                                ? pi - std::abs(x)
+                                : std::pow(x, 4) / (24 * alpha) - c * c * x * x / (4 * alpha) + pi -
+                                      c + 5 * std::pow(c, 4) / (24 * alpha);
+    EXPECT_NEAR(u[i], expected, 0.01) << i;
+  }
+}
+
+/// Rings of a disk of radius 1.
+SurfaceMesh disk(int rings) {
+  PolygonSoup soup;
+  const int n = 6 * rings;
+  soup.points = MatX3::Zero(1 + n * rings, 3);
+  for (int j = 0; j < rings; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * (i + 0.5 * (j % 2)) / n, r = (j + 1.0) / rings;
+      soup.points.row(1 + j * n + i) << r * std::cos(a), r * std::sin(a), 0;
+    }
+  for (int i = 0; i < n; ++i) {
+    test::add_triangle(soup, 0, 1 + i, 1 + (i + 1) % n);
+    for (int j = 1; j < rings; ++j) {
+      const int a = 1 + (j - 1) * n + i, b = 1 + (j - 1) * n + (i + 1) % n;
+      const int c = 1 + j * n + i, d = 1 + j * n + (i + 1) % n;
+      test::add_triangle(soup, a, c, j % 2 ? b : d);
+      test::add_triangle(soup, j % 2 ? c : a, d, b);
+    }
+  }
+  return SurfaceMesh(soup);
+}
+
+TEST(Regularized, DiskFromItsBoundary) {
+  const int rings = 16;
+  const SurfaceMesh mesh = disk(rings);
+  SurfaceSources boundary;
+  for (int i = 0; i < 6 * rings; ++i)
+    boundary.points.push_back(SurfacePoint::at_vertex(1 + (rings - 1) * 6 * rings + i));
+  const double alpha = 0.2;
+  const VecX u = solve(mesh, boundary, with_alpha(alpha / std::sqrt(std::numbers::pi))).u;
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    const double r = mesh.point(v).norm();  // S5
+    const double expected = r <= 2 * alpha ? 1 - alpha - r * r / (4 * alpha) : 1 - r;
+    EXPECT_NEAR(u[v], expected, 0.02) << v;
+  }
+}
+
+TEST(Regularized, TendsToTheGeodesicDistance) {
+  const SurfaceMesh mesh(test::octasphere_soup(3));
+  double before = 1e9;
+  for (const double alpha : {0.4, 0.1, 0.025, 0.0}) {
+    const VecX u = solve(mesh, test::vertex_points({4}), with_alpha(alpha, 1e-3)).u;
+    double worst = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      worst = std::max(worst, std::abs(u[v] - std::acos(std::clamp(mesh.point(v).z(), -1., 1.))));
+    EXPECT_LT(worst, before);
+    before = worst;
+  }
+  EXPECT_LT(before, 0.25);  // first order in the edge length at a point source
+}
+
+TEST(Regularized, SameWhateverTheUnit) {
+  PolygonSoup soup = test::torus_soup(20, 12);
+  for (const Regularizer regularizer : {Regularizer::dirichlet, Regularizer::hessian}) {
+    const auto u =
+        solve(SurfaceMesh(soup), test::vertex_points({3}), with_alpha(0.02, 1e-3), regularizer).u;
+    for (const double scale : {1e-3, 1e3}) {
+      PolygonSoup scaled = soup;
+      scaled.points *= scale;
+      const auto s =
+          solve(SurfaceMesh(scaled), test::vertex_points({3}), with_alpha(0.02, 1e-3), regularizer)
+              .u;
+      EXPECT_LT((s / scale - u).cwiseAbs().maxCoeff(), 1e-3 * u.maxCoeff());
+    }
+  }
+}
+
+TEST(Regularized, HessianDoesNotSeeTheBoundary) {
+  // A square: the gradient of the Dirichlet distance turns along the boundary, the Hessian one's
+  // stays that of the plane.
+  const SurfaceMesh mesh(test::grid_soup(16, 16, 1));
+  const int source = 8 * 17 + 2;
+  double error[2];
+  int at = 0;
+  for (const auto& [regularizer, alpha] :
+       {std::pair(Regularizer::dirichlet, 0.2), std::pair(Regularizer::hessian, 0.01)}) {
+    const VecX u =
+        solve(mesh, test::vertex_points({source}), with_alpha(alpha, 1e-3), regularizer).u;
+    error[at] = 0;
+    for (int j = 0; j <= 16; ++j)  // the far side
+      error[at] = std::max(
+          error[at],
+          std::abs(u[j * 17 + 16] - (mesh.point(j * 17 + 16) - mesh.point(source)).norm()));
+    ++at;
+  }
+  EXPECT_LT(error[1], 0.6 * error[0]);
+}
+
+TEST(Regularized, AlignmentTurnsIsolines) {
+  const SurfaceMesh mesh(test::grid_soup(20, 20, 1));
+  VecX V(2 * mesh.n_faces());
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const Complex x = tangent_part(mesh, T, f, Vec3::UnitX());
+    V[2 * f] = x.real();
+    V[2 * f + 1] = x.imag();
+  }
+  const VecX u = solve(mesh, test::vertex_points({10}), with_alpha(0.2), Regularizer::align, V).u;
+  const VecX plain = solve(mesh, test::vertex_points({10}), with_alpha(0.2)).u;
+  // Isolines of the aligned distance run along x at the top.
+  auto spread = [](const VecX& d) { return d.tail(21).maxCoeff() - d.tail(21).minCoeff(); };
+  EXPECT_LT(spread(u), 0.25 * spread(plain));
+}
+
+TEST(Regularized, MaxNormFollowsTheAxes) {
+  // On the plane z = 0 the max norm of a gradient along an axis is 1, along a diagonal 1/sqrt(2):
+  // rotated by 45 degrees the answer changes.
+  PolygonSoup soup = test::grid_soup(12, 12, 1);
+  const VecX u =
+      solve(SurfaceMesh(soup), test::vertex_points({84}), with_alpha(0.3), Regularizer::max_norm).u;
+  PolygonSoup turned = soup;
+  for (int v = 0; v < soup.n_vertices(); ++v)
+    turned.points.row(v) << (soup.points(v, 0) - soup.points(v, 1)) / std::sqrt(2.),
+        (soup.points(v, 0) + soup.points(v, 1)) / std::sqrt(2.), 0;
+  const VecX w =
+      solve(SurfaceMesh(turned), test::vertex_points({84}), with_alpha(0.3), Regularizer::max_norm)
+          .u;
+  EXPECT_GT((u - w).cwiseAbs().maxCoeff(), 0.02);
+  PolygonSoup quarter = soup;
+  for (int v = 0; v < soup.n_vertices(); ++v)
+    quarter.points.row(v) << -soup.points(v, 1), soup.points(v, 0), 0;
+  const VecX q =
+      solve(SurfaceMesh(quarter), test::vertex_points({84}), with_alpha(0.3), Regularizer::max_norm)
+          .u;
+  EXPECT_LT((u - q).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Regularized, GapClosesAndBoundsTheObjective) {
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  for (const Regularizer regularizer :
+       {Regularizer::dirichlet, Regularizer::hessian, Regularizer::max_norm}) {
+    RegularizedOptions options = with_alpha(0.05, 1e-3);
+    options.gap = 1e-4;
+    const Solved s = solve(mesh, test::vertex_points({4}), options, regularizer);
+    EXPECT_EQ(s.report.status, "converged");
+    const double gap = residual(s.report, "duality gap");
+    EXPECT_GE(gap, 0);
+    EXPECT_LE(gap, 1e-4);
+  }
+}
+
+TEST(Regularized, ManySourcesAgreeHoweverTheyAreHeld) {
+  // 64 rows go through the shared factor, more by elimination: adding a duplicate changes nothing.
+  const SurfaceMesh mesh(test::grid_soup(30, 10));
+  SurfaceSources few, many;
+  for (int i = 0; i < 60; ++i) few.points.push_back(SurfacePoint::at_vertex(i));
+  many = few;
+  for (int i = 0; i < 20; ++i) many.points.push_back(SurfacePoint::at_vertex(i + 1));
+  const VecX a = solve(mesh, few, with_alpha(0.05, 1e-4)).u,
+             b = solve(mesh, many, with_alpha(0.05, 1e-4)).u;
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-3);
+  for (int i = 60; i <= 123; ++i) many.points.push_back(SurfacePoint::at_vertex(i));
+  const VecX c = solve(mesh, many, with_alpha(0, 1e-4)).u;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_NEAR(c[v], std::max(0.0, mesh.point(v).y() - 0.3), 0.01);
+}
+
+TEST(Regularized, BadInputSaysWhatIsWrong) {
+  const SurfaceMesh mesh(test::grid_soup(3, 3));
+  EXPECT_THROW(solve(mesh, test::vertex_points({0}), with_alpha(0.1), Regularizer::align),
+               InputError);
+  VecX V = VecX::Constant(2 * mesh.n_faces(), 1);
+  V[3] = std::nan("");
+  EXPECT_THROW(solve(mesh, test::vertex_points({0}), with_alpha(0.1), Regularizer::align, V),
+               InputError);
+  RegularizedOptions options = with_alpha(0.05, 1e-9);
+  options.max_iterations = 3;
+  EXPECT_EQ(solve(mesh, test::vertex_points({0}), options).report.status, "not converged");
+}
+
+SurfaceMesh reference_mesh(const std::filesystem::path& folder) {
+  std::ifstream vertices(folder / "vertices.txt"), faces(folder / "faces_1based.txt");
+  std::vector<double> x{std::istream_iterator<double>(vertices), {}};
+  const std::vector<int> f{std::istream_iterator<int>(faces), {}};
+  PolygonSoup soup;
+  soup.points = Eigen::Map<MatX3>(x.data(), static_cast<Eigen::Index>(x.size() / 3), 3);
+  for (std::size_t i = 0; i + 2 < f.size(); i += 3)
+    test::add_triangle(soup, f[i] - 1, f[i + 1] - 1, f[i + 2] - 1);
+  return SurfaceMesh(soup);
+}
+
+double difference(const VecX& u, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  VecX e(u.size());
+  for (double& value : e)
+    if (!(in >> value)) return 1e9;
+  return (u - e).cwiseAbs().maxCoeff() / e.maxCoeff();
+}
+
+constexpr const char* spot = "reference/rgd/spot_rr";
+
+TEST(Regularized, ReferenceDirichletSlow) {
+  LITTORAL_NEEDS_SHARED(spot);
+  const auto folder = test::shared() / spot;
+  const SurfaceMesh mesh = reference_mesh(folder);
+  const VecX u = solve(mesh, test::vertex_points({2272}), with_alpha(0.05, 7e-5)).u;
+  EXPECT_LT(difference(u, folder / "u_D_alpha0.05_tight.txt"), 1e-3);
+}
+
+TEST(Regularized, ReferenceHessianSlow) {
+  LITTORAL_NEEDS_SHARED(spot);
+  const auto folder = test::shared() / spot;
+  const SurfaceMesh mesh = reference_mesh(folder);
+  const VecX u =
+      solve(mesh, test::vertex_points({2272}), with_alpha(0.001, 1e-2), Regularizer::hessian).u;
+  EXPECT_LT(difference(u, folder / "u_H_a0.001.txt"), 0.02);
+}
+
+TEST(Regularized, ReferenceAlignedSlow) {
+  LITTORAL_NEEDS_SHARED(spot);
+  const auto folder = test::shared() / spot;
+  const SurfaceMesh mesh = reference_mesh(folder);
+  std::ifstream in(folder / "vf_int_faces3.txt");
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  VecX V(2 * mesh.n_faces());
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    Vec3 v;
+    in >> v[0] >> v[1] >> v[2];
+    const Complex z = tangent_part(mesh, T, f, v);
+    V[2 * f] = z.real();
+    V[2 * f + 1] = z.imag();
+  }
+  RegularizedOptions options = with_alpha(0.05, 2e-3);
+  options.beta = 200;  // the authors' program weighs alignment twice as much as eq. 8 says
+  const VecX u = solve(mesh, test::vertex_points({2272}), options, Regularizer::align, V).u;
+  EXPECT_LT(difference(u, folder / "u_vfa_a0.05_b100.txt"), 0.02);
+}
+
+TEST(LineField, InterpolatesOnAPlaneAndForgetsSigns) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(8, 8, 0.2));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Vec3 x(0.6, 0.8, 0);
+  const VecX V = interpolate_line_field(
+      T, {{3, tangent_part(mesh, T, 3, x)}, {100, tangent_part(mesh, T, 100, -x)}}, {});
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const Complex expected = tangent_part(mesh, T, f, x), v(V[2 * f], V[2 * f + 1]);
+    EXPECT_NEAR(std::abs((std::conj(expected) * v).real()), 1, 1e-4) << f;
+  }
+}
+
+TEST(CurvedHessian, LinearFunctionsOnThePlaneAndConstantsCostNothing) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(7, 6, 0.3));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const SpMat W = curved_hessian(T, triangle_operators(T).vector);
+  for (int axis = 0; axis < 2; ++axis) {
+    const VecX u = mesh.points().col(axis);
+    EXPECT_LT((W.selfadjointView<Eigen::Lower>() * u).cwiseAbs().maxCoeff(), 1e-9);
+  }
+  const SurfaceMesh sphere(test::octasphere_soup(4));
+  const IntrinsicTriangulation S = intrinsic_triangulation(sphere, report);
+  const SpMat H = curved_hessian(S, triangle_operators(S).vector);
+  // z is an eigenfunction of Delta with eigenvalue -2: the energy is the integral of (2 z)^2.
+  const VecX z = sphere.points().col(2);
+  const double energy = z.dot(H.selfadjointView<Eigen::Lower>() * z);
+  EXPECT_NEAR(energy * S.unit * S.unit / (16 * std::numbers::pi / 3), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace littoral

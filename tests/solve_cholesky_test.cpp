@@ -1,0 +1,207 @@
+// The sparse factorization against dense algebra: structure, orders, patches, threads, cancelling.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <random>
+#include <thread>
+
+#include "heat_helpers.h"
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "littoral/base/parallel_forest.h"
+#include "littoral/solve/poisson.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+/// The lower triangle of a positive definite matrix on a random graph of several components.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> random_matrix(int n, int edges, std::mt19937& random) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 8.0 + u(random));
+  for (int k = 0; k < edges; ++k) {
+    const int i = static_cast<int>(random() % n), j = static_cast<int>(random() % n);
+    if (i == j || i % 3 != j % 3) continue;
+    Scalar z = u(random);
+    if constexpr (!std::is_same_v<Scalar, double>) z += Scalar(0, u(random));
+    entries.emplace_back(std::max(i, j), std::min(i, j), z / 2.0);
+    entries.emplace_back(i, i, 1.0);
+    entries.emplace_back(j, j, 1.0);
+  }
+  Eigen::SparseMatrix<Scalar> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+template <class Scalar>
+void expect_solves(int n, int edges, std::mt19937& random) {
+  using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  const auto lower = random_matrix<Scalar>(n, edges, random);
+  const Eigen::SparseMatrix<Scalar> full = lower.template selfadjointView<Eigen::Lower>();
+  const Dense A = full;
+  const Dense b = Dense::Random(n, 3);
+  const Dense exact = A.llt().solve(b);
+  Ordering shuffled(n);
+  std::iota(shuffled.begin(), shuffled.end(), 0);
+  std::shuffle(shuffled.begin(), shuffled.end(), random);
+  for (const Ordering& order : {Ordering(), shuffled}) {
+    const Cholesky<Scalar> factor(lower, {}, order);
+    EXPECT_LE((factor.solve(b) - exact).cwiseAbs().maxCoeff(), 1e-12) << n << " " << edges;
+    EXPECT_LE((factor.solve(b.col(1)) - exact.col(1)).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Cholesky, AgreesWithDenseOnRandomGraphs) {
+  std::mt19937 random(11);
+  for (int n : {1, 2, 3, 7, 40, 150, 400})
+    for (int density : {0, 1, 3, 8}) {
+      expect_solves<double>(n, n * density, random);
+      expect_solves<Complex>(n, n * density, random);
+    }
+}
+
+/// M + L of an octasphere, big enough for several tasks.
+SpMat sphere_matrix(int level) {
+  const SurfaceMesh mesh(test::octasphere_soup(level));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({3}), report);
+  SpMat K = p.ops->scalar.L;
+  for (int i = 0; i < K.rows(); ++i) K.coeffRef(i, i) += p.ops->scalar.M[i];
+  return K;
+}
+
+TEST(Cholesky, OneThreadOrTwoGiveTheSameBits) {
+  const SpMat K = sphere_matrix(6);
+  const auto E = std::make_shared<const Elimination>(K, dissection(K, {}));
+  EXPECT_GT(E->n_tasks(), 8);
+  const MatX b = MatX::Random(K.rows(), 2);
+  MatX first;
+  for (int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    const MatX x = Cholesky<double>(K, E, {}).solve(b);
+    if (threads == 1) first = x;
+    EXPECT_TRUE(x == first) << threads;
+  }
+  set_thread_count(0);
+  EXPECT_LE((K.selfadjointView<Eigen::Lower>() * first - b).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(Cholesky, APatchedFactorHasTheBitsOfANewOne) {
+  SpMat K = sphere_matrix(5);
+  const auto E = std::make_shared<const Elimination>(K, dissection(K, {}));
+  const Cholesky<double> base(K, E, {}, true);
+  const VecX b = VecX::Random(K.rows());
+  const VecX before = base.solve(b);
+  std::mt19937 random(3);
+  for (int round = 0; round < 3; ++round) {
+    SpMat changed = K;
+    std::vector<int> touched;
+    for (int k = 0; k < 20; ++k) {
+      touched.push_back(static_cast<int>(random() % K.rows()));
+      changed.coeffRef(touched.back(), touched.back()) += 1e4;
+    }
+    EXPECT_TRUE(base.patched(changed, touched, {}).solve(b) ==
+                Cholesky<double>(changed, E, {}).solve(b));
+  }
+  EXPECT_TRUE(base.solve(b) == before);
+}
+
+TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {
+  const SpMat K = sphere_matrix(5);
+  const Cholesky<double> factor(K, {});
+  VecX b = VecX::Zero(K.rows());
+  b[7] = 1;
+  b[K.rows() / 2] = -3;
+  const VecX shifted = factor.solve(b + VecX::Constant(K.rows(), 1e-300));  // no zeros
+  const VecX x = factor.solve(b);
+  EXPECT_LE((x - shifted).cwiseAbs().maxCoeff(), 1e-15);
+  std::vector<char> wanted(static_cast<std::size_t>(K.rows()), 0);
+  for (std::size_t i = 3; i < wanted.size(); i += 501) wanted[i] = 1;
+  const VecX some = factor.solve(b, wanted);
+  for (std::size_t i = 3; i < wanted.size(); i += 501)
+    EXPECT_EQ(some[Eigen::Index(i)], x[Eigen::Index(i)]);
+}
+
+TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
+  const SurfaceMesh mesh(test::octasphere_soup(5));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({3}), report);
+  const Ordering nodes = dissection(p.ops->scalar.L, {});
+  const Ordering order = between_nodes(nodes, p.ops->vector.ends);
+  std::vector<char> seen(order.size(), 0);
+  for (int i : order) seen[i] = 1;
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), p.ops->vector.n);
+  const Elimination shared(p.ops->vector.L, order);
+  const Elimination own(p.ops->vector.L, dissection(p.ops->vector.L, {}));
+  EXPECT_LT(shared.flops(), 1.1 * own.flops());
+}
+
+TEST(Cholesky, AnAbandonedFactorizationDisturbsNoLaterOne) {
+  const SpMat K = sphere_matrix(6);
+  const VecX b = VecX::Random(K.rows());
+  const VecX expected = Cholesky<double>(K, {}).solve(b);
+  for (int round = 0; round < 3; ++round) {
+    const CancelToken cancel;
+    std::thread other([cancel] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      cancel.cancel();
+    });
+    EXPECT_THROW(
+        {
+          for (;;) Cholesky<double>(K, Task(cancel));
+        },
+        Cancelled);
+    EXPECT_TRUE(Cholesky<double>(K, {}).solve(b) == expected) << round;
+    other.join();
+  }
+}
+
+TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
+  const SurfaceMesh mesh(test::octasphere_soup(4));
+  Report report;
+  const auto p =
+      test::problem(mesh, test::space_curve(1.1 * test::circle(0, 0, 0.5, 0.8, 60)), report);
+  const Calculus& C = p.ops->scalar;
+  const Poisson poisson(C.L, C.component, C.n_components, {});
+  VecX b = VecX::Random(C.L.rows());
+  b.array() -= b.mean();
+  const VecX x = poisson.solve_levels(
+      b, {p.terms.A, std::vector<int>(p.terms.group.size(), 0), {1}}, {}, report);
+  EXPECT_LE((p.terms.A * x).cwiseAbs().maxCoeff(), 1e-11);
+  // Optimal: the force L x - b is a combination of the rows.
+  const VecX force = times_symmetric(C.L, x) - b;
+  const MatX At = MatX(p.terms.A.transpose());
+  const VecX y = At.completeOrthogonalDecomposition().solve(force);
+  EXPECT_LE((At * y - force).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Parallel, ForestsRunChildrenFirstOrParentsFirst) {
+  const std::vector<int> parent = {2, 2, 6, 5, 5, 6, -1, 8, -1};
+  for (int threads : {1, 2, 4})
+    for (Walk walk : {Walk::from_leaves, Walk::from_roots}) {
+      set_thread_count(threads);
+      std::vector<std::atomic<int>> when(parent.size());
+      std::atomic<int> clock{1};
+      parallel_forest(parent, walk, [&](int i) { when[i] = clock++; });
+      for (std::size_t i = 0; i < parent.size(); ++i) {
+        EXPECT_GT(when[i], 0);
+        if (parent[i] < 0) continue;
+        EXPECT_EQ(when[i] < when[parent[i]], walk == Walk::from_leaves);
+      }
+      EXPECT_THROW(parallel_forest(parent, walk,
+                                   [](int i) {
+                                     if (i == 5) throw InputError("five");
+                                   }),
+                   InputError);
+    }
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,133 @@
+// Meshes, soups and clouds as oriented samples.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "littoral/base/error.h"
+#include "littoral/domain/cloud_normals.h"
+#include "space_helpers.h"
+
+namespace littoral {
+namespace {
+
+using test::message_of;
+using ::testing::HasSubstr;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+TEST(SpaceSamples, FacesKeepAreaAndVectorArea) {
+  Report report;
+  const PolygonSoup box = test::box_soup({1, 2, 3});
+  for (const double side : {never, 0.7}) {
+    const OrientedPoints s = sample_faces(box, side, report);
+    EXPECT_NEAR(s.areas.sum(), 8 * (2 + 3 + 6), 1e-9);
+    EXPECT_LT((s.normals.transpose() * s.areas).norm(), 1e-9);
+    EXPECT_GT((s.points.array() * s.normals.array()).rowwise().sum().minCoeff(), 0.9);
+  }
+  EXPECT_EQ(sample_faces(box, never, report).size(), 12);
+  EXPECT_LT(sample_faces(box, 0.7, report).areas.maxCoeff(), 0.7 * 0.7 / 2);
+}
+
+TEST(SpaceSamples, SpacingIsTheSideOfEvenTriangles) {
+  Report report;
+  PolygonSoup one;
+  one.points.resize(3, 3);
+  one.points << 0, 0, 0, 2, 0, 0, 1, std::sqrt(3.0), 0;
+  test::add_triangle(one, 0, 1, 2);
+  EXPECT_NEAR(sample_spacing(sample_faces(one, never, report)), 2, 1e-12);
+}
+
+TEST(SpaceSamples, SaysWhatIsWrongWithAMesh) {
+  Report report;
+  PolygonSoup soup = test::octasphere_soup(0);
+  EXPECT_THAT(message_of([&] { sample_faces(PolygonSoup(), never, report); }),
+              HasSubstr("no faces"));
+  PolygonSoup flat = soup;
+  flat.points.col(2).setZero();
+  flat.points.col(1).setZero();
+  EXPECT_THAT(message_of([&] { sample_faces(flat, never, report); }), HasSubstr("has any area"));
+  soup.points(4, 1) = std::nan("");
+  EXPECT_THAT(message_of([&] { sample_faces(soup, never, report); }), HasSubstr("vertex 4"));
+}
+
+TEST(SpaceSamples, CloudAreasAreThoseOfTheirCells) {
+  // A square lattice: every interior cell is a unit square.
+  PolygonSoup cloud;
+  cloud.points.resize(100, 3);
+  cloud.normals.resize(100, 3);
+  for (int i = 0; i < 100; ++i) {
+    cloud.points.row(i) << i % 10, i / 10, 0;
+    cloud.normals.row(i) << 0, 0, 5;
+  }
+  Report report;
+  const OrientedPoints s = sample_cloud(cloud, report);
+  EXPECT_NEAR(s.areas[55], 1, 1e-9);
+  EXPECT_EQ(s.normals(3, 2), 1);
+  EXPECT_GT(s.areas.minCoeff(), 0.1);
+  // Each point four times: the same surface, a quarter of the area each.
+  PolygonSoup four;
+  four.points = cloud.points.replicate(4, 1);
+  four.normals = cloud.normals.replicate(4, 1);
+  EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
+}
+
+TEST(SpaceSamples, AreaOfASphereComesOut) {
+  const OrientedPoints exact = test::sphere_samples(4);
+  PolygonSoup cloud;
+  cloud.points = exact.points;
+  cloud.normals = exact.normals;
+  Report report;
+  EXPECT_NEAR(sample_cloud(cloud, report).areas.sum(), 4 * M_PI, 0.03 * 4 * M_PI);
+}
+
+TEST(SpaceSamples, SaysWhatIsWrongWithACloud) {
+  Report report;
+  const auto message = [&](const PolygonSoup& cloud) {
+    return message_of([&] { sample_cloud(cloud, report); });
+  };
+  PolygonSoup cloud;
+  EXPECT_THAT(message(cloud), HasSubstr("no points"));
+  cloud.points = test::random_points(20, 1);
+  EXPECT_THAT(message(cloud), HasSubstr("--estimate-normals"));
+  cloud.normals = MatX3::Zero(20, 3);
+  EXPECT_THAT(message(cloud), HasSubstr("not zero"));
+  cloud.normals.setOnes();
+  cloud.points(7, 0) = std::nan("");
+  EXPECT_THAT(message(cloud), HasSubstr("point 7"));
+  cloud.points.setOnes();
+  EXPECT_THAT(message(cloud), HasSubstr("three different places"));
+}
+
+TEST(SpaceSamples, PointsWithoutNormalAreLeftOutWithAWarning) {
+  Report report;
+  PolygonSoup cloud;
+  cloud.points = test::random_points(20, 1);
+  cloud.normals = MatX3::Ones(20, 3);
+  cloud.normals.row(3).setZero();
+  cloud.normals(4, 1) = std::nan("");
+  EXPECT_EQ(sample_cloud(cloud, report).size(), 18);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("2 points"));
+}
+
+TEST(SpaceSamples, EstimatedNormalsPointOutOfSphereAndTorus) {
+  const MatX3 sphere = test::sphere_samples(4).points;
+  const MatX3 n = estimate_normals(sphere, Task());
+  EXPECT_GT((n.array() * sphere.array()).rowwise().sum().minCoeff(), 0.95);
+
+  const PolygonSoup torus = test::torus_soup(60, 30);
+  const MatX3 m = estimate_normals(torus.points, Task());
+  int outward = 0;
+  for (int i = 0; i < torus.n_vertices(); ++i) {
+    const Vec3 p = torus.points.row(i);
+    const Vec3 ring = Vec3(p[0], p[1], 0).normalized();
+    outward += m.row(i).dot((p - ring).transpose()) > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(outward, torus.n_vertices());
+}
+
+}  // namespace
+}  // namespace littoral

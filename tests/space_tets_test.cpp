@@ -1,0 +1,156 @@
+// The tet lattice, its operators, and signed heat on it.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+#include "littoral/api/sdf.h"
+#include "littoral/base/error.h"
+#include "littoral/domain/tet_lattice.h"
+#include "littoral/operators/tet_operators.h"
+#include "space_helpers.h"
+
+namespace littoral {
+namespace {
+
+TetLattice lattice() {
+  MatX3 points(2, 3);
+  points << 0.3, 0.4, 0.1, -0.9, 0.95, 0.2;
+  return {Vec3::Constant(-1), 2, 5, points};
+}
+
+TEST(TetLattice, FillsTheCubeConformingly) {
+  const TetLattice tets = lattice();
+  const TetMesh& mesh = tets.mesh();
+  double volume = 0;
+  std::map<std::array<int, 3>, int> faces;
+  for (int t = 0; t < mesh.n_tets(); ++t) {
+    std::array<Vec3, 4> p;
+    for (int k = 0; k < 4; ++k) p[static_cast<std::size_t>(k)] = mesh.points.row(mesh.tets(t, k));
+    const double six = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+    EXPECT_GT(six, 0);
+    volume += six / 6;
+    for (int k = 0; k < 4; ++k) {
+      std::array<int, 3> face{};
+      for (int j = 0, c = 0; j < 4; ++j)
+        if (j != k) face[static_cast<std::size_t>(c++)] = mesh.tets(t, j);
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  }
+  EXPECT_NEAR(volume, 8, 1e-12);
+  // Faces of one tet only must lie on the cube: there are no cracks inside.
+  double boundary = 0;
+  for (const auto& [face, count] : faces) {
+    ASSERT_LE(count, 2);
+    if (count == 2) continue;
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.points.row(face[k]);
+    boundary += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+    const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
+    EXPECT_NEAR(middle.cwiseAbs().maxCoeff(), 1, 1e-12);
+  }
+  EXPECT_NEAR(boundary, 24, 1e-12);
+}
+
+TEST(TetLattice, IsFineAtThePointsAndCoarseFarAway) {
+  const TetLattice tets = lattice();
+  const auto size_at = [&](const Vec3& x) {
+    const TetPoint p = tets.locate(x);
+    const Vec3 a = tets.mesh().points.row(tets.mesh().tets(p.tet, 0));
+    return (tets.mesh().points.row(tets.mesh().tets(p.tet, 3)).transpose() - a).norm();
+  };
+  EXPECT_EQ(tets.finest(), 2.0 / 32);
+  EXPECT_LT(size_at(Vec3(0.3, 0.4, 0.1)), 0.06);
+  EXPECT_GT(size_at(Vec3(0.9, -0.9, -0.9)), 0.2);
+  EXPECT_LT(tets.mesh().n_tets(), 32 * 32 * 32 * 12 / 20);
+}
+
+TEST(TetLattice, LocatesPointsByTheirBarycentricCoordinates) {
+  const TetLattice tets = lattice();
+  const MatX3 queries = test::random_points(300, 1);
+  for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+    const TetPoint p = tets.locate(queries.row(i));
+    ASSERT_GE(p.tet, 0);
+    Vec3 x = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_GE(p.barycentric[static_cast<std::size_t>(k)], -1e-9);
+      x += p.barycentric[static_cast<std::size_t>(k)] *
+           tets.mesh().points.row(tets.mesh().tets(p.tet, k)).transpose();
+    }
+    EXPECT_LT((x - queries.row(i).transpose()).norm(), 1e-12);
+  }
+  EXPECT_EQ(tets.locate(Vec3(2, 0, 0)).tet, -1);
+}
+
+TEST(TetOperators, AreExactForConstantAndLinearFunctions) {
+  const TetLattice tets = lattice();
+  const TetOperators ops = tet_operators(tets.mesh());
+  EXPECT_NEAR(ops.volumes.sum(), 8, 1e-12);
+  EXPECT_EQ(ops.n_components, 1);
+  const auto times = [](const SpMat& lower, const VecX& x) {
+    return VecX(lower.selfadjointView<Eigen::Lower>() * x);
+  };
+  const VecX one = VecX::Ones(ops.n_faces);
+  EXPECT_LT(times(ops.face_laplacian, one).norm(), 1e-10);
+  EXPECT_NEAR(one.dot(times(ops.face_mass, one)), 8, 1e-10);
+  const Vec3 g(1, -2, 0.5);
+  VecX f = VecX::Zero(ops.n_faces);  // at the barycentres of faces
+  for (int t = 0; t < tets.mesh().n_tets(); ++t)
+    for (int k = 0; k < 4; ++k) {
+      Vec3 middle = Vec3::Zero();
+      for (int j = 0; j < 4; ++j)
+        if (j != k) middle += tets.mesh().points.row(tets.mesh().tets(t, j)).transpose() / 3;
+      f[ops.tet_faces(t, k)] = g.dot(middle);
+    }
+  EXPECT_NEAR(f.dot(times(ops.face_laplacian, f)), 8 * g.squaredNorm(), 1e-9);
+  const VecX u = tets.mesh().points * g;
+  EXPECT_NEAR(u.dot(times(ops.L, u)), 8 * g.squaredNorm(), 1e-9);
+  const MatX3 Y = g.transpose().replicate(tets.mesh().n_tets(), 1);
+  EXPECT_LT((ops.divergence(Y) - times(ops.L, u)).norm(), 1e-10);
+}
+
+TEST(TetOperators, SayWhatIsWrong) {
+  TetMesh mesh;
+  mesh.points = test::random_points(4, 1);
+  mesh.tets.resize(1, 4);
+  mesh.tets << 0, 1, 2, 4;
+  EXPECT_THROW(tet_operators(mesh), InputError);
+  mesh.tets << 0, 1, 2, 2;
+  EXPECT_THROW(tet_operators(mesh), InputError);
+  mesh.tets << 0, 1, 2, 3;
+  mesh.points(2, 1) = std::nan("");
+  EXPECT_THROW(tet_operators(mesh), InputError);
+}
+
+TEST(SignedHeatTets, SphereErrorFallsWithTheSpacingAndValuesReachTheGrid) {
+  const PolygonSoup sphere = test::octasphere_soup(4);
+  const auto error = [&](int n, const char* constraint) {
+    SpaceRequest request;
+    request.options = {{"constraint", constraint}};
+    Report report;
+    VecX on_grid;
+    const Grid grid = test::cube_grid(n, 1.5);
+    const TetField field = tet_distance(sphere, grid, request, &on_grid, Task(), report);
+    double near = 0;
+    int count = 0;
+    for (int v = 0; v < field.mesh.n_vertices(); ++v) {
+      const double exact = field.mesh.points.row(v).norm() - 1;
+      if (std::abs(exact) > 0.3) continue;
+      near += std::abs(field.values[v] - exact);
+      ++count;
+    }
+    EXPECT_LT(test::mean_error(grid, on_grid, [](const Vec3& x) { return x.norm() - 1; }), 0.08);
+    return near / count;
+  };
+  for (const char* constraint : {"none", "zero-set"}) {
+    const double coarse = error(9, constraint), fine = error(17, constraint);
+    EXPECT_LT(fine, 0.02) << constraint;
+    EXPECT_LT(fine, 0.7 * coarse) << constraint;
+  }
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,112 @@
+// Voxels: files, masks, boundaries with corrected normals.
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "domain_shapes.h"
+#include "littoral/base/error.h"
+#include "littoral/io/read_voxels.h"
+#include "littoral/io/volume.h"
+
+namespace littoral {
+namespace {
+
+std::string vol_header(int version, const std::string& more = "") {
+  return "X: 3\nY: 2\nZ: 2\nVoxel-Size: 1\n" + more + "Version: " + std::to_string(version) +
+         "\n.\n";
+}
+
+const std::string voxels("\1\0\0\2\0\0\0\0\0\0\0\3", 12);
+
+TEST(VoxelFiles, PlainAndPackedVolumesAreTheSame) {
+  const io::VoxelMask plain = io::read_vol_bytes(vol_header(2) + voxels, "a.vol");
+  EXPECT_EQ(plain.grid.n, (std::array<int, 3>{3, 2, 2}));
+  EXPECT_EQ(plain.inside[plain.grid.node(0, 1, 0)], 2);  // x fastest
+  EXPECT_EQ(plain.inside[plain.grid.node(2, 1, 1)], 3);
+  uLongf size = compressBound(12);
+  std::string packed(size, '\0');
+  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(voxels.data()), 12),
+            Z_OK);
+  packed.resize(size);
+  EXPECT_EQ(io::read_vol_bytes(vol_header(3) + packed, "b.vol").inside, plain.inside);
+  for (std::size_t cut = 0; cut < packed.size(); ++cut)
+    EXPECT_THROW(io::read_vol_bytes(vol_header(3) + packed.substr(0, cut), "c.vol"), InputError);
+}
+
+TEST(VoxelFiles, DamagedVolumesAreErrors) {
+  for (const std::string& bytes :
+       {std::string(), std::string("."), vol_header(2), vol_header(2) + voxels.substr(1),
+        std::string("X: 3\nY: 2\n.\n") + voxels, std::string("X: 0\nY: 2\nZ: 2\n.\n") + voxels,
+        std::string("X: 99999\nY: 99999\nZ: 99999\n.\n") + voxels,
+        std::string("X: 3\nY 2\nZ: 2\n.\n") + voxels})
+    EXPECT_THROW(io::read_vol_bytes(bytes, "a.vol"), InputError) << bytes;
+  EXPECT_THROW(io::read_vol_bytes(vol_header(4) + voxels, "a.vol"), UnsupportedError);
+}
+
+TEST(VoxelFiles, VolumesOfNumbersAreMasks) {
+  VolumeField field;
+  field.grid = {{3, 3, 3}, Vec3(1, 2, 3), Vec3::Constant(0.5)};
+  field.values = VecX::Zero(27);
+  field.values[static_cast<Eigen::Index>(field.grid.node(1, 0, 2))] = 7;
+  const auto folder = std::filesystem::temp_directory_path();
+  for (const char* extension : {".nrrd", ".vti", ".npy"}) {
+    const auto path = folder / (std::string("littoral_voxels_test") + extension);
+    io::write_volume(path, field);
+    const io::VoxelMask mask = io::read_voxels(path);
+    for (std::size_t i = 0; i < 27; ++i)
+      EXPECT_EQ(mask.inside[i] != 0, i == field.grid.node(1, 0, 2)) << extension << i;
+    if (std::string(extension) != ".npy") {
+      EXPECT_EQ(mask.grid.spacing, field.grid.spacing);
+      EXPECT_EQ(mask.grid.origin, field.grid.origin);
+    }
+    VolumeField bad = field;
+    bad.values[3] = -1;
+    io::write_volume(path, bad);
+    EXPECT_THROW(io::read_voxels(path), InputError);
+    bad.values[3] = std::nan("");
+    io::write_volume(path, bad);
+    EXPECT_THROW(io::read_voxels(path), InputError);
+    std::filesystem::remove(path);
+  }
+}
+
+TEST(VoxelBoundary, OneVoxelIsACube) {
+  Grid grid{{1, 1, 1}, Vec3(5, 6, 7), Vec3(1, 2, 4)};
+  const VoxelSurface cube = boundary_of_voxels(grid, {1});
+  EXPECT_EQ(cube.mesh.n_vertices(), 8);
+  EXPECT_EQ(cube.mesh.n_faces(), 6);
+  EXPECT_EQ(Vec3(cube.mesh.points().colwise().minCoeff()), Vec3(4.5, 5, 5));
+  EXPECT_EQ(Vec3(cube.mesh.points().colwise().maxCoeff()), Vec3(5.5, 7, 9));
+  for (int f = 0; f < 6; ++f) {
+    const auto c = cube.mesh.face(f);
+    const Vec3 a = cube.mesh.point(c[0]), b = cube.mesh.point(c[1]), d = cube.mesh.point(c[3]);
+    const Vec3 centre = 0.5 * (b + d) - grid.origin, outward = (b - a).cross(d - a);
+    EXPECT_GT(outward.dot(centre), 0);
+    EXPECT_NEAR(outward.normalized().dot(cube.face_normals.row(f)), 1, 1e-12);
+  }
+  EXPECT_THROW(boundary_of_voxels(grid, {0}), InputError);
+}
+
+TEST(VoxelBoundary, CorrectedNormalsConverge) {
+  double error[2];
+  for (int l = 0; l < 2; ++l) {
+    const test::Shape s = test::sphere(test::Domain::voxels, 12 << (2 * l));
+    error[l] = 0;
+    for (int f = 0; f < s.soup.n_faces(); ++f) {
+      Vec3 centre = Vec3::Zero();
+      for (int v : s.soup.face(f)) centre += s.soup.points.row(v).transpose() / 4;
+      const Vec3 n = s.face_normals.row(f);
+      error[l] += std::acos(std::min(1.0, n.dot(centre.normalized()))) / s.soup.n_faces();
+    }
+  }
+  EXPECT_LT(error[0], 0.12);
+  EXPECT_LT(error[1], error[0] / std::exp2(2 * 0.6));  // order 2/3 is proven
+}
+
+}  // namespace
+}  // namespace littoral

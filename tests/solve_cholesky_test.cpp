@@ -142,6 +142,14 @@ TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
   EXPECT_LT(shared.flops(), 1.1 * own.flops());
 }
 
+TEST(Cholesky, DissectionKeepsAStripNarrow) {
+  const SurfaceMesh mesh(test::grid_soup(2000, 2));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({3}), report);
+  const SpMat& L = p.ops->scalar.L;
+  EXPECT_LT(Elimination(L, dissection(L, {})).values(), 40.0 * static_cast<double>(L.rows()));
+}
+
 TEST(Cholesky, AnAbandonedFactorizationDisturbsNoLaterOne) {
   const SpMat K = sphere_matrix(6);
   const VecX b = VecX::Random(K.rows());

@@ -89,7 +89,7 @@ void balance(Octree& tree) {
 class Filler {
  public:
   Filler(const Octree& tree, const Vec3& origin, double unit, TetMesh& mesh)
-      : tree_(tree), origin_(origin), unit_(unit), mesh_(mesh) {
+      : origin_(origin), unit_(unit), mesh_(mesh) {
     for (std::size_t at = 0; at < tree.cubes.size(); ++at) {
       if (tree.child[at] >= 0) continue;
       const Cube& c = tree.cubes[at];
@@ -171,7 +171,6 @@ class Filler {
       tet(hub, loop[k], loop[(k + 1) % loop.size()], inward);
   }
 
-  const Octree& tree_;
   Vec3 origin_;
   double unit_;
   TetMesh& mesh_;

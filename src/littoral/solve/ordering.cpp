@@ -102,10 +102,14 @@ Ordering dissect(Graph& g) {
                    position.data()) != METIS_OK)
     throw SolveError("not enough memory to order a matrix of order " + std::to_string(n));
 #else
+  // With its diagonal: Eigen puts every column without one at the end, as it does dense ones.
   const Eigen::Index n = static_cast<Eigen::Index>(order.size());
   const std::vector<double> ones(g.to.size(), 1.0);
-  const SpMat full = Eigen::Map<const SpMat>(n, n, static_cast<Eigen::Index>(g.to.size()),
-                                             g.begin.data(), g.to.data(), ones.data());
+  SpMat full = Eigen::Map<const SpMat>(n, n, static_cast<Eigen::Index>(g.to.size()), g.begin.data(),
+                                       g.to.data(), ones.data());
+  SpMat I(n, n);
+  I.setIdentity();
+  full += I;
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> p;
   Eigen::AMDOrdering<int>()(full, p);
   std::copy(p.indices().data(), p.indices().data() + p.size(), order.begin());

@@ -11,30 +11,27 @@
 namespace littoral {
 
 VecX grid_divergence(const Grid& grid, const Directions& Y) {
-  const auto [nx, ny, nz] = grid.n;
+  const int nx = grid.n[0], ny = grid.n[1], nz = grid.n[2];
   VecX b(static_cast<Eigen::Index>(grid.n_nodes()));
-  parallel_for(
-      static_cast<std::size_t>(nz), 4,
-      [&, nx = nx, ny = ny, nz = nz](std::size_t begin, std::size_t end) {
-        for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
-          for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) {
-              const auto at = static_cast<Eigen::Index>(grid.node(i, j, k));
-              const std::array<int, 3> place{i, j, k};
-              Eigen::Index step = 1;
-              double sum = 0;
-              for (int a = 0; a < 3; ++a) {
-                const auto s = static_cast<std::size_t>(a);
-                double flux =
-                    0;  // through the edge before the node, minus that through the one after
-                if (place[s] > 0) flux += 0.5 * (double(Y(at, a)) + Y(at - step, a));
-                if (place[s] + 1 < grid.n[s]) flux -= 0.5 * (double(Y(at, a)) + Y(at + step, a));
-                sum += flux / grid.spacing[a];
-                step *= grid.n[s];
-              }
-              b[at] = sum;
-            }
-      });
+  parallel_for(static_cast<std::size_t>(nz), 4, [&](std::size_t begin, std::size_t end) {
+    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+          const auto at = static_cast<Eigen::Index>(grid.node(i, j, k));
+          const std::array<int, 3> place{i, j, k};
+          Eigen::Index step = 1;
+          double sum = 0;
+          for (int a = 0; a < 3; ++a) {
+            const auto s = static_cast<std::size_t>(a);
+            double flux = 0;  // through the edge before the node, minus that through the one after
+            if (place[s] > 0) flux += 0.5 * (double(Y(at, a)) + Y(at - step, a));
+            if (place[s] + 1 < grid.n[s]) flux -= 0.5 * (double(Y(at, a)) + Y(at + step, a));
+            sum += flux / grid.spacing[a];
+            step *= grid.n[s];
+          }
+          b[at] = sum;
+        }
+  });
   return b;
 }
 

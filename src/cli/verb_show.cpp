@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/base/error.h"
+#include "littoral/domain/cloud_surface.h"
 #include "littoral/io/picture.h"
 #include "littoral/io/read.h"
 #include "littoral/io/scene.h"
@@ -36,7 +37,9 @@ io::Scene read_scene_of(const Arguments& arguments, Session& session) {
   }
   PolygonSoup soup = io::read_surface(arguments.in);
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
-  io::Scene scene = io::make_scene(soup, field);
+  const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
+  io::Scene scene =
+      io::make_scene(cloud ? cloud_triangles(soup, session.report, session.task()) : soup, field);
   if (!field.empty()) scene.field_name = field;
   if (!arguments.sources.empty()) {
     const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
@@ -94,9 +97,11 @@ using Job = void (*)(const Arguments&, Session&);
 CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
                    Job job, const char* name, const char* help) {
   CLI::App* verb = program.add_subcommand(name, help);
-  verb->add_option("FILE", arguments->in,
-                   "a surface, with values or without: .obj .ply .off .stl; or a volume: .vti "
-                   ".nrrd .npy .vol")
+  verb->add_option(
+          "FILE", arguments->in,
+          "a surface or cloud, with values or without: .obj .ply .off .stl .pc .xyz .pcd; or a "
+          "volume: .vti "
+          ".nrrd .npy .vol")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")

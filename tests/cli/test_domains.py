@@ -57,6 +57,7 @@ def test_every_domain_gives_values_pictures_and_pages(
             assert (tmp_path / "a.html").read_text().startswith("<!doctype html>")
         run("render", "a.ply", "-o", "b.png")
         run("view", "a.ply", "-o", "b.html")
+        assert (tmp_path / "b.png").stat().st_size > 1000
 
 
 def test_signs_are_those_of_triangles(run: Run, surfaces: dict[str, str], tmp_path: Path) -> None:

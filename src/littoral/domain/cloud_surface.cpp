@@ -128,6 +128,34 @@ std::map<std::array<int, 3>, int> local_triangles(const MatX3& points, const Mat
   return count;
 }
 
+struct LocalTriangles {
+  PolygonSoup soup;         // the cloud with its triangles, counter-clockwise about the normals
+  std::vector<int> counts;  // triangles; corners that made each
+  MatX3 normals{0, 3};      // unit
+};
+
+LocalTriangles triangulated(const PolygonSoup& cloud, Report& report, const Task& task) {
+  LocalTriangles out{cloud, {}, cloud.normals};
+  const MatX3& points = cloud.points;
+  const Neighbours neighbours = find_neighbours(points);
+  if (cloud.normals.rows() != points.rows()) {
+    out.normals = finite_normals(points, task);
+    report.warn(
+        "the point cloud has no normals; they were estimated, upward at the top of each part");
+  }
+  for (auto n : out.normals.rowwise()) n = normalized_or_z(n.transpose()).transpose();
+  for (const auto& [corners, count] : local_triangles(points, out.normals, neighbours)) {
+    std::array<int, 3> c = corners;
+    Vec3 normal = Vec3::Zero();
+    for (int v : c) normal += out.normals.row(v).transpose();
+    const Vec3 a = points.row(c[0]), b = points.row(c[1]), d = points.row(c[2]);
+    if ((b - a).cross(d - a).dot(normal) < 0) std::swap(c[1], c[2]);
+    out.soup.add_face(c);
+    out.counts.push_back(count);
+  }
+  return out;
+}
+
 /// A triangle of a cover, whichever way it was listed: cells that agree are made one.
 struct Cell {
   std::array<int, 3> v;          // counter-clockwise seen from outside, the smallest first
@@ -200,35 +228,22 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
 
 }  // namespace
 
-NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& report,
+PolygonSoup cloud_triangles(const PolygonSoup& cloud, Report& report, const Task& task) {
+  return triangulated(cloud, report, task).soup;
+}
+
+NodalSurface cloud_surface(const MatX3& points, const MatX3& normals, Report& report,
                            const Task& task) {
-  const Neighbours neighbours = find_neighbours(points);
+  PolygonSoup cloud;
+  cloud.points = points;
+  cloud.normals = normals;
+  LocalTriangles local = triangulated(cloud, report, task);
+  if (local.counts.empty())
+    throw InputError("no triangle can be made between neighbouring points of the cloud");
   NodalSurface S;
   S.domain = "point cloud";
-  S.normals = given;
-  if (given.rows() != points.rows()) {
-    S.normals = finite_normals(points, task);
-    report.warn(
-        "the point cloud has no normals; they were estimated, upward at the top of each part");
-  }
-  for (auto n : S.normals.rowwise()) n = normalized_or_z(n.transpose()).transpose();
-
-  const auto triangles = local_triangles(points, S.normals, neighbours);
-  if (triangles.empty())
-    throw InputError("no triangle can be made between neighbouring points of the cloud");
-  PolygonSoup soup;
-  soup.points = points;
-  std::vector<int> counts;
-  for (const auto& [corners, count] : triangles) {
-    std::array<int, 3> c = corners;
-    Vec3 normal = Vec3::Zero();
-    for (int v : c) normal += S.normals.row(v).transpose();
-    const Vec3 a = points.row(c[0]), b = points.row(c[1]), d = points.row(c[2]);
-    if ((b - a).cross(d - a).dot(normal) < 0) std::swap(c[1], c[2]);
-    soup.add_face(c);
-    counts.push_back(count);
-  }
-  S.refined = std::make_shared<const SurfaceMesh>(std::move(soup));
+  S.normals = std::move(local.normals);
+  S.refined = std::make_shared<const SurfaceMesh>(std::move(local.soup));
   Report inner;  // its warnings are about meshes
   auto place = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(*S.refined, inner));
   place->orientation.assign(place->orientation.size(), 1);
@@ -241,7 +256,7 @@ NodalSurface cloud_surface(const MatX3& points, const MatX3& given, Report& repo
   S.place = place;
   S.P.resize(points.rows(), points.rows());
   S.P.setIdentity();
-  add_cells(S, counts, report, task);
+  add_cells(S, local.counts, report, task);
   return S;
 }
 

@@ -22,4 +22,7 @@ namespace littoral {
 NodalSurface cloud_surface(const MatX3& points, const MatX3& normals, Report& report,
                            const Task& task = Task());
 
+/// The cloud with the local triangles as faces, for pictures; none where none can be made.
+PolygonSoup cloud_triangles(const PolygonSoup& cloud, Report& report, const Task& task = Task());
+
 }  // namespace littoral

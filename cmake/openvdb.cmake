@@ -33,3 +33,7 @@ target_include_directories(littoral SYSTEM PRIVATE ${OpenVDB_INCLUDE_DIR})
 target_link_libraries(littoral PRIVATE ${OpenVDB_LIBRARIES})
 set_source_files_properties(src/littoral/io/volume_vdb.cpp PROPERTIES
   SKIP_PRECOMPILE_HEADERS ON COMPILE_DEFINITIONS LITTORAL_OPENVDB=1)
+if(LITTORAL_SANITIZE)
+  set_source_files_properties(src/littoral/io/volume_vdb.cpp PROPERTIES
+    COMPILE_OPTIONS -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/cmake/sanitizers.ignore)
+endif()

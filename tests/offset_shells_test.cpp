@@ -64,7 +64,7 @@ TEST(Offset, SpheresGrowAndShrink) {
                                shells[2].surface.n_faces());
 }
 
-TEST(Offset, OpeningRemovesThinPartsAndKeepsTheRest) {
+TEST(OffsetSlow, OpeningRemovesThinPartsAndKeepsTheRest) {
   // A ball with a thin rod through it.
   const VolumeField field = test::sampled(box_grid(50), [](const Vec3& p) {
     const double rod = std::max(std::hypot(p[0], p[1]) - 0.1, std::abs(p[2]) - 0.9);
@@ -77,7 +77,7 @@ TEST(Offset, OpeningRemovesThinPartsAndKeepsTheRest) {
   EXPECT_NEAR(widest(opened[1].surface), 0.6, 0.02);
 }
 
-TEST(Offset, ClosingFillsAGap) {
+TEST(OffsetSlow, ClosingFillsAGap) {
   // Two balls nearly touching: closing joins them; what is far from the gap stays.
   const Vec3 left(-0.33, 0, 0), right(0.33, 0, 0);
   const VolumeField field = test::sampled(box_grid(50), [&](const Vec3& p) {

@@ -35,7 +35,7 @@ VecX ask(const PolygonSoup& input, const MatX3& queries, const std::string& meth
   return query_distance(input, queries, by(method), gradients, Task(), report);
 }
 
-TEST(SpaceDistance, SignedHeatOnBoxTorusAndCylinderFallsWithTheSpacing) {
+TEST(SpaceDistanceSlow, SignedHeatOnBoxTorusAndCylinderFallsWithTheSpacing) {
   const Vec3 half(0.5, 0.6, 0.7);
   const PolygonSoup shapes[] = {test::box_soup(half), test::torus_soup(96, 48, 0.7, 0.3),
                                 test::cylinder_soup(96, 0.5, 0.6)};
@@ -83,7 +83,7 @@ TEST(SpaceDistance, PseudonormalIsRightWhereFaceNormalsAreNot) {
   EXPECT_LT(values[2], 0);
 }
 
-TEST(SpaceDistance, KernelMethodsApproximateTheSphereAndTheirGradientsAreDerivatives) {
+TEST(SpaceDistanceSlow, KernelMethodsApproximateTheSphereAndTheirGradientsAreDerivatives) {
   const PolygonSoup sphere = test::octasphere_soup(5);
   MatX3 queries = test::random_points(40, 1.6);
   for (const char* method : {"hopf-cole", "planar", "log-sum-exp"}) {
@@ -107,7 +107,7 @@ TEST(SpaceDistance, KernelMethodsApproximateTheSphereAndTheirGradientsAreDerivat
   }
 }
 
-TEST(SpaceDistance, FarAwayNothingUnderflows) {
+TEST(SpaceDistanceSlow, FarAwayNothingUnderflows) {
   MatX3 far(1, 3);
   far << 1e4, 0, 0;
   for (const char* method : {"hopf-cole", "planar", "log-sum-exp", "winding", "closest-point"})

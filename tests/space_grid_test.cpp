@@ -207,7 +207,7 @@ TEST(SampleDirections, InterpolationStaysCloseToEvaluationEverywhere) {
   EXPECT_LT(report.sizes.back().second, 0.5 * static_cast<double>(grid.n_nodes()));
 }
 
-TEST(SignedHeatGrid, SphereErrorFallsWithTheSpacing) {
+TEST(SignedHeatGridSlow, SphereErrorFallsWithTheSpacing) {
   // Observed order over two halvings, samples refined along with the grid.
   const auto error = [](int n, int level, SpaceConstraint constraint) {
     const Grid grid = test::cube_grid(n, 2);

@@ -84,7 +84,8 @@ TEST(Tori, FitIsExactOnPlanes) {
   cloud.points.resize(400, 3);
   cloud.normals.resize(400, 3);
   for (int i = 0; i < 400; ++i) {
-    cloud.points.row(i) = uniform(random) * s + uniform(random) * t + 0.25 * n;
+    const double a = uniform(random), b = uniform(random);  // in this order, whatever the compiler
+    cloud.points.row(i) = a * s + b * t + 0.25 * n;
     cloud.normals.row(i) = n;
   }
   const Tori tori = fitted(cloud);
@@ -94,10 +95,10 @@ TEST(Tori, FitIsExactOnPlanes) {
     const double phi = tori.value(x, gradient);
     // Far from a patch its rim enters; near the plane nothing but the plane is seen.
     if (std::abs(height) < 0.05) {
-      EXPECT_NEAR(phi, height, 1e-5);
-      EXPECT_NEAR((gradient - n).norm(), 0, 5e-3);
+      EXPECT_NEAR(phi, height, 1e-4);  // a thousandth of the spacing
+      EXPECT_NEAR((gradient - n).norm(), 0, 1e-2);
     }
-    EXPECT_NEAR(phi, height, 0.05 * std::abs(height) + 1e-5);
+    EXPECT_NEAR(phi, height, 0.05 * std::abs(height) + 1e-4);
   }
 }
 

@@ -21,6 +21,15 @@ def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+def wait_for_handler(pid: int, number: int) -> None:
+    """Until the program catches the signal: on a busy machine its start may take a while."""
+    for _ in range(500):
+        caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{pid}/status").read_text())
+        if caught and int(caught[1], 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.01)
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("wait", [0.2, 0.6, 1.2])
 def test_interrupt(tmp_path: Path, large: Path, number: int, wait: float) -> None:
@@ -33,6 +42,7 @@ def test_interrupt(tmp_path: Path, large: Path, number: int, wait: float) -> Non
         stderr=subprocess.PIPE,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),  # may be ignored around here
     ) as process:
+        wait_for_handler(process.pid, number)
         time.sleep(wait)
         begin = time.monotonic()
         os.kill(process.pid, number)

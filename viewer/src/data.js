@@ -29,7 +29,11 @@ export function readScene() {
   return scene;
 }
 
-export const valueOf = (field, t) => field.low * (1 - t) + field.high * t;
+// A sum of two parts: what their rounding leaves of 0 is 0.
+export function valueOf(field, t) {
+  const a = field.low * (1 - t), b = field.high * t;
+  return Math.abs(a + b) < 1e-12 * (Math.abs(a) + Math.abs(b)) ? 0 : a + b;
+}
 
 export function numberText(x) {
   if (!Number.isFinite(x)) return x > 0 ? "infinite" : "-infinite";

@@ -59,13 +59,25 @@ def main(program: str, shared: Path) -> None:
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
         curves = shared / "data" / "curves"
         if not curves.is_dir():
-            print(f"{curves} is not there: bumpy-sphere and moebius are left as they are")
+            print(f"{curves} is not there: the other pictures are left as they are")
             return
         bumpy = curves / "bumpy-sphere.obj"
         levels = "--constraint", "level-sets"
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)
         moebius = curves / "mobius-orientable-curve.obj"
         picture("moebius", moebius, moebius.with_suffix(".txt"))
+        bear = curves / "polygon-bear.obj"
+        picture("polygon-bear", bear, bear.with_suffix(".txt"))
+        duck = curves / "ducky-star.pc"
+        picture("ducky-star", duck, duck.with_suffix(".txt"))
+        bunny, field, ring = shared / "data" / "volumes" / "bunny-64.vol", "field.ply", "ring.obj"
+        for command in (
+            ["distance", bunny, "--vertex", "0", "-o", work / field],
+            ["contour", work / field, "--level", "42", "-o", work / ring],
+            ["distance", bunny, "--sources", work / ring, "-o", work / field],
+            ["render", work / field, *SIZE, "-o", out / "bunny-voxels.png"],
+        ):
+            subprocess.run([program, *map(str, command), "--quiet"], check=True)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-// What every method of distance keeps on every discretization: one body for all.
+// What every method of distance keeps on every discretization: one body for
+// all.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,8 +113,45 @@ TEST_P(OnEveryDomain, Relabelling) {
   for (int v = 0; v < phi.size(); ++v) EXPECT_NEAR(psi[name[v]], phi[v], 1e-7);
 }
 
-TEST_P(OnEveryDomain, ComponentsWithoutASourceAreInfinite) {
+TEST_P(OnEveryDomain, FarFromTheOrigin) {
   const Shape s = sphere();
+  Shape moved = s;
+  const Eigen::RowVector3d shift(2e6, -3e6, 1e6);
+  moved.soup.points.rowwise() += shift;
+  SurfaceSources sources = parallel();
+  sources.space_curves[0].points.rowwise() += shift;
+  const VecX phi = s.distance(parallel(), "signed-heat"),
+             psi = moved.distance(sources, "signed-heat");
+  EXPECT_LE((psi - phi).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST_P(OnEveryDomain, PointsWithoutAFaceChangeNothing) {
+  const Shape s = sphere();
+  Shape more = s;
+  const int count = s.soup.n_vertices();
+  auto add = [](MatX3& x, const Eigen::RowVector3d& row) {
+    if (x.rows() == 0) return;
+    x.conservativeResize(x.rows() + 1, 3);
+    x.bottomRows(1) = row;
+  };
+  // In a cloud every other point has neighbours.
+  const double nowhere = s.soup.n_faces() ? 7 : std::nan("");
+  add(more.soup.points, Eigen::RowVector3d(nowhere, 0, 0));
+  add(more.soup.normals, Eigen::RowVector3d(0, 0, 1));
+  const VecX phi = s.distance(parallel(), "signed-heat"),
+             psi = more.distance(parallel(), "signed-heat");
+  EXPECT_LE((psi.head(count) - phi).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(psi[count], std::numeric_limits<double>::infinity());
+}
+
+TEST_P(OnEveryDomain, HeldNormals) {
+  const Shape s = sphere();
+  const VecX phi = s.distance(parallel(), "signed-heat", {{"preserve-normals", "on"}});
+  EXPECT_LE(mean_error(s, phi, [](double t) { return pi / 3 - t; }), 2 * tolerance());
+}
+
+/// Two spheres, five apart.
+Shape twins(const Shape& s) {
   Shape two = s;
   const int half = s.soup.n_vertices();
   auto twice = [](MatX3& x, const Eigen::RowVector3d& shift) {
@@ -129,6 +167,27 @@ TEST_P(OnEveryDomain, ComponentsWithoutASourceAreInfinite) {
     for (int v : s.soup.face(f)) corners.push_back(v + half);
     two.soup.add_face(corners);
   }
+  return two;
+}
+
+TEST_P(OnEveryDomain, ComponentsAreProblemsOfTheirOwn) {
+  const Shape s = sphere(), two = twins(s);
+  const int half = s.soup.n_vertices();
+  SurfaceSources both = parallel();
+  both.space_curves.push_back(both.space_curves[0]);
+  both.space_curves[1].points.rowwise() += Eigen::RowVector3d(5, 0, 0);
+  for (const char* constraint : {"none", "zero-set", "level-sets"}) {
+    const OptionTexts options{{"constraint", constraint}};
+    const VecX phi = s.distance(parallel(), "signed-heat", options);
+    const VecX psi = two.distance(both, "signed-heat", options);
+    EXPECT_LE((psi.head(half) - phi).cwiseAbs().maxCoeff(), 1e-6) << constraint;
+    EXPECT_LE((psi.tail(half) - phi).cwiseAbs().maxCoeff(), 1e-6) << constraint;
+  }
+}
+
+TEST_P(OnEveryDomain, ComponentsWithoutASourceAreInfinite) {
+  const Shape s = sphere(), two = twins(s);
+  const int half = s.soup.n_vertices();
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     Report report;
     const VecX phi = two.distance(parallel(), method, {}, &report);
@@ -149,6 +208,32 @@ TEST_P(OnEveryDomain, SameBitsForAnyNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(Domains, OnEveryDomain,
                          testing::Values(Domain::triangles, Domain::polygons, Domain::points,
                                          Domain::voxels));
+
+class WithFaces : public OnEveryDomain {};
+
+TEST_P(WithFaces, PointsInFacesAndOnEdges) {
+  const Shape s = sphere();
+  const SurfaceMesh mesh(s.soup);
+  const int f = mesh.n_faces() / 3, e = mesh.n_edges() / 2;
+  for (const SurfacePoint& p :
+       {SurfacePoint::in_face(f, 0.3, 0.3, 0.4), SurfacePoint::on_edge(e, 0.3)}) {
+    SurfaceSources sources;
+    sources.points.push_back(p);
+    const Vec3 at = mesh.position(p).normalized();
+    for (const char* method : {"signed-heat", "unsigned-heat"}) {
+      const VecX phi = s.distance(sources, method);
+      double sum = 0;
+      for (int v = 0; v < phi.size(); ++v) {
+        const Vec3 q = s.soup.points.row(v);
+        sum += std::abs(phi[v] - std::atan2(at.cross(q).norm(), at.dot(q)));
+      }
+      EXPECT_LE(sum / static_cast<double>(phi.size()) / pi, 5 * tolerance()) << method;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Domains, WithFaces,
+                         testing::Values(Domain::triangles, Domain::polygons, Domain::voxels));
 
 class InThePlane : public testing::TestWithParam<Domain> {};
 

@@ -276,6 +276,21 @@ TEST(SurfaceWindingData, LabelsOfClosedCurvesAreExact) {
   EXPECT_EQ(wrong_share("base_half", "base_half.swn.txt", "base_half.labels.txt"), 0);
 }
 
+TEST(SurfaceWindingData, ALoopThatBoundsNothingBesideADisk) {
+  LITTORAL_NEEDS_SHARED("data/generated/curves");
+  const auto folder = test::shared() / "data/generated/curves";
+  const SurfaceMesh mesh(io::read_surface(folder / "torus_disc.obj"));
+  Report report;
+  const auto curves = io::read_sources(folder / "torus_meridian_and_disc.txt", mesh, {}, report);
+  SurfaceSources disk, meridian;
+  meridian.curves = {curves.curves[0]};
+  disk.curves = {curves.curves[1]};
+  const WindingAnswer both = winding(mesh, curves), alone = winding(mesh, disk);
+  EXPECT_EQ(both.region, alone.region);
+  EXPECT_EQ((both.region.array() == 1).count(), 60);
+  EXPECT_EQ(winding(mesh, meridian).region, VecXi::Zero(mesh.n_faces()));
+}
+
 TEST(SurfaceWindingData, LabelsOfBrokenCurvesAreNearlySo) {
   LITTORAL_NEEDS_SHARED("data/generated/curves");
   for (const std::string name : {"sphere_cap", "sphere_two_caps"})

@@ -82,6 +82,7 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
     const bool closed = J.d1(omega).cwiseAbs().maxCoeff() < 1e-9;
     result.gamma = closed ? omega : harmonic_part(J, omega, task.stage(0.2, "harmonic part"));
   }
+  if (result.gamma.cwiseAbs().maxCoeff() < 1e-9) return;  // u is of order 1: all curves bound
   // Step 3: v with the shortest jumps, least of all on the curve, and there at most those of u.
   const Stopwatch watch(report, "residual function");
   VecX weight = J.length;

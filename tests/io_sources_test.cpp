@@ -117,7 +117,7 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error_of("v 3\nsigned_curve\nv 4\n"),
             "a.txt:1: node before any keyword (signed_curve, unsigned_curve or unsigned_point)");
   EXPECT_EQ(error_of("signed_curv\nv 3\nv 4\n"),
-            "a.txt:1: unknown record 'signed_curv', expected v, e or l, or a keyword "
+            "a.txt:1: unknown record 'signed_curv', expected v, e, l or c, or a keyword "
             "(signed_curve, unsigned_curve or unsigned_point)");
   EXPECT_EQ(error_of("signed_curve\nv 3\nv 4\nsigned_curv\n"),
             "a.txt:4: unknown keyword 'signed_curv', expected signed_curve, unsigned_curve or "

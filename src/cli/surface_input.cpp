@@ -36,6 +36,7 @@ SurfaceSources read_all_sources(const std::vector<std::string>& files, const Sur
     all.points.insert(all.points.end(), more.points.begin(), more.points.end());
     all.space_curves.insert(all.space_curves.end(), more.space_curves.begin(),
                             more.space_curves.end());
+    all.chains.insert(all.chains.end(), more.chains.begin(), more.chains.end());
   }
   return all;
 }

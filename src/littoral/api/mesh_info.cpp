@@ -282,7 +282,10 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
 
 std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const SurfaceSources& sources,
                                     Report& report) {
-  const PreparedSources prepared = prepare(mesh, sources, false, report);
+  SurfaceSources placed = sources;
+  placed.chains.clear();
+  const PreparedSources prepared =
+      placed.empty() ? PreparedSources{} : prepare(mesh, placed, false, report);
   double n_signed = 0, n_unsigned = 0, n_nodes = 0, length = 0;
   for (const SurfaceCurve& curve : sources.curves) {
     (curve.is_signed ? n_signed : n_unsigned) += 1;
@@ -298,6 +301,7 @@ std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const SurfaceSource
           {"space_curves", static_cast<double>(sources.space_curves.size())},
           {"nodes", n_nodes},
           {"points", static_cast<double>(sources.points.size())},
+          {"face_chains", static_cast<double>(sources.chains.size())},
           {"pieces", static_cast<double>(prepared.pieces.size())},
           {"length", length}};
 }

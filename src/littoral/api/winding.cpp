@@ -1,9 +1,11 @@
 #include "littoral/api/winding.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
+#include "littoral/api/face_chains.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/tear.h"
@@ -114,6 +116,29 @@ VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, cons
   return region;
 }
 
+ConformingCurves conforming(const SurfaceMesh& mesh, const SurfaceSources& drawn, bool flip,
+                            Task& task, Report& report) {
+  if (drawn.empty()) return {cut_mesh(mesh, {}), VecX::Zero(mesh.n_edges()), false};
+  const PreparedSources prepared = prepared_sources({mesh, drawn, flip}, task, report);
+  const Stopwatch watch(report, "cut");
+  return conform(mesh, prepared, report);
+}
+
+std::vector<FaceChain> reversed(std::vector<FaceChain> chains) {
+  for (FaceChain& chain : chains) std::reverse(chain.faces.begin(), chain.faces.end());
+  return chains;
+}
+
+void refuse_sideless(const SurfaceMesh& mesh, const JumpCalculus& J, const VecX& curve) {
+  for (int e = 0; e < J.n_edges; ++e)
+    if (curve[e] != 0 && !J.manifold[e])
+      throw UnsupportedError("the curve runs along the edge between vertices " +
+                             std::to_string(mesh.edges()(e, 0)) + " and " +
+                             std::to_string(mesh.edges()(e, 1)) +
+                             ", where more than two faces meet and it has no sides; write it as a "
+                             "chain of faces (c)");
+}
+
 void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
   int count = 0, first = -1;
   for (int e = 0; e < J.n_edges; ++e)
@@ -150,11 +175,12 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
   report.method = winding_method().name;
   report.domain = "triangle mesh";
   report_options(winding_options(), options, report);
-  const PreparedSources prepared = prepared_sources({mesh, sources, request.flip}, task, report);
-  ConformingCurves curves = [&] {
-    const Stopwatch watch(report, "cut");
-    return conform(mesh, prepared, report);
-  }();
+  SurfaceSources drawn = sources;
+  drawn.chains.clear();
+  ConformingCurves curves = conforming(mesh, drawn, request.flip, task, report);
+  if (curves.is_cut && !sources.chains.empty())
+    throw UnsupportedError(sources.chains[0].origin +
+                           ": chains of faces go with curves along edges, not through faces");
   WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
   const SurfaceMesh& cut = answer.cut.mesh;
   if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
@@ -165,9 +191,17 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
     answer.triangle_of_face = T.triangle_of_face;
     return std::make_shared<const JumpCalculus>(jump_calculus(T));
   }();
-  refuse_nonmanifold(cut, *J);
-  answer.numbers =
-      SurfaceWinding(J).solve(curves.times, options, task.stage(0.9, "winding"), report);
+  if (options.formulation == static_cast<int>(Formulation::dual) || !sources.chains.empty()) {
+    DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
+    refuse_sideless(cut, *J, curve.edge);
+    add_chains(request.flip ? reversed(sources.chains) : sources.chains, *J,
+               answer.triangle_of_face, curve);
+    answer.numbers = dual_winding(*J, curve, options, task.stage(0.9, "winding"), report);
+  } else {
+    refuse_nonmanifold(cut, *J);
+    answer.numbers =
+        SurfaceWinding(J).solve(curves.times, options, task.stage(0.9, "winding"), report);
+  }
   answer.region = labels_of_input(mesh, answer, *J);
   answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
   answer.completed = polylines(cut, answer.numbers.completed);

@@ -149,9 +149,9 @@ class SignedHeatReader {
   std::vector<SurfacePoint> nodes_;
 };
 
-// Surface-winding-number format: points (v, e), and segments between them (l). Points are numbered
-// as they come; a segment may name points that come later. `n` lines separate curves and say
-// nothing.
+// Surface-winding-number format: points (v, e), segments between them (l), and chains of faces (c).
+// Points are numbered as they come; a segment may name points that come later. `n` lines separate
+// curves and say nothing.
 class WindingReader {
  public:
   WindingReader(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
@@ -196,11 +196,16 @@ class WindingReader {
       if (words.size() != 2) scan_.fail("expected 'l POINT POINT'");
       segments_.emplace_back(index_of(scan_, words[0]), index_of(scan_, words[1]));
       segment_lines_.push_back(scan_.line());
+    } else if (letter == "c") {
+      if (words.size() < 2) scan_.fail("expected 'c FACE FACE ...'");
+      FaceChain& chain = chains_.emplace_back(FaceChain{{}, here(scan_.line())});
+      for (std::string_view word : words)
+        chain.faces.push_back(make_.whole_face(index_of(scan_, word), base_));
     } else if (read_node(scan_, make_, letter, words, base_, point)) {
       points_.push_back(point);
       lines_.push_back(scan_.line());
     } else {
-      scan_.fail("unknown record " + in_quotes(letter) + ", expected v, e or l, or a keyword (" +
+      scan_.fail("unknown record " + in_quotes(letter) + ", expected v, e, l or c, or a keyword (" +
                  std::string(keywords) + ")");
     }
   }
@@ -235,6 +240,7 @@ class WindingReader {
       curve.origin = here(lines_[static_cast<std::size_t>(line[0])]);
       sources.curves.push_back(std::move(curve));
     }
+    sources.chains = chains_;
     return sources;
   }
 
@@ -246,6 +252,7 @@ class WindingReader {
   std::vector<SurfacePoint> points_;
   std::vector<std::size_t> lines_, segment_lines_;
   std::vector<std::pair<std::int64_t, std::int64_t>> segments_;
+  std::vector<FaceChain> chains_;
 };
 
 bool has_keyword(std::string_view bytes, const std::string& name) {

@@ -53,6 +53,10 @@ SurfacePoint NodeMaker::edge(std::int64_t i, std::int64_t j, double t, int base)
   return point;
 }
 
+int NodeMaker::whole_face(std::int64_t index, int base) const {
+  return in_range(index, base, mesh_.n_faces(), "face");
+}
+
 SurfacePoint NodeMaker::face(std::int64_t index, std::array<double, 3> b, int base) const {
   const int f = in_range(index, base, mesh_.n_faces(), "face");
   if (mesh_.face(f).size() != 3) {

@@ -36,6 +36,9 @@ class NodeMaker {
   /// are put right.
   SurfacePoint face(std::int64_t index, std::array<double, 3> b, int base) const;
 
+  /// Face `index`, counted from `base`.
+  int whole_face(std::int64_t index, int base) const;
+
   [[noreturn]] void fail(const std::string& text) const;
 
  private:

@@ -71,24 +71,23 @@ VecXi rounded_labels(const JumpCalculus& J, const CornerFunction& w, const VecX&
   return region;
 }
 
-VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const VecX& weight, const Task& task,
-                 Report& report) {
+VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const std::vector<FacePair>& pairs,
+                 const VecX& weight, const Task& task, Report& report) {
   L1Integration problem;
   problem.n = J.n_faces;
-  std::vector<int> edges;
-  for (int e = 0; e < J.n_edges; ++e) {
-    if (!J.interior(e) || J.sides[e][0].face == J.sides[e][1].face) continue;
-    problem.f.push_back(J.sides[e][0].face);
-    problem.g.push_back(J.sides[e][1].face);
-    edges.push_back(e);
-  }
-  const auto m = static_cast<Eigen::Index>(edges.size());
-  problem.c.resize(m);
-  problem.w.resize(m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    problem.c[i] = -std::round(jump[edges[i]]);
-    problem.w[i] = weight[edges[i]];
-  }
+  std::vector<double> c, w;
+  const auto arc = [&](int left, int right, double step, double cost) {
+    if (left == right) return;
+    problem.f.push_back(left);
+    problem.g.push_back(right);
+    c.push_back(-std::round(step));
+    w.push_back(cost);
+  };
+  for (int e = 0; e < J.n_edges; ++e)
+    if (J.interior(e)) arc(J.sides[e][0].face, J.sides[e][1].face, jump[e], weight[e]);
+  for (const FacePair& p : pairs) arc(p.left, p.right, p.jump, weight[p.edge]);
+  problem.c = Eigen::Map<const VecX>(c.data(), static_cast<Eigen::Index>(c.size()));
+  problem.w = Eigen::Map<const VecX>(w.data(), static_cast<Eigen::Index>(w.size()));
   const L1Solution solution = integrate_l1(problem, {}, task, report);
   VecXi region(J.n_faces);
   for (int f = 0; f < J.n_faces; ++f) region[f] = static_cast<int>(std::lround(solution.s[f]));

@@ -26,9 +26,10 @@ VecX contour_shift(const JumpCalculus& J, const CornerFunction& w, const VecX& c
 VecXi rounded_labels(const JumpCalculus& J, const CornerFunction& w, const VecX& shift);
 
 /// Integer labels W that minimise sum_e weight_e |W_left - W_right - jump_e| for integer jumps: the
-/// cheapest completion of a curve, or part of it, to one that bounds. Exact. faces.
-VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const VecX& weight, const Task& task,
-                 Report& report);
+/// cheapest completion of a curve, or part of it, to one that bounds. Also across `pairs`, weighted
+/// by their edges. Exact. faces.
+VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const std::vector<FacePair>& pairs,
+                 const VecX& weight, const Task& task, Report& report);
 
 /// Subtracts a constant on each component so that the label of the largest area (of two, the one
 /// nearer zero) is 0. Reversing the curve then reverses the labels.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "littoral/base/error.h"
 #include "littoral/methods/jump_laplace.h"
@@ -78,16 +79,8 @@ ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, cons
   problem.w = gather(weight);
   problem.lo = gather(lo);
   problem.hi = gather(hi);
-  L1Solution solution;
-  try {
-    solution = integrate_l1(problem, options, task, report);
-  } catch (const InputError&) {
-    if (!problem.lo.size()) throw;
-    problem.lo.resize(0);
-    problem.hi.resize(0);
-    out.bounded = false;
-    solution = integrate_l1(problem, options, task, report);
-  }
+  const L1Solution solution =
+      integrate_l1_if_bounded(std::move(problem), options, task, report, out.bounded);
   for (int f = 0; f < J.n_faces; ++f)
     if (node[f] >= 0) out.v.row(f).array() += solution.s[node[f]];
   out.jump = jump_derivative(J, out.v);

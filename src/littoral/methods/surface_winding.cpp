@@ -11,6 +11,9 @@ const OptionTable<WindingOptions>& winding_options() {
   using O = WindingOptions;
   static const OptionTable<O> table =
       OptionTable<O>()
+          .choice(&O::formulation, "formulation", {"primal", "dual"},
+                  "Values at corners, or one per face: that also works where three or more faces "
+                  "meet. Chains of faces among the sources imply dual.")
           .choice(&O::labels, "labels", {"round", "cut"},
                   "Labels by rounding the winding number function, or by the shortest integer "
                   "completion of the curve.")
@@ -24,6 +27,26 @@ const OptionTable<WindingOptions>& winding_options() {
                   "Leaves parts of the curve that bound nothing in: rounds the solution of the "
                   "jump Laplace equation as it is.");
   return table;
+}
+
+void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
+                   const WindingOptions& options, const Task& task, WindingNumbers& result,
+                   Report& report) {
+  const Stopwatch watch(report, "labels");
+  const VecX shift =
+      contour_shift(J, result.w, result.bounding, static_cast<Contour>(options.contour));
+  if (static_cast<Labels>(options.labels) == Labels::cut)
+    result.region = cut_labels(J, result.bounding, pairs, J.length, task, report);
+  else
+    result.region = rounded_labels(J, result.w, shift);
+  VecXi shifted = result.region;
+  label_outside_zero(J, shifted);
+  for (int f = 0; f < J.n_faces; ++f)
+    result.w.u.row(f).array() += shift[J.component[f]] + shifted[f] - result.region[f];
+  result.region = shifted;
+  MatX3 label(J.n_faces, 3);
+  for (int f = 0; f < J.n_faces; ++f) label.row(f).setConstant(result.region[f]);
+  result.completed = jump_derivative(J, label);
 }
 
 WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& options, Task task,
@@ -54,21 +77,7 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
     result.w = solve_jump_laplace(J, result.bounding, task.stage(0.6, "jump Laplace"), report);
   }
 
-  const Stopwatch watch(report, "labels");
-  const VecX shift =
-      contour_shift(J, result.w, result.bounding, static_cast<Contour>(options.contour));
-  if (static_cast<Labels>(options.labels) == Labels::cut)
-    result.region = cut_labels(J, result.bounding, J.length, task.stage(1, "labels"), report);
-  else
-    result.region = rounded_labels(J, result.w, shift);
-  VecXi shifted = result.region;
-  label_outside_zero(J, shifted);
-  for (int f = 0; f < J.n_faces; ++f)
-    result.w.u.row(f).array() += shift[J.component[f]] + shifted[f] - result.region[f];
-  result.region = shifted;
-  MatX3 label(J.n_faces, 3);
-  for (int f = 0; f < J.n_faces; ++f) label.row(f).setConstant(result.region[f]);
-  result.completed = jump_derivative(J, label);
+  label_regions(J, {}, options, task.stage(1, "labels"), result, report);
   return result;
 }
 
@@ -98,10 +107,7 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
   const ResidualFunction residual =
       integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {},
                       task.stage(0.7, "residual function"), report);
-  if (!residual.bounded)
-    report.warn(
-        "the curve crosses itself so that jumps of the residual function could not be "
-        "bounded by the curve's");
+  if (!residual.bounded) report.warn(unbounded_warning);
   for (int f = 0; f < J.n_faces; ++f)
     if (take[J.component[f]]) result.v.row(f) = residual.v.row(f);
   result.objective = residual.objective;

@@ -3,6 +3,7 @@
 // set of curves bounds on a surface of any topology, and which curves bound nothing.
 
 #include <memory>
+#include <vector>
 
 #include "littoral/base/option_table.h"
 #include "littoral/base/report.h"
@@ -16,7 +17,11 @@ namespace littoral {
 /// How faces get their labels.
 enum class Labels { round, cut };
 
+/// Values at corners, or one per face (thesis 6.4).
+enum class Formulation { primal, dual };
+
 struct WindingOptions {
+  int formulation = static_cast<int>(Formulation::primal);
   int contour = static_cast<int>(Contour::curve);
   int labels = static_cast<int>(Labels::round);
   double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
@@ -40,6 +45,16 @@ struct WindingNumbers {
   double objective = 0;  // of the residual function, in units of length
   double gap = 0;
 };
+
+inline constexpr const char* unbounded_warning =
+    "the curve crosses itself so that jumps of the residual function could not be bounded by the "
+    "curve's";
+
+/// Step 5: labels, and what follows from them, for given `w` and `bounding`. `pairs`: of the dual
+/// formulation, or none.
+void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
+                   const WindingOptions& options, const Task& task, WindingNumbers& result,
+                   Report& report);
 
 /// One surface's winding numbers; const and usable from several threads.
 class SurfaceWinding {

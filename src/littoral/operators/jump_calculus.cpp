@@ -1,7 +1,11 @@
 #include "littoral/operators/jump_calculus.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <string>
+
+#include "littoral/base/error.h"
 
 namespace littoral {
 
@@ -164,6 +168,29 @@ JumpCalculus jump_calculus(const IntrinsicTriangulation& T) {
   // Any positive star decomposes forms; where the cotangents' is not, it is made so.
   J.star1 = J.star1.cwiseMax(1e-3).cwiseMin(1e3);
   return J;
+}
+
+std::vector<FacePair> pairs_at_nonmanifold_edges(const JumpCalculus& J) {
+  constexpr std::size_t most = 64;
+  std::map<int, std::vector<JumpCalculus::Side>> around;
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k)
+      if (!J.manifold[J.edge(f, k)]) around[J.edge(f, k)].push_back({f, k});
+  std::vector<FacePair> pairs;
+  for (const auto& [e, sides] : around) {
+    if (sides.size() > most)
+      throw UnsupportedError(std::to_string(sides.size()) + " faces, the first of them " +
+                             std::to_string(sides[0].face) + ", meet at one edge; at most " +
+                             std::to_string(most) + " may where winding numbers are wanted");
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = i + 1; j < sides.size(); ++j) {
+        const auto [f, k] = sides[i];
+        const auto [g, l] = sides[j];
+        const double star1 = std::clamp(J.weight(f, k) + J.weight(g, l), 1e-3, 1e3);
+        pairs.push_back({f, g, e, 0, star1});
+      }
+  }
+  return pairs;
 }
 
 }  // namespace littoral

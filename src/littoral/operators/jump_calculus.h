@@ -47,7 +47,18 @@ struct JumpCalculus {
   VecX d1_transpose(const VecX& beta) const;
 };
 
+/// Two faces at an edge where three or more meet, and how a function jumps between them.
+struct FacePair {
+  int left = -1, right = -1, edge = -1;
+  double jump = 0;   // left minus right
+  double star1 = 1;  // as of an edge of these two faces
+};
+
 /// Throws nothing: edges of three or more faces are left unglued, `manifold` says where.
 JumpCalculus jump_calculus(const IntrinsicTriangulation& T);
+
+/// All pairs of faces at edges of three or more, without jumps. Throws UnsupportedError where more
+/// than 64 faces meet at one edge.
+std::vector<FacePair> pairs_at_nonmanifold_edges(const JumpCalculus& J);
 
 }  // namespace littoral

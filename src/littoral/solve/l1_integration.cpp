@@ -188,4 +188,18 @@ L1Solution integrate_l1(const L1Integration& p, const L1Options& options, const 
   return solution;
 }
 
+L1Solution integrate_l1_if_bounded(L1Integration problem, const L1Options& options,
+                                   const Task& task, Report& report, bool& bounded) {
+  bounded = true;
+  try {
+    return integrate_l1(problem, options, task, report);
+  } catch (const InputError&) {
+    if (!problem.lo.size()) throw;
+  }
+  problem.lo.resize(0);
+  problem.hi.resize(0);
+  bounded = false;
+  return integrate_l1(problem, options, task, report);
+}
+
 }  // namespace littoral

@@ -54,4 +54,8 @@ struct L1Solution {
 L1Solution integrate_l1(const L1Integration& problem, const L1Options& options, const Task& task,
                         Report& report);
 
+/// The same, but bounds that no s satisfies are given up: `bounded` tells.
+L1Solution integrate_l1_if_bounded(L1Integration problem, const L1Options& options,
+                                   const Task& task, Report& report, bool& bounded);
+
 }  // namespace littoral

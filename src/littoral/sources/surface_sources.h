@@ -24,13 +24,23 @@ struct SpaceCurve {
   std::string origin;
 };
 
+/// A dual chain: faces, neighbours in this order; a winding number is larger by one on every face
+/// than on the one before it.
+struct FaceChain {
+  std::vector<int> faces;
+  std::string origin;
+};
+
 /// All sources of one problem, in any mixture.
 struct SurfaceSources {
   std::vector<SurfaceCurve> curves;
   std::vector<SurfacePoint> points;  // unsigned isolated points
   std::vector<SpaceCurve> space_curves;
+  std::vector<FaceChain> chains;  // for winding numbers only
 
-  bool empty() const { return curves.empty() && points.empty() && space_curves.empty(); }
+  bool empty() const {
+    return curves.empty() && points.empty() && space_curves.empty() && chains.empty();
+  }
 };
 
 }  // namespace littoral

@@ -1,0 +1,152 @@
+// The dual formulation of surface winding numbers, and chains of faces.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "littoral/api/winding.h"
+#include "littoral/base/error.h"
+#include "littoral/io/read.h"
+#include "littoral/io/source_nodes.h"
+#include "shared_data.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+WindingAnswer dual(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip = false,
+                   OptionTexts options = {}) {
+  Report report;
+  options.emplace_back("formulation", "dual");
+  return surface_winding(mesh, sources, {options, flip}, {}, report);
+}
+
+SurfaceSources chain_of(std::vector<std::vector<int>> chains) {
+  SurfaceSources sources;
+  for (auto& faces : chains) sources.chains.push_back({faces, "test"});
+  return sources;
+}
+
+TEST(DualWinding, AgreesWithThePrimalOnClosedCurvesAndNearlyOnBrokenOnes) {
+  LITTORAL_NEEDS_SHARED("data/generated/curves");
+  const auto folder = test::shared() / "data/generated/curves";
+  const struct {
+    const char *mesh, *curve;
+    double differs;
+  } cases[] = {{"sphere_cap", "sphere_two_caps.swn.txt", 0},
+               {"torus_disc", "torus_meridian_and_disc.txt", 0},
+               {"torus_disc", "torus_band.txt", 0},
+               {"torus_disc", "torus_meridian.txt", 0},
+               {"sphere_cap", "sphere_cap.broken20.swn.txt", 0.03},
+               {"torus_disc", "torus_disc.broken20.swn.txt", 0.03}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.curve);
+    const SurfaceMesh mesh(io::read_surface(folder / (std::string(c.mesh) + ".obj")));
+    Report report;
+    const auto sources = io::read_sources(folder / c.curve, mesh, {}, report);
+    const VecXi primal = surface_winding(mesh, sources, {{}, false}, {}, report).region;
+    const VecXi region = dual(mesh, sources).region;
+    EXPECT_LE((region.array() != primal.array()).cast<double>().mean(), c.differs);
+    EXPECT_EQ(dual(mesh, sources, true).region, -region);
+  }
+}
+
+/// A band of n quads from x = 0 to x = n, whose ends are joined: turned over, or not.
+SurfaceMesh band(int n, bool twisted) {
+  PolygonSoup soup;
+  soup.points.resize(2 * n, 3);
+  for (int i = 0; i < n; ++i) {
+    const double a = 2 * M_PI * i / n, half = twisted ? a / 2 : 0;
+    const Vec3 out(std::cos(a), std::sin(a), 0);
+    const Vec3 across = std::cos(half) * Vec3::UnitZ() + std::sin(half) * out;
+    soup.points.row(2 * i) = (3 * out - across).transpose();
+    soup.points.row(2 * i + 1) = (3 * out + across).transpose();
+  }
+  for (int i = 0; i < n; ++i) {
+    int c = 2 * i + 2, d = 2 * i + 3;
+    if (i == n - 1) {
+      c = twisted ? 1 : 0;
+      d = twisted ? 0 : 1;
+    }
+    test::add_triangle(soup, 2 * i, c, d);
+    test::add_triangle(soup, 2 * i, d, 2 * i + 1);
+  }
+  return SurfaceMesh(soup);
+}
+
+TEST(DualWinding, RegionsOfAMoebiusBand) {
+  // Two cuts across: up into the fifth quad, down after the tenth.
+  for (const bool twisted : {false, true}) {
+    const SurfaceMesh mesh = band(40, twisted);
+    const VecXi region = dual(mesh, chain_of({{8, 11}, {21, 18}})).region;
+    for (int f = 0; f < mesh.n_faces(); ++f) EXPECT_EQ(region[f], f >= 10 && f < 20 ? 1 : 0) << f;
+  }
+}
+
+TEST(DualWinding, ACutAcrossAMoebiusBandBoundsNothing) {
+  for (const bool twisted : {false, true}) {
+    const SurfaceMesh mesh = band(40, twisted);
+    const VecXi region = dual(mesh, chain_of({{8, 11}})).region;
+    EXPECT_EQ(region, VecXi::Zero(mesh.n_faces())) << twisted;
+  }
+}
+
+/// Three square pages that meet along one edge, n x n quads each.
+PolygonSoup book(int n) {
+  PolygonSoup soup;
+  soup.points.resize(3 * (n + 1) * (n + 1), 3);
+  const auto vertex = [&](int page, int i, int j) {
+    return i == 0 ? j : (page * (n + 1) + i) * (n + 1) + j;  // i = 0: the spine
+  };
+  soup.points.setZero();
+  for (int page = 0; page < 3; ++page) {
+    const Vec3 out(std::cos(2.1 * page), std::sin(2.1 * page), 0);
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        soup.points.row(vertex(page, i, j)) = (i * out + j * Vec3::UnitZ()).transpose() / n;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j),
+                           vertex(page, i + 1, j + 1));
+        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1),
+                           vertex(page, i, j + 1));
+      }
+  }
+  return soup;
+}
+
+TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
+  constexpr int n = 6;
+  const SurfaceMesh mesh(book(n));
+  // At the spine, page 2 is above pages 0 and 1.
+  SurfaceSources sources;
+  for (int j = 0; j < n; ++j) {
+    const auto at_spine = [&](int page) { return 2 * (page * n * n + j) + 1; };
+    sources.chains.push_back({{at_spine(0), at_spine(2)}, "a"});
+    sources.chains.push_back({{at_spine(1), at_spine(2)}, "b"});
+  }
+  VecXi region = dual(mesh, sources).region;
+  for (int f = 0; f < mesh.n_faces(); ++f) EXPECT_EQ(region[f], f / (2 * n * n) == 2) << f;
+  // The same with one third of it missing, cut.
+  sources.chains.resize(8);
+  region = dual(mesh, sources, false, {{"labels", "cut"}}).region;
+  for (int f = 0; f < mesh.n_faces(); ++f) EXPECT_EQ(region[f], f / (2 * n * n) == 2) << f;
+}
+
+TEST(DualWinding, RefusesChainsThatAreNone) {
+  const SurfaceMesh mesh = band(40, false);
+  EXPECT_THROW(dual(mesh, chain_of({{3, 9}})), InputError);
+  EXPECT_THROW(dual(mesh, chain_of({{3, 3}})), InputError);
+  const auto read = [&](const std::string& text) {
+    return io::read_sources_txt(text, "a.txt", mesh, {});
+  };
+  EXPECT_EQ(read("c 10 11\nc 21 20 19\n").chains[1].faces, (std::vector<int>{20, 19, 18}));
+  EXPECT_EQ(read("#offset 0\nc 10 11\n").chains[0].faces, (std::vector<int>{10, 11}));
+  EXPECT_THROW(read("c 10\n"), InputError);
+  EXPECT_THROW(read("c 10 81\n"), InputError);
+  EXPECT_THROW(read("c 10 x\n"), InputError);
+  EXPECT_THROW(read("c 0 1\n"), InputError);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -212,5 +212,42 @@ TEST(Picture, DegenerateAndExtremeInputsGiveAPicture) {
   EXPECT_EQ(io::draw_picture(square_scene(), tiny).rgb.size(), 16u * 16u * 3u);
 }
 
+// Around a corner of weight 0 the value is constant along rays: that of the opposite side.
+TEST(Picture, CornersWithoutWeightTakeEveryValue) {
+  PolygonSoup soup;
+  soup.points.resize(3, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  test::add_triangle(soup, 0, 1, 2);
+  soup.scalars["winding"] = Vec3(5, 0, 1);  // the 5 counts for nothing
+  soup.scalars["weight"] = Vec3(0, 1, 1);
+  io::Scene scene = io::make_scene(soup, "winding");
+  scene.isolines = 0;
+  scene.values[0] = 0.5;
+  const io::Image image = io::draw_picture(scene, small());
+  scene.weights.resize(0);
+  scene.triangles.row(0) << 0, 1, 2;
+  const io::Image linear = io::draw_picture(scene, small());
+  EXPECT_NE(image.rgb, linear.rgb);
+  // A scene of many thin triangles with the exact values looks the same.
+  constexpr int n = 400;
+  io::Scene fan;
+  fan.points.resize(2 * n + 2, 3);
+  fan.values.resize(2 * n + 2);
+  fan.triangles.resize(n, 3);
+  for (int i = 0; i <= n; ++i) {
+    const double s = double(i) / n;
+    fan.points.row(2 * i) << 0, 0, 0;
+    fan.points.row(2 * i + 1) << 1 - s, s, 0;
+    fan.values[2 * i] = fan.values[2 * i + 1] = s;
+    if (i < n) fan.triangles.row(i) << 2 * i, 2 * i + 1, 2 * i + 3;
+  }
+  fan.isolines = 0;
+  const io::Image expected = io::draw_picture(fan, small());
+  int far = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); ++i)
+    far += std::abs(int{image.rgb[i]} - int{expected.rgb[i]}) > 8;
+  EXPECT_LT(far, 60);
+}
+
 }  // namespace
 }  // namespace littoral

@@ -17,6 +17,8 @@ export function readScene() {
   scene.innerSides = bytes(scene.innerSides);
   // 0..1 between the field's least and greatest value, or +inf
   scene.values = scene.values === undefined ? null : floats(scene.values);
+  // of values in interpolation, 255: 1
+  scene.weights = scene.weights === undefined ? null : bytes(scene.weights);
   if (scene.volume) {
     // 0..1 as for surfaces, in 65534 steps; 65535 is infinite
     const steps = new Uint16Array(bytes(scene.volume.values).buffer);

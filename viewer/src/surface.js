@@ -5,7 +5,9 @@ import { vertexNormals, wireEdges } from "./data.js";
 const vertexShader = `
 in float t;
 in float infinite;
-out float vT;
+in float lightness;  // 1 - weight, so that geometry without the attribute has weight 1
+out float vTimes;
+out float vWeight;
 out float vInfinite;
 out vec3 vNormal;
 out float vSmooth;
@@ -13,7 +15,8 @@ out vec3 vPosition;
 out vec3 vPlace;
 void main() {
   vPlace = position;
-  vT = t;
+  vWeight = 1.0 - lightness;
+  vTimes = t * vWeight;
   vInfinite = infinite;
   vNormal = normalMatrix * normal;
   vSmooth = min(1.0, dot(normal, normal));
@@ -24,7 +27,8 @@ void main() {
 
 const fragmentHead = `
 precision highp float;
-in float vT;
+in float vTimes;
+in float vWeight;
 in float vInfinite;
 in vec3 vNormal;
 in float vSmooth;
@@ -32,6 +36,8 @@ in vec3 vPosition;
 in vec3 vPlace;
 out vec4 result;
 uniform vec4 cut;  // nothing is drawn where cut.xyz . place > cut.w
+// Projective interpolation: round a corner of weight 0 the field takes every value.
+float fieldValue() { return vTimes / max(vWeight, 1e-6); }
 `;
 
 const fragmentShader = `${fragmentHead}
@@ -63,6 +69,7 @@ void main() {
   if (dot(n, vPosition) > 0.0) n = -n;
   vec3 lamp = normalize(vec3(-0.25, 0.35, 1.0));
   float light = min(1.06, 0.5 + 0.5 * max(0.0, dot(n, lamp)) / lamp.z);
+  float vT = fieldValue();
   float slope = length(vec2(dFdx(vT), dFdy(vT)));
 
   vec3 colour = plainColour;
@@ -105,7 +112,7 @@ void main() {
 const pickShader = `${fragmentHead}
 void main() {
   if (dot(cut.xyz, vPlace) > cut.w) discard;
-  float x = floor(clamp(vT, 0.0, 1.0) * 16777215.0 + 0.5);
+  float x = floor(clamp(fieldValue(), 0.0, 1.0) * 16777215.0 + 0.5);
   result = vec4(floor(x / 65536.0), mod(floor(x / 256.0), 256.0), mod(x, 256.0),
                 vInfinite > 1e-4 ? 128.0 : 255.0) / 255.0;
 }`;
@@ -183,6 +190,8 @@ export function makeSurface(scene, look) {
   geometry.setAttribute("normal", new THREE.BufferAttribute(vertexNormals(positions, triangles), 3));
   geometry.setAttribute("t", new THREE.BufferAttribute(t, 1));
   geometry.setAttribute("infinite", new THREE.BufferAttribute(infinite, 1, true));
+  if (scene.weights)
+    geometry.setAttribute("lightness", new THREE.BufferAttribute(scene.weights.map((w) => 255 - w), 1, true));
   geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
   geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1);
 

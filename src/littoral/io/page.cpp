@@ -189,6 +189,12 @@ json scene_json(const Scene& all) {
                                             : std::numeric_limits<float>::infinity());
     }
     page["values"] = base64(values);
+    if (scene.weights.size() && (scene.weights.array() != 1).any()) {
+      std::vector<unsigned char> weights;
+      for (const double w : scene.weights)
+        weights.push_back(static_cast<unsigned char>(std::lround(255 * w)));
+      page["weights"] = base64(weights);
+    }
   }
   return page;
 }

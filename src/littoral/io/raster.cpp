@@ -202,16 +202,28 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   if (!style_.present) {
     return as_colour(scene_.values.size() ? infinite_colour : plain_colour) * brightness;
   }
+  // How much the corners count in the field; they count alike in a face without one that does.
+  double counts[3] = {1, 1, 1}, total = 0;
+  if (scene_.weights.size())
+    for (int k = 0; k < 3; ++k) counts[k] = scene_.weights[v[k]];
+  for (int k = 0; k < 3; ++k) total += counts[k] * b[k];
+  if (!(total > 0)) {
+    counts[0] = counts[1] = counts[2] = 1;
+    total = weight;
+  }
   double value = 0;
-  for (int k = 0; k < 3; ++k) value += b[k] / weight * scene_.values[v[k]];
+  for (int k = 0; k < 3; ++k)
+    if (counts[k] > 0) value += counts[k] * b[k] / total * scene_.values[v[k]];
   if (!std::isfinite(value)) return as_colour(infinite_colour) * brightness;
   Eigen::Vector3f colour = as_colour(colour_map(style_.diverging)[static_cast<std::size_t>(
       std::lround(255 * colour_position(style_, value)))]);
-  // Slope of the value per sample: value = N / D with N = sum b v, D = sum b linear in the picture.
+  // Slope of the value per sample: value = N / D with N = sum c b v, D = sum c b linear in the
+  // picture, where corners count c.
   double slope_x = 0, slope_y = 0;
   for (int k = 0; k < 3; ++k) {
     const Vec3 &a = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-    const double rest = (scene_.values[v[k]] - value) / (area * p[k][2] * weight);
+    if (counts[k] == 0) continue;
+    const double rest = counts[k] * (scene_.values[v[k]] - value) / (area * p[k][2] * total);
     slope_x -= (c[1] - a[1]) * rest;
     slope_y += (c[0] - a[0]) * rest;
   }

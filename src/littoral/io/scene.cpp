@@ -17,6 +17,9 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
   scene.points = soup.points;
   scene.field_name = field;
   if (const auto it = soup.scalars.find(field); it != soup.scalars.end()) scene.values = it->second;
+  if (const auto it = soup.scalars.find("weight"); it != soup.scalars.end() && field != "weight")
+    if (scene.values.size() && it->second.minCoeff() >= 0 && it->second.maxCoeff() <= 1)
+      scene.weights = it->second;
   Eigen::Index count = 0;
   bool polygons = false;
   for (int f = 0; f < soup.n_faces(); ++f) {
@@ -84,6 +87,9 @@ void check_scene(const Scene& scene) {
   for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
     if (std::isnan(scene.values[v])) refuse("the value of vertex " + std::to_string(v) + " is NaN");
   }
+  if (scene.weights.size() != 0 && (scene.weights.size() != n || !(scene.weights.minCoeff() >= 0 &&
+                                                                   scene.weights.maxCoeff() <= 1)))
+    refuse("weights must be between 0 and 1, one a vertex");
   for (const SceneCurve& curve : scene.curves) {
     if (!curve.points.allFinite()) refuse("a source curve has a node that is not finite");
   }

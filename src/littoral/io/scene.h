@@ -41,6 +41,7 @@ struct Scene {
   std::vector<unsigned char>
       inner_sides;  // triangles: bit k set if side k is inside a polygon; or empty
   VecX values;      // vertices, may be infinite, never NaN; or empty: no field
+  VecX weights;  // vertices, 0..1: values are interpolated as sum b w v / sum b w; or empty: all 1
   std::string field_name = "distance";
   std::vector<SceneCurve> curves;
   MatX3 source_points{0, 3};                  // isolated source points x 3
@@ -52,7 +53,7 @@ struct Scene {
 };
 
 /// A scene of a surface: polygons cut into fans, the soup's scalar `field` as values where it has
-/// one.
+/// one, its scalar "weight" as weights.
 Scene make_scene(const PolygonSoup& soup, const std::string& field = "distance");
 
 /// Adds the sources of a problem on `mesh`; nodes of one curve are joined by straight segments.

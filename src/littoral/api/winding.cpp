@@ -55,14 +55,6 @@ Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
   return lines;
 }
 
-/// Each edge of the curve goes to the part of which it has the larger share.
-VecX bounding_edges(const WindingNumbers& numbers) {
-  VecX times = numbers.curve;
-  for (Eigen::Index e = 0; e < times.size(); ++e)
-    if (std::abs(numbers.nonbounding[e]) > 0.5 * std::abs(times[e])) times[e] = 0;
-  return times;
-}
-
 double total_length(const Polylines& lines) {
   double length = 0;
   for (const MatX3& line : lines)
@@ -205,7 +197,7 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
   answer.region = labels_of_input(mesh, answer, *J);
   answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
   answer.completed = polylines(cut, answer.numbers.completed);
-  const VecX bounding = bounding_edges(answer.numbers);
+  const VecX& bounding = answer.numbers.bounding;
   answer.bounding = polylines(cut, bounding);
   answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
   report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
@@ -216,7 +208,7 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
 
 SurfaceSources bounding_sources(const WindingAnswer& answer) {
   SurfaceSources sources;
-  for (const auto& chain : chains(answer.cut.mesh, bounding_edges(answer.numbers))) {
+  for (const auto& chain : chains(answer.cut.mesh, answer.numbers.bounding)) {
     SurfaceCurve curve;
     for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
     sources.curves.push_back(std::move(curve));

@@ -178,8 +178,8 @@ void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const Windin
     DualEdge& e = edges[a];
     const double share = -(gamma[a] + v.s[e.left] - v.s[e.right]);
     if (e.jump == 0 || std::abs(share) <= 1e-7) continue;
-    if (e.edge >= 0) result.nonbounding[e.edge] = share;
-    e.jump -= share;
+    result.nonbounding[e.edge] = share;
+    if (std::abs(share) > 0.5 * std::abs(e.jump)) e.jump = 0;
   }
 }
 
@@ -203,18 +203,19 @@ WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
     u = solve_dual_laplace(D, edges, task.stage(0.2, "dual Laplace"), report);
   }
   result.u = result.w = at_corners(J, u);
-  if (!options.keep_nonbounding) {
+  // Round edges of three or more faces turns would have to be told apart from loops.
+  if (!options.keep_nonbounding && !curve.pairs.empty())
+    report.warn("edges of three or more faces: parts of curves that bound nothing are kept");
+  if (!options.keep_nonbounding && curve.pairs.empty()) {
     const Stopwatch watch(report, "residual function");
-    // Steps 2 to 4. Only the edges of two faces are on turns.
+    // Steps 2 to 4.
     VecX omega = VecX::Zero(J.n_edges), gamma(static_cast<Eigen::Index>(edges.size()));
     for (std::size_t a = 0; a < edges.size(); ++a) {
       const DualEdge& e = edges[a];
-      gamma[a] = u[e.left] - u[e.right] - e.jump;
-      if (e.edge >= 0) omega[e.edge] = gamma[a];
+      omega[e.edge] = u[e.left] - u[e.right] - e.jump;
     }
     subtract_coexact(J, task.stage(0.3, "harmonic part"), omega);
-    for (std::size_t a = 0; a < edges.size(); ++a)
-      if (edges[a].edge >= 0) gamma[a] = omega[edges[a].edge];
+    for (std::size_t a = 0; a < edges.size(); ++a) gamma[a] = omega[edges[a].edge];
     if (gamma.size() && gamma.cwiseAbs().maxCoeff() > 1e-9) {
       take_out_nonbounding(D, gamma, options, task.stage(0.7, "residual function"), edges, result,
                            report);
@@ -222,11 +223,8 @@ WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
           at_corners(J, solve_dual_laplace(D, edges, task.stage(0.6, "dual Laplace"), report));
     }
   }
-  result.bounding = result.curve - result.nonbounding;
-  std::vector<FacePair> left = curve.pairs;
-  for (std::size_t i = 0, a = edges.size() - left.size(); i < left.size(); ++i, ++a)
-    left[i].jump = edges[a].jump;
-  label_regions(D, left, options, task.stage(1, "labels"), result, report);
+  result.bounding = bounding_part(result);
+  label_regions(D, curve.pairs, options, task.stage(1, "labels"), result, report);
   return result;
 }
 

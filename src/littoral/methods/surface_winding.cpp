@@ -29,6 +29,13 @@ const OptionTable<WindingOptions>& winding_options() {
   return table;
 }
 
+VecX bounding_part(const WindingNumbers& numbers) {
+  VecX times = numbers.curve;
+  for (Eigen::Index e = 0; e < times.size(); ++e)
+    if (std::abs(numbers.nonbounding[e]) > 0.5 * std::abs(times[e])) times[e] = 0;
+  return times;
+}
+
 void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
                    const WindingOptions& options, const Task& task, WindingNumbers& result,
                    Report& report) {
@@ -71,7 +78,7 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
   result.w = result.u;
   if (!options.keep_nonbounding && !simple) {
     decompose(result, options, task, report);
-    result.bounding = result.curve - result.nonbounding;
+    result.bounding = bounding_part(result);
     // Step 5: w, eq. 6.2 with what is left of the curve.
     const Stopwatch watch(report, "winding function");
     result.w = solve_jump_laplace(J, result.bounding, task.stage(0.6, "jump Laplace"), report);

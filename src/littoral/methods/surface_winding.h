@@ -40,7 +40,7 @@ struct WindingNumbers {
   VecXi region;          // faces, integer winding number; 0 covers most of each component
   VecX curve;            // edges, the input
   VecX nonbounding;      // edges, share of the curve that bounds nothing
-  VecX bounding;         // edges, curve - nonbounding
+  VecX bounding;         // edges, the curve where less than half of it bounds nothing
   VecX completed;        // edges, jumps of `region`: the closed curve that bounds the regions
   double objective = 0;  // of the residual function, in units of length
   double gap = 0;
@@ -49,6 +49,9 @@ struct WindingNumbers {
 inline constexpr const char* unbounded_warning =
     "the curve crosses itself so that jumps of the residual function could not be bounded by the "
     "curve's";
+
+/// Step 4: the edges of the curve, whole, that are not rather nonbounding than bounding.
+VecX bounding_part(const WindingNumbers& numbers);
 
 /// Step 5: labels, and what follows from them, for given `w` and `bounding`. `pairs`: of the dual
 /// formulation, or none.

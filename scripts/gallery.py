@@ -66,6 +66,9 @@ def main(program: str, shared: Path) -> None:
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)
         moebius = curves / "mobius-orientable-curve.obj"
         picture("moebius", moebius, moebius.with_suffix(".txt"))
+        loops = str(curves / "DoubleTorusWithBrokenLoops.obj")
+        regions = out / "regions.png"
+        subprocess.run([program, "winding", loops, "--quiet", "-o", str(regions)], check=True)
         bear = curves / "polygon-bear.obj"
         picture("polygon-bear", bear, bear.with_suffix(".txt"))
         duck = curves / "ducky-star.pc"

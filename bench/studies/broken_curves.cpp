@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "curves.h"
 #include "littoral/contour/isolines.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/io/read.h"
@@ -15,7 +16,6 @@
 #include "littoral/operators/triangles.h"
 #include "littoral/sources/pieces.h"
 #include "littoral/sources/triangle_source_terms.h"
-#include "studies/curves.h"
 
 namespace littoral {
 namespace {

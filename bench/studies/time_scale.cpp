@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "curves.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/io/read.h"
 #include "littoral/methods/exact_polyhedral.h"
@@ -16,7 +17,6 @@
 #include "littoral/sources/pieces.h"
 #include "littoral/sources/triangle_source_terms.h"
 #include "littoral/sources/triangle_sources.h"
-#include "studies/curves.h"
 
 namespace littoral {
 namespace {

@@ -38,7 +38,8 @@ HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
-  if (A_->rows() > largest_order) return;
+  if (A_->rows() > (expect == Expect::one_solve ? largest_order_for_one_solve : largest_order))
+    return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_));
   const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);

@@ -11,8 +11,9 @@ namespace littoral {
 namespace {
 
 constexpr double front = 1e-100;  // entries below this share of the largest: the next layer
-constexpr std::size_t largest_factor = 4'000'000'000;       // bytes, for many solves
-constexpr Eigen::Index largest_order = 8'000'000;           // beyond, windows without asking
+constexpr std::size_t largest_factor = 4'000'000'000;  // bytes, for many solves
+// Orders beyond which the factor's size is not even asked for.
+constexpr Eigen::Index largest_order = 8'000'000, largest_order_for_one_solve = 1'500'000;
 constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
 
 /// An order of the blocks, from the graph of their first unknowns.

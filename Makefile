@@ -42,7 +42,7 @@ peers:  ## littoral beside other programs: the table and plot of docs/performanc
 	cmake --preset bench
 	cmake --build build/bench --target littoral_surface_timer littoral_domain_timer
 	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
-	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer \
+	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer $(or $(CLOCK),wall) \
 	  docs/performance.md docs/gallery/performance-surface.png $(MESHES)
 	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/performance.md
 

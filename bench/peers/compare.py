@@ -1,10 +1,11 @@
 """Runs littoral beside potpourri3d on the same meshes and curves, and writes what it measured.
 
-usage: compare.py TIMER OUTPUT.md OUTPUT.png MESH[:SUBDIVISIONS]...
+usage: compare.py TIMER wall|cpu OUTPUT.md OUTPUT.png MESH[:SUBDIVISIONS]...
 
-Each round starts a fresh process of both programs, one after the other; tables hold medians over
-rounds. Answers are compared before times: with each other, and up to 200k faces with exact
-polyhedral distance to the nodes of the curve (pygeodesic).
+wall: seconds on all cores, for a quiet machine; cpu: processor seconds on one thread, for a busy
+one. Each round starts a fresh process of both programs, one after the other; tables hold medians
+over rounds; there are fewer of both on large meshes. Answers are compared before times: with each
+other, and up to 200k faces with exact polyhedral distance to the nodes of the curve (pygeodesic).
 """
 
 import json
@@ -20,7 +21,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-ROUNDS, REPEATS = 3, 5
 EXACT_UP_TO = 200_000
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -77,9 +77,15 @@ def write_curve(path: Path, nodes: list[int]) -> None:
 
 
 def run(command: list[str]) -> dict[str, float]:
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"} if command[-1] == "cpu" else {}
+    environment = os.environ | threads
+    done = subprocess.run(command, check=True, capture_output=True, text=True, env=environment)
     result: dict[str, float] = json.loads(done.stdout)
     return result
+
+
+def rounds_and_repeats(faces: int) -> tuple[int, int]:
+    return (3, 5) if faces <= 100_000 else (3, 3) if faces <= 300_000 else (1, 1)
 
 
 def error(values: Floats, truth: Floats) -> float:
@@ -87,7 +93,7 @@ def error(values: Floats, truth: Floats) -> float:
     return float(100 * np.abs(np.abs(values) - np.abs(truth)).mean() / np.abs(truth).max())
 
 
-def measure(timer: str, name: str, points: Floats, faces: Ints) -> dict[str, Any]:
+def measure(timer: str, clock: str, name: str, points: Floats, faces: Ints) -> dict[str, Any]:
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     seed = int(np.argmax(points[:, 1]))
     curves = [ring(points, faces, seed, share * size) for share in (0.2, 0.22)]
@@ -98,10 +104,11 @@ def measure(timer: str, name: str, points: Floats, faces: Ints) -> dict[str, Any
             write_curve(at / f"{k}.txt", curve)
         np.savez(at / "mesh.npz", points=points, faces=faces, curve=curves[0], other=curves[1])
         ours = [timer, *(str(at / f) for f in ("mesh.obj", "0.txt", "1.txt"))]
-        ours += [str(REPEATS), str(at / "ours")]
+        n_rounds, repeats = rounds_and_repeats(len(faces))
+        ours += [str(repeats), str(at / "ours"), clock]
         theirs = [sys.executable, str(HERE / "potpourri3d_timer.py"), str(at / "mesh.npz")]
-        theirs += [str(REPEATS), str(at / "theirs")]
-        rounds = [(run(ours), run(theirs)) for _ in range(ROUNDS)]
+        theirs += [str(repeats), str(at / "theirs"), clock]
+        rounds = [(run(ours), run(theirs)) for _ in range(n_rounds)]
         phi = [np.fromfile(at / f) for f in ("ours", "theirs")]
     out: dict[str, Any] = {"name": name, "faces": len(faces), "nodes": len(curves[0])}
     for k, who in enumerate(("littoral", "potpourri3d")):
@@ -151,7 +158,7 @@ def table(results: list[dict[str, Any]]) -> str:
     return "\n".join(lines)
 
 
-def plot(results: list[dict[str, Any]], path: str) -> None:
+def plot(results: list[dict[str, Any]], unit: str, path: str) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
@@ -170,7 +177,7 @@ def plot(results: list[dict[str, Any]], path: str) -> None:
                 label=f"{who}, {COLUMNS[column]}",
             )
     ax.set_xlabel("faces")
-    ax.set_ylabel("seconds")
+    ax.set_ylabel(unit)
     ax.grid(alpha=0.3)
     ax.legend(fontsize=7)
     fig.tight_layout()
@@ -201,7 +208,7 @@ def replace_section(path: str, name: str, text: str) -> None:
 
 
 def main() -> None:
-    timer, page, picture, *meshes = sys.argv[1:]
+    timer, clock, page, picture, *meshes = sys.argv[1:]
     before = machine()
     results = []
     for spec in meshes:
@@ -210,13 +217,17 @@ def main() -> None:
         for _ in range(int(times or 0)):
             points, faces = subdivide(points, faces)
         name = Path(path).stem + (f", subdivided {times}x" if times else "")
-        results.append(measure(timer, name, points, faces))
+        results.append(measure(timer, clock, name, points, faces))
         print(json.dumps(results[-1]), flush=True)
-    rounds = f"medians of {ROUNDS} interleaved rounds, of {REPEATS} repeats in each"
+    unit = {"cpu": "Processor seconds, one thread", "wall": "Seconds, all cores"}[clock]
+    rounds = (
+        "medians of 3 interleaved rounds, of 5 repeats in each (3 above 100k faces; one round of "
+        "one repeat above 300k)"
+    )
     drawn = f"![seconds over faces]({os.path.relpath(picture, Path(page).parent)})"
-    text = f"Seconds; {rounds}. {before}.\n\n{table(results)}\n\n{drawn}\n"
+    text = f"{unit}; {rounds}.\n{before}.\n\n{table(results)}\n\n{drawn}\n"
     replace_section(page, "surface peers", text)
-    plot(results, picture)
+    plot(results, unit.lower(), picture)
 
 
 if __name__ == "__main__":

@@ -1,20 +1,21 @@
 // Times surface signed heat for bench/peers/compare.py, which runs it beside other programs.
-// usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES
+// usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES wall|cpu
 // Prints seconds, sizes and peak memory as JSON; writes the zero-set distances as doubles to
-// VALUES.
-
-#include <sys/resource.h>
+// VALUES. cpu: processor seconds on one thread, which a busy machine changes least.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "littoral/base/memory.h"
+#include "littoral/base/parallel.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/io/read.h"
 #include "littoral/methods/signed_heat.h"
@@ -25,10 +26,18 @@
 namespace littoral {
 namespace {
 
+bool processor_time = false;
+
+double now() {
+  timespec t{};
+  clock_gettime(processor_time ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 double seconds(const std::function<void()>& call) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now();
   call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return now() - start;
 }
 
 double median(std::vector<double> v) {
@@ -36,11 +45,7 @@ double median(std::vector<double> v) {
   return v.empty() ? 0 : 0.5 * (v[v.size() / 2] + v[(v.size() - 1) / 2]);
 }
 
-double peak_megabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
+double peak_megabytes() { return peak_memory() / (1 << 20); }
 
 SignedHeatOptions constrained(Constraint constraint) {
   SignedHeatOptions options;
@@ -50,6 +55,8 @@ SignedHeatOptions constrained(Constraint constraint) {
 }
 
 int run(char** argv) {
+  processor_time = std::strcmp(argv[6], "cpu") == 0;
+  if (processor_time) set_thread_count(1);
   const SurfaceMesh mesh(io::read_surface(argv[1]));
   const int repeats = std::atoi(argv[4]);
   Report report;
@@ -112,9 +119,10 @@ int run(char** argv) {
 }  // namespace littoral
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
+  if (argc != 7) {
     std::fprintf(stderr,
-                 "usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES\n");
+                 "usage: littoral_surface_timer MESH SOURCES OTHER_SOURCES REPEATS VALUES "
+                 "wall|cpu\n");
     return 2;
   }
   try {

@@ -67,6 +67,7 @@ def test_json_report(run: Run, mesh: Path) -> None:
     assert report["options"]["constraint"] == "zero-set"
     assert report["options"]["time-scale"] > 0
     assert report["sizes"]["faces"] == 200
+    assert 0 < report["sizes"]["factor_mb"] < report["peak_memory_mb"]
     assert report["sizes"]["source_pieces"] == 10
     assert report["timings"]["factor"] >= 0
     assert report["warnings"] == []

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "littoral/base/memory.h"
+
 namespace littoral {
 
 namespace {
@@ -84,6 +86,7 @@ std::string report_json(const Report& report) {
   out["residuals"] = object(report.residuals);
   out["warnings"] = report.warnings;
   out["unreachable_components"] = report.unreachable_components;
+  out["peak_memory_mb"] = std::round(peak_memory() / (1 << 20));
   return dump(out);
 }
 

@@ -11,14 +11,25 @@
 
 namespace littoral {
 
-double available_memory() {
-  double bytes = std::numeric_limits<double>::max();
-  std::ifstream info("/proc/meminfo");
+namespace {
+
+/// Bytes at a line "key: kilobytes kB" of a file of the system, or `otherwise`.
+double bytes_at(const char* file, const std::string& line, double otherwise) {
+  std::ifstream info(file);
   for (std::string key; info >> key;) {
     double kilobytes = 0;
-    if (key == "MemAvailable:" && info >> kilobytes) bytes = 1024 * kilobytes;
+    if (key == line && info >> kilobytes) return 1024 * kilobytes;
     info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
+  return otherwise;
+}
+
+}  // namespace
+
+double peak_memory() { return bytes_at("/proc/self/status", "VmHWM:", 0); }
+
+double available_memory() {
+  double bytes = bytes_at("/proc/meminfo", "MemAvailable:", std::numeric_limits<double>::max());
   for (const int resource : {RLIMIT_AS, RLIMIT_DATA}) {
     rlimit limit{};
     if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0 &&

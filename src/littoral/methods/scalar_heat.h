@@ -26,6 +26,10 @@ class ScalarHeat {
   void add_nearest(const Calculus& C, const SourceTerms& terms, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
+  double nonzeros() const {
+    return neumann_->nonzeros() + (dirichlet_ ? dirichlet_->nonzeros() : 0);
+  }
+
  private:
   CellField flow(const Calculus& C, const VecX& u0, const Task& task, Report& report) const;
 

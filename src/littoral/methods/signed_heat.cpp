@@ -69,7 +69,7 @@ SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, 
       root_t_(ops_->vector.h * std::sqrt(time_scale)),
       order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.2, "factor Poisson"), order_) {
+               task.stage(0.2, "factor Poisson"), order_, solver_for(expect)) {
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
     scalar_heat_.emplace(ops_->scalar, t, expect, order_, task.stage(0.2, "factor heat"));
@@ -89,7 +89,7 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
     return poisson_.solve_soft(b, terms.A, options.soft * terms.weight, task, report);
   switch (static_cast<Constraint>(options.constraint)) {
     case Constraint::none: {
-      VecX phi = poisson_.solve(b, report);
+      VecX phi = poisson_.solve(b, report, task);
       shift_to_mean_zero(C, terms, phi);
       return phi;
     }
@@ -155,7 +155,14 @@ VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& option
   VecX phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
   while (add_across_pinches(phi, reached, Y, poisson_stage, report))
     phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
+  report.sizes.emplace_back("factor_mb", factor_megabytes());
   return finish_field(*ops_, terms, phi, report);
+}
+
+double SignedHeat::factor_megabytes() const {
+  const double scalar = poisson_.nonzeros() + (scalar_heat_ ? scalar_heat_->nonzeros() : 0);
+  const double vector = heat_ ? heat_->nonzeros() : 0;
+  return (8 * scalar + (ops_->vector.complex_linear() ? 16 : 8) * vector) / (1 << 20);
 }
 
 bool SignedHeat::add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y,

@@ -71,6 +71,7 @@ class SignedHeat {
  private:
   VecX integrate(const SourceTerms& terms, const VecX& Y, const SignedHeatOptions& options,
                  const Task& task, Report& report) const;
+  double factor_megabytes() const;
   bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
                           Report& report) const;
 

@@ -24,7 +24,7 @@ UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedH
       order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
       heat_(ops_->scalar, root_t_ * root_t_, expect, order_, task.stage(0.4, "factor heat")),
       poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.3, "factor Poisson"), order_) {}
+               task.stage(0.3, "factor Poisson"), order_, solver_for(expect)) {}
 
 VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) const {
   const Calculus& C = ops_->scalar;

@@ -105,12 +105,35 @@ DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& chan
   return out;
 }
 
+DefiniteSystem DefiniteSystem::by_multigrid(SpMat lower, const std::vector<int>& stiff,
+                                            const Task& task) {
+  DefiniteSystem out;
+  out.A_ = std::make_shared<const SpMat>(std::move(lower));
+  out.multigrid_ = std::make_shared<const BandedMultigrid>(*out.A_, stiff, task);
+  return out;
+}
+
+MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
+  if (factor_) return factor_->solve(b);
+  MatX x(b.rows(), b.cols());
+  Report each;
+  for (Eigen::Index k = 0; k < b.cols(); ++k)
+    x.col(k) = multigrid_->solve(b.col(k), 1e-6, task, each);
+  return x;
+}
+
 double DefiniteSystem::relative_residual(const VecX& x, const VecX& b) const {
   const double scale = b.norm();
   return scale > 0 ? (b - times_symmetric(*A_, x)).norm() / scale : x.norm();
 }
 
 VecX DefiniteSystem::solve(const VecX& b) const {
+  Report unread;
+  return solve(b, {}, unread);
+}
+
+VecX DefiniteSystem::solve(const VecX& b, const Task& task, Report& report) const {
+  if (multigrid_) return multigrid_->solve(b, 1e-11, task, report);
   // One step of conjugate gradients is iterative refinement.
   constexpr int max_steps = 60;
   constexpr double enough = 1e-14;
@@ -140,7 +163,7 @@ VecX DefiniteSystem::solve(const VecX& b) const {
 }
 
 VecX DefiniteSystem::solve_once(const VecX& b) const {
-  if (lift_ > 0) return solve(b);
+  if (lift_ > 0 || !factor_) return solve(b);
   VecX x = factor_->solve(b);
   if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");
   return x;

@@ -5,8 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "littoral/base/report.h"
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
+#include "littoral/solve/banded_multigrid.h"
 #include "littoral/solve/cholesky.h"
 
 namespace littoral {
@@ -30,8 +32,8 @@ SpMat eliminated(const SpMat& K, const std::vector<char>& gone);
 std::vector<int> unknowns_of(const SpMat& R);
 
 /// Cholesky, lifted on the diagonal if the matrix is numerically singular, and conjugate gradients
-/// preconditioned by the factor on the exact matrix until the residual is down to round-off.
-/// Immutable; copies share the factor.
+/// preconditioned by the factor on the exact matrix until the residual is down to round-off. Large
+/// Laplacians by multigrid instead. Immutable; copies share the factor.
 class DefiniteSystem {
  public:
   DefiniteSystem(const SpMat& lower, const Task& task);
@@ -42,22 +44,30 @@ class DefiniteSystem {
   /// one has in common with its. This system must be one `to_be_patched`.
   DefiniteSystem patched(SpMat lower, const std::vector<int>& changed, const Task& task) const;
 
+  /// No factor: a Laplacian with penalties on few unknowns, `stiff`, by BandedMultigrid.
+  static DefiniteSystem by_multigrid(SpMat lower, const std::vector<int>& stiff, const Task& task);
+
   VecX solve(const VecX& b) const;
+  /// The same where it may take long.
+  VecX solve(const VecX& b, const Task& task, Report& report) const;
   /// One pass through the factor, for outer loops that correct each other's rounding; `solve` where
   /// the matrix had to be lifted.
   VecX solve_once(const VecX& b) const;
-  MatX approximate(const MatX& b) const { return factor_->solve(b); }  // one solve with the factor
+  /// One solve with the factor, or multigrid to a relative 1e-6.
+  MatX approximate(const MatX& b, const Task& task) const;
   double relative_residual(const VecX& x, const VecX& b) const;
-  double nonzeros() const { return factor_->nonzeros(); }
+  double nonzeros() const { return factor_ ? factor_->nonzeros() : multigrid_->nonzeros(); }
   const std::shared_ptr<const Elimination>& structure() const { return factor_->structure(); }
   bool can_be_patched() const { return patchable_; }
+  bool iterates() const { return multigrid_ != nullptr; }
 
  private:
   DefiniteSystem() = default;
   void factor_lifted(const Task& task, const std::shared_ptr<const Elimination>& structure);
 
   std::shared_ptr<const SpMat> A_;
-  std::shared_ptr<const Cholesky<double>> factor_;
+  std::shared_ptr<const Cholesky<double>> factor_;  // one of the two
+  std::shared_ptr<const BandedMultigrid> multigrid_;
   double lift_ = 0;
   bool patchable_ = false;
 };

@@ -11,7 +11,9 @@ namespace littoral {
 namespace {
 
 constexpr double front = 1e-100;  // entries below this share of the largest: the next layer
-constexpr std::size_t largest_factor = 4'000'000'000;       // bytes, for many solves
+constexpr std::size_t largest_factor = 4'000'000'000;  // bytes, for many solves
+// Orders beyond which the factor's size is not even asked for.
+constexpr Eigen::Index largest_order = 8'000'000, largest_order_for_one_solve = 1'500'000;
 constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
 
 /// An order of the blocks, from the graph of their first unknowns.
@@ -37,6 +39,8 @@ HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
+  if (A_->rows() > (expect == Expect::one_solve ? largest_order_for_one_solve : largest_order))
+    return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_));
   const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);

@@ -10,11 +10,17 @@
 #include "littoral/solve/cholesky.h"
 #include "littoral/solve/heat_windows.h"
 #include "littoral/solve/layered_field.h"
+#include "littoral/solve/poisson.h"
 
 namespace littoral {
 
 /// What a system is built for: many solves are worth a large factorization, one is not.
 enum class Expect { one_solve, many_solves };
+
+inline PoissonSolver solver_for(Expect expect) {
+  return expect == Expect::one_solve ? PoissonSolver::automatic_for_one_solve
+                                     : PoissonSolver::automatic;
+}
 
 /// A positive definite matrix whose inverse decays exponentially; immutable.
 template <class Scalar>

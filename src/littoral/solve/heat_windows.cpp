@@ -12,9 +12,10 @@
 namespace littoral {
 
 namespace {
-constexpr double window = 50;   // decay lengths kept of every window
-constexpr double overlap = 30;  // and solved for beyond: the error made at the far end arrives at
-                                // what is kept by a factor exp(-2 * overlap) smaller
+constexpr double window = 50;            // decay lengths kept of every window
+constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
+                                         // arrives at what is kept exp(-2 * overlap) times smaller
+constexpr double longest_overlap = 120;
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
@@ -133,7 +134,6 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
                                                                Report& report) const {
   const FlushSubnormals flush;
   const auto n = static_cast<int>(position_.size());
-  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
     if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
@@ -144,6 +144,33 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return d[i] != d[j] ? d[i] < d[j] : i < j; });
 
+  std::optional<LayeredField<Scalar>> best;
+  double least = 1e-9;  // more is not an answer
+  int best_windows = 0;
+  for (double overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
+    auto field = solve(b, d, order, overlap, task);
+    if (!field) break;
+    const double error = misfit(*field, b);
+    if (best && !(error < 0.1 * least)) break;  // round-off
+    if (!(error < least)) continue;
+    best_windows = static_cast<int>(field->scale.size());
+    best = std::move(field);
+    least = error;
+    if (error < 1e-13) break;
+  }
+  if (!best) return std::nullopt;
+  report.iterations.emplace_back("heat windows", best_windows);
+  report.residuals.emplace_back("heat, between windows", least);
+  return best;
+}
+
+template <class Scalar>
+std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+                                                               const std::vector<double>& d,
+                                                               const std::vector<int>& order,
+                                                               double overlap,
+                                                               const Task& task) const {
+  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0);
   int windows = 0;
@@ -180,10 +207,6 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     for (; before < start; ++before) known[order[before]] = 0;
     start = kept;
   }
-  const double error = misfit(field, b);
-  if (!(error < 1e-9)) return std::nullopt;
-  report.iterations.emplace_back("heat windows", windows);
-  report.residuals.emplace_back("heat, between windows", error);
   return field;
 }
 
@@ -232,9 +255,9 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, 2 * overlap);
+  const std::vector<double> d = distances(from, 2 * shortest_overlap);
   for (int i = 0; i < n; ++i)
-    if (!known[i] && d[i] <= 2 * overlap) blocks.push_back(i);
+    if (!known[i] && d[i] <= 2 * shortest_overlap) blocks.push_back(i);
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
   Vector x = held;

@@ -31,8 +31,8 @@ class HeatWindows {
   /// Solves on the blocks up to some distance from the support of b, keeps all but the farthest,
   /// whose values lack what lies beyond, and goes on from the kept ones, scaled to 1. Time and
   /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
-  /// 1. Nothing if neighbouring windows do not fit together
-  /// to round-off (meshes on which `size` misjudges distances).
+  /// 1. Where neighbouring windows do not fit together to round-off, as `size` misjudges how heat
+  /// decays, they overlap by more; nothing if that does not help.
   std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
                                             const Task& task, Report& report) const;
 
@@ -44,6 +44,9 @@ class HeatWindows {
   std::vector<double> distances(const std::vector<int>& from, double limit) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
+  std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
+                                            const std::vector<int>& order, double overlap,
+                                            const Task& task) const;
   double misfit(const LayeredField<Scalar>& field, const Vector& b) const;
 
   std::shared_ptr<const Matrix> A_;

@@ -38,17 +38,25 @@ std::shared_ptr<const Elimination> structure_of(const SpMat& L, const Ordering& 
   return std::make_shared<const Elimination>(L, dissection(L, task));
 }
 
-constexpr int largest_patchable = 3'000'000;  // beyond, memory matters more than repeated solves
+// Beyond, the factor costs too much memory, or more time than the iterations of one solve.
+constexpr int largest_direct = 2'000'000, largest_for_one_solve = 400'000;
+
+DefiniteSystem solved_by(PoissonSolver solver, SpMat K, const Ordering& order, const Task& task) {
+  const int largest = solver == PoissonSolver::automatic ? largest_direct : largest_for_one_solve;
+  if (solver == PoissonSolver::multigrid || (solver != PoissonSolver::direct && K.rows() > largest))
+    return DefiniteSystem::by_multigrid(std::move(K), {}, task);
+  auto structure = structure_of(K, order, task);
+  return {std::move(K), std::move(structure), task, true};
+}
 
 }  // namespace
 
 Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
-                 const Ordering& order)
+                 const Ordering& order, PoissonSolver solver)
     : L_(with_diagonal(L)),
       component_(std::move(component)),
       first_(first_of_components(component_, n_components)),
-      free_(pinned(std::vector<char>(n_components, 0)), structure_of(L_, order, task), task,
-            L.rows() <= largest_patchable) {}
+      free_(solved_by(solver, pinned(std::vector<char>(n_components, 0)), order, task)) {}
 
 SpMat Poisson::pinned(const std::vector<char>& held) const {
   // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
@@ -77,8 +85,8 @@ void Poisson::drop_constants(const std::vector<char>& held, VecX& x) const {
     x[i] = component_[i] < 0 ? 0 : x[i] - constant[component_[i]];
 }
 
-VecX Poisson::solve(const VecX& b, Report& report) const {
-  VecX x = free_.solve(b);
+VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
+  VecX x = free_.solve(b, task, report);
   report.residuals.emplace_back("poisson", free_.relative_residual(x, b));
   drop_constants(std::vector<char>(first_.size(), 0), x);
   return x;
@@ -87,6 +95,8 @@ VecX Poisson::solve(const VecX& b, Report& report) const {
 DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
                                      const std::vector<char>& held, const Task& task) const {
   const SpMat K = pinned(held);
+  if (free_.iterates())
+    return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A), task);
   if (auto in_place = with_rows_in_place(K, A, weight)) {
     if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
     std::vector<int> changed = unknowns_of(A);
@@ -103,7 +113,7 @@ VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, cons
                          Report& report) const {
   const auto held = components_of(A);
   const DefiniteSystem system = with_penalty(A, weight, held, task);
-  VecX x = system.solve(b);
+  VecX x = system.solve(b, task, report);
   report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
   drop_constants(held, x);
   return x;
@@ -143,7 +153,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
       task.checkpoint();
       const int k = std::min(at_once, n_free - g);
       const MatX B = spread(MatX::Identity(n_free, n_free).middleCols(g, k));
-      S.middleCols(g, k) = w * gather(B - rows.A * system.approximate(MatX(w * (At * B))));
+      S.middleCols(g, k) = w * gather(B - rows.A * system.approximate(MatX(w * (At * B)), task));
     }
     rest.compute(0.5 * (S + S.transpose()));
   }
@@ -157,11 +167,11 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     task.checkpoint();
     const VecX force = y + w * miss;
     const VecX r = b - times_symmetric(K0, x) - At * force;
-    const VecX u = system.approximate(r);
+    const VecX u = system.approximate(r, task);
     VecX dx = u;
     if (n_free > 0) {
       const VecX dc = rest.solve(gather(VecX(force + w * (rows.A * u))));
-      dx += system.approximate(VecX(w * (At * spread(dc))));
+      dx += system.approximate(VecX(w * (At * spread(dc))), task);
       c += dc;
     }
     x += dx;

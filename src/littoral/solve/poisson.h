@@ -19,17 +19,22 @@ struct LevelRows {
   std::vector<int> anchor;  // per group: 1 if its constant is fixed at 0, else 0
 };
 
+/// How Poisson problems are solved: by a factor, which makes further solves cheap, or by multigrid,
+/// in memory and time that grow like the number of unknowns.
+enum class PoissonSolver { automatic, automatic_for_one_solve, direct, multigrid };
+
 /// Poisson problem of one operator; immutable. Constraints whose rows hold neighbours of L only (as
 /// values at points of a mesh do) change few columns of the factor: the rest is shared.
 class Poisson {
  public:
   /// L: lower triangle. component: per unknown, -1 for unknowns in no equation. order: of
-  /// elimination; dissection(L) if empty.
+  /// elimination; dissection(L) if empty. Automatic: by multigrid above 2M unknowns, for one solve
+  /// above 400k.
   Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
-          const Ordering& order = {});
+          const Ordering& order = {}, PoissonSolver solver = PoissonSolver::automatic);
 
   /// Minimiser that is 0 at the first unknown of every component; b must sum to 0 over each.
-  VecX solve(const VecX& b, Report& report) const;
+  VecX solve(const VecX& b, Report& report, const Task& task = {}) const;
 
   /// Minimiser subject to the rows. Every component must have an anchored group or no row.
   /// Dependent rows are harmless.
@@ -39,7 +44,8 @@ class Poisson {
   VecX solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                   Report& report) const;
 
-  double nonzeros() const { return free_.nonzeros(); }
+  double nonzeros() const { return free_.nonzeros(); }  // of the factor or the multigrid levels
+  bool iterates() const { return free_.iterates(); }
 
  private:
   SpMat pinned(const std::vector<char>& held) const;

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
+#include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
-#include "littoral/methods/tori_cloud.h"
 
 namespace littoral {
 namespace {
@@ -207,6 +207,22 @@ TEST(Tori, SidesAreRightFarBehindAcuteEdges) {
   }
   EXPECT_GT(far, 2000);
   EXPECT_EQ(wrong, 0);
+}
+
+TEST(Tori, FlippedPatchesDoNotReachFar) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(2000);
+  cloud.normals = cloud.points;
+  int flipped = 0;
+  for (int i = 0; i < 2000; ++i)
+    if (cloud.points(i, 0) > std::cos(0.25)) {
+      cloud.normals.row(i) *= -1;
+      ++flipped;
+    }
+  ASSERT_GT(flipped, 20);  // more than have a say at a place
+  const Tori tori = fitted(cloud);
+  for (const double x : {1.4, 2.0, 5.0}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
+  for (const double x : {0.6, 0.2}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
 }
 
 TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {

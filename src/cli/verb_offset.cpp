@@ -79,7 +79,7 @@ VolumeField distance_around(Arguments& arguments, const std::vector<double>& dis
   if (input.n_vertices() > 0 && input.points.allFinite()) {
     const double extent =
         (input.points.colwise().maxCoeff() - input.points.colwise().minCoeff()).maxCoeff();
-    if (extent > 0) space.padding = std::max(space.padding, 1.1 * reach / extent);
+    if (extent > 0) space.padding += reach / extent;
   }
   VolumeField volume;
   volume.grid = grid_of(space, input);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/base/parallel.h"
@@ -12,7 +13,6 @@
 #include "littoral/domain/triangulate.h"
 #include "littoral/methods/signed_heat_tets.h"
 #include "littoral/methods/tori.h"
-#include "littoral/methods/tori_cloud.h"
 #include "littoral/spatial/winding_number.h"
 
 namespace littoral {

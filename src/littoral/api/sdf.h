@@ -73,7 +73,7 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
                    Task task, Report& report);
 
 /// The tori that method tori fits to the input, as a cloud that later calls take as it is
-/// (methods/tori_cloud.h). The request's method does not matter. Throws as query_distance.
+/// (api/tori_cloud.h). The request's method does not matter. Throws as query_distance.
 PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,
                            Report& report);
 

@@ -31,7 +31,8 @@ class Tori final : public PointwiseDistance {
   /// Signed distance at x [length] (eq. 5.1 with shifted exponents): tori of the nearest points,
   /// each within its patch, weighted by how near their points are, relative to the spacing there.
   /// Never more than the distance to the nearest point. Away from the points, where tori disagree
-  /// on the side (as behind acute edges), the winding number of the cloud decides.
+  /// on the side (as behind acute edges) or the winding number of the cloud is certain that they
+  /// are wrong (as beyond a few flipped normals), the winding number decides.
   double value(const Vec3& x) const override;
 
   /// The same with its derivative, exact but where neighbours or side change.
@@ -42,6 +43,7 @@ class Tori final : public PointwiseDistance {
   std::vector<Torus> tori_;
   PointTree tree_;
   WindingNumber winding_;
+  int orientation_;  // 1 outward, -1 inward, 0 neither
 };
 
 }  // namespace littoral

@@ -1,4 +1,4 @@
-#include "littoral/methods/tori_cloud.h"
+#include "littoral/api/tori_cloud.h"
 
 #include <array>
 #include <cmath>

@@ -2,6 +2,8 @@
 
 #include "littoral/methods/tori.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -52,6 +52,16 @@ def main(program: str, shared: Path) -> None:
             for command in (solve, draw):
                 subprocess.run(command, check=True)
 
+        def solid(
+            name: str, shape: Path, verb: str, *options: str, look: tuple[str, ...] = ()
+        ) -> None:
+            made = work / ("shape.nrrd" if verb == "sdf" else "shape.off")
+            fine = ["--resolution", "96"]
+            solve = [program, verb, str(shape), *options, *fine, "--quiet", "-o", str(made)]
+            draw = [program, "render", str(made), *look, *SIZE, "-o", str(out / f"{name}.png")]
+            for command in (solve, draw):
+                subprocess.run(command, check=True)
+
         (work / "square.obj").write_text(square(60))
         (work / "mixed.json").write_text(mixed(60))
         picture("mixed", work / "square.obj", work / "mixed.json")
@@ -61,6 +71,11 @@ def main(program: str, shared: Path) -> None:
         if not curves.is_dir():
             print(f"{curves} is not there: the other pictures are left as they are")
             return
+        data = shared / "data"
+        solid("chair-slice", data / "soups" / "shm3d-chair.obj", "sdf")
+        solid("chair-offset", data / "soups" / "shm3d-chair.obj", "offset", "--dilate", "0.25")
+        bottle = data / "clouds" / "SprayBottle.pc"
+        solid("spray-bottle", bottle, "sdf", "--method", "tori", look=("--axis", "x"))
         bumpy = curves / "bumpy-sphere.obj"
         levels = "--constraint", "level-sets"
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)

@@ -217,7 +217,8 @@ TEST(SignedHeatGridSlow, SphereErrorFallsWithTheSpacing) {
     const VecX phi = signed_heat_grid(grid, test::sphere_samples(level), options, Task(), report);
     return test::mean_error(grid, phi, [](const Vec3& x) { return x.norm() - 1; });
   };
-  for (const auto constraint : {SpaceConstraint::none, SpaceConstraint::zero_set}) {
+  for (const auto constraint :
+       {SpaceConstraint::none, SpaceConstraint::zero_set, SpaceConstraint::soft}) {
     const double coarse = error(17, 3, constraint), fine = error(65, 5, constraint);
     EXPECT_GT(std::log2(coarse / fine) / 2, 1.2);
     EXPECT_LT(fine, 1e-3);
@@ -255,9 +256,9 @@ TEST(SignedHeatGrid, SoftConstraintLiesBetweenNoneAndZeroSet) {
     const VecX at = grid_rows(grid, planes.points, planes.areas).A * phi;
     return at.maxCoeff() - at.minCoeff();
   };
-  const double none = spread(SpaceConstraint::none, 0), held = spread(SpaceConstraint::zero_set, 0);
-  const double weak = spread(SpaceConstraint::none, 0.1);
-  const double strong = spread(SpaceConstraint::none, 100);
+  const double none = spread(SpaceConstraint::none, 1), held = spread(SpaceConstraint::zero_set, 1);
+  const double weak = spread(SpaceConstraint::soft, 0.1);
+  const double strong = spread(SpaceConstraint::soft, 100);
   EXPECT_NEAR(none, 0.5, 0.1);
   EXPECT_LT(held, 0.05);
   EXPECT_LT(strong, weak);

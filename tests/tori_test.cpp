@@ -2,10 +2,14 @@
 
 #include "littoral/methods/tori.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
 
@@ -90,9 +94,8 @@ TEST(Tori, FitIsExactOnPlanes) {
   }
   const Tori tori = fitted(cloud);
   for (double height : {-0.4, 0.0, 0.02, 0.3}) {
-    Vec3 gradient;
     const Vec3 x = 0.1 * s - 0.2 * t + (0.25 + height) * n;
-    const double phi = tori.value(x, gradient);
+    const auto [phi, gradient] = tori.at(x);
     // Far from a patch its rim enters; near the plane nothing but the plane is seen.
     if (std::abs(height) < 0.05) {
       EXPECT_NEAR(phi, height, 1e-4);  // a thousandth of the spacing
@@ -150,8 +153,8 @@ TEST(Tori, GradientIsTheDerivative) {
   const Tori tori = fitted(cloud);
   int compared = 0;
   for (const Vec3& x : queries(100, 13)) {
-    Vec3 gradient;
-    EXPECT_NEAR(tori.value(x, gradient), tori.value(x), 1e-14);
+    const auto [value, gradient] = tori.at(x);
+    EXPECT_NEAR(value, tori.value(x), 1e-14);
     const double step = 1e-6;
     Vec3 difference, second;
     for (int d = 0; d < 3; ++d) {
@@ -166,6 +169,64 @@ TEST(Tori, GradientIsTheDerivative) {
   EXPECT_GT(compared, 80);
 }
 
+TEST(Tori, SidesAreRightFarBehindAcuteEdges) {
+  // A wedge of 20 degrees: two slanted faces, a back, and two triangles as sides.
+  const double a = std::tan(pi / 18), depth = 1;
+  std::vector<Vec3> points, normals;
+  const auto cover = [&](const Vec3& from, const Vec3& u, const Vec3& v, const Vec3& n, auto keep) {
+    const int nu = static_cast<int>(u.norm() / 0.04), nv = static_cast<int>(v.norm() / 0.04);
+    for (int i = 0; i < nu; ++i)
+      for (int j = 0; j < nv; ++j) {
+        const Vec3 p = from + (i + 0.5) / nu * u + (j + 0.5) / nv * v;
+        if (!keep(p)) continue;
+        points.push_back(p);
+        normals.push_back(n.normalized());
+      }
+  };
+  const auto all = [](const Vec3&) { return true; };
+  const auto inside = [&](const Vec3& p) { return std::abs(p[1]) < a * p[0]; };
+  cover(Vec3::Zero(), Vec3(1, a, 0), Vec3(0, 0, depth), Vec3(-a, 1, 0), all);
+  cover(Vec3::Zero(), Vec3(1, -a, 0), Vec3(0, 0, depth), Vec3(-a, -1, 0), all);
+  cover(Vec3(1, -a, 0), Vec3(0, 2 * a, 0), Vec3(0, 0, depth), Vec3::UnitX(), all);
+  for (const double z : {0.0, depth})
+    cover(Vec3(0, -a, z), Vec3(1, 0, 0), Vec3(0, 2 * a, 0), Vec3(0, 0, z > 0 ? 1 : -1), inside);
+  OrientedPoints wedge;
+  wedge.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  wedge.normals.resize(wedge.points.rows(), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    wedge.points.row(static_cast<Eigen::Index>(i)) = points[i];
+    wedge.normals.row(static_cast<Eigen::Index>(i)) = normals[i];
+  }
+  const Tori tori = fitted(wedge);
+  int wrong = 0, far = 0;
+  for (const Vec3& q : queries(4000, 17)) {
+    const Vec3 x = q + Vec3(0, 0, 0.5);
+    const Vec3 outside(std::max({a * -x[0], x[0] - 1, 0.0}), std::abs(x[1]) - a * x[0],
+                       std::max({-x[2], x[2] - depth, 0.0}));
+    if (outside.maxCoeff() < 0.2) continue;  // near the surface, or inside
+    ++far;
+    wrong += tori.value(x) <= 0;
+  }
+  EXPECT_GT(far, 2000);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Tori, FlippedPatchesDoNotReachFar) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(2000);
+  cloud.normals = cloud.points;
+  int flipped = 0;
+  for (int i = 0; i < 2000; ++i)
+    if (cloud.points(i, 0) > std::cos(0.25)) {
+      cloud.normals.row(i) *= -1;
+      ++flipped;
+    }
+  ASSERT_GT(flipped, 20);  // more than have a say at a place
+  const Tori tori = fitted(cloud);
+  for (const double x : {1.4, 2.0, 5.0}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
+  for (const double x : {0.6, 0.2}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
+}
+
 TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {
   OrientedPoints cloud;
   cloud.points = sphere_points(1000);
@@ -174,9 +235,9 @@ TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {
   const auto q = queries(3000, 14);
   for (int i = 0; i < 3000; ++i) at.row(i) = q[static_cast<std::size_t>(i)];
   set_thread_count(1);
-  const VecX one = fitted(cloud).values(at, {});
+  const VecX one = evaluate(fitted(cloud), at, nullptr, {});
   set_thread_count(3);
-  const VecX three = fitted(cloud).values(at, {});
+  const VecX three = evaluate(fitted(cloud), at, nullptr, {});
   set_thread_count(0);
   EXPECT_TRUE((one.array() == three.array()).all());
 }
@@ -197,6 +258,21 @@ TEST(Tori, ScaleAndMotionDoNotMatter) {
   flipped.normals *= -1;
   const Tori inward = fitted(flipped);
   for (const Vec3& x : queries(50, 16)) EXPECT_NEAR(inward.value(x), -tori.value(x), 1e-9);
+}
+
+TEST(Tori, CloudsOfToriGiveThemBack) {
+  OrientedPoints cloud;
+  cloud.points = sphere_points(300);
+  cloud.normals = cloud.points;
+  const Tori tori = fitted(cloud);
+  PolygonSoup file = cloud_of_tori(tori.points(), tori.tori());
+  ASSERT_TRUE(has_tori(file));
+  const Tori again(file.points, tori_of_cloud(file));
+  for (const Vec3& x : queries(50, 18)) EXPECT_NEAR(again.value(x), tori.value(x), 1e-12);
+  file.scalars.at("torus_rho")[4] = 0;
+  EXPECT_THROW(tori_of_cloud(file), InputError);
+  file.scalars.erase("torus_rho");
+  EXPECT_FALSE(has_tori(file));
 }
 
 TEST(Tori, FewDegenerateAndCoincidentPoints) {

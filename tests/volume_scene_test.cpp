@@ -21,21 +21,21 @@ VolumeField ball(int n) {
   return test::sampled(grid, [](const Vec3& p) { return p.norm() - 0.6; });
 }
 
-TEST(VolumeScene, SliceAndTheSurfaceBehindIt) {
+TEST(VolumeScene, SliceAndTheSurfaceBeforeIt) {
   const io::Scene scene = io::make_volume_scene(ball(21), {.axis = 0, .position = 0.22});
   io::check_scene(scene);
-  double farthest = -1;
+  double nearest = 1;
   int on_surface = 0;
   for (Eigen::Index v = 0; v < scene.points.rows(); ++v) {
     const Vec3 p = scene.points.row(v);
-    farthest = std::max(farthest, p[0]);
+    nearest = std::min(nearest, p[0]);
     EXPECT_NEAR(scene.values[v], p.norm() - 0.6, 6e-3);
-    if (p[0] < 0.19) {
+    if (p[0] > 0.21) {
       EXPECT_EQ(scene.values[v], 0);
       ++on_surface;
     }
   }
-  EXPECT_NEAR(farthest, 0.2, 1e-12);  // the nearest layer of nodes
+  EXPECT_NEAR(nearest, 0.2, 1e-12);  // the nearest layer of nodes
   EXPECT_GT(on_surface, 100);
   EXPECT_NEAR(io::field_style(scene).high, std::sqrt(3.0) - 0.6, 1e-12);
 }
@@ -76,16 +76,28 @@ TEST(VolumeScene, Refuses) {
   EXPECT_THROW(io::make_volume_scene(bad), InputError);
 }
 
-TEST(VolumeScene, PictureShowsBothSignsAndTheShell) {
-  const io::Image image =
-      io::draw_picture(io::make_volume_scene(ball(21)), {.width = 160, .height = 120});
-  int blue = 0, orange = 0;
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    blue += image.rgb[i + 2] > image.rgb[i] + 60;
-    orange += image.rgb[i] > image.rgb[i + 2] + 60;
-  }
-  EXPECT_GT(blue, 300);
-  EXPECT_GT(orange, 300);
+TEST(VolumeScene, PictureShowsBothSignsOrTheShell) {
+  struct Colours {
+    int blue = 0, orange = 0, grey = 0;
+  };
+  const auto drawn = [](bool shell) {
+    const io::Image image = io::draw_picture(io::make_volume_scene(ball(21), {.isosurface = shell}),
+                                             {.width = 160, .height = 120, .colour_bar = false});
+    Colours seen;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+      const int red = image.rgb[i], blue = image.rgb[i + 2];
+      seen.blue += blue > red + 60;
+      seen.orange += red > blue + 60;
+      seen.grey += std::abs(red - blue) < 20 && red < 235;
+    }
+    return seen;
+  };
+  const Colours slice = drawn(false), both = drawn(true);
+  EXPECT_GT(slice.blue, 300);
+  EXPECT_GT(slice.orange, 300);
+  EXPECT_EQ(both.blue, 0);  // the shell stands before the inside
+  EXPECT_GT(both.orange, 300);
+  EXPECT_GT(both.grey, slice.grey + 300);
 }
 
 // A page for the browser's test (viewer/test/volume.test.mjs), where one is asked for.

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   cli::add_winding(program, session);
   cli::add_sdf(program, session);
   cli::add_query(program, session);
+  cli::add_fit_tori(program, session);
   cli::add_info(program, session);
   cli::add_convert(program, session);
   cli::add_contour(program, session);

@@ -20,12 +20,12 @@ void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session) {
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
 }
 
-void add_space_method(CLI::App& verb, SpaceTexts& texts) {
+void add_space_method(CLI::App& verb, SpaceTexts& texts, const std::string& fallback) {
   std::string names;
   const std::vector<MethodInfo> infos = space_method_infos();
   for (const MethodInfo& info : infos) names += (names.empty() ? "" : ", ") + info.name;
   verb.add_option("--method", texts.request.method,
-                  names + " [default " + texts.request.method + "]")
+                  names + " [default " + (fallback.empty() ? texts.request.method : fallback) + "]")
       ->type_name("NAME");
   add_method_options(verb, texts.options, infos);
 }

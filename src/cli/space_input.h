@@ -24,8 +24,9 @@ struct SpaceTexts {
 
 /// Adds INPUT, --estimate-normals and --flip.
 void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session);
-/// Adds --method and the methods' options.
-void add_space_method(CLI::App& verb, SpaceTexts& texts);
+/// Adds --method and the methods' options; `fallback` says what is used without, where it is not
+/// the method in `texts`.
+void add_space_method(CLI::App& verb, SpaceTexts& texts, const std::string& fallback = "");
 /// Adds --resolution, --spacing, --bounds and --padding.
 void add_grid_options(CLI::App& verb, SpaceTexts& texts);
 

@@ -79,7 +79,7 @@ VolumeField distance_around(Arguments& arguments, const std::vector<double>& dis
   if (input.n_vertices() > 0 && input.points.allFinite()) {
     const double extent =
         (input.points.colwise().maxCoeff() - input.points.colwise().minCoeff()).maxCoeff();
-    if (extent > 0) space.padding = std::max(space.padding, 1.1 * reach / extent);
+    if (extent > 0) space.padding += reach / extent;
   }
   VolumeField volume;
   volume.grid = grid_of(space, input);
@@ -114,7 +114,8 @@ void run(Arguments& arguments, Session& session) {
 
 void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
   verb.add_option("INPUT", arguments.in,
-                  "a volume of signed distance, or with --sources the surface the curves lie on")
+                  "a mesh, soup or point cloud, a volume of signed distance, or with --sources the "
+                  "surface the curves lie on")
       ->required()
       ->type_name("");
   verb.add_option("--distance", arguments.distances,
@@ -142,9 +143,13 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
   verb.add_option("--method", arguments.request.method,
                   "of `littoral sdf`, or for curves of `littoral distance` [default signed-heat]")
       ->type_name("NAME");
-  verb.add_flag("--flip", session.flip, "reverse every signed curve");
+  verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
+  verb.add_flag("--estimate-normals", arguments.space.request.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
   add_grid_options(verb, arguments.space);
-  add_method_options(verb, arguments.options, {find_method("signed-heat")});
+  std::vector<MethodInfo> methods = space_method_infos();
+  methods.push_back(find_method("signed-heat"));
+  add_method_options(verb, arguments.options, methods);
   add_index_option(verb, session);
   add_json_option(verb, session);
   add_common_options(verb, session);

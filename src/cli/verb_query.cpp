@@ -22,8 +22,10 @@ struct Arguments {
 void run(Arguments& arguments, Session& session) {
   for (const std::string& file : arguments.out)
     check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
-  use_space_options(arguments.space, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
+  std::string& method = arguments.space.request.method;
+  if (method.empty()) method = input.n_faces() == 0 ? "tori" : "winding";
+  use_space_options(arguments.space, session);
   const MatX3 queries = read_queries(arguments.points);
   session.reading = false;
   MatX3 gradients;
@@ -48,11 +50,11 @@ void add_query(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "query", "signed distance at given points, around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
-  arguments->space.request.method = "winding";
+  arguments->space.request.method.clear();
   add_space_input(*verb, arguments->space, session);
   add_query_files(*verb, arguments->points, arguments->out);
   verb->add_flag("--gradient", arguments->gradient, "also the gradient");
-  add_space_method(*verb, arguments->space);
+  add_space_method(*verb, arguments->space, "tori for point clouds, otherwise winding");
   add_json_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback(

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/method_options.h"
+#include "cli/space_input.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/report_json.h"
@@ -24,7 +25,7 @@ const std::vector<std::string> outputs = {".ply", ".obj", ".vtp",  ".csv",
                                           ".npy", ".txt", ".html", ".png"};
 
 struct Arguments {
-  std::string domain, curves, show = "region";
+  std::string domain, points, curves, show = "region";
   std::vector<std::string> sources, out;
   std::map<std::string, std::string> options;  // as given
 };
@@ -63,7 +64,30 @@ void write_results(const Arguments& arguments, const WindingAnswer& answer, Sess
                                            {"completed", &answer.completed}});
 }
 
+/// Winding numbers of a mesh, soup or cloud at points in space.
+void run_at_points(const Arguments& arguments, Session& session) {
+  if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.options.empty())
+    throw InputError(
+        "option --points: winding numbers in space take no --sources, no --curves and no options");
+  for (const std::string& file : arguments.out)
+    check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
+  SpaceRequest request;
+  request.flip = session.flip;
+  const PolygonSoup input = io::read_surface(arguments.domain);
+  const MatX3 queries = read_queries(arguments.points);
+  session.reading = false;
+  const VecX values = query_winding(input, queries, request, session.task(), session.report);
+  write_query_table(arguments.out, queries, {{"winding"}, values});
+  session.print_warnings();
+  session.print_details();
+  if (session.json) std::cout << report_json(session.report) << "\n";
+}
+
 void run(const Arguments& arguments, Session& session) {
+  if (!arguments.points.empty()) {
+    run_at_points(arguments, session);
+    return;
+  }
   for (const std::string& file : arguments.out) check_output(file, outputs, "winding numbers");
   if (!arguments.curves.empty()) check_output(arguments.curves, {".obj"}, "curves");
   WindingRequest request;
@@ -92,7 +116,10 @@ void add_winding(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "winding", "regions that curves bound on a triangle mesh, and curves that bound nothing");
   auto arguments = std::make_shared<Arguments>();
-  verb->add_option("DOMAIN", arguments->domain, "the surface: .obj .ply .off .stl")
+  verb->add_option(
+          "DOMAIN", arguments->domain,
+          "the surface, or with --points a mesh, soup or cloud in space: .obj .ply .off .stl .pc "
+          ".xyz .pcd")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources,
@@ -100,6 +127,10 @@ void add_winding(CLI::App& program, Session& session) {
                    "DOMAIN")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+  verb->add_option("--points", arguments->points,
+                   "winding numbers in space, here: the vertices of any surface or cloud file, or "
+                   ".csv or .txt with x, y, z first; to .csv .txt .npy .ply")
       ->type_name("FILE");
   verb->add_option("-o,--output", arguments->out,
                    "where to write: .ply .vtp (values at vertices), .obj (homogeneous texture "
@@ -114,7 +145,7 @@ void add_winding(CLI::App& program, Session& session) {
   verb->add_option("--show", arguments->show, "what .html, .png and .vtp show: region or winding")
       ->check(CLI::IsMember({"region", "winding"}))
       ->type_name("WORD");
-  verb->add_flag("--flip", session.flip, "reverse every curve");
+  verb->add_flag("--flip", session.flip, "reverse every curve, or the surface");
   add_method_options(*verb, arguments->options, {winding_method()});
   add_index_option(*verb, session);
   add_json_option(*verb, session);

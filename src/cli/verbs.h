@@ -9,6 +9,7 @@ void add_distance(CLI::App& program, Session& session);
 void add_winding(CLI::App& program, Session& session);
 void add_sdf(CLI::App& program, Session& session);
 void add_query(CLI::App& program, Session& session);
+void add_fit_tori(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_convert(CLI::App& program, Session& session);
 void add_contour(CLI::App& program, Session& session);

@@ -51,7 +51,7 @@ def test_query_gives_values_and_gradients(run: Run, cube: Path, tmp_path: Path) 
     assert rows(tmp_path / "b.csv")[1][0] == pytest.approx(2)  # a winding number of -1 is outside
 
 
-@pytest.mark.parametrize("method", ["closest-point", "hopf-cole", "planar", "log-sum-exp"])
+@pytest.mark.parametrize("method", ["closest-point", "hopf-cole", "planar", "log-sum-exp", "tori"])
 def test_every_method_answers(run: Run, cube: Path, tmp_path: Path, method: str) -> None:
     run("query", "cube.obj", "--points", "points.csv", "--method", method, "-o", "a.csv")
     middle, outside = rows(tmp_path / "a.csv")
@@ -92,6 +92,148 @@ def test_clouds_without_normals_name_the_remedy(run: Run, tmp_path: Path) -> Non
     middle, outside = rows(tmp_path / "a.csv")
     assert middle[0] == pytest.approx(-1, abs=0.05)
     assert outside[0] == pytest.approx(1, abs=0.05)
+
+
+def spiral(n: int, scale: float = 1) -> list[tuple[float, float, float]]:
+    """Points spread evenly over the unit sphere."""
+    points = []
+    for i in range(n):
+        z = 1 - 2 * (i + 0.5) / n
+        r, a = math.sqrt(1 - z * z), i * 2.399963
+        points.append((scale * r * math.cos(a), scale * r * math.sin(a), scale * z))
+    return points
+
+
+@pytest.fixture
+def ball(tmp_path: Path) -> Path:
+    """ball.xyz, 2000 points with normals on the unit sphere; q.csv: its middle, and (3, 0, 0)."""
+    rows = [" ".join(map(str, (*p, *p))) + "\n" for p in spiral(2000)]
+    (tmp_path / "ball.xyz").write_text("".join(rows))
+    (tmp_path / "q.csv").write_text("x,y,z\n0,0,0\n3,0,0\n")
+    return tmp_path / "ball.xyz"
+
+
+def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -> None:
+    run("query", "ball.xyz", "--points", "q.csv", "--gradient", "-o", "a.csv")
+    middle, outside = rows(tmp_path / "a.csv")
+    assert middle[0] == pytest.approx(-1, abs=1e-3)
+    assert outside == pytest.approx([2, 1, 0, 0], abs=1e-2)
+    run("fit-tori", "ball.xyz", "-o", "tori.ply")
+    run("query", "tori.ply", "--points", "q.csv", "--gradient", "-o", "b.csv")
+    assert rows(tmp_path / "b.csv")[1] == pytest.approx(outside, abs=1e-9)
+    run("query", "tori.ply", "--points", "q.csv", "--flip", "-o", "c.csv")
+    assert rows(tmp_path / "c.csv")[1][0] == pytest.approx(-outside[0], abs=1e-9)
+    report = run("query", "ball.xyz", "--points", "q.csv", "--json", "-o", "a.csv").stdout
+    assert json.loads(report)["method"] == "tori"
+    run("fit-tori", "ball.xyz", "-o", "tori.obj", status=2)
+
+
+def test_winding_numbers_in_space(run: Run, cube: Path, ball: Path, tmp_path: Path) -> None:
+    for name, slack in (("cube.obj", 1e-9), ("ball.xyz", 1e-2)):
+        run("winding", name, "--points", "q.csv", "-o", "w.csv")
+        middle, outside = rows(tmp_path / "w.csv")
+        assert middle[0] == pytest.approx(1, abs=slack)
+        assert outside[0] == pytest.approx(0, abs=slack)
+    run("winding", "cube.obj", "--points", "q.csv", "--flip", "-o", "w.csv")
+    assert rows(tmp_path / "w.csv")[0][0] == pytest.approx(-1)
+    run("winding", "cube.obj", "--points", "q.csv", "-s", "x.txt", "-o", "w.csv", status=2)
+
+
+def torn() -> str:
+    """The cube as six squares that do not touch: cracks all along its edges."""
+    corners = [[float(x) for x in row.split()[1:]] for row in CUBE.splitlines()[:8]]
+    rows = []
+    for row in CUBE.splitlines()[8:]:
+        face = [corners[int(v) - 1] for v in row.split()[1:]]
+        middle = [sum(p[a] for p in face) / 4 for a in range(3)]
+        for p in face:
+            rows.append("v " + " ".join(str(0.97 * p[a] + 0.03 * middle[a]) for a in range(3)))
+    faces = ["f " + " ".join(str(4 * f + k + 1) for k in range(4)) for f in range(6)]
+    return "\n".join(rows + faces) + "\n"
+
+
+def clean(run: Run, name: str) -> dict[str, object]:
+    """What `littoral info` says of a mesh without a fault."""
+    info: dict[str, object] = json.loads(run("info", name, "--json").stdout)
+    for fault in (
+        "boundary_edges",
+        "nonmanifold_edges",
+        "nonmanifold_vertices",
+        "inconsistently_oriented_edges",
+        "degenerate_faces",
+        "duplicate_faces",
+        "coincident_vertices",
+    ):
+        assert info[fault] == 0, (name, fault)
+    return info
+
+
+def box_of(run: Run, name: str) -> list[float]:
+    box: list[float] = json.loads(run("info", name, "--json").stdout)["bounding_box"]
+    return box
+
+
+@pytest.mark.parametrize("name", ["cube.obj", "torn.obj", "ball.xyz"])
+def test_offsets_of_meshes_and_clouds(run: Run, cube: Path, ball: Path, name: str) -> None:
+    (cube.parent / "torn.obj").write_text(torn())
+    run(
+        "offset", name, "--dilate", "0.1,0.4", "--erode", "0.3", "--resolution", 40, "-o", "all.ply"
+    )
+    assert clean(run, "all.ply")["components"] == 3
+    for arguments, size in (
+        (("--dilate", "0.4"), 1.4),
+        (("--erode", "0.3"), 0.7),
+        (("--open", "0.2"), 1),
+        (("--close", "0.2"), 1),
+    ):
+        run("offset", name, *arguments, "--resolution", 40, "-o", "one.obj")
+        clean(run, "one.obj")
+        assert max(box_of(run, "one.obj")) == pytest.approx(size, abs=0.08)
+
+
+def test_closing_joins_what_is_near(run: Run, tmp_path: Path) -> None:
+    rows = []
+    for x in (-1.15, 1.15):
+        for p in spiral(1500):
+            rows.append(f"{p[0] + x} {p[1]} {p[2]} {p[0]} {p[1]} {p[2]}\n")
+    (tmp_path / "two.xyz").write_text("".join(rows))
+    run("offset", "two.xyz", "--distance", "0", "--resolution", 80, "-o", "a.ply")
+    assert clean(run, "a.ply")["components"] == 2
+    run("offset", "two.xyz", "--close", "0.5", "--resolution", 80, "-o", "a.ply")
+    assert clean(run, "a.ply")["components"] == 1
+    run("offset", "two.xyz", "--method", "tori", "--distance", "0.05", "-o", "a.ply")
+    assert clean(run, "a.ply")["components"] == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "no vertices"),
+        ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "area"),
+        ("v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite"),
+    ],
+)
+@pytest.mark.parametrize("verb", ["sdf", "offset"])
+def test_bad_meshes_are_named(run: Run, tmp_path: Path, verb: str, text: str, words: str) -> None:
+    (tmp_path / "bad.obj").write_text(text)
+    how = ("--dilate", "0.1") if verb == "offset" else ()
+    assert words in run(verb, "bad.obj", *how, "-o", "a.ply", status=2).stderr
+    assert not (tmp_path / "a.ply").exists()
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [("{x} {y} {z} 0 0 0", "normal"), ("{x} {y} {z} 0 0 nan", "normal"), ("{x} 0 0 0 0 1", "")],
+)
+def test_bad_clouds_are_named(run: Run, tmp_path: Path, row: str, words: str) -> None:
+    text = "".join(row.format(x=p[0], y=p[1], z=p[2]) + "\n" for p in spiral(50))
+    (tmp_path / "bad.xyz").write_text(text)
+    if words:
+        assert words in run("sdf", "bad.xyz", "-o", "a.ply", status=2).stderr
+    else:
+        run(
+            "sdf", "bad.xyz", "--resolution", 12, "-o", "a.npy"
+        )  # a line with normals, says no more
 
 
 @pytest.mark.parametrize(

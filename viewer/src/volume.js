@@ -91,8 +91,9 @@ export function makeVolume(scene, look) {
   function cutAway() {
     const plane = look.uniforms.cut.value.set(0, 0, 0, 1);
     if (!state.cut) return;
-    plane.setComponent(state.axis, 1);
-    plane.w = origin[state.axis] + state.position * (n[state.axis] - 1) * spacing[state.axis] + 1e-4;
+    // What lies behind the slice, seen from the first view, is hidden by it anyway.
+    plane.setComponent(state.axis, -1);
+    plane.w = 1e-4 - origin[state.axis] - state.position * (n[state.axis] - 1) * spacing[state.axis];
   }
 
   function moveLevel() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/base/parallel.h"
@@ -11,6 +12,7 @@
 #include "littoral/domain/tet_lattice.h"
 #include "littoral/domain/triangulate.h"
 #include "littoral/methods/signed_heat_tets.h"
+#include "littoral/methods/tori.h"
 #include "littoral/spatial/winding_number.h"
 
 namespace littoral {
@@ -60,7 +62,25 @@ struct Frame {
   Vec3 local(const Vec3& p) const { return (p - centre) / unit; }
   Grid local(const Grid& grid) const { return {grid.n, local(grid.origin), grid.spacing / unit}; }
   MatX3 local(const MatX3& p) const { return (p.rowwise() - centre.transpose()) / unit; }
+  Torus local(Torus t) const { return scaled(t, local(t.q), 1 / unit); }
+  Torus global(Torus t) const { return scaled(t, centre + unit * t.q, unit); }
+
+ private:
+  static Torus scaled(Torus t, const Vec3& q, double scale) {
+    t.q = q;
+    t.k1 /= scale;
+    t.k2 /= scale;
+    t.rho *= scale;
+    return t;
+  }
 };
+
+/// The other side is positive.
+void flip(Torus& t) {
+  t.n = -t.n;
+  t.k1 = -t.k1;
+  t.k2 = -t.k2;
+}
 
 SpaceProblem make_problem(const PolygonSoup& input, const SpaceRequest& request, const Frame& frame,
                           double max_side, Task& task, Report& report) {
@@ -87,6 +107,11 @@ SpaceProblem make_problem(const PolygonSoup& input, const SpaceRequest& request,
       throw InputError(
           "the input has no faces, and its points have no normals; "
           "--estimate-normals computes some");
+    if (has_tori(input) && !request.estimate_normals) {
+      for (const Torus& t : tori_of_cloud(input)) problem.tori.push_back(frame.local(t));
+      if (request.flip)
+        for (Torus& t : problem.tori) flip(t);
+    }
     problem.samples = sample_cloud(surface, report);
     report.sizes.emplace_back("points", surface.n_vertices());
   }
@@ -204,17 +229,17 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
     Task rest = task.stage(0.9, "distance");
     phi = method.on_grid(problem, local, request.options, rest, report);
   } else {
-    const auto distance = method.pointwise(problem, request.options, report);
+    const auto distance =
+        method.pointwise(problem, request.options, task.stage(0.3, "preparing"), report);
     const Stopwatch watch(report, "evaluate");
-    const Task rest = task.stage(0.9, "distance");
+    const Task rest = task.stage(0.6, "distance");
     phi.resize(static_cast<Eigen::Index>(grid.n_nodes()));
     const int rows = grid.n[1] * grid.n[2];
     parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
       rest.checkpoint(static_cast<double>(row) / rows);
       const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
       for (int i = 0; i < grid.n[0]; ++i)
-        phi[static_cast<Eigen::Index>(grid.node(i, j, k))] =
-            distance->at(local.point(i, j, k)).value;
+        phi[static_cast<Eigen::Index>(grid.node(i, j, k))] = distance->value(local.point(i, j, k));
     });
   }
   return phi * frame.unit;
@@ -302,9 +327,10 @@ VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceR
   report.sizes.emplace_back("queries", static_cast<double>(queries.rows()));
   const Frame frame(bounding_box(input));
   const SpaceProblem problem = make_problem(input, request, frame, query_side, task, report);
-  const auto distance = method.pointwise(problem, request.options, report);
+  const auto distance =
+      method.pointwise(problem, request.options, task.stage(0.3, "preparing"), report);
   const Stopwatch watch(report, "evaluate");
-  return evaluate(*distance, frame.local(queries), gradients, task.stage(0.9, "distance")) *
+  return evaluate(*distance, frame.local(queries), gradients, task.stage(0.6, "distance")) *
          frame.unit;
 }
 
@@ -332,6 +358,21 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
           values[i] = winding(local.row(i));
       });
   return values;
+}
+
+PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,
+                           Report& report) {
+  const SpaceMethod& method = find_space_method("tori");
+  report.method = method.info.name;
+  report.domain = "points";
+  const Frame frame(bounding_box(input));
+  const SpaceProblem problem = make_problem(input, request, frame, query_side, task, report);
+  const auto distance =
+      method.pointwise(problem, request.options, task.stage(0.9, "fitting"), report);
+  const Tori& fitted = dynamic_cast<const Tori&>(*distance);
+  std::vector<Torus> tori = fitted.tori();
+  for (Torus& t : tori) t = frame.global(t);
+  return cloud_of_tori((frame.unit * fitted.points()).rowwise() + frame.centre.transpose(), tori);
 }
 
 }  // namespace littoral

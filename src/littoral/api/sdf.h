@@ -72,4 +72,9 @@ VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceR
 VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
                    Task task, Report& report);
 
+/// The tori that method tori fits to the input, as a cloud that later calls take as it is
+/// (api/tori_cloud.h). The request's method does not matter. Throws as query_distance.
+PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,
+                           Report& report);
+
 }  // namespace littoral

@@ -7,6 +7,7 @@
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
 #include "littoral/methods/signed_heat_grid.h"
+#include "littoral/methods/tori.h"
 
 namespace littoral {
 
@@ -22,6 +23,18 @@ struct KernelOptions {
 
 const OptionTable<ClosestPointOptions>& no_options() {
   static const OptionTable<ClosestPointOptions> table;
+  return table;
+}
+
+struct ToriOptions {
+  bool noisy = false;
+};
+
+const OptionTable<ToriOptions>& tori_options() {
+  static const OptionTable<ToriOptions> table =
+      OptionTable<ToriOptions>().toggle(&ToriOptions::noisy, "noisy",
+                                        "For noisy clouds: tori are fitted to more neighbours and "
+                                        "need not pass through their points.");
   return table;
 }
 
@@ -45,7 +58,7 @@ SpaceMethod kernel_method(const std::string& name, const std::string& summary,
                           const std::string& reference, Kernel* kernel) {
   return pointwise_method(
       {name, summary, inputs, {}, reference}, kernel_options(),
-      [kernel](const SpaceProblem& problem, const KernelOptions& options, Report&) {
+      [kernel](const SpaceProblem& problem, const KernelOptions& options, const Task&, Report&) {
         return kernel(problem.samples, options.sharpness / sample_spacing(problem.samples));
       });
 }
@@ -86,9 +99,8 @@ std::vector<SpaceMethod> closest_point_methods() {
                         {},
                         "Barill et al.: Fast Winding Numbers for Soups and Clouds (2018)"},
                        no_options(),
-                       [](const SpaceProblem& problem, const ClosestPointOptions&, Report&) {
-                         return closest_point(problem, SignRule::winding);
-                       }),
+                       [](const SpaceProblem& problem, const ClosestPointOptions&, const Task&,
+                          Report&) { return closest_point(problem, SignRule::winding); }),
       pointwise_method({"closest-point",
                         "Distance to the nearest point, signed by the pseudonormal there; exact on "
                         "closed meshes.",
@@ -97,9 +109,8 @@ std::vector<SpaceMethod> closest_point_methods() {
                         "Baerentzen, Aanaes: Signed Distance Computation Using the Angle Weighted "
                         "Pseudonormal (2005)"},
                        no_options(),
-                       [](const SpaceProblem& problem, const ClosestPointOptions&, Report&) {
-                         return closest_point(problem, SignRule::pseudonormal);
-                       }),
+                       [](const SpaceProblem& problem, const ClosestPointOptions&, const Task&,
+                          Report&) { return closest_point(problem, SignRule::pseudonormal); }),
   };
 }
 
@@ -119,10 +130,30 @@ std::vector<SpaceMethod> convolutional_methods() {
   };
 }
 
+std::vector<SpaceMethod> tori_methods() {
+  return {pointwise_method(
+      {"tori",
+       "Blend of the tori that fit the surface around each point best; with clouds and samples of "
+       "meshes.",
+       inputs,
+       {},
+       "Feng: Generalized Distance and Winding (2026), chapter 5"},
+      tori_options(),
+      [](const SpaceProblem& problem, const ToriOptions& options, const Task& task,
+         Report& report) {
+        if (!problem.tori.empty())
+          return std::make_unique<const Tori>(problem.surface.points, problem.tori);
+        const Stopwatch watch(report, "fit");
+        return std::make_unique<const Tori>(
+            problem.samples, options.noisy ? TorusFit::noisy() : TorusFit::exact(), task, report);
+      })};
+}
+
 const std::vector<SpaceMethod>& space_methods() {
   static const std::vector<SpaceMethod> all = [] {
     std::vector<SpaceMethod> out;
-    for (auto family : {space_heat_methods, closest_point_methods, convolutional_methods}) {
+    for (auto family :
+         {space_heat_methods, closest_point_methods, convolutional_methods, tori_methods}) {
       std::vector<SpaceMethod> entries = family();
       out.insert(out.end(), std::make_move_iterator(entries.begin()),
                  std::make_move_iterator(entries.end()));

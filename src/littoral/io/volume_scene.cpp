@@ -136,17 +136,21 @@ class Builder {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-// The part of a volume up to a slice.
-VolumeField up_to(const VolumeField& volume, int axis, int slice) {
+// The part of a volume from a slice on.
+VolumeField in_front(const VolumeField& volume, int axis, int slice) {
   VolumeField part{volume.grid, {}, volume.name};
-  part.grid.n[axis] = slice + 1;
+  part.grid.n[axis] -= slice;
+  part.grid.origin[axis] += slice * volume.grid.spacing[axis];
+  std::array<int, 3> first{};
+  first[axis] = slice;
   const auto& n = part.grid.n;
   part.values.resize(static_cast<Eigen::Index>(part.grid.n_nodes()));
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
         part.values[static_cast<Eigen::Index>(part.grid.node(i, j, k))] =
-            volume.values[static_cast<Eigen::Index>(volume.grid.node(i, j, k))];
+            volume.values[static_cast<Eigen::Index>(
+                volume.grid.node(first[0] + i, first[1] + j, first[2] + k))];
   return part;
 }
 
@@ -156,10 +160,10 @@ Scene make_volume_scene(const VolumeField& volume, const VolumeView& view) {
   const auto known = describe(volume, view);
   Builder builder;
   builder.add_slice(volume, known->axis, known->slice);
-  if (known->isosurface && known->slice > 0) {
-    const VolumeField behind = up_to(volume, known->axis, known->slice);
+  if (known->isosurface && known->slice + 1 < volume.grid.n[known->axis]) {
+    const VolumeField part = in_front(volume, known->axis, known->slice);
     Report unheard;  // it ends at the slice
-    builder.add_surface(isosurface(behind.grid, behind.values, known->level, {}, unheard),
+    builder.add_surface(isosurface(part.grid, part.values, known->level, {}, unheard),
                         known->level);
   }
   Scene scene;

@@ -12,9 +12,13 @@ VecX evaluate(const PointwiseDistance& distance, const MatX3& queries, MatX3* gr
       static_cast<std::size_t>(queries.rows()), 256, [&](std::size_t begin, std::size_t end) {
         task.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
         for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
+          if (gradients == nullptr) {
+            values[i] = distance.value(queries.row(i));
+            continue;
+          }
           const DistanceSample sample = distance.at(queries.row(i));
           values[i] = sample.value;
-          if (gradients != nullptr) gradients->row(i) = sample.gradient;
+          gradients->row(i) = sample.gradient;
         }
       });
   return values;

@@ -19,6 +19,8 @@ class PointwiseDistance {
  public:
   virtual ~PointwiseDistance() = default;
   virtual DistanceSample at(const Vec3& x) const = 0;
+  /// The value alone, for methods that have it for less.
+  virtual double value(const Vec3& x) const { return at(x).value; }
 };
 
 /// Values (queries) and, unless null, gradients (queries x 3) at queries x 3 points.

@@ -20,10 +20,12 @@ const OptionTable<SpaceHeatOptions>& space_heat_options() {
               &O::time_scale, "time-scale", "multiple of h^2", 1e-4, 1e6,
               "Diffusion time t as a multiple of h^2, h being the mean distance between samples "
               "of the input; larger values smooth more and close wider gaps.")
-          .choice(&O::constraint, "constraint", {"none", "zero-set"},
-                  "Values at the source: shifted to mean zero, or zero in every grid cell.")
-          .number(&O::soft, "soft", "weight, 0 = off", 0, 1e12,
-                  "Replaces the constraint by a penalty on the squared value along the source.");
+          .choice(&O::constraint, "constraint", {"none", "zero-set", "soft"},
+                  "Values at the source: shifted to mean zero, zero in every grid cell, or drawn "
+                  "to zero by a penalty on their squares.")
+          .number(&O::soft, "soft", "weight", 1e-6, 1e12,
+                  "Weight of that penalty; larger values follow the source more closely, with its "
+                  "noise.");
   return table;
 }
 
@@ -61,13 +63,13 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
     report.warn("the box holds no sample of the input; distances are shifted by the box's centre");
     return phi;
   }
-  if (options.soft == 0 &&
-      static_cast<SpaceConstraint>(options.constraint) == SpaceConstraint::none) {
+  const auto constraint = static_cast<SpaceConstraint>(options.constraint);
+  if (constraint == SpaceConstraint::none) {
     phi.array() -= rows.weight.dot(rows.A * phi) / rows.weight.sum();
     return phi;
   }
   VecX softness = VecX::Zero(rows.A.rows());
-  if (options.soft > 0) {
+  if (constraint == SpaceConstraint::soft) {
     // L is the integral over space divided by the volume of a cell.
     const double cell = grid.spacing.prod();
     softness = cell * h / (options.soft * rows.weight.array());

@@ -62,11 +62,10 @@ VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, doub
     if (SpMat::InnerIterator(terms.A, v) && ops.component[static_cast<std::size_t>(v)] >= 0)
       reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(v)])] = 1;
 
-  const bool held = options.soft > 0 ||
-                    static_cast<SpaceConstraint>(options.constraint) == SpaceConstraint::zero_set;
-  if (terms.A.rows() > 0 && held) {
+  const auto constraint = static_cast<SpaceConstraint>(options.constraint);
+  if (terms.A.rows() > 0 && constraint != SpaceConstraint::none) {
     VecX softness = VecX::Zero(terms.A.rows());
-    if (options.soft > 0) softness = h / (options.soft * terms.weight.array());
+    if (constraint == SpaceConstraint::soft) softness = h / (options.soft * terms.weight.array());
     phi = solve_held(
         [&](VecX& b) {
           Report ignored;

@@ -5,14 +5,16 @@
 
 #include "littoral/base/report.h"
 #include "littoral/base/task.h"
+#include "littoral/methods/pointwise.h"
 #include "littoral/methods/torus_fit.h"
 #include "littoral/sources/oriented_points.h"
 #include "littoral/spatial/point_tree.h"
+#include "littoral/spatial/winding_number.h"
 
 namespace littoral {
 
 /// A cloud's tori and their blend; immutable, may be asked from several threads.
-class Tori {
+class Tori final : public PointwiseDistance {
  public:
   /// Fits a torus to each point. Coincident points become one with their mean normal; where normals
   /// cancel the point is left out, with a warning. Throws InputError if a number is not finite
@@ -28,20 +30,20 @@ class Tori {
 
   /// Signed distance at x [length] (eq. 5.1 with shifted exponents): tori of the nearest points,
   /// each within its patch, weighted by how near their points are, relative to the spacing there.
-  /// Never more than the distance to the nearest point.
-  double value(const Vec3& x) const;
+  /// Never more than the distance to the nearest point. Away from the points, where tori disagree
+  /// on the side (as behind acute edges) or the winding number of the cloud is certain that they
+  /// are wrong (as beyond a few flipped normals), the winding number decides.
+  double value(const Vec3& x) const override;
 
-  /// The same with its derivative, exact but where the neighbours change.
-  double value(const Vec3& x, Vec3& gradient) const;
-
-  /// Values at all rows of x (queries x 3), on all threads; with gradients (queries x 3) unless
-  /// null.
-  VecX values(const MatX3& x, const Task& task, MatX3* gradients = nullptr) const;
+  /// The same with its derivative, exact but where neighbours or side change.
+  DistanceSample at(const Vec3& x) const override;
 
  private:
   MatX3 points_;
   std::vector<Torus> tori_;
   PointTree tree_;
+  WindingNumber winding_;
+  int orientation_;  // 1 outward, -1 inward, 0 neither
 };
 
 }  // namespace littoral

@@ -4,51 +4,22 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numbers>
 
-#include "geodesic_helpers.h"
 #include "littoral/api/distance.h"
 #include "littoral/base/error.h"
 #include "littoral/operators/curved_hessian.h"
 #include "littoral/operators/line_field.h"
-#include "shared_data.h"
+#include "regularized_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-struct Solved {
-  VecX u;
-  Report report;
-};
-
-RegularizedOptions with_alpha(double alpha, double tolerance = 1e-4) {
-  RegularizedOptions options;
-  options.alpha = alpha;
-  options.tolerance = tolerance;
-  return options;
-}
-
-Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
-             const RegularizedOptions& options, Regularizer regularizer = Regularizer::dirichlet,
-             VecX V = {}) {
-  Solved out;
-  const test::Problem p = test::problem(mesh, sources, out.report);
-  RegularizerData data;
-  data.V = std::move(V);
-  if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
-  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
-  out.u =
-      Regularized(p.ops, regularizer, std::move(data), {}).solve(p.terms, options, {}, out.report);
-  return out;
-}
-
-double residual(const Report& report, const std::string& name) {
-  for (const auto& [key, value] : report.residuals)
-    if (key == name) return value;
-  return -1;
-}
+using test::residual;
+using test::solve;
+using test::Solved;
+using test::with_alpha;
 
 SurfaceSources across_ring(int n) { return test::vertex_points({0, n, 2 * n, 3 * n}); }
 
@@ -276,7 +247,7 @@ TEST(Regularized, CurvesThroughFaces) {
   double sum = 0;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     sum += std::abs(u[v] - std::abs(mesh.point(v).y() - 0.52));
-  EXPECT_LT(sum / mesh.n_vertices(), 0.015);
+  EXPECT_LT(sum / mesh.n_vertices(), 0.03);  // edges of 1/20
 }
 
 TEST(Regularized, RobustToNoiseAndMeshing) {
@@ -347,54 +318,6 @@ TEST(Regularized, BadInputSaysWhatIsWrong) {
   RegularizedOptions options = with_alpha(0.05, 1e-9);
   options.max_iterations = 3;
   EXPECT_EQ(solve(mesh, test::vertex_points({0}), options).report.status, "not converged");
-}
-
-double difference(const VecX& u, const std::filesystem::path& file) {
-  std::ifstream in(file);
-  VecX e(u.size());
-  for (double& value : e)
-    if (!(in >> value)) return 1e9;
-  return (u - e).cwiseAbs().maxCoeff() / e.maxCoeff();
-}
-
-constexpr const char* spot = "reference/rgd/spot_rr";
-
-TEST(Regularized, ReferenceDirichletSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = test::one_based_mesh(folder);
-  const VecX u = solve(mesh, test::vertex_points({2272}), with_alpha(0.05, 7e-5)).u;
-  EXPECT_LT(difference(u, folder / "u_D_alpha0.05_tight.txt"), 1e-3);
-}
-
-TEST(Regularized, ReferenceHessianSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = test::one_based_mesh(folder);
-  const VecX u =
-      solve(mesh, test::vertex_points({2272}), with_alpha(0.001, 1e-2), Regularizer::hessian).u;
-  EXPECT_LT(difference(u, folder / "u_H_a0.001.txt"), 0.02);
-}
-
-TEST(Regularized, ReferenceAlignedSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = test::one_based_mesh(folder);
-  std::ifstream in(folder / "vf_int_faces3.txt");
-  Report report;
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  VecX V(2 * mesh.n_faces());
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    Vec3 v;
-    in >> v[0] >> v[1] >> v[2];
-    const Complex z = tangent_part(mesh, T, f, v);
-    V[2 * f] = z.real();
-    V[2 * f + 1] = z.imag();
-  }
-  RegularizedOptions options = with_alpha(0.05, 2e-3);
-  options.beta = 200;  // the authors' program weighs alignment twice as much as eq. 8 says
-  const VecX u = solve(mesh, test::vertex_points({2272}), options, Regularizer::align, V).u;
-  EXPECT_LT(difference(u, folder / "u_vfa_a0.05_b100.txt"), 0.02);
 }
 
 TEST(LineField, InterpolatesOnAPlaneAndForgetsSigns) {

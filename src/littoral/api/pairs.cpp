@@ -111,8 +111,7 @@ FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Do
   if (method == "regularized") {
     options = options_of(regularized_options(), texts, report);
   } else {
-    // The table of the other method of this family: eq. 1, with the options they share.
-    for (const auto& [name, text] : texts) regularized_options().set(options, name, text);
+    options = options_of(constrained_options(), texts, report);
     options.alpha = 0;
   }
   const auto regularized = std::make_shared<const Regularized>(

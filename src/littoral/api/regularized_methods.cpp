@@ -109,23 +109,6 @@ SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& opt
   return {method.solve(terms, options, task.stage(0.65, "alternating directions"), report), {}};
 }
 
-/// Eq. 1, which has nothing to choose but when to stop.
-const OptionTable<RegularizedOptions>& constrained_options() {
-  using O = RegularizedOptions;
-  static const OptionTable<O> table = [] {
-    OptionTable<O> out;
-    return out
-        .number(&O::tolerance, "tolerance", "", 1e-10, 1,
-                "Iterations stop when both residuals are below this share of what they compare.")
-        .number(&O::gap, "gap", "", 0, 1,
-                "If not 0, iterations go on until the duality gap is below this share of the "
-                "objective.")
-        .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-                "Iterations after which the best answer so far is given.");
-  }();
-  return table;
-}
-
 SurfaceResult belyaev_fayolle(const SurfaceProblem& problem, RegularizedOptions& options,
                               Task& task, Report& report) {
   options.alpha = 0;

@@ -67,6 +67,12 @@ S options_of(const OptionTable<S>& table, const OptionTexts& texts, Report& repo
   return options;
 }
 
+void refuse_flips(bool intrinsic_delaunay) {
+  if (intrinsic_delaunay)
+    throw UnsupportedError(
+        "pairs of vertices are measured on the mesh as it is: leave out --intrinsic-delaunay");
+}
+
 FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Domain>& domain,
                        const OptionTexts& texts, int first, Task& task, Report& report) {
   const auto walk = [&](auto run) -> FromVertex {
@@ -79,6 +85,7 @@ FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Do
   if (method == "fast-marching") return walk(fast_marching);
   if (method == "unsigned-heat") {
     const auto options = options_of(unsigned_heat_options(), texts, report);
+    refuse_flips(options.intrinsic_delaunay);
     const auto heat = std::make_shared<const UnsignedHeat>(domain->ops, options, factoring);
     return [domain, heat](int v, const Task& t, Report& r) {
       return heat->solve(domain->terms(v), t, r);
@@ -88,8 +95,9 @@ FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Do
     auto options = options_of(signed_heat_options(), texts, report);
     const SourceTerms terms = domain->terms(first);
     if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
-    if (options.discontinuous || options.bounding_only)
-      throw UnsupportedError("pairs of vertices have no curves to tear or to leave out");
+    if (options.discontinuous || options.bounding_only || options.sharpen)
+      throw UnsupportedError("pairs of vertices have no curves to tear, leave out or sharpen from");
+    refuse_flips(options.intrinsic_delaunay);
     const auto heat = std::make_shared<const SignedHeat>(domain->ops, options.time_scale, factoring,
                                                          needed_diffusions(terms, options));
     return [domain, heat, options](int v, const Task& t, Report& r) {

@@ -39,6 +39,29 @@ def mixed(n: int) -> str:
     return json.dumps({"curves": curves, "points": [{"v": corner}]})
 
 
+def rows_for_knitting(obj: Path) -> str:
+    """Directions for rows of knitting: round the legs of the cow, as `f I x y z`."""
+    points: list[list[float]] = []
+    faces: list[list[int]] = []
+    for line in obj.read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            points.append([float(x) for x in words[1:4]])
+        elif words[:1] == ["f"]:
+            faces.append([int(w.split("/")[0]) - 1 for w in words[1:]])
+    lines = []
+    for f, (a, b, c) in enumerate(faces):
+        height = (points[a][1] + points[b][1] + points[c][1]) / 3
+        if not -0.55 < height < -0.35:
+            continue
+        u = [points[b][k] - points[a][k] for k in range(3)]
+        v = [points[c][k] - points[a][k] for k in range(3)]
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        if math.hypot(normal[0], normal[2]) > 0.5 * math.hypot(*normal):
+            lines.append(f"f {f} {-normal[2]:.9g} 0 {normal[0]:.9g}\n")
+    return "".join(lines)
+
+
 def main(program: str, shared: Path) -> None:
     out = ROOT / "docs" / "gallery"
     with tempfile.TemporaryDirectory() as folder:
@@ -67,6 +90,14 @@ def main(program: str, shared: Path) -> None:
         picture("mixed", work / "square.obj", work / "mixed.json")
         data = ROOT / "examples" / "data"
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
+        sharp = "--time-scale", "400", "--sharpen"
+        picture("sharpened", data / "spot.obj", data / "spot-jersey.txt", *sharp)
+        (work / "snout.txt").write_text("unsigned_point\nv 306\n")
+        (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
+        smooth = "--method", "regularized", "--alpha", "0.1"
+        rows = "--regularizer", "align", "--field", str(work / "rows.txt"), "--field-width", "0.15"
+        picture("regularized", data / "spot.obj", work / "snout.txt", *smooth)
+        picture("knitting", data / "spot.obj", work / "snout.txt", *smooth, *rows)
         curves = shared / "data" / "curves"
         if not curves.is_dir():
             print(f"{curves} is not there: the other pictures are left as they are")

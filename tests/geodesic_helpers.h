@@ -2,12 +2,16 @@
 // Exact and fast-marching distance in one call, and a slow exact answer to compare with.
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "heat_helpers.h"
 #include "littoral/domain/edge_sides.h"
 #include "littoral/methods/exact_polyhedral.h"
 #include "littoral/methods/fast_marching.h"
+#include "test_meshes.h"
 
 namespace littoral::test {
 
@@ -24,6 +28,38 @@ inline VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
 inline VecX marched(const SurfaceMesh& mesh, const SurfaceSources& sources) {
   Report report;
   return geodesic(fast_marching, mesh, sources, report);
+}
+
+/// A ring of n columns of circumference 2 pi (as a polygon in space, lengths exact) and `rows` rows
+/// of faces; vertex j n + i is column i of level j.
+inline SurfaceMesh ring(int n, int rows, double row_height) {
+  PolygonSoup soup;
+  const double turn = 2 * std::acos(-1.0), radius = turn / n / 2 / std::sin(turn / 2 / n);
+  soup.points.resize(n * (rows + 1), 3);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double a = turn * i / n;
+      soup.points.row(j * n + i) << radius * std::cos(a), radius * std::sin(a), row_height * j;
+    }
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * n + i, b = j * n + (i + 1) % n;
+      add_triangle(soup, a, b, b + n);
+      add_triangle(soup, a, b + n, a + n);
+    }
+  return SurfaceMesh(soup);
+}
+
+/// The mesh in vertices.txt and faces_1based.txt of a folder.
+inline SurfaceMesh one_based_mesh(const std::filesystem::path& folder) {
+  std::ifstream vertices(folder / "vertices.txt"), faces(folder / "faces_1based.txt");
+  std::vector<double> x{std::istream_iterator<double>(vertices), {}};
+  const std::vector<int> f{std::istream_iterator<int>(faces), {}};
+  PolygonSoup soup;
+  soup.points = Eigen::Map<MatX3>(x.data(), static_cast<Eigen::Index>(x.size() / 3), 3);
+  for (std::size_t i = 0; i + 2 < f.size(); i += 3)
+    add_triangle(soup, f[i] - 1, f[i + 1] - 1, f[i + 2] - 1);
+  return SurfaceMesh(soup);
 }
 
 /// Distance between all vertices of a small mesh by following every straight path through every

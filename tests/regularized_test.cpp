@@ -4,76 +4,28 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numbers>
 
-#include "geodesic_helpers.h"
+#include "littoral/api/distance.h"
 #include "littoral/base/error.h"
 #include "littoral/operators/curved_hessian.h"
 #include "littoral/operators/line_field.h"
-#include "shared_data.h"
+#include "regularized_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-struct Solved {
-  VecX u;
-  Report report;
-};
-
-RegularizedOptions with_alpha(double alpha, double tolerance = 1e-4) {
-  RegularizedOptions options;
-  options.alpha = alpha;
-  options.tolerance = tolerance;
-  return options;
-}
-
-Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
-             const RegularizedOptions& options, Regularizer regularizer = Regularizer::dirichlet,
-             VecX V = {}) {
-  Solved out;
-  const test::Problem p = test::problem(mesh, sources, out.report);
-  RegularizerData data;
-  data.V = std::move(V);
-  if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
-  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
-  out.u =
-      Regularized(p.ops, regularizer, std::move(data), {}).solve(p.terms, options, {}, out.report);
-  return out;
-}
-
-double residual(const Report& report, const std::string& name) {
-  for (const auto& [key, value] : report.residuals)
-    if (key == name) return value;
-  return -1;
-}
-
-/// A ring of n columns of circumference 2 pi (as a polygon in space, lengths exact) and height 0.3.
-SurfaceMesh ring(int n) {
-  PolygonSoup soup;
-  const int rows = 3;
-  const double side = 2 * std::numbers::pi / n, radius = side / 2 / std::sin(std::numbers::pi / n);
-  soup.points.resize(n * (rows + 1), 3);
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i < n; ++i) {
-      const double a = 2 * std::numbers::pi * i / n;
-      soup.points.row(j * n + i) << radius * std::cos(a), radius * std::sin(a), 0.1 * j;
-    }
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = j * n + i, b = j * n + (i + 1) % n;
-      test::add_triangle(soup, a, b, b + n);
-      test::add_triangle(soup, a, b + n, a + n);
-    }
-  return SurfaceMesh(soup);
-}
+using test::residual;
+using test::solve;
+using test::Solved;
+using test::with_alpha;
 
 SurfaceSources across_ring(int n) { return test::vertex_points({0, n, 2 * n, 3 * n}); }
 
 TEST(Regularized, CircleWithDirichletEnergy) {
   const int n = 120;
-  const SurfaceMesh mesh = ring(n);
+  const SurfaceMesh mesh = test::ring(n, 3, 0.1);
   const double root = std::sqrt(2 * std::numbers::pi * 0.3), pi = std::numbers::pi;
   for (const double alpha : {0.0, 0.5, 1.5, 5.0}) {
     const VecX u = solve(mesh, across_ring(n), with_alpha(alpha / root, 1e-5)).u;
@@ -272,6 +224,71 @@ TEST(Regularized, ManySourcesAgreeHoweverTheyAreHeld) {
     EXPECT_NEAR(c[v], std::max(0.0, mesh.point(v).y() - 0.3), 0.01);
 }
 
+TEST(Regularized, SourcesInsideFacesAndOnEdges) {
+  // Barycentre of a face, middle of an edge: near the source the distance is that of the plane.
+  const SurfaceMesh mesh(test::grid_soup(16, 16, 1));
+  for (const SurfacePoint& p :
+       {SurfacePoint::in_face(250, 0.5, 0.25, 0.25), SurfacePoint::on_edge(200, 0.25)}) {
+    SurfaceSources sources;
+    sources.points.push_back(p);
+    const Vec3 at = mesh.position(p);
+    const VecX u = solve(mesh, sources, with_alpha(0, 1e-4)).u;
+    double sum = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) sum += std::abs(u[v] - (mesh.point(v) - at).norm());
+    EXPECT_LT(sum / mesh.n_vertices(), 0.04);  // first order at a point, edges of 1/16
+  }
+}
+
+TEST(Regularized, CurvesThroughFaces) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.3));
+  MatX3 line(2, 3);
+  line << 0, 0.52, 0, 1, 0.52, 0;
+  const VecX u = solve(mesh, test::space_curve(line, false), with_alpha(0, 1e-4)).u;
+  double sum = 0;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    sum += std::abs(u[v] - std::abs(mesh.point(v).y() - 0.52));
+  EXPECT_LT(sum / mesh.n_vertices(), 0.03);  // edges of 1/20
+}
+
+TEST(Regularized, RobustToNoiseAndMeshing) {
+  // Figures 9, 10: the same alpha on a regular, a jittered, a coarse-and-fine and a noisy mesh.
+  PolygonSoup graded = test::grid_soup(20, 20, 1), noisy = graded;
+  for (int v = 0; v < graded.n_vertices(); ++v) {
+    graded.points(v, 0) = std::pow(graded.points(v, 0), 1.7);
+    noisy.points(v, 2) = 0.005 * std::sin(12.9898 * v);
+  }
+  auto at_middle = [](const PolygonSoup& soup) {
+    const SurfaceMesh mesh(soup);
+    const VecX u = solve(mesh, test::vertex_points({0}), with_alpha(0.1, 1e-4)).u;
+    int nearest = 0;  // to the far corner
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if ((mesh.point(v) - Vec3(1, 1, 0)).norm() < (mesh.point(nearest) - Vec3(1, 1, 0)).norm())
+        nearest = v;
+    return u[nearest];
+  };
+  const double regular = at_middle(test::grid_soup(20, 20, 1));
+  EXPECT_NEAR(at_middle(test::jittered_grid_soup(20, 20, 0.3)), regular, 0.03 * regular);
+  EXPECT_NEAR(at_middle(graded), regular, 0.06 * regular);
+  EXPECT_NEAR(at_middle(noisy), regular, 0.06 * regular);
+}
+
+TEST(Regularized, SmoothAtTheCutLocusInFewEigenfunctions) {
+  // Supplement 10.2 in one dimension: on a ring the share of the energy above frequency 8 falls.
+  const int n = 96;
+  const SurfaceMesh mesh = test::ring(n, 3, 0.1);
+  auto tail = [&](double alpha) {
+    const VecX u = solve(mesh, across_ring(n), with_alpha(alpha, 1e-5)).u.head(n);
+    double sum = 0;
+    for (int k = 9; k <= n / 2; ++k) {
+      double c = 0;
+      for (int i = 0; i < n; ++i) c += u[i] * std::cos(2 * std::numbers::pi * k * i / n);
+      sum += c * c;
+    }
+    return std::sqrt(sum) / n;
+  };
+  EXPECT_LT(tail(0.3), 0.75 * tail(0));
+}
+
 TEST(Regularized, BadInputSaysWhatIsWrong) {
   const SurfaceMesh mesh(test::grid_soup(3, 3));
   EXPECT_THROW(solve(mesh, test::vertex_points({0}), with_alpha(0.1), Regularizer::align),
@@ -280,68 +297,27 @@ TEST(Regularized, BadInputSaysWhatIsWrong) {
   V[3] = std::nan("");
   EXPECT_THROW(solve(mesh, test::vertex_points({0}), with_alpha(0.1), Regularizer::align, V),
                InputError);
+  Report report;
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"alpha", "-1"},
+                                                                  {"alpha", "nan"},
+                                                                  {"beta", "-1"},
+                                                                  {"regularizer", "smooth"},
+                                                                  {"tolerance", "0"}})
+    EXPECT_THROW(surface_distance(mesh, test::vertex_points({0}),
+                                  {"regularized", {{name, value}}, false}, {}, report),
+                 InputError)
+        << name;
+  EXPECT_THROW(surface_distance(mesh, {}, {"regularized", {}, false}, {}, report), InputError);
+  EXPECT_THROW(
+      surface_distance(mesh, test::vertex_points({99}), {"regularized", {}, false}, {}, report),
+      InputError);
+  EXPECT_THROW(surface_distance(mesh, test::vertex_points({0}),
+                                {"belyaev-fayolle", {{"alpha", "1"}}, false}, {}, report),
+               InputError);
   RegularizedOptions options = with_alpha(0.05, 1e-9);
   options.max_iterations = 3;
   EXPECT_EQ(solve(mesh, test::vertex_points({0}), options).report.status, "not converged");
-}
-
-SurfaceMesh reference_mesh(const std::filesystem::path& folder) {
-  std::ifstream vertices(folder / "vertices.txt"), faces(folder / "faces_1based.txt");
-  std::vector<double> x{std::istream_iterator<double>(vertices), {}};
-  const std::vector<int> f{std::istream_iterator<int>(faces), {}};
-  PolygonSoup soup;
-  soup.points = Eigen::Map<MatX3>(x.data(), static_cast<Eigen::Index>(x.size() / 3), 3);
-  for (std::size_t i = 0; i + 2 < f.size(); i += 3)
-    test::add_triangle(soup, f[i] - 1, f[i + 1] - 1, f[i + 2] - 1);
-  return SurfaceMesh(soup);
-}
-
-double difference(const VecX& u, const std::filesystem::path& file) {
-  std::ifstream in(file);
-  VecX e(u.size());
-  for (double& value : e)
-    if (!(in >> value)) return 1e9;
-  return (u - e).cwiseAbs().maxCoeff() / e.maxCoeff();
-}
-
-constexpr const char* spot = "reference/rgd/spot_rr";
-
-TEST(Regularized, ReferenceDirichletSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = reference_mesh(folder);
-  const VecX u = solve(mesh, test::vertex_points({2272}), with_alpha(0.05, 7e-5)).u;
-  EXPECT_LT(difference(u, folder / "u_D_alpha0.05_tight.txt"), 1e-3);
-}
-
-TEST(Regularized, ReferenceHessianSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = reference_mesh(folder);
-  const VecX u =
-      solve(mesh, test::vertex_points({2272}), with_alpha(0.001, 1e-2), Regularizer::hessian).u;
-  EXPECT_LT(difference(u, folder / "u_H_a0.001.txt"), 0.02);
-}
-
-TEST(Regularized, ReferenceAlignedSlow) {
-  LITTORAL_NEEDS_SHARED(spot);
-  const auto folder = test::shared() / spot;
-  const SurfaceMesh mesh = reference_mesh(folder);
-  std::ifstream in(folder / "vf_int_faces3.txt");
-  Report report;
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  VecX V(2 * mesh.n_faces());
-  for (int f = 0; f < mesh.n_faces(); ++f) {
-    Vec3 v;
-    in >> v[0] >> v[1] >> v[2];
-    const Complex z = tangent_part(mesh, T, f, v);
-    V[2 * f] = z.real();
-    V[2 * f + 1] = z.imag();
-  }
-  RegularizedOptions options = with_alpha(0.05, 2e-3);
-  options.beta = 200;  // the authors' program weighs alignment twice as much as eq. 8 says
-  const VecX u = solve(mesh, test::vertex_points({2272}), options, Regularizer::align, V).u;
-  EXPECT_LT(difference(u, folder / "u_vfa_a0.05_b100.txt"), 0.02);
 }
 
 TEST(LineField, InterpolatesOnAPlaneAndForgetsSigns) {

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   cli::add_distance(program, session);
+  cli::add_pairs(program, session);
   cli::add_winding(program, session);
   cli::add_sdf(program, session);
   cli::add_query(program, session);

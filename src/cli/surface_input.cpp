@@ -41,6 +41,20 @@ SurfaceSources read_all_sources(const std::vector<std::string>& files, const Sur
   return all;
 }
 
+std::vector<int> checked_vertices(const std::vector<long long>& given, int n_vertices,
+                                  const std::string& file, const Session& session) {
+  const long long base = session.index_base.value_or(0);
+  std::vector<int> vertices;
+  for (long long v : given) {
+    if (v < base || v - base >= n_vertices)
+      throw InputError("option --vertex: there is no vertex " + std::to_string(v) + "; " + file +
+                       " has " + std::to_string(n_vertices) + ", counted from " +
+                       std::to_string(base));
+    vertices.push_back(static_cast<int>(v - base));
+  }
+  return vertices;
+}
+
 std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
                          const std::string& file, bool optional) {
   std::string known;

@@ -28,6 +28,11 @@ SurfaceInput read_domain(const std::filesystem::path& path);
 SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
                                 Session& session);
 
+/// Vertices given as options, counted as the session says; throws InputError naming one that the
+/// mesh has not.
+std::vector<int> checked_vertices(const std::vector<long long>& given, int n_vertices,
+                                  const std::string& file, const Session& session);
+
 /// The scalar to use: `wanted`, or without that "distance", an OBJ's texture "u", or the only one.
 /// Throws InputError listing those that exist; with `optional` an empty name where there is none.
 std::string choose_field(const PolygonSoup& soup, const std::string& wanted,

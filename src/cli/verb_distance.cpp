@@ -33,14 +33,8 @@ struct Arguments {
 SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh,
                               Session& session) {
   SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
-  const long long base = session.index_base.value_or(0);
-  for (long long v : arguments.vertices) {
-    if (v < base || v - base >= mesh.n_vertices())
-      throw InputError("option --vertex: there is no vertex " + std::to_string(v) + "; " +
-                       arguments.domain + " has " + std::to_string(mesh.n_vertices()) +
-                       ", counted from " + std::to_string(base));
-    sources.points.push_back(SurfacePoint::at_vertex(static_cast<int>(v - base)));
-  }
+  for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
+    sources.points.push_back(SurfacePoint::at_vertex(v));
   if (!sources.empty()) return sources;
   if (!mesh.soup().lines.empty()) return io::sources_from_lines(mesh.soup(), arguments.domain);
   throw InputError("nothing to measure distance from: name --sources FILE or --vertex I (" +

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/verbs.h"
+#include "littoral/api/pairs.h"
 #include "littoral/api/registry.h"
 #include "littoral/api/report_json.h"
 #include "littoral/api/space_method.h"
@@ -43,6 +44,8 @@ void print_markdown(const std::string& title, const std::vector<MethodInfo>& all
 
 void print_all_markdown() {
   print_markdown("Distance on surfaces", methods());
+  std::cout << "\n";
+  print_markdown("Pairs of vertices", {pair_methods().front()});
   std::cout << "\n";
   print_markdown("Inside and outside on surfaces", {winding_method()});
   std::cout << "\n";

@@ -6,6 +6,7 @@
 namespace littoral::cli {
 
 void add_distance(CLI::App& program, Session& session);
+void add_pairs(CLI::App& program, Session& session);
 void add_winding(CLI::App& program, Session& session);
 void add_sdf(CLI::App& program, Session& session);
 void add_query(CLI::App& program, Session& session);

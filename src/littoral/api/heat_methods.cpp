@@ -10,6 +10,7 @@
 #include "littoral/domain/cloud_surface.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/polygon_surface.h"
+#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat.h"
 #include "littoral/methods/unsigned_heat.h"
 #include "littoral/operators/nodal.h"
@@ -127,6 +128,8 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
     options.time_scale = all.time_scale;
     return result;
   }
+  if (options.sharpen && options.discontinuous)
+    throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
   const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
   const auto method = [&, &operators = ops, &source = terms] {
@@ -136,8 +139,13 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   }();
   if (options.discontinuous)
     return discontinuous_distance(problem.mesh, *T, *ops, terms, method, options, task, report);
-  return at_input(problem, faces.get(),
-                  method.solve(terms, options, task.stage(0.25, "solving"), report));
+  VecX phi = method.solve(terms, options, task.stage(0.25, "solving"), report);
+  if (options.sharpen) {
+    SharpenOptions how;
+    how.solver = static_cast<SharpenSolver>(options.sharpen_solver);
+    phi = sharpen(*ops, terms, phi, how, task.stage(1, "sharpening"), report);
+  }
+  return at_input(problem, faces.get(), phi);
 }
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,

@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "littoral/api/pairs.h"
 #include "littoral/api/space_method.h"
 #include "littoral/api/surface_method.h"
 #include "littoral/api/winding.h"
@@ -34,6 +35,7 @@ const std::vector<MethodInfo>& methods() {
 const std::vector<MethodInfo>& all_methods() {
   static const std::vector<MethodInfo> all = [] {
     std::vector<MethodInfo> out = methods();
+    out.push_back(pair_methods().front());
     out.push_back(winding_method());
     for (MethodInfo& info : space_method_infos()) out.push_back(std::move(info));
     return out;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "littoral/api/regularized_method.h"
 #include "littoral/api/surface_method.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/intrinsic_triangulation.h"
@@ -76,6 +77,25 @@ VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
   return V;
 }
 
+}  // namespace
+
+Regularized regularized_on(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                           const std::shared_ptr<const Operators>& ops,
+                           const RegularizedOptions& options, const Task& task, Report& report) {
+  const Stopwatch watch(report, "factor");
+  const auto regularizer = static_cast<Regularizer>(options.regularizer);
+  RegularizerData data;
+  if (options.alpha > 0 && regularizer == Regularizer::align)
+    data.V = field(mesh, T, ops, options, task, report);
+  if (options.alpha > 0 && regularizer == Regularizer::hessian)
+    data.W = curved_hessian(T, ops->vector);
+  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, T);
+  return Regularized(ops, options.alpha > 0 ? regularizer : Regularizer::dirichlet, std::move(data),
+                     task);
+}
+
+namespace {
+
 SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& options, Task& task,
                           Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
@@ -84,34 +104,38 @@ SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& opt
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
   const SourceTerms terms = source_terms(problem.mesh, T, prepared);
   Task factoring = task.stage(0.3, "factoring");
-  const auto regularizer = static_cast<Regularizer>(options.regularizer);
-  const Regularized method = [&] {
-    const Stopwatch watch(report, "factor");
-    RegularizerData data;
-    if (options.alpha > 0 && regularizer == Regularizer::align)
-      data.V = field(problem.mesh, T, ops, options, factoring, report);
-    if (options.alpha > 0 && regularizer == Regularizer::hessian)
-      data.W = curved_hessian(T, ops->vector);
-    if (regularizer == Regularizer::max_norm) data.frames = face_frames(problem.mesh, T);
-    return Regularized(ops, options.alpha > 0 ? regularizer : Regularizer::dirichlet,
-                       std::move(data), factoring);
-  }();
+  const Regularized method = regularized_on(problem.mesh, T, ops, options, factoring, report);
   const Stopwatch watch(report, "solve");
   return {method.solve(terms, options, task.stage(0.65, "alternating directions"), report), {}};
+}
+
+SurfaceResult belyaev_fayolle(const SurfaceProblem& problem, RegularizedOptions& options,
+                              Task& task, Report& report) {
+  options.alpha = 0;
+  return regularized(problem, options, task, report);
 }
 
 }  // namespace
 
 std::vector<SurfaceMethod> regularized_methods() {
-  return {surface_method(
-      {"regularized",
-       "Unsigned distance that is smooth at the cut locus, aligned to directions, or unaffected by "
-       "boundaries.",
-       {"triangle mesh"},
-       {},
-       "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
-       "Geodesic Distances (2023)"},
-      regularized_options(), regularized)};
+  return {
+      surface_method(
+          {"regularized",
+           "Unsigned distance that is smooth at the cut locus, aligned to directions, or "
+           "unaffected by "
+           "boundaries.",
+           {"triangle mesh"},
+           {},
+           "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
+           "Geodesic Distances (2023)"},
+          regularized_options(), regularized),
+      surface_method({"belyaev-fayolle",
+                      "Unsigned distance as the largest function of slope at most 1.",
+                      {"triangle mesh"},
+                      {},
+                      "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation "
+                      "(2020)"},
+                     constrained_options(), belyaev_fayolle)};
 }
 
 }  // namespace littoral

@@ -9,9 +9,26 @@
 
 namespace littoral {
 
+namespace {
+
+/// When to stop.
+OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> table) {
+  using O = RegularizedOptions;
+  return table
+      .number(&O::tolerance, "tolerance", "", 1e-10, 1,
+              "Iterations stop when both residuals are below this share of what they compare.")
+      .number(&O::gap, "gap", "", 0, 1,
+              "If not 0, iterations go on until the duality gap is below this share of the "
+              "objective.")
+      .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
+              "Iterations after which the best answer so far is given.");
+}
+
+}  // namespace
+
 const OptionTable<RegularizedOptions>& regularized_options() {
   using O = RegularizedOptions;
-  static const OptionTable<O> table =
+  static const OptionTable<O> table = with_stopping(
       OptionTable<O>()
           .number(&O::alpha, "alpha", "", 0, 1e6,
                   "Smoothing, whatever the size of the mesh (alpha-hat); 0 gives the distance of "
@@ -26,14 +43,12 @@ const OptionTable<RegularizedOptions>& regularized_options() {
                 "z`, interpolated.")
           .number(&O::field_width, "field-width", "square root of the area", 0, 1e6,
                   "If not 0, interpolated directions fade away from the given ones like a Gaussian "
-                  "of this width.")
-          .number(&O::tolerance, "tolerance", "", 1e-10, 1,
-                  "Iterations stop when both residuals are below this share of what they compare.")
-          .number(&O::gap, "gap", "", 0, 1,
-                  "If not 0, iterations go on until the duality gap is below this share of the "
-                  "objective.")
-          .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-                  "Iterations after which the best answer so far is given.");
+                  "of this width."));
+  return table;
+}
+
+const OptionTable<RegularizedOptions>& constrained_options() {
+  static const OptionTable<RegularizedOptions> table = with_stopping({});
   return table;
 }
 

@@ -32,6 +32,9 @@ struct RegularizedOptions {
 /// Names, ranges, defaults and one sentence for each of the above.
 const OptionTable<RegularizedOptions>& regularized_options();
 
+/// Those that are left where alpha is 0: eq. 1 has nothing to choose but when to stop.
+const OptionTable<RegularizedOptions>& constrained_options();
+
 /// What some regularizers need beside the operators.
 struct RegularizerData {
   VecX V;              // 2 cells; align: directions in the cells' frames, of length at most 1

@@ -31,7 +31,9 @@ struct SignedHeatOptions {
   bool intrinsic_delaunay = false;  // on better triangles of the same surface
   bool discontinuous = false;       // integrate with the least jumps (section 7.2) instead of none
   double tear = 1;                  // jumps above that many mean edge lengths stay ...
-  double smoothing = 1;  // ... others close by heat flow for that many squared ones; 0: all stay
+  double smoothing = 1;    // ... others close by heat flow for that many squared ones; 0: all stay
+  bool sharpen = false;    // afterwards slope 1 almost everywhere, the same signs (section 7.3)
+  int sharpen_solver = 0;  // SharpenSolver
   bool bounding_only = false;  // leave out parts of curves that bound nothing
 };
 

@@ -238,7 +238,9 @@ void add_radial_measure(const IntrinsicTriangulation& T, std::span<const PointIn
 
 VecX Calculus::divergence(const VecX& Y) const {
   VecX AY(Y.size());
-  for (Eigen::Index c = 0; c < A.size(); ++c) AY.segment<2>(2 * c) = A[c] * Y.segment<2>(2 * c);
+  const Eigen::Index dim = A.size() > 0 ? Y.size() / A.size() : 0;  // 2, or 3 in tets
+  for (Eigen::Index c = 0; c < A.size(); ++c)
+    AY.segment(dim * c, dim) = A[c] * Y.segment(dim * c, dim);
   return G.adjoint(AY);
 }
 

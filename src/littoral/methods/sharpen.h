@@ -1,0 +1,29 @@
+#pragma once
+// Sharpening of a signed distance (Feng & Crane 2024, section 7.3): slope at most 1, as far from
+// zero as that allows, and everywhere the sign that it had.
+
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/operators/calculus.h"
+#include "littoral/sources/source_terms.h"
+
+namespace littoral {
+
+/// Alternating directions on one factorization, or the primal-dual hybrid gradient method, which
+/// only multiplies.
+enum class SharpenSolver { admm, pdhg };
+
+struct SharpenOptions {
+  SharpenSolver solver = SharpenSolver::admm;
+  double tolerance = 2e-3;  // of both residuals, relative
+  int max_iterations = 10000;
+};
+
+/// Maximises the integral of sign(phi0) phi subject to |grad phi| <= 1 and phi = 0 at the sources
+/// (eq. 18), and sign(phi0) phi >= 0 at nodes of cells where phi0 changes sign, which holds the
+/// zero set where a curve has gaps. phi0: nodes [length of the input], where the iteration starts;
+/// +inf where no source reaches, which stays. Operators of surfaces and of tets alike.
+VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
+             const SharpenOptions& options, const Task& task, Report& report);
+
+}  // namespace littoral

@@ -1,0 +1,222 @@
+// Distances between all pairs of vertices: the symmetric problem, and every source by itself.
+
+#include "littoral/methods/all_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "geodesic_helpers.h"
+#include "littoral/api/distance.h"
+#include "littoral/api/pairs.h"
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "shared_data.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+MatX pairs_on(const SurfaceMesh& mesh, AllPairsOptions options, Report& report) {
+  return all_pairs(triangle_operators(intrinsic_triangulation(mesh, report)), options, {}, report);
+}
+MatX pairs_on(const SurfaceMesh& mesh, double alpha, double tolerance = 1e-3) {
+  AllPairsOptions options;
+  options.alpha = alpha;
+  options.tolerance = tolerance;
+  Report report;
+  const MatX U = pairs_on(mesh, options, report);
+  EXPECT_EQ(report.status, "converged");
+  return U;
+}
+
+PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
+                      std::vector<int> vertices = {}, const OptionTexts& options = {}) {
+  Report report;
+  return pair_distances(mesh, {method, options, std::move(vertices)}, {}, report);
+}
+
+TEST(AllPairs, CircleWithDirichletEnergy) {
+  // On the circle U(x, y) = u(x - y), so the two terms of the energy are alike and the product
+  // problem is min over u of integral alpha |u'|^2 - u: eq. 5 with 2 alpha for alpha.
+  const int n = 60;
+  const double height = 2e-3, pi = std::numbers::pi;
+  for (const double alpha : {0.3, 0.7}) {
+    const double area = 2 * pi * height;
+    const MatX U = pairs_on(test::ring(n, 1, height), alpha / std::sqrt(area), 1e-4);
+    const double twice = 2 * alpha;
+    for (int i = 0; i < n; ++i)
+      for (const int j : {0, 7}) {
+        const double x = std::abs(2 * pi * (i - j) / n), y = std::min(x, 2 * pi - x);
+        const double expected =
+            y > pi - twice ? pi - twice / 2 - std::pow(pi - y, 2) / (2 * twice) : y;
+        EXPECT_NEAR(U(i, j), expected, 0.03) << "alpha " << alpha << ", column " << i;
+      }
+  }
+}
+
+TEST(AllPairs, SymmetricZeroAtHomeAndOfSlopeOne) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(5, 5, 0.25));
+  const MatX U = pairs_on(mesh, 0.05);
+  EXPECT_EQ((U - U.transpose()).cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(U.diagonal().cwiseAbs().maxCoeff(), 0);
+  EXPECT_GE(U.minCoeff(), 0);
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    const int a = mesh.edges()(e, 0), b = mesh.edges()(e, 1);
+    const double length = (mesh.point(a) - mesh.point(b)).norm();
+    EXPECT_LE((U.col(a) - U.col(b)).cwiseAbs().maxCoeff(), 1.03 * length);
+  }
+}
+
+TEST(AllPairs, TendsToTheDistanceAndToFewerViolations) {
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  double error = 1e9;
+  for (const double alpha : {0.2, 0.05, 0.0}) {
+    const MatX U = pairs_on(mesh, alpha);
+    double worst = 0;
+    for (int a = 0; a < mesh.n_vertices(); ++a)
+      for (int b = 0; b < mesh.n_vertices(); ++b)
+        worst = std::max(
+            worst,
+            std::abs(U(a, b) - std::acos(std::clamp(mesh.point(a).dot(mesh.point(b)), -1., 1.))));
+    EXPECT_LT(worst, error);
+    error = worst;
+  }
+  EXPECT_LT(error, 0.5);  // first order in an edge length of 0.4
+}
+
+TEST(AllPairs, SameWhateverUnitThreadsAndPrecision) {
+  const PolygonSoup soup = test::torus_soup(9, 6);
+  const MatX U = pairs_on(SurfaceMesh(soup), 0.05);
+  for (const double scale : {1e-3, 1e3}) {
+    PolygonSoup scaled = soup;
+    scaled.points *= scale;
+    EXPECT_LT((pairs_on(SurfaceMesh(scaled), 0.05) / scale - U).cwiseAbs().maxCoeff(),
+              1e-3 * U.maxCoeff());
+  }
+  AllPairsOptions options;
+  Report report;
+  set_thread_count(1);
+  const MatX one = pairs_on(SurfaceMesh(soup), options, report);
+  set_thread_count(0);
+  EXPECT_EQ((one - U).cwiseAbs().maxCoeff(), 0);
+  options.storage = static_cast<int>(Storage::single);
+  const MatX single = pairs_on(SurfaceMesh(soup), options, report);
+  EXPECT_LT((single - U).cwiseAbs().maxCoeff(), 2e-3 * U.maxCoeff());
+  EXPECT_GT((single - U).cwiseAbs().maxCoeff(), 0);
+}
+
+TEST(AllPairs, AgreesWithTheAuthors) {
+  LITTORAL_NEEDS_SHARED("reference/rgd/allpairs_octa2");
+  const auto folder = test::shared() / "reference/rgd/allpairs_octa2";
+  const SurfaceMesh mesh = test::one_based_mesh(folder);
+  const MatX U = pairs_on(mesh, 0.03, 2e-4);
+  MatX theirs(U.rows(), U.cols());
+  std::ifstream in(folder / "U_alpha0.03.f64", std::ios::binary);
+  ASSERT_TRUE(in.read(reinterpret_cast<char*>(theirs.data()),
+                      static_cast<std::streamsize>(sizeof(double) * theirs.size())));
+  EXPECT_LT((U - theirs).cwiseAbs().maxCoeff(), 0.02 * theirs.maxCoeff());
+}
+
+TEST(AllPairs, MemoryIsForeseen) {
+  EXPECT_GE(all_pairs_memory(2000, 4000, 8), 8. * 2000 * 2000 * 8);
+  Report report;
+  AllPairsOptions options;
+  options.max_iterations = 2;
+  pairs_on(SurfaceMesh(test::octasphere_soup(1)), options, report);
+  EXPECT_EQ(report.status, "not converged");
+  bool stated = false;
+  for (const auto& [name, value] : report.sizes) stated |= name == "matrices, bytes" && value > 0;
+  EXPECT_TRUE(stated);
+}
+
+TEST(PairStatistics, CountsWhatIsWrong) {
+  MatX D(4, 4);  // points 0, 1, 2, 3 of a line
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) D(i, j) = std::abs(i - j);
+  PairStatistics s = pair_statistics(D, 4, {});
+  EXPECT_EQ(s.largest_asymmetry, 0);
+  EXPECT_EQ(s.violations, 0);
+  EXPECT_EQ(s.triplets, 12);  // six pairs, two others each
+  D(0, 3) = D(3, 0) = 4;      // against 1 + 2 and 2 + 1
+  s = pair_statistics(D, 4, {});
+  EXPECT_DOUBLE_EQ(s.violations, 2. / 12);
+  EXPECT_DOUBLE_EQ(s.largest_violation, 0.5);
+  D(0, 1) = 1.5;
+  s = pair_statistics(D, 4, {});
+  EXPECT_DOUBLE_EQ(s.largest_asymmetry, 0.25);
+  EXPECT_DOUBLE_EQ(s.mean_asymmetry, 0.25 * 2 / 12);
+}
+
+TEST(PairStatistics, ExactDistanceIsAMetric) {
+  const PairsAnswer exact = by_method(SurfaceMesh(test::jittered_grid_soup(6, 5, 0.3)), "exact");
+  ASSERT_TRUE(exact.statistics);
+  EXPECT_LT(exact.statistics->largest_asymmetry, 1e-9);
+  EXPECT_LT(exact.statistics->largest_violation, 1e-9);
+}
+
+TEST(Pairs, SmoothingMakesTheTriangleInequalityHold) {
+  // Figure 12, table 3: the share of violations falls as alpha grows.
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  double before = 1;
+  for (const char* alpha : {"0.02", "0.1", "0.5"}) {
+    const auto answer = by_method(mesh, "symmetric", {}, {{"alpha", alpha}});
+    EXPECT_EQ(answer.statistics->largest_asymmetry, 0);
+    EXPECT_LE(answer.statistics->violations, before);
+    before = answer.statistics->violations;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(Pairs, EveryMethodGivesTheRowsOfItsSingleSolves) {
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  for (const MethodInfo& method : methods()) {
+    Report report;
+    const MatX rows = by_method(mesh, method.name, {5, 17}).distances;
+    ASSERT_EQ(rows.rows(), 2);
+    const VecX alone =
+        surface_distance(mesh, test::vertex_points({17}), {method.name, {}}, {}, report);
+    const double far = alone.maxCoeff();
+    EXPECT_EQ(rows(1, 17), 0) << method.name;
+    EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * far) << method.name;
+  }
+}
+
+TEST(Pairs, ComponentsAndStrayVertices) {
+  PolygonSoup soup = test::octasphere_soup(0);
+  const PolygonSoup other = test::octasphere_soup(0);
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(2 * n + 1, 3);
+  for (int v = 0; v < n; ++v)
+    soup.points.row(n + v) = other.points.row(v) + Vec3(5, 0, 0).transpose();
+  soup.points.row(2 * n).setZero();
+  for (int f = 0; f < other.n_faces(); ++f)
+    test::add_triangle(soup, n + other.face(f)[0], n + other.face(f)[1], n + other.face(f)[2]);
+  const SurfaceMesh mesh(soup);
+  for (const char* method : {"symmetric", "exact", "regularized"}) {
+    const MatX D = by_method(mesh, method).distances;
+    for (int a = 0; a <= 2 * n; ++a)
+      for (int b = 0; b <= 2 * n; ++b) {
+        if (a == b)
+          EXPECT_EQ(D(a, b), 0);
+        else
+          EXPECT_EQ(std::isfinite(D(a, b)), a < 2 * n && b < 2 * n && a / n == b / n)
+              << method << " " << a << " " << b;
+      }
+  }
+}
+
+TEST(Pairs, BadRequestsSayWhatIsWrong) {
+  const SurfaceMesh mesh(test::octasphere_soup(0));
+  EXPECT_THROW(by_method(mesh, "nonsense"), InputError);
+  EXPECT_THROW(by_method(mesh, "symmetric", {6}), InputError);
+  EXPECT_THROW(by_method(mesh, "symmetric", {-1}), InputError);
+  EXPECT_THROW(by_method(mesh, "symmetric", {}, {{"alpha", "-1"}}), InputError);
+  EXPECT_THROW(by_method(mesh, "symmetric", {}, {{"beta", "1"}}), InputError);
+  EXPECT_THROW(by_method(mesh, "exact", {}, {{"alpha", "1"}}), InputError);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,44 @@
+"""The verb pairs: matrices, rows, statistics and errors."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+from conftest import Run
+from test_winding import octahedron
+
+
+def test_matrix_and_statistics(run: Run, tmp_path: Path) -> None:
+    mesh = octahedron(tmp_path / "o.obj")
+    out = tmp_path / "d.npy"
+    report = json.loads(run("pairs", mesh, "-o", out, "--json").stdout)
+    d = np.load(out)
+    assert d.shape == (6, 6)
+    assert (d == d.T).all() and (np.diag(d) == 0).all() and (d >= 0).all()
+    names = {entry if isinstance(entry, str) else entry[0] for entry in report["residuals"]}
+    assert any("triangle inequality" in name for name in names)
+    assert report["method"] == "symmetric"
+
+
+def test_rows_of_other_methods(run: Run, tmp_path: Path) -> None:
+    mesh = octahedron(tmp_path / "o.obj")
+    out = tmp_path / "d.csv"
+    run("pairs", mesh, "-o", out, "--method", "exact", "--vertex", "4", "--vertex", "0")
+    lines = out.read_text().splitlines()
+    assert lines[0].startswith("to 0,to 1")
+    top = [float(x) for x in lines[1].split(",")]
+    assert top[4] == 0 and abs(top[0] - 2**0.5) < 1e-9
+    assert abs(top[5] - 6**0.5) < 1e-9  # over two faces
+
+
+def test_what_is_wrong(run: Run, tmp_path: Path) -> None:
+    mesh = octahedron(tmp_path / "o.obj")
+    for words, says in [
+        (["-o", "d.npy", "--method", "nonsense"], "unknown method"),
+        (["-o", "d.npy", "--vertex", "6"], "no vertex 6"),
+        (["-o", "d.npy", "--alpha", "-1"], "alpha"),
+        (["-o", "d.npy", "--method", "exact", "--alpha", "1"], "no option"),
+        (["-o", "d.ply"], "matrix"),
+    ]:
+        result = run("pairs", mesh, *words, status=2)
+        assert says in result.stderr

@@ -1,0 +1,45 @@
+#pragma once
+// Regularized distance in one call.
+
+#include "geodesic_helpers.h"
+#include "littoral/methods/regularized.h"
+#include "littoral/operators/curved_hessian.h"
+#include "littoral/operators/line_field.h"
+#include "shared_data.h"
+#include "test_meshes.h"
+
+namespace littoral::test {
+
+struct Solved {
+  VecX u;
+  Report report;
+};
+
+inline RegularizedOptions with_alpha(double alpha, double tolerance = 1e-4) {
+  RegularizedOptions options;
+  options.alpha = alpha;
+  options.tolerance = tolerance;
+  return options;
+}
+
+inline Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                    const RegularizedOptions& options,
+                    Regularizer regularizer = Regularizer::dirichlet, VecX V = {}) {
+  Solved out;
+  const Problem p = problem(mesh, sources, out.report);
+  RegularizerData data;
+  data.V = std::move(V);
+  if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
+  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
+  out.u =
+      Regularized(p.ops, regularizer, std::move(data), {}).solve(p.terms, options, {}, out.report);
+  return out;
+}
+
+inline double residual(const Report& report, const std::string& name) {
+  for (const auto& [key, value] : report.residuals)
+    if (key == name) return value;
+  return -1;
+}
+
+}  // namespace littoral::test

@@ -128,7 +128,7 @@ class AllPairs {
       MatX unit = MatX::Zero(n_, width);
       for (Eigen::Index k = 0; k < width; ++k) unit(static_cast<Eigen::Index>(begin) + k, k) = 1;
       response_.middleCols(static_cast<Eigen::Index>(begin), width) =
-          factor_->approximate(unit).template cast<Number>();
+          factor_->approximate(unit, task_).template cast<Number>();
     });
   }
 
@@ -195,7 +195,7 @@ class AllPairs {
       const VecX apart = (2 * U_.col(j) - T_.col(j)).template cast<double>();
       rhs.col(k) = rho1_ * force.col(k) + C_.M.cwiseProduct(rho2_ * apart + half);
     }
-    Strip<double> X = factor_->approximate(rhs);
+    Strip<double> X = factor_->approximate(rhs, task_);
     for (Eigen::Index k = 0; k < width; ++k) {
       const Eigen::Index j = begin + k;
       const double pull = X(j, k) / double(response_(j, j));

@@ -16,9 +16,9 @@ struct DualCurve {
 };
 
 /// The five steps on dual elements: u solves d * d u = d * c and has one value per face. What
-/// bounds nothing is found from the harmonic part of du - c; where there are `pairs` it is kept, with
-/// a warning. Jumps between pairs are not in the edge vectors of the result. Throws SolveError,
-/// Cancelled.
+/// bounds nothing is found from the harmonic part of du - c; where there are `pairs` it is kept,
+/// with a warning. Jumps between pairs are not in the edge vectors of the result. Throws
+/// SolveError, Cancelled.
 WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
                             const WindingOptions& options, Task task, Report& report);
 

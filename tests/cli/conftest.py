@@ -1,7 +1,9 @@
 """Runs the program named by LITTORAL on tiny meshes made here."""
 
 import os
+import re
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -52,3 +54,12 @@ def mesh(tmp_path: Path) -> Path:
     nodes = "".join(f"v {5 + 11 * j}\n" for j in range(11))
     (tmp_path / "curve.txt").write_text("signed_curve\n" + nodes)
     return tmp_path / "square.obj"
+
+
+def wait_for_handler(pid: int, number: int) -> None:
+    """Until the program catches the signal: on a busy machine its start may take a while."""
+    for _ in range(500):
+        caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{pid}/status").read_text())
+        if caught and int(caught[1], 16) >> (number - 1) & 1:
+            return
+        time.sleep(0.01)

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, Run, square
+from conftest import PROGRAM, Run, square, wait_for_handler
 
 CURVE = ("distance", "square.obj", "--sources", "curve.txt")
 
@@ -19,15 +19,6 @@ def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path: Path = tmp_path_factory.mktemp("large") / "large.obj"
     path.write_text(square(400))
     return path
-
-
-def wait_for_handler(pid: int, number: int) -> None:
-    """Until the program catches the signal: on a busy machine its start may take a while."""
-    for _ in range(500):
-        caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{pid}/status").read_text())
-        if caught and int(caught[1], 16) >> (number - 1) & 1:
-            return
-        time.sleep(0.01)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

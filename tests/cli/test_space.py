@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, Run
+from conftest import PROGRAM, Run, wait_for_handler
 
 CUBE = """v -1 -1 -1
 v 1 -1 -1
@@ -261,7 +261,13 @@ def test_nothing_is_left_where_writing_fails(run: Run, cube: Path, tmp_path: Pat
 
 def test_interrupt_stops_soon(cube: Path, tmp_path: Path) -> None:
     command = [PROGRAM, "sdf", "cube.obj", "--resolution", "200", "-o", "a.vti"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    wait_for_handler(process.pid, signal.SIGINT)
     time.sleep(0.5)
     os.kill(process.pid, signal.SIGINT)
     start = time.monotonic()

@@ -122,8 +122,13 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
     }
     begin.push_back(static_cast<int>(columns.size()));
   }
-  return Eigen::Map<const SpRows>(A.rows(), n_groups, static_cast<Eigen::Index>(columns.size()),
-                                  begin.data(), columns.data(), values.data());
+  // Copied as they are: Eigen wants columns ascending where it copies.
+  SpRows P(A.rows(), n_groups);
+  P.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  std::copy(begin.begin(), begin.end(), P.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), P.innerIndexPtr());
+  std::copy(values.begin(), values.end(), P.valuePtr());
+  return P;
 }
 
 }  // namespace littoral

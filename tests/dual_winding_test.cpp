@@ -127,8 +127,8 @@ TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
   }
   VecXi region = dual(mesh, sources).region;
   for (int f = 0; f < mesh.n_faces(); ++f) EXPECT_EQ(region[f], f / (2 * n * n) == 2) << f;
-  // The same with one third of it missing, cut: there it is shorter to go through page 2, once, than
-  // along the spine, across two pairs of pages.
+  // The same with one third of it missing, cut: there it is shorter to go through page 2, once,
+  // than along the spine, across two pairs of pages.
   sources.chains.resize(8);
   region = dual(mesh, sources, false, {{"labels", "cut"}}).region;
   int otherwise = 0;

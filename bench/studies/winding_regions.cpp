@@ -244,10 +244,10 @@ int main(int argc, char** argv) {
   const int cases = argc > 1 ? std::atoi(argv[1]) : 60;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
   std::printf(
-      "| genus | faces | cases | rounded | cut | rounded without decomposition |\n"
-      "|---|---|---|---|---|---|\n");
+      "| genus | faces | cases | rounded | cut | between paths, rounded | rounded without "
+      "decomposition |\n|---|---|---|---|---|---|---|\n");
   for (int genus = 0; genus <= 5; ++genus) {
-    Column round, cut, naive;
+    Column round, cut, paths, naive;
     int faces = 0;
     for (int i = 0; i < cases; ++i) {
       Random random(seed * 1000003u + static_cast<unsigned>(genus * 1009 + i));
@@ -280,12 +280,15 @@ int main(int argc, char** argv) {
       options.labels = static_cast<int>(Labels::cut);
       cut.share.push_back(share());
       options.labels = static_cast<int>(Labels::round);
+      options.residual = static_cast<int>(Residual::paths);
+      paths.share.push_back(share());
       options.keep_nonbounding = true;
       naive.share.push_back(share());
     }
     std::printf("| %d | %d | %d |", genus, faces, cases);
     round.print();
     cut.print();
+    paths.print();
     naive.print();
     std::printf("\n");
     std::fflush(stdout);

@@ -9,8 +9,11 @@
 #include "littoral/base/error.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/tear.h"
+#include "littoral/methods/dual_winding.h"
+#include "littoral/methods/nonconforming_winding.h"
 #include "littoral/operators/jump_calculus.h"
 #include "littoral/sources/conform.h"
+#include "littoral/sources/triangle_sources.h"
 
 namespace littoral {
 
@@ -108,12 +111,54 @@ VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, cons
   return region;
 }
 
-ConformingCurves conforming(const SurfaceMesh& mesh, const SurfaceSources& drawn, bool flip,
-                            Task& task, Report& report) {
-  if (drawn.empty()) return {cut_mesh(mesh, {}), VecX::Zero(mesh.n_edges()), false};
-  const PreparedSources prepared = prepared_sources({mesh, drawn, flip}, task, report);
+std::vector<CurvePiece> drawn_pieces(const SurfaceMesh& mesh, SurfaceSources drawn, bool flip,
+                                     Task& task, Report& report) {
+  drawn.chains.clear();
+  if (drawn.empty()) return {};
+  return signed_pieces(prepared_sources({mesh, drawn, flip}, task, report), report);
+}
+
+ConformingCurves conforming(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces,
+                            Formulation formulation, Report& report) {
+  if (pieces.empty() || formulation == Formulation::nonconforming)
+    return {cut_mesh(mesh, {}), VecX::Zero(mesh.n_edges()), false};
   const Stopwatch watch(report, "cut");
-  return conform(mesh, prepared, report);
+  return conform(mesh, pieces);
+}
+
+std::vector<SegmentInFace> in_faces(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                    const std::vector<CurvePiece>& pieces) {
+  std::vector<SegmentInFace> segments;
+  for (const CurvePiece& piece : pieces) {
+    if (T.triangle_of_face[piece.face] < 0) continue;
+    const std::vector<TriangleSources::Segment> parts = segments_of(mesh, T, piece);
+    for (const TriangleSources::Segment& s : parts) {
+      SegmentInFace& out = segments.emplace_back();
+      out.face = s.triangle;
+      const TriangleShape shape = T.shape(s.triangle);
+      for (int k = 0; k < 3; ++k) {
+        out.vector += (s.b[k] - s.a[k]) * shape.p[k] / static_cast<double>(parts.size());
+        out.middle[k] = (s.a[k] + s.b[k]) / 2;
+      }
+    }
+  }
+  return segments;
+}
+
+/// One polyline for every run of pieces of a curve.
+Polylines polylines(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces) {
+  Polylines lines;
+  for (std::size_t i = 0; i < pieces.size();) {
+    std::size_t end = i;
+    while (end < pieces.size() && pieces[end].curve == pieces[i].curve) ++end;
+    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(end - i) + 1, 3);
+    const auto at = [&](const CurvePiece& piece, const std::array<double, 3>& b) {
+      return mesh.position(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
+    };
+    line.row(0) = at(pieces[i], pieces[i].a);
+    for (Eigen::Index row = 1; i < end; ++i, ++row) line.row(row) = at(pieces[i], pieces[i].b);
+  }
+  return lines;
 }
 
 std::vector<FaceChain> reversed(std::vector<FaceChain> chains) {
@@ -144,6 +189,16 @@ void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
                          std::to_string(mesh.edges()(first, 1)));
 }
 
+void check_combination(const WindingOptions& options) {
+  const auto formulation = static_cast<Formulation>(options.formulation);
+  if (formulation != Formulation::primal &&
+      options.boundary != static_cast<int>(AtBoundary::natural))
+    throw UnsupportedError("option boundary: free boundaries need formulation primal");
+  if (formulation == Formulation::nonconforming && options.labels == static_cast<int>(Labels::cut))
+    throw UnsupportedError(
+        "option labels: cut needs curves along edges, formulation primal or dual");
+}
+
 }  // namespace
 
 const MethodInfo& winding_method() {
@@ -157,19 +212,21 @@ const MethodInfo& winding_method() {
 }
 
 void check_request(const WindingRequest& request) {
-  parse_options(winding_method(), winding_options(), request.options);
+  check_combination(parse_options(winding_method(), winding_options(), request.options));
 }
 
 WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
                               const WindingRequest& request, Task task, Report& report) {
-  const WindingOptions options =
-      parse_options(winding_method(), winding_options(), request.options);
+  WindingOptions options = parse_options(winding_method(), winding_options(), request.options);
+  auto formulation = static_cast<Formulation>(options.formulation);
+  if (!sources.chains.empty()) formulation = Formulation::dual;
+  options.formulation = static_cast<int>(formulation);
+  check_combination(options);
   report.method = winding_method().name;
   report.domain = "triangle mesh";
   report_options(winding_options(), options, report);
-  SurfaceSources drawn = sources;
-  drawn.chains.clear();
-  ConformingCurves curves = conforming(mesh, drawn, request.flip, task, report);
+  const std::vector<CurvePiece> pieces = drawn_pieces(mesh, sources, request.flip, task, report);
+  ConformingCurves curves = conforming(mesh, pieces, formulation, report);
   if (curves.is_cut && !sources.chains.empty())
     throw UnsupportedError(sources.chains[0].origin +
                            ": chains of faces go with curves along edges, not through faces");
@@ -177,28 +234,34 @@ WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sou
   const SurfaceMesh& cut = answer.cut.mesh;
   if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
   task.checkpoint();
+  const IntrinsicTriangulation T = intrinsic_triangulation(cut, report);
+  answer.triangle_of_face = T.triangle_of_face;
   const auto J = [&] {
     const Stopwatch watch(report, "operators");
-    const IntrinsicTriangulation T = intrinsic_triangulation(cut, report);
-    answer.triangle_of_face = T.triangle_of_face;
     return std::make_shared<const JumpCalculus>(jump_calculus(T));
   }();
-  if (options.formulation == static_cast<int>(Formulation::dual) || !sources.chains.empty()) {
+  const Task work = task.stage(0.9, "winding");
+  if (formulation == Formulation::dual) {
     DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
     refuse_sideless(cut, *J, curve.edge);
     add_chains(request.flip ? reversed(sources.chains) : sources.chains, *J,
                answer.triangle_of_face, curve);
-    answer.numbers = dual_winding(*J, curve, options, task.stage(0.9, "winding"), report);
+    answer.numbers = dual_winding(*J, curve, options, work, report);
   } else {
     refuse_nonmanifold(cut, *J);
     answer.numbers =
-        SurfaceWinding(J).solve(curves.times, options, task.stage(0.9, "winding"), report);
+        formulation == Formulation::primal
+            ? SurfaceWinding(J).solve(curves.times, options, work, report)
+            : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
   }
   answer.region = labels_of_input(mesh, answer, *J);
   answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
   answer.completed = polylines(cut, answer.numbers.completed);
   const VecX& bounding = answer.numbers.bounding;
-  answer.bounding = polylines(cut, bounding);
+  if (formulation == Formulation::nonconforming)
+    answer.bounding = polylines(cut, pieces);
+  else
+    answer.bounding = polylines(cut, bounding);
   answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
   report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
   report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));

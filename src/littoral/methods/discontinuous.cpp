@@ -90,7 +90,7 @@ DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y,
   }
   const VecX weight = J.length.cwiseProduct((-edge_curl(J, Y).cwiseAbs()).array().exp().matrix());
   const ResidualFunction found =
-      integrate_jumps(J, local, weight, {}, {}, std::vector<char>(J.n_components, 1), {},
+      integrate_jumps(J, local, weight, {}, {}, std::vector<char>(J.n_components, 1), {}, {},
                       task.stage(0.8, "least jumps"), report);
   DiscontinuousField field{found.v, {}, found.jump, found.objective, found.gap};
   std::vector<char> joined(J.n_edges, 0);

@@ -10,6 +10,8 @@ namespace littoral {
 
 namespace {
 
+double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
 /// Goes round one node from a corner, adding up jumps; false if they contradict each other.
 bool walk_round(const JumpCalculus& J, const VecX& jump, int face, int corner, MatX3& offset,
                 std::vector<char>& seen) {
@@ -39,25 +41,57 @@ bool walk_round(const JumpCalculus& J, const VecX& jump, int face, int corner, M
   return consistent;
 }
 
-/// Connected parts of the nodes that are not open, -1 for those that are.
-std::vector<int> parts(const JumpCalculus& J, const std::vector<char>& open, int& n) {
-  std::vector<int> leader(J.n_nodes);
-  std::iota(leader.begin(), leader.end(), 0);
-  const auto find = [&](int a) {
-    while (leader[a] != a) a = leader[a] = leader[leader[a]];
+/// Disjoint sets of nodes, each led by its lowest.
+class Sets {
+ public:
+  explicit Sets(int n) : leader_(static_cast<std::size_t>(n)) {
+    std::iota(leader_.begin(), leader_.end(), 0);
+  }
+  int find(int a) {
+    while (leader_[a] != a) a = leader_[a] = leader_[leader_[a]];
     return a;
-  };
+  }
+  void join(int a, int b) {
+    a = find(a);
+    b = find(b);
+    leader_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> leader_;
+};
+
+/// The unknown of every node: its own, or one for each stretch of the boundary.
+std::vector<int> unknowns(const JumpCalculus& J, const VecX& jump, Boundary boundary) {
+  Sets sets(J.n_nodes);
+  std::vector<char> touched(static_cast<std::size_t>(J.n_nodes), 0);
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k)
+      if (jump[J.edge(f, k)] != 0) touched[J.node(f, k)] = touched[J.node(f, (k + 1) % 3)] = 1;
+  for (int f = 0; f < J.n_faces && boundary == Boundary::level; ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int i = J.node(f, k), j = J.node(f, (k + 1) % 3);
+      const bool alone = J.manifold[J.edge(f, k)] && !J.interior(J.edge(f, k));
+      if (alone && !touched[i] && !touched[j]) sets.join(i, j);
+    }
+  std::vector<int> unknown(touched.size());
+  for (int i = 0; i < J.n_nodes; ++i) unknown[i] = sets.find(i);
+  return unknown;
+}
+
+/// Connected parts of the unknowns, -1 for those of open nodes and of none.
+std::vector<int> parts(const JumpCalculus& J, const std::vector<int>& unknown,
+                       const std::vector<char>& open, int& n) {
+  Sets sets(J.n_nodes);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
       const int i = J.node(f, k), j = J.node(f, (k + 1) % 3);
-      if (open[i] || open[j]) continue;
-      const int a = find(i), b = find(j);
-      leader[std::max(a, b)] = std::min(a, b);
+      if (!open[i] && !open[j]) sets.join(unknown[i], unknown[j]);
     }
   std::vector<int> part(J.n_nodes, -1);
   n = 0;
   for (int i = 0; i < J.n_nodes; ++i)
-    if (!open[i]) part[i] = find(i) == i ? n++ : part[find(i)];
+    if (!open[i] && unknown[i] == i) part[i] = sets.find(i) == i ? n++ : part[sets.find(i)];
   return part;
 }
 
@@ -100,22 +134,25 @@ CornerFunction jump_offsets(const JumpCalculus& J, const VecX& jump) {
   return offset;
 }
 
-CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const Task& task,
-                                  Report& report) {
-  // u = u0 + c with one unknown u0 per node: minimise sum w (u_j - u_i)^2 over the sides of faces.
+CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const VecXc& field,
+                                  Boundary boundary, const Task& task, Report& report) {
+  // u = u0 + c with one unknown u0 per node: minimise sum w (u_j - u_i - <field, side>)^2 over the
+  // sides of faces.
   CornerFunction u = jump_offsets(J, jump);
+  const std::vector<int> unknown = unknowns(J, jump, boundary);
   Triplets entries;
   entries.reserve(9 * static_cast<std::size_t>(J.n_faces));
   for (int i = 0; i < J.n_nodes; ++i) entries.emplace_back(i, i, 0.0);
   VecX b = VecX::Zero(J.n_nodes);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
-      const int l = (k + 1) % 3, i = J.node(f, k), j = J.node(f, l);
-      if (u.open[i] || u.open[j]) continue;
+      const int l = (k + 1) % 3, i = unknown[J.node(f, k)], j = unknown[J.node(f, l)];
+      if (i == j || u.open[i] || u.open[j]) continue;
       // Without its open corner a face is no longer positive by itself: its last side must be.
       const bool alone = u.open[J.node(f, (k + 2) % 3)];
       const double w = alone ? std::max(J.weight(f, k), 1e-3) : J.weight(f, k),
-                   c = w * (u.u(f, l) - u.u(f, k));
+                   along = field.size() ? dot(field[f], J.side[f][k]) : 0,
+                   c = w * (u.u(f, l) - u.u(f, k) - along);
       entries.emplace_back(i, i, w);
       entries.emplace_back(j, j, w);
       entries.emplace_back(std::max(i, j), std::min(i, j), -w);
@@ -125,11 +162,11 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
   SpMat L(J.n_nodes, J.n_nodes);
   L.setFromTriplets(entries.begin(), entries.end());
   int n_parts = 0;
-  const std::vector<int> part = parts(J, u.open, n_parts);
+  const std::vector<int> part = parts(J, unknown, u.open, n_parts);
   const VecX u0 = Poisson(L, part, n_parts, task).solve(b, report);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
-      if (!u.open[J.node(f, k)]) u.u(f, k) += u0[J.node(f, k)];
+      if (!u.open[J.node(f, k)]) u.u(f, k) += u0[unknown[J.node(f, k)]];
   finish(J, u);
   return u;
 }

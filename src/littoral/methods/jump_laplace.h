@@ -21,10 +21,17 @@ struct CornerFunction {
 /// 1e-6, are open; offsets there are 0.
 CornerFunction jump_offsets(const JumpCalculus& J, const VecX& jump);
 
-/// Step 1: the solution of the jump Laplace equation with natural boundary conditions, open nodes
-/// left out. Mean 0 over each component.
-CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const Task& task,
-                                  Report& report);
+/// What a jump harmonic function does at the boundary of the surface.
+enum class Boundary {
+  natural,  // no flow across it
+  level,    // one constant along each stretch of it that the curve does not touch; no flow in all
+};
+
+/// Step 1: the solution of the jump Laplace equation, open nodes left out. Mean 0 over each
+/// component. Where there is a `field` (faces, in their frames; or empty) it solves
+/// Delta u = div field instead.
+CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const VecXc& field,
+                                  Boundary boundary, const Task& task, Report& report);
 
 /// Step 2: the Darboux derivative, df without the jumps; 0 on edges at open nodes. A 1-form.
 VecX darboux_derivative(const JumpCalculus& J, const CornerFunction& f);

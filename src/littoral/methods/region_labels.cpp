@@ -9,13 +9,9 @@
 
 namespace littoral {
 
-namespace {
-
-/// Calls sample(component, value, weight) with the value of w halfway across every edge of the
-/// curve, taken to be what a half-integer should be.
-template <class Sample>
-void sample_curve(const JumpCalculus& J, const CornerFunction& w, const VecX& curve,
-                  const Sample& sample) {
+std::vector<CurveSample> samples_on_edges(const JumpCalculus& J, const CornerFunction& w,
+                                          const VecX& curve) {
+  std::vector<CurveSample> samples;
   for (int e = 0; e < J.n_edges; ++e) {
     const double times = std::round(std::abs(curve[e]));
     if (times == 0 || !J.interior(e)) continue;
@@ -29,26 +25,25 @@ void sample_curve(const JumpCalculus& J, const CornerFunction& w, const VecX& cu
       }
     if (count == 0) continue;
     const double even = std::fmod(times, 2) == 0 ? 0.5 : 0;
-    sample(J.component[J.sides[e][0].face], sum / count + even, J.length[e] * times);
+    samples.push_back({J.component[J.sides[e][0].face], sum / count + even, J.length[e] * times});
   }
+  return samples;
 }
 
-}  // namespace
-
-VecX contour_shift(const JumpCalculus& J, const CornerFunction& w, const VecX& curve,
+VecX contour_shift(const JumpCalculus& J, const std::vector<CurveSample>& samples,
                    Contour contour) {
   constexpr double turn = 2 * std::numbers::pi;
   constexpr int bins = 10;
   std::vector<Complex> circular(J.n_components, 0);
   std::vector<std::array<double, bins>> histogram(J.n_components);
   VecX sum = VecX::Zero(J.n_components), length = sum, shift = sum;
-  sample_curve(J, w, curve, [&](int c, double value, double weight) {
+  for (const auto& [c, value, weight] : samples) {
     circular[c] += weight * std::polar(1.0, turn * value);
     const double part = value - std::floor(value);
     histogram[c][std::min(bins - 1, static_cast<int>(bins * part))] += weight;
     sum[c] += weight * value;
     length[c] += weight;
-  });
+  }
   for (int c = 0; c < J.n_components; ++c) {
     if (length[c] == 0) continue;
     double value = std::arg(circular[c]) / turn;

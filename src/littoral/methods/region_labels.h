@@ -17,10 +17,19 @@ enum class Contour {
   mean,      // its plain mean along the curve
 };
 
-/// The shift that makes w halfway between integers along the curve, per component: w is the mean of
-/// both sides, and where the curve counts an even number of times, an integer.
-VecX contour_shift(const JumpCalculus& J, const CornerFunction& w, const VecX& curve,
-                   Contour contour);
+/// What a winding number function is somewhere on a curve, and should be up to integers: 1/2.
+struct CurveSample {
+  int component;
+  double value, weight;
+};
+
+/// A sample for every edge of a curve, weighted by length: the mean of both sides, plus 1/2 where
+/// the curve counts an even number of times.
+std::vector<CurveSample> samples_on_edges(const JumpCalculus& J, const CornerFunction& w,
+                                          const VecX& curve);
+
+/// The shift, per component, that makes w halfway between integers along the curve.
+VecX contour_shift(const JumpCalculus& J, const std::vector<CurveSample>& samples, Contour contour);
 
 /// Faces by rounding the mean of w + shift over their corners. faces.
 VecXi rounded_labels(const JumpCalculus& J, const CornerFunction& w, const VecX& shift);

@@ -1,6 +1,7 @@
 #include "littoral/methods/residual.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -55,17 +56,27 @@ MatX3 integrate_locally(const JumpCalculus& J, const VecX& gamma) {
 
 ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, const VecX& weight,
                                  const VecX& lo, const VecX& hi, const std::vector<char>& take,
-                                 const L1Options& options, const Task& task, Report& report) {
-  // What is free is one shift s per face.
+                                 const std::vector<int>& part, const L1Options& options,
+                                 const Task& task, Report& report) {
+  // What is free is one shift s per face, or part.
   ResidualFunction out{local, {}, 0, 0, true};
   const VecX offset = jump_derivative(J, out.v);
   L1Integration problem;
   std::vector<int> node(J.n_faces, -1), edges;
-  for (int f = 0; f < J.n_faces; ++f)
-    if (take[J.component[f]]) node[f] = problem.n++;
+  std::vector<int> node_of_part(part.empty() ? 0 : J.n_faces, -1);
+  for (int f = 0; f < J.n_faces; ++f) {
+    if (!take[J.component[f]]) continue;
+    int& n = part.empty() ? node[f] : node_of_part[part[f]];
+    if (n < 0) n = problem.n++;
+    node[f] = n;
+  }
+  double within = 0;  // cost of jumps that no shift changes
   for (int e = 0; e < J.n_edges; ++e)
-    if (J.interior(e) && node[J.sides[e][0].face] >= 0 &&
-        J.sides[e][0].face != J.sides[e][1].face) {
+    if (J.interior(e) && node[J.sides[e][0].face] >= 0) {
+      if (node[J.sides[e][0].face] == node[J.sides[e][1].face]) {
+        within += weight[e] * std::abs(offset[e]);
+        continue;
+      }
       edges.push_back(e);
       problem.f.push_back(node[J.sides[e][0].face]);
       problem.g.push_back(node[J.sides[e][1].face]);
@@ -84,7 +95,7 @@ ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, cons
   for (int f = 0; f < J.n_faces; ++f)
     if (node[f] >= 0) out.v.row(f).array() += solution.s[node[f]];
   out.jump = jump_derivative(J, out.v);
-  out.objective = solution.primal;
+  out.objective = solution.primal + within;
   out.gap = solution.gap();
   return out;
 }

@@ -28,10 +28,11 @@ struct ResidualFunction {
 MatX3 integrate_locally(const JumpCalculus& J, const VecX& gamma);
 
 /// min sum_e weight_e |jump_e| over functions that differ from `local` (faces x 3, corners) by one
-/// constant per face, lo <= jump <= hi (edges; or both empty). Only faces with take[component] are
-/// shifted.
+/// constant per face, or per `part` if that is not empty (faces), lo <= jump <= hi (edges; or both
+/// empty). Only faces with take[component] are shifted.
 ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, const VecX& weight,
                                  const VecX& lo, const VecX& hi, const std::vector<char>& take,
-                                 const L1Options& options, const Task& task, Report& report);
+                                 const std::vector<int>& part, const L1Options& options,
+                                 const Task& task, Report& report);
 
 }  // namespace littoral

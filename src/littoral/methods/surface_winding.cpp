@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "littoral/methods/residual.h"
+#include "littoral/methods/residual_paths.h"
 
 namespace littoral {
 
@@ -11,9 +12,16 @@ const OptionTable<WindingOptions>& winding_options() {
   using O = WindingOptions;
   static const OptionTable<O> table =
       OptionTable<O>()
-          .choice(&O::formulation, "formulation", {"primal", "dual"},
-                  "Values at corners, or one per face: that also works where three or more faces "
-                  "meet. Chains of faces among the sources imply dual.")
+          .choice(&O::formulation, "formulation", {"primal", "dual", "nonconforming"},
+                  "Values at corners of the mesh cut along the curve; one per face, which also "
+                  "works where three or more faces meet (chains of faces among the sources imply "
+                  "it); or one per vertex of the mesh as it is, smeared across the curve.")
+          .choice(&O::boundary, "boundary", {"natural", "free"},
+                  "At the boundary of the surface the function is level across it, or goes on as "
+                  "if there were no boundary.")
+          .choice(&O::residual, "residual", {"faces", "paths"},
+                  "Parts of the curve that bound nothing are found with one constant per face, "
+                  "exactly, or one per part between curves completed by shortest paths.")
           .choice(&O::labels, "labels", {"round", "cut"},
                   "Labels by rounding the winding number function, or by the shortest integer "
                   "completion of the curve.")
@@ -36,24 +44,29 @@ VecX bounding_part(const WindingNumbers& numbers) {
   return times;
 }
 
+void settle_labels(const JumpCalculus& J, const VecX& shift, VecXi region, WindingNumbers& result) {
+  VecXi shifted = region;
+  label_outside_zero(J, shifted);
+  MatX3 label(J.n_faces, 3);
+  for (int f = 0; f < J.n_faces; ++f) {
+    result.w.u.row(f).array() += shift[J.component[f]] + shifted[f] - region[f];
+    label.row(f).setConstant(shifted[f]);
+  }
+  result.region = std::move(shifted);
+  result.completed = jump_derivative(J, label);
+}
+
 void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
                    const WindingOptions& options, const Task& task, WindingNumbers& result,
                    Report& report) {
   const Stopwatch watch(report, "labels");
-  const VecX shift =
-      contour_shift(J, result.w, result.bounding, static_cast<Contour>(options.contour));
-  if (static_cast<Labels>(options.labels) == Labels::cut)
-    result.region = cut_labels(J, result.bounding, pairs, J.length, task, report);
-  else
-    result.region = rounded_labels(J, result.w, shift);
-  VecXi shifted = result.region;
-  label_outside_zero(J, shifted);
-  for (int f = 0; f < J.n_faces; ++f)
-    result.w.u.row(f).array() += shift[J.component[f]] + shifted[f] - result.region[f];
-  result.region = shifted;
-  MatX3 label(J.n_faces, 3);
-  for (int f = 0; f < J.n_faces; ++f) label.row(f).setConstant(result.region[f]);
-  result.completed = jump_derivative(J, label);
+  const VecX shift = contour_shift(J, samples_on_edges(J, result.w, result.bounding),
+                                   static_cast<Contour>(options.contour));
+  const bool cut = static_cast<Labels>(options.labels) == Labels::cut;
+  settle_labels(J, shift,
+                cut ? cut_labels(J, result.bounding, pairs, J.length, task, report)
+                    : rounded_labels(J, result.w, shift),
+                result);
 }
 
 WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& options, Task task,
@@ -69,7 +82,8 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
   // Step 1: u, eq. 6.2.
   {
     const Stopwatch watch(report, "jump Laplace");
-    result.u = solve_jump_laplace(J, result.curve, task.stage(0.2, "jump Laplace"), report);
+    result.u = solve_jump_laplace(J, result.curve, {}, Boundary::natural,
+                                  task.stage(0.2, "jump Laplace"), report);
   }
   // Steps 2 to 4, where there are curves that bound nothing.
   const bool simple = std::all_of(J.simply_connected.begin(), J.simply_connected.end(),
@@ -81,9 +95,17 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
     result.bounding = bounding_part(result);
     // Step 5: w, eq. 6.2 with what is left of the curve.
     const Stopwatch watch(report, "winding function");
-    result.w = solve_jump_laplace(J, result.bounding, task.stage(0.6, "jump Laplace"), report);
+    result.w = solve_jump_laplace(J, result.bounding, {}, Boundary::natural,
+                                  task.stage(0.6, "jump Laplace"), report);
   }
 
+  if (static_cast<AtBoundary>(options.boundary) == AtBoundary::free) {
+    // At a straight or round boundary the image of the curve has one sign here, the other there.
+    const Stopwatch watch(report, "level boundary");
+    const CornerFunction level = solve_jump_laplace(J, result.bounding, {}, Boundary::level,
+                                                    task.stage(0.8, "jump Laplace"), report);
+    result.w.u = 0.5 * (result.w.u + level.u);
+  }
   label_regions(J, {}, options, task.stage(1, "labels"), result, report);
   return result;
 }
@@ -111,9 +133,13 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
   }
   std::vector<char> take(J.n_components);
   for (int c = 0; c < J.n_components; ++c) take[c] = !J.simply_connected[c];
+  const Task integration = task.stage(0.7, "residual function");
   const ResidualFunction residual =
-      integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {},
-                      task.stage(0.7, "residual function"), report);
+      static_cast<Residual>(options.residual) == Residual::paths
+          ? integrate_between_paths(J, result.gamma, result.curve, weight, take, integration,
+                                    report)
+          : integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {}, {},
+                            integration, report);
   if (!residual.bounded) report.warn(unbounded_warning);
   for (int f = 0; f < J.n_faces; ++f)
     if (take[J.component[f]]) result.v.row(f) = residual.v.row(f);
@@ -123,7 +149,7 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
   for (int e = 0; e < J.n_edges; ++e)
     if (result.curve[e] != 0 && take[J.component[J.sides[e][0].face]] &&
         std::abs(residual.jump[e]) > 1e-7)
-      result.nonbounding[e] = residual.jump[e];
+      result.nonbounding[e] = std::clamp(residual.jump[e], lo[e], hi[e]);
 }
 
 }  // namespace littoral

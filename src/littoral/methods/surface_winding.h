@@ -17,11 +17,21 @@ namespace littoral {
 /// How faces get their labels.
 enum class Labels { round, cut };
 
-/// Values at corners, or one per face (thesis 6.4).
-enum class Formulation { primal, dual };
+/// Values at corners of a mesh cut along the curve; one per face; or continuous (thesis 6.4).
+enum class Formulation { primal, dual, nonconforming };
+
+/// What the residual function is a choice of: one constant per face, or per part of the surface
+/// between curves completed by shortest paths (thesis 6.3).
+enum class Residual { faces, paths };
+
+/// What happens at the boundary of the surface (thesis 6.2): nothing flows across it, or, nearly,
+/// what would happen without it.
+enum class AtBoundary { natural, free };
 
 struct WindingOptions {
   int formulation = static_cast<int>(Formulation::primal);
+  int boundary = static_cast<int>(AtBoundary::natural);
+  int residual = static_cast<int>(Residual::faces);
   int contour = static_cast<int>(Contour::curve);
   int labels = static_cast<int>(Labels::round);
   double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
@@ -53,8 +63,11 @@ inline constexpr const char* unbounded_warning =
 /// Step 4: the edges of the curve, whole, that are not rather nonbounding than bounding.
 VecX bounding_part(const WindingNumbers& numbers);
 
-/// Step 5: labels, and what follows from them, for given `w` and `bounding`. `pairs`: of the dual
-/// formulation, or none.
+/// Labels w shifted by `shift` (components) as `region` says, and all that follows from it; 0 is
+/// made the outside.
+void settle_labels(const JumpCalculus& J, const VecX& shift, VecXi region, WindingNumbers& result);
+
+/// Step 5: labels for given `w` and `bounding`. `pairs`: of the dual formulation, or none.
 void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
                    const WindingOptions& options, const Task& task, WindingNumbers& result,
                    Report& report);

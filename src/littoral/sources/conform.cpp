@@ -41,19 +41,21 @@ bool halve_lonely(const CutMesh& cut, const VecX& times, std::vector<CutSegment>
 
 }  // namespace
 
-ConformingCurves conform(const SurfaceMesh& mesh, const PreparedSources& sources, Report& report) {
-  std::vector<CutSegment> segments;
-  std::size_t left_out = sources.points.size();
-  for (const CurvePiece& piece : sources.pieces) {
-    if (piece.is_signed)
-      segments.push_back({piece.face, piece.a, piece.b});
-    else
-      ++left_out;
-  }
+std::vector<CurvePiece> signed_pieces(const PreparedSources& sources, Report& report) {
+  std::vector<CurvePiece> pieces;
+  for (const CurvePiece& piece : sources.pieces)
+    if (piece.is_signed) pieces.push_back(piece);
+  const std::size_t left_out = sources.points.size() + sources.pieces.size() - pieces.size();
   if (left_out > 0)
     report.warn(std::to_string(left_out) +
                 " points and pieces of unsigned curves were left out: they have no sides");
-  if (segments.empty()) throw InputError("winding numbers need signed curves; there are none");
+  if (pieces.empty()) throw InputError("winding numbers need signed curves; there are none");
+  return pieces;
+}
+
+ConformingCurves conform(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces) {
+  std::vector<CutSegment> segments;
+  for (const CurvePiece& piece : pieces) segments.push_back({piece.face, piece.a, piece.b});
   CutMesh cut = cut_mesh(mesh, segments);
   VecX times = count_edges(cut);
   if (halve_lonely(cut, times, segments)) {

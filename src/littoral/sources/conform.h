@@ -14,9 +14,12 @@ struct ConformingCurves {
   bool is_cut = false;  // false: the mesh is the given one
 };
 
+/// The pieces that have sides: of signed curves. Others are left out with a warning. Throws
+/// InputError if none remains.
+std::vector<CurvePiece> signed_pieces(const PreparedSources& sources, Report& report);
+
 /// Signed curves as a chain of edges. Parts of one edge that no other follows are halved, because
-/// ends of curves carry no jump. Unsigned curves and points are left out with a warning: they have
-/// no sides. Throws InputError if no signed curve remains.
-ConformingCurves conform(const SurfaceMesh& mesh, const PreparedSources& sources, Report& report);
+/// ends of curves carry no jump.
+ConformingCurves conform(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces);
 
 }  // namespace littoral

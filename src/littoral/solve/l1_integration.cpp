@@ -13,7 +13,7 @@ namespace littoral {
 
 namespace {
 
-constexpr int simplex_alone = 40000;  // nodes
+constexpr int simplex_alone = 15000;  // nodes
 
 void check(const L1Integration& p) {
   const auto m = static_cast<std::size_t>(p.c.size());
@@ -31,6 +31,28 @@ void check(const L1Integration& p) {
     if (bounded && !(p.lo[e] <= 0 && p.hi[e] >= 0))
       throw InputError(arc + " has bounds that exclude zero");
   }
+}
+
+/// Integrates c along a spanning forest of the dearest arcs: with s measured from there, c is 0 on
+/// the forest and round all loops where it is closed, exactly so where it was but for rounding.
+/// What is left of it lies where jumps are cheap, near the optimum.
+VecX integrate_over_forest(L1Integration& p) {
+  std::vector<int> order;
+  for (int e = 0; e < p.n_arcs(); ++e)
+    if (p.w[e] > 0) order.push_back(e);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p.w[a] > p.w[b]; });
+  const Forest forest = spanning_forest(p.n, p.f, p.g, order);
+  VecX s = VecX::Zero(p.n);
+  for (int u : forest.order) {
+    const int e = forest.parent_arc[u];
+    if (e >= 0) s[u] = p.f[e] == u ? s[p.g[e]] - p.c[e] : s[p.f[e]] + p.c[e];
+  }
+  const double noise = p.c.size() ? 1e-12 * p.c.cwiseAbs().maxCoeff() : 0;
+  for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
+    p.c[e] += s[p.f[e]] - s[p.g[e]];
+    if (std::abs(p.c[e]) < noise) p.c[e] = 0;
+  }
+  return s;
 }
 
 /// The flow problem in integers. Arc e of the problem is arc e of the network; then come the arcs
@@ -152,10 +174,12 @@ void evaluate(const L1Integration& p, L1Solution& solution, const VecX& multipli
 
 double L1Solution::gap() const { return primal > 1e-9 * scale ? (primal - dual) / primal : 0; }
 
-L1Solution integrate_l1(const L1Integration& p, const L1Options& options, const Task& whole,
+L1Solution integrate_l1(const L1Integration& problem, const L1Options& options, const Task& whole,
                         Report& report) {
-  check(p);
+  check(problem);
   Task task = whole;
+  L1Integration p = problem;
+  const VecX s0 = integrate_over_forest(p);
   const auto algorithm = static_cast<L1Algorithm>(options.algorithm);
   const bool interior = algorithm == L1Algorithm::interior_point ||
                         (algorithm == L1Algorithm::automatic && p.n > simplex_alone);
@@ -172,7 +196,7 @@ L1Solution integrate_l1(const L1Integration& p, const L1Options& options, const 
   if (flow.status != FlowSolution::Status::optimal)
     throw InputError("L1 integration: no potentials satisfy the bounds");
   solution.pivots = static_cast<double>(flow.pivots);
-  solution.s = tree_potentials(p, scaled, flow);
+  solution.s = s0 + tree_potentials(p, scaled, flow);
   solution.x.resize(p.n_arcs());
   for (Eigen::Index e = 0; e < p.n_arcs(); ++e)
     solution.x[e] = scaled.flow_unit * static_cast<double>(flow.flow[e]);
@@ -181,7 +205,7 @@ L1Solution integrate_l1(const L1Integration& p, const L1Options& options, const 
     (scaled.bound_sign[k] > 0 ? hi : lo)[scaled.bound_arc[k]] =
         scaled.flow_unit *
         static_cast<double>(flow.flow[p.n_arcs() + static_cast<Eigen::Index>(k)]);
-  evaluate(p, solution, hi, lo);
+  evaluate(problem, solution, hi, lo);
   report.iterations.emplace_back("L1 interior point", solution.iterations);
   report.iterations.emplace_back("L1 pivots", solution.pivots);
   report.residuals.emplace_back("L1 gap", std::abs(solution.gap()));

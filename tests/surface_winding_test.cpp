@@ -168,6 +168,39 @@ TEST(SurfaceWinding, DependsNeitherOnNumberingNorScaleNorPlace) {
   for (int f = 0; f < soup.n_faces(); ++f) EXPECT_EQ(after.region[f], before.region[face[f]]);
 }
 
+/// Every face cut into four at the middles of its sides; its faces 4 f to 4 f + 3.
+SurfaceMesh quartered(const SurfaceMesh& mesh) {
+  PolygonSoup soup;
+  const int n = mesh.n_vertices();
+  soup.points.resize(n + mesh.n_edges(), 3);
+  soup.points.topRows(n) = mesh.points();
+  for (int e = 0; e < mesh.n_edges(); ++e)
+    soup.points.row(n + e) =
+        0.5 * (mesh.point(mesh.edges()(e, 0)) + mesh.point(mesh.edges()(e, 1)));
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const auto v = mesh.face(f);
+    const int m[3] = {n + mesh.side_edge(f, 0), n + mesh.side_edge(f, 1), n + mesh.side_edge(f, 2)};
+    for (int k = 0; k < 3; ++k) test::add_triangle(soup, v[k], m[k], m[(k + 2) % 3]);
+    test::add_triangle(soup, m[0], m[1], m[2]);
+  }
+  return SurfaceMesh(soup);
+}
+
+TEST(SurfaceWinding, RefinementChangesNoRegion) {
+  const SurfaceMesh mesh(test::torus_soup(nu, nv)), fine = quartered(mesh);
+  std::vector<int> loop = disk(6, 14, 2, 10), tube = meridian(20);
+  for (const bool broken : {false, true}) {
+    if (broken) loop.resize(loop.size() - 3), tube.resize(tube.size() - 2);
+    SurfaceSources coarse_sources, fine_sources;
+    coarse_sources.curves = fine_sources.curves = {curve_of(loop), curve_of(tube)};
+    const VecXi coarse = winding(mesh, coarse_sources).region;
+    const VecXi refined = winding(fine, fine_sources).region;
+    int differ = 0;
+    for (int f = 0; f < fine.n_faces(); ++f) differ += refined[f] != coarse[f / 4];
+    EXPECT_LE(differ, broken ? 0.01 * fine.n_faces() : 0);
+  }
+}
+
 TEST(SurfaceWinding, CurvesThroughFacesCutTheMeshAndMapBack) {
   const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.3));
   SurfaceSources sources;

@@ -41,11 +41,32 @@ def test_labels_and_curves(run: Run, tmp_path: Path) -> None:
     assert abs(report["sizes"]["bounding_length"] - 4 * 2**0.5) < 1e-12
 
 
+def test_variants(run: Run, tmp_path: Path) -> None:
+    mesh, curve = octahedron(tmp_path / "o.obj"), equator(tmp_path / "c.txt")
+    out = tmp_path / "w.txt"
+    labels = []
+    for flags in (
+        ("--boundary", "free"),
+        ("--residual", "paths"),
+        ("--formulation", "dual"),
+        ("--formulation", "nonconforming"),
+    ):
+        run("winding", mesh, "-s", curve, "-o", out, *flags)
+        labels.append(out.read_text())
+    assert labels == [labels[0]] * 4
+
+
 def test_bad_requests(run: Run, tmp_path: Path) -> None:
     mesh, curve = octahedron(tmp_path / "o.obj"), equator(tmp_path / "c.txt")
     assert "--sources" in run("winding", mesh, "-o", "w.txt", status=2).stderr
     wrong = run("winding", mesh, "-s", curve, "-o", "w.txt", "--labels", "none", status=2)
     assert "labels" in wrong.stderr
+    cut = run(
+        *("winding", mesh, "-s", curve, "-o", "w.txt"),
+        *("--formulation", "nonconforming", "--labels", "cut"),
+        status=2,
+    )
+    assert "formulation primal" in cut.stderr
     point = tmp_path / "p.txt"
     point.write_text("unsigned_point\nv 0\n")
     assert "signed" in run("winding", mesh, "-s", point, "-o", "w.txt", status=2).stderr

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -187,6 +189,36 @@ TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
   const MatX At = MatX(p.terms.A.transpose());
   const VecX y = At.completeOrthogonalDecomposition().solve(force);
   EXPECT_LE((At * y - force).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Parallel, EveryThreadFlushesSubnormalsAsItsCallerDoes) {
+  const volatile double tiny = std::numeric_limits<double>::min();
+  const auto flushes = [&] { return tiny / 4 == 0; };
+  std::vector<char> seen(64, 0);
+  const auto all_flush = [&] {
+    std::fill(seen.begin(), seen.end(), 0);
+    parallel_for(seen.size(), 1, [&](std::size_t i, std::size_t) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));  // so that no thread does all
+      seen[i] = flushes();
+    });
+    const auto in_loop = std::count(seen.begin(), seen.end(), 1);
+    std::fill(seen.begin(), seen.end(), 0);
+    parallel_forest(std::vector<int>(seen.size(), -1), Walk::from_leaves, [&](int i) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+      seen[static_cast<std::size_t>(i)] = flushes();
+    });
+    const auto in_forest = std::count(seen.begin(), seen.end(), 1);
+    EXPECT_EQ(in_loop, in_forest);
+    return static_cast<std::size_t>(in_loop);
+  };
+  set_thread_count(4);
+  EXPECT_EQ(all_flush(), 0U);
+  {
+    const FlushSubnormals flush;
+    EXPECT_EQ(all_flush(), seen.size());
+  }
+  EXPECT_EQ(all_flush(), 0U);
+  set_thread_count(0);
 }
 
 TEST(Parallel, ForestsRunChildrenFirstOrParentsFirst) {

@@ -81,9 +81,8 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
     for (double scale : {0.25, 1.0, 16.0}) {
       const Both both = solve_both(p.ops->vector, p.terms.X0 + p.terms.X0_points, scale);
       const auto [largest, mean] = difference(both.windows, both.passes);
-      // At small time scales the two differ though windows fit together to round-off.
-      EXPECT_LE(mean, scale > 1 ? 1e-12 : 1e-6) << scale;
-      EXPECT_LE(largest, scale > 1 ? 1e-9 : 1e-3) << scale;
+      EXPECT_LE(mean, 1e-12) << scale;
+      EXPECT_LE(largest, 1e-9) << scale;
       EXPECT_GE(both.n_windows, scale < 2 ? 5 : 1);
     }
   }

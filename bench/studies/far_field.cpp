@@ -8,19 +8,20 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/io/read.h"
 #include "littoral/methods/exact_polyhedral.h"
 #include "littoral/methods/signed_heat.h"
+#include "littoral/methods/time_scale.h"
 #include "littoral/operators/triangles.h"
 #include "littoral/sources/pieces.h"
 #include "littoral/sources/triangle_source_terms.h"
 #include "littoral/sources/triangle_sources.h"
+#include "subdivided_meshes.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -28,15 +29,22 @@ namespace {
 
 constexpr int fifths = 5;
 
-VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report) {
+VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, double& scale,
+                 Report& report) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
   const SourceTerms terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
   SignedHeatOptions options;
   options.time_scale = automatic_time_scale(terms);
-  return SignedHeat(ops, options.time_scale, {}, needed_diffusions(terms, options),
-                    Expect::one_solve)
-      .solve(terms, options, {}, report);
+  SignedHeat method(ops, options.time_scale, {}, needed_diffusions(terms, options),
+                    Expect::one_solve);
+  scale = options.time_scale;
+  return solve_raising(
+      method, scale,
+      [&](const SignedHeat& heat, const Task& task, Report& r) {
+        return heat.solve(terms, options, task, r);
+      },
+      {}, report);
 }
 
 VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
@@ -47,8 +55,8 @@ VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
 }
 
 /// Mean error in each fifth of the distance and the largest, in % of the largest distance.
-void print_row(const std::string& name, int faces, const char* source, const VecX& phi,
-               const VecX& truth) {
+void print_row(const std::string& name, int faces, const char* source, double scale,
+               const VecX& phi, const VecX& truth) {
   double most = 0, worst = 0, all = 0, n = 0;
   for (double d : truth)
     if (std::isfinite(d)) most = std::max(most, std::abs(d));
@@ -64,7 +72,7 @@ void print_row(const std::string& name, int faces, const char* source, const Vec
     ++n;
     worst = std::max(worst, error);
   }
-  std::printf("| %s | %d | %s |", name.c_str(), faces, source);
+  std::printf("| %s | %d | %s | %g |", name.c_str(), faces, source, scale);
   for (int k = 0; k < fifths; ++k) std::printf(" %.3f |", count[k] > 0 ? sum[k] / count[k] : 0.0);
   std::printf(" %.3f | %.2f |\n", all / n, worst);
   std::fflush(stdout);
@@ -88,67 +96,12 @@ void octasphere(int level) {
   pole.points.push_back(SurfacePoint::at_vertex(4));
   const std::string name = "octasphere " + std::to_string(level);
   Report report;
-  print_row(name, mesh.n_faces(), "circle of 3°", signed_heat(mesh, around, report),
+  double scale = 0;
+  const VecX from_circle = signed_heat(mesh, around, scale, report);
+  print_row(name, mesh.n_faces(), "circle of 3°", scale, from_circle,
             (angle.array() - cap).matrix());
-  print_row(name, mesh.n_faces(), "point", signed_heat(mesh, pole, report), angle);
-}
-
-using Middles = std::map<std::pair<int, int>, int>;
-
-/// Every triangle becomes four; curves of vertices take in the middles of their edges.
-PolygonSoup subdivided(const PolygonSoup& soup, std::vector<int>& curve) {
-  PolygonSoup fine;
-  Middles middles;
-  std::vector<Vec3> points;
-  for (int i = 0; i < soup.n_vertices(); ++i) points.emplace_back(soup.points.row(i));
-  auto middle = [&](int i, int j) {
-    const auto [at, fresh] =
-        middles.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<int>(points.size()));
-    if (fresh) points.emplace_back(0.5 * (points[i] + points[j]));
-    return at->second;
-  };
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto c = soup.face(f);
-    const int a = middle(c[0], c[1]), b = middle(c[1], c[2]), d = middle(c[2], c[0]);
-    test::add_triangle(fine, c[0], a, d);
-    test::add_triangle(fine, a, c[1], b);
-    test::add_triangle(fine, d, b, c[2]);
-    test::add_triangle(fine, a, b, d);
-  }
-  std::vector<int> longer;
-  for (std::size_t k = 0; k < curve.size(); ++k) {
-    longer.push_back(curve[k]);
-    if (k + 1 < curve.size()) longer.push_back(middle(curve[k], curve[k + 1]));
-  }
-  curve = std::move(longer);
-  fine.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    fine.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  return fine;
-}
-
-/// The longest closed loop of edges around the faces within a distance.
-std::vector<int> loop_at(const PolygonSoup& soup, const VecX& d, double radius) {
-  std::map<int, int> after;
-  std::map<std::pair<int, int>, int> half;
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto c = soup.face(f);
-    if (!(d[c[0]] <= radius && d[c[1]] <= radius && d[c[2]] <= radius)) continue;
-    for (int k = 0; k < 3; ++k) half[{c[k], c[(k + 1) % 3]}] = 1;
-  }
-  for (const auto& [e, unused] : half)
-    if (!half.contains({e.second, e.first})) after[e.first] = e.second;
-  std::vector<int> best;
-  while (!after.empty()) {
-    std::vector<int> loop{after.begin()->first};
-    while (after.contains(loop.back())) {
-      const int i = loop.back();
-      loop.push_back(after[i]);
-      after.erase(i);
-    }
-    if (loop.front() == loop.back() && loop.size() > best.size()) best = loop;
-  }
-  return best;
+  const VecX from_pole = signed_heat(mesh, pole, scale, report);
+  print_row(name, mesh.n_faces(), "point", scale, from_pole, angle);
 }
 
 SurfaceSources curve_through(const std::vector<int>& nodes) {
@@ -168,16 +121,17 @@ void real_mesh(const char* path, int times) {
   double most = 0;
   for (double d : from_point)
     if (std::isfinite(d)) most = std::max(most, d);
-  std::vector<int> curve = loop_at(soup, from_point, 0.25 * most);
+  std::vector<int> curve = test::loop_at(soup, from_point, 0.25 * most);
   const VecX from_curve = exact(coarse, curve_through(curve));
-  for (int k = 0; k < times; ++k) soup = subdivided(soup, curve);
+  for (int k = 0; k < times; ++k) soup = test::quartered(soup, &curve);
   const SurfaceMesh mesh(soup);
   const std::string name = std::filesystem::path(path).stem().string();
   Report report;
-  print_row(name, mesh.n_faces(), "curve",
-            signed_heat(mesh, curve_through(curve), report).head(from_curve.size()), from_curve);
-  print_row(name, mesh.n_faces(), "point", signed_heat(mesh, point, report).head(from_point.size()),
-            from_point);
+  double scale = 0;
+  const VecX phi = signed_heat(mesh, curve_through(curve), scale, report);
+  print_row(name, mesh.n_faces(), "curve", scale, phi.head(from_curve.size()), from_curve);
+  const VecX psi = signed_heat(mesh, point, scale, report);
+  print_row(name, mesh.n_faces(), "point", scale, psi.head(from_point.size()), from_point);
 }
 
 }  // namespace
@@ -190,8 +144,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::printf(
-      "| mesh | faces | source | to 20 %% | to 40 %% | to 60 %% | to 80 %% | to 100 %% | mean | "
-      "largest |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| mesh | faces | source | time scale | to 20 %% | to 40 %% | to 60 %% | to 80 %% | to 100 "
+      "%% | mean | "
+      "largest |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   try {
     for (int level = std::atoi(argv[1]); level <= std::atoi(argv[2]); ++level)
       littoral::octasphere(level);

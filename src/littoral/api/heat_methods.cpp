@@ -1,7 +1,9 @@
 // The heat methods, signed and unsigned, as entries of the registry.
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "littoral/api/discontinuous.h"
@@ -12,6 +14,7 @@
 #include "littoral/domain/polygon_surface.h"
 #include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat.h"
+#include "littoral/methods/time_scale.h"
 #include "littoral/methods/unsigned_heat.h"
 #include "littoral/operators/nodal.h"
 #include "littoral/operators/triangles.h"
@@ -116,6 +119,18 @@ SurfaceResult at_input(const SurfaceProblem& problem, const SurfaceMesh* faces,
   return out;
 }
 
+/// Solves at an automatic time scale, which may rise, or at the given one.
+template <class Method>
+VecX at_time_scale(
+    bool automatic, Method& method, double& time_scale,
+    const std::type_identity_t<std::function<VecX(const Method&, const Task&, Report&)>>& solve,
+    const Task& task, Report& report) {
+  if (automatic) return solve_raising(method, time_scale, solve, task, report);
+  VecX phi = solve(method, task, report);
+  warn_against(report);
+  return phi;
+}
+
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
   check_options(problem, options);
@@ -131,15 +146,21 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   if (options.sharpen && options.discontinuous)
     throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
   const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
-  if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
-  const auto method = [&, &operators = ops, &source = terms] {
+  const bool automatic = options.time_scale == 0;
+  if (automatic) options.time_scale = automatic_time_scale(terms);
+  auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
                       needed_diffusions(source, options), Expect::one_solve);
   }();
   if (options.discontinuous)
     return discontinuous_distance(problem.mesh, *T, *ops, terms, method, options, task, report);
-  VecX phi = method.solve(terms, options, task.stage(0.25, "solving"), report);
+  VecX phi = at_time_scale(
+      automatic, method, options.time_scale,
+      [&, &source = terms](const SignedHeat& heat, const Task& stage, Report& r) {
+        return heat.solve(source, options, stage, r);
+      },
+      task.stage(0.25, "solving"), report);
   if (options.sharpen) {
     SharpenOptions how;
     how.solver = static_cast<SharpenSolver>(options.sharpen_solver);
@@ -151,12 +172,20 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
   const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
-  const auto method = [&, &operators = ops] {
+  const bool automatic = options.time_scale == 0;
+  if (automatic) options.time_scale = 1;
+  auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
     return UnsignedHeat(operators, options, task.stage(0.65, "factoring"), Expect::one_solve);
   }();
   const Stopwatch watch(report, "solve");
-  return at_input(problem, faces.get(), method.solve(terms, task.stage(0.25, "solving"), report));
+  const VecX phi = at_time_scale(
+      automatic, method, options.time_scale,
+      [&source = terms](const UnsignedHeat& heat, const Task& stage, Report& r) {
+        return heat.solve(source, stage, r);
+      },
+      task.stage(0.25, "solving"), report);
+  return at_input(problem, faces.get(), phi);
 }
 
 }  // namespace

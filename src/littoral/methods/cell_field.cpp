@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace littoral {
 
@@ -11,19 +12,28 @@ CellField no_field(Eigen::Index cells) {
 }
 
 CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
-  // A cell takes the first layer in which it is not negligible; later ones may be stale for it.
+  // A cell has carriers in one layer or in two that follow each other: what it has in the first
+  // and, in its units, in the second.
   constexpr double negligible = 1e-140;
   CellField out = no_field(map.rows / 2);
+  const auto n_layers = static_cast<int>(field.scale.size());
   double log_scale = 0;
-  for (int p = 0; p < static_cast<int>(field.scale.size()); ++p) {
+  VecX y = n_layers > 0 ? map.apply(field.in_layer(0)) : VecX(), next;
+  for (int p = 0; p < n_layers; ++p, std::swap(y, next)) {
     log_scale += std::log(field.scale[p]);
-    const VecX y = map.apply(field.around_layer(p));
+    const bool last = p + 1 == n_layers;
+    if (!last) next = map.apply(field.in_layer(p + 1));
     for (Eigen::Index c = 0; c < out.log_length.size(); ++c) {
-      const double m = y.segment<2>(2 * c).cwiseAbs().maxCoeff();
-      if (std::isfinite(out.log_length[c]) || !(m > negligible)) continue;
-      const Eigen::Vector2d v = y.segment<2>(2 * c) / m;
-      out.Y.segment<2>(2 * c) = v.normalized();
-      out.log_length[c] = log_scale + std::log(m) + std::log(v.norm());
+      if (std::isfinite(out.log_length[c])) continue;
+      Eigen::Vector2d v = y.segment<2>(2 * c);
+      if (!(v.cwiseAbs().maxCoeff() > negligible)) continue;
+      if (!last) v += field.scale[p + 1] * next.segment<2>(2 * c);
+      const double m = v.cwiseAbs().maxCoeff();
+      if (!(m > negligible)) continue;
+      v /= m;
+      const double length = v.norm();
+      out.Y.segment<2>(2 * c) = v / length;
+      out.log_length[c] = log_scale + std::log(m * length);
     }
   }
   return out;

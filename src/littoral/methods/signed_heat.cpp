@@ -7,6 +7,7 @@
 
 #include "littoral/base/error.h"
 #include "littoral/methods/shift.h"
+#include "littoral/methods/time_scale.h"
 
 namespace littoral {
 
@@ -71,15 +72,27 @@ Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& 
 SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
                        Diffusions diffusions, Expect expect)
     : ops_(std::move(ops)),
-      root_t_(ops_->vector.h * std::sqrt(time_scale)),
+      expect_(expect),
       order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
-      poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.2, "factor Poisson"), order_, solver_for(expect)) {
+      poisson_(std::make_shared<const Poisson>(
+          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
+          task.stage(0.2, "factor Poisson"), order_, solver_for(expect))) {
+  factor_heat(time_scale, diffusions, task);
+}
+
+void SignedHeat::factor_heat(double time_scale, Diffusions diffusions, Task& task) {
+  root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
-    scalar_heat_.emplace(ops_->scalar, t, expect, order_, task.stage(0.2, "factor heat"));
+    scalar_heat_.emplace(ops_->scalar, t, expect_, order_, task.stage(0.2, "factor heat"));
   if (diffusions.vectors)
-    heat_.emplace(ops_->vector, t, expect, order_, task.stage(0.4, "factor vector heat"));
+    heat_.emplace(ops_->vector, t, expect_, order_, task.stage(0.4, "factor vector heat"));
+}
+
+SignedHeat SignedHeat::with_time_scale(double time_scale, Task task) const {
+  SignedHeat out = *this;
+  out.factor_heat(time_scale, {heat_.has_value(), scalar_heat_.has_value()}, task);
+  return out;
 }
 
 VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
@@ -91,16 +104,16 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
   const Calculus& C = ops_->scalar;
   const VecX b = C.divergence(Y);
   if (options.soft > 0)
-    return poisson_.solve_soft(b, terms.A, options.soft * terms.weight, task, report);
+    return poisson_->solve_soft(b, terms.A, options.soft * terms.weight, task, report);
   switch (static_cast<Constraint>(options.constraint)) {
     case Constraint::none: {
-      VecX phi = poisson_.solve(b, report, task);
+      VecX phi = poisson_->solve(b, report, task);
       shift_to_mean_zero(C, terms, phi);
       return phi;
     }
     case Constraint::zero_set:
-      return poisson_.solve_levels(b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}}, task,
-                                   report);
+      return poisson_->solve_levels(b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}},
+                                    task, report);
     case Constraint::level_sets:
       break;
   }
@@ -114,7 +127,7 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
       anchored[c] = 1;
       rows.anchor[terms.group[r]] = 1;
     }
-  VecX phi = poisson_.solve_levels(b, rows, task, report);
+  VecX phi = poisson_->solve_levels(b, rows, task, report);
   shift_to_mean_zero(C, terms, phi);
   return phi;
 }
@@ -160,12 +173,13 @@ VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& option
   VecX phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
   while (add_across_pinches(phi, reached, Y, poisson_stage, report))
     phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
+  report.residuals.emplace_back(against_directions, share_against(ops_->scalar, phi, Y));
   report.sizes.emplace_back("factor_mb", factor_megabytes());
   return finish_field(*ops_, terms, phi, report);
 }
 
 double SignedHeat::factor_megabytes() const {
-  const double scalar = poisson_.nonzeros() + (scalar_heat_ ? scalar_heat_->nonzeros() : 0);
+  const double scalar = poisson_->nonzeros() + (scalar_heat_ ? scalar_heat_->nonzeros() : 0);
   const double vector = heat_ ? heat_->nonzeros() : 0;
   return (8 * scalar + (ops_->vector.complex_linear() ? 16 : 8) * vector) / (1 << 20);
 }

@@ -61,6 +61,9 @@ class SignedHeat {
   SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task = {},
              Diffusions diffusions = {}, Expect expect = Expect::many_solves);
 
+  /// The same with another time scale; the order of elimination and the Poisson factor are shared.
+  SignedHeat with_time_scale(double time_scale, Task task) const;
+
   /// Generalized signed distance at the nodes (nodes) [length of the input], +inf on components
   /// that no source reaches. Throws UnsupportedError if a diffusion is needed that was left out.
   VecX solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
@@ -77,12 +80,15 @@ class SignedHeat {
   bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
                           Report& report) const;
 
+  void factor_heat(double time_scale, Diffusions diffusions, Task& task);
+
   std::shared_ptr<const Operators> ops_;
-  double root_t_;
+  Expect expect_;
   Ordering order_;  // of the nodes
+  std::shared_ptr<const Poisson> poisson_;
+  double root_t_ = 0;
   std::optional<VectorHeat> heat_;
   std::optional<ScalarHeat> scalar_heat_;
-  Poisson poisson_;
 };
 
 }  // namespace littoral

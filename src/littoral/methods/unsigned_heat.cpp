@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "littoral/methods/shift.h"
+#include "littoral/methods/time_scale.h"
 
 namespace littoral {
 
@@ -10,7 +11,7 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
   using O = UnsignedHeatOptions;
   static const OptionTable<O> table =
       OptionTable<O>()
-          .number(&O::time_scale, "time-scale", "multiple of h^2", 1e-6, 1e6,
+          .number(&O::time_scale, "time-scale", "multiple of h^2, 0 = automatic", 0, 1e6,
                   "Diffusion time t as a multiple of h^2, h being the mean edge length.")
           .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
                   "Flips and refines the triangles intrinsically first; for bad triangulations.");
@@ -20,11 +21,20 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
 UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
                            Task task, Expect expect)
     : ops_(std::move(ops)),
-      root_t_(ops_->scalar.h * std::sqrt(options.time_scale)),
+      expect_(expect),
+      root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
       order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
       heat_(ops_->scalar, root_t_ * root_t_, expect, order_, task.stage(0.4, "factor heat")),
-      poisson_(ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-               task.stage(0.3, "factor Poisson"), order_, solver_for(expect)) {}
+      poisson_(std::make_shared<const Poisson>(
+          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
+          task.stage(0.3, "factor Poisson"), order_, solver_for(expect))) {}
+
+UnsignedHeat UnsignedHeat::with_time_scale(double time_scale, const Task& task) const {
+  UnsignedHeat out = *this;
+  out.root_t_ = ops_->scalar.h * std::sqrt(time_scale);
+  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, expect_, order_, task);
+  return out;
+}
 
 VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) const {
   const Calculus& C = ops_->scalar;
@@ -37,8 +47,9 @@ VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) co
 
   // L phi = G^T A Y, phi = d0 + psi with psi = 0 at the sources.
   const VecX b = C.divergence(X.Y - C.G.apply(terms.d0));
-  const VecX psi = poisson_.solve_levels(b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}},
-                                         poisson_stage, report);
+  const VecX psi = poisson_->solve_levels(
+      b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}}, poisson_stage, report);
+  report.residuals.emplace_back(against_directions, share_against(C, terms.d0 + psi, X.Y));
   return finish_field(*ops_, terms, (terms.d0 + psi).cwiseMax(0.0), report);
 }
 

@@ -14,7 +14,7 @@
 namespace littoral {
 
 struct UnsignedHeatOptions {
-  double time_scale = 1;            // t = time_scale h^2, h the mean edge length
+  double time_scale = 0;            // t = time_scale h^2, h the mean edge length; 0: automatic
   bool intrinsic_delaunay = false;  // on better triangles of the same surface
 };
 
@@ -24,8 +24,12 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();
 /// next to isolated points the distance is exact: neither the boundary nor other sources bend it.
 class UnsignedHeat {
  public:
+  /// An automatic time scale is 1 here.
   UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
                Task task = {}, Expect expect = Expect::many_solves);
+
+  /// The same with another time scale; the order of elimination and the Poisson factor are shared.
+  UnsignedHeat with_time_scale(double time_scale, const Task& task) const;
 
   /// Unsigned distance at the nodes (nodes) [length of the input], +inf on components that no
   /// source reaches; never negative.
@@ -33,10 +37,11 @@ class UnsignedHeat {
 
  private:
   std::shared_ptr<const Operators> ops_;
+  Expect expect_;
   double root_t_;
   Ordering order_;  // of the nodes
   ScalarHeat heat_;
-  Poisson poisson_;
+  std::shared_ptr<const Poisson> poisson_;
 };
 
 }  // namespace littoral

@@ -12,15 +12,18 @@ template <class Scalar>
 Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, const VecX& M,
                                         double t) {
   const Eigen::Index block = L.rows() / M.size();
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  entries.reserve(static_cast<std::size_t>(L.rows()));
-  for (Eigen::Index i = 0; i < L.rows(); ++i) {
-    const double m = M[i / block];
-    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), m > 0 ? m : 1.0);
+  Eigen::SparseMatrix<Scalar> A = L;  // no temporary matrices: this is the largest one there is
+  A.makeCompressed();
+  A.coeffs() *= t;
+  std::vector<int> missing;
+  for (Eigen::Index i = 0; i < A.cols(); ++i) {
+    const int first = A.outerIndexPtr()[i];  // the diagonal, in a lower triangle, if there is one
+    if (first < A.outerIndexPtr()[i + 1] && A.innerIndexPtr()[first] == i)
+      A.valuePtr()[first] += M[i / block] > 0 ? M[i / block] : 1.0;
+    else
+      missing.push_back(static_cast<int>(i));
   }
-  Eigen::SparseMatrix<Scalar> D(L.rows(), L.cols());
-  D.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseMatrix<Scalar> A = D + Scalar(t) * L;
+  for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
   A.makeCompressed();
   return A;
 }

@@ -1,8 +1,10 @@
 #include "littoral/operators/triangles.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "littoral/base/parallel.h"
 
@@ -39,30 +41,59 @@ Complex hat_gradient(const IntrinsicTriangulation& T, const TriangleShape& t, in
   return Complex(0, T.orientation[f]) * opposite / (2 * t.area);
 }
 
+/// Three complex numbers of every face, kept where that takes little memory.
+template <class Compute>
+class PerFace {
+ public:
+  PerFace(const IntrinsicTriangulation& T, Compute compute) : compute_(std::move(compute)) {
+    constexpr int most_kept = 2'000'000;
+    if (T.n_faces() > most_kept) return;
+    kept_.resize(static_cast<std::size_t>(T.n_faces()));
+    parallel_for(kept_.size(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) kept_[f] = compute_(static_cast<int>(f));
+    });
+  }
+  std::array<Complex, 3> operator()(int f) const { return kept_.empty() ? compute_(f) : kept_[f]; }
+
+ private:
+  Compute compute_;
+  std::vector<std::array<Complex, 3>> kept_;
+};
+
+template <class Compute>
+auto per_face(const IntrinsicTriangulation& T, Compute compute) {
+  return std::make_shared<const PerFace<Compute>>(T, std::move(compute));
+}
+
 LinearMap gradient(Triangulation T) {
+  const auto hats = per_face(*T, [T](int f) {
+    const TriangleShape t = T->shape(f);
+    return std::array{hat_gradient(*T, t, f, 0), hat_gradient(*T, t, f, 1),
+                      hat_gradient(*T, t, f, 2)};
+  });
   LinearMap G;
   G.rows = 2 * T->n_faces();
   G.cols = T->n_vertices;
-  G.apply = [T](const VecX& u) {
+  G.apply = [T, hats](const VecX& u) {
     VecX g(2 * T->n_faces());
     parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         const int f = static_cast<int>(s);
-        const TriangleShape t = T->shape(f);
+        const auto hat = (*hats)(f);
         Complex z = 0;
-        for (int k = 0; k < 3; ++k) z += u[T->faces(f, k)] * hat_gradient(*T, t, f, k);
+        for (int k = 0; k < 3; ++k) z += u[T->faces(f, k)] * hat[k];
         g[2 * f] = z.real();
         g[2 * f + 1] = z.imag();
       }
     });
     return g;
   };
-  G.adjoint = [T](const VecX& g) {
+  G.adjoint = [T, hats](const VecX& g) {
     VecX u = VecX::Zero(T->n_vertices);
     for (int f = 0; f < T->n_faces(); ++f) {
-      const TriangleShape t = T->shape(f);
+      const auto hat = (*hats)(f);
       for (int k = 0; k < 3; ++k) {
-        const Complex d = hat_gradient(*T, t, f, k);
+        const Complex d = hat[k];
         u[T->faces(f, k)] += d.real() * g[2 * f] + d.imag() * g[2 * f + 1];
       }
     }
@@ -73,23 +104,29 @@ LinearMap gradient(Triangulation T) {
 
 /// Mean of the three edge vectors of a face, in the face's frame (section 6).
 LinearMap edges_to_faces(Triangulation T) {
+  const auto edges = per_face(*T, [T](int f) {
+    const TriangleShape t = T->shape(f);
+    return std::array<Complex, 3>{T->edge_in_face(t, f, 0), T->edge_in_face(t, f, 1),
+                                  T->edge_in_face(t, f, 2)};
+  });
   LinearMap P;
   P.rows = 2 * T->n_faces();
   P.cols = 2 * T->n_edges();
-  P.apply = [T](const VecX& X) {
+  P.apply = [T, edges](const VecX& X) {
     VecX Y(2 * T->n_faces());
     parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         const int f = static_cast<int>(s);
-        const TriangleShape t = T->shape(f);
-        Complex sum = 0;
+        const auto edge = (*edges)(f);
+        double x = 0, y = 0;
         for (int k = 0; k < 3; ++k) {
           const int e = T->side_edge(f, k);
-          const Complex z(X[2 * e], T->seam(f, k) ? -X[2 * e + 1] : X[2 * e + 1]);
-          sum += z * T->edge_in_face(t, f, k);
+          const double re = X[2 * e], im = T->seam(f, k) ? -X[2 * e + 1] : X[2 * e + 1];
+          x += re * edge[k].real() - im * edge[k].imag();
+          y += re * edge[k].imag() + im * edge[k].real();
         }
-        Y[2 * f] = sum.real() / 3;
-        Y[2 * f + 1] = sum.imag() / 3;
+        Y[2 * f] = x / 3;
+        Y[2 * f + 1] = y / 3;
       }
     });
     return Y;

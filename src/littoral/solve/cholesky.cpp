@@ -141,17 +141,22 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
   const Elimination& E = *structure_;
   // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
   std::vector<char> nonzero(static_cast<std::size_t>(E.n_super), 0), needed = nonzero;
-  auto mark_up = [&](std::vector<char>& marks, int i) {
-    for (int s = E.super_of[i]; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
+  auto mark_up = [&](std::vector<char>& marks, int s) {
+    for (; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
   };
   Dense x(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    for (int i = 0; i < E.n; ++i) {
-      x(i, k) = b(E.old_of[i], k);
-      if (x(i, k) != Scalar(0)) mark_up(nonzero, i);
-    }
-  for (int i = 0; i < E.n; ++i)
-    if (wanted.empty() || wanted[E.old_of[i]]) mark_up(needed, i);
+    for (int i = 0; i < E.n; ++i) x(i, k) = b(E.old_of[i], k);
+  for (int s = 0; s < E.n_super; ++s)
+    for (int i = E.first[s]; i < E.first[s + 1] && !nonzero[s]; ++i)
+      if (!x.row(i).isZero(0)) mark_up(nonzero, s);
+  if (wanted.empty()) {
+    needed.assign(needed.size(), 1);
+  } else {
+    for (int s = 0; s < E.n_super; ++s)
+      for (int i = E.first[s]; i < E.first[s + 1] && !needed[s]; ++i)
+        if (wanted[E.old_of[i]]) mark_up(needed, s);
+  }
   std::vector<Dense> passed_on(static_cast<std::size_t>(E.n_tasks()));
   parallel_forest(E.task_parent, Walk::from_leaves,
                   [&](int t) { forward(t, nonzero, x, passed_on); });

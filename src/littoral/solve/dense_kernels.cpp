@@ -76,12 +76,49 @@ struct Blas<Complex> {
   static constexpr auto trsv = ztrsv_;
 };
 constexpr int step = 1;
+/// Most supernodes are so small that calling BLAS costs more than the work.
+bool small(int m, int n) { return m * n <= 1024; }
 template <class Scalar>
 constexpr Scalar one = Scalar(1);
 template <class Scalar>
 constexpr Scalar minus = Scalar(-1);
 template <class Scalar>
 constexpr Scalar zero = Scalar(0);
+
+template <class Scalar>
+using Column = Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
+template <class Scalar>
+using ConstColumn = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>;
+
+template <class Scalar>
+void forward_small(int n, const Scalar* L, int ldl, Scalar* x) {
+  for (int j = 0; j < n; ++j, L += ldl) {
+    x[j] /= std::real(L[j]);
+    Column<Scalar>(x + j + 1, n - j - 1) -= x[j] * ConstColumn<Scalar>(L + j + 1, n - j - 1);
+  }
+}
+
+template <class Scalar>
+void backward_small(int n, const Scalar* L, int ldl, Scalar* x) {
+  for (int j = n; j-- > 0;) {
+    const Scalar* l = L + static_cast<std::ptrdiff_t>(j) * ldl;
+    x[j] -= ConstColumn<Scalar>(l + j + 1, n - j - 1).dot(Column<Scalar>(x + j + 1, n - j - 1));
+    x[j] /= std::real(l[j]);
+  }
+}
+
+template <class Scalar>
+void times_small(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* y) {
+  Column<Scalar> out(y, m);
+  out.setZero();
+  for (int j = 0; j < n; ++j, A += lda) out += x[j] * ConstColumn<Scalar>(A, m);
+}
+
+template <class Scalar>
+void subtract_adjoint_small(int m, int n, const Scalar* A, int lda, const Scalar* y, Scalar* x) {
+  const ConstColumn<Scalar> in(y, m);
+  for (int j = 0; j < n; ++j, A += lda) x[j] -= ConstColumn<Scalar>(A, m).dot(in);
+}
 #endif
 
 }  // namespace
@@ -150,7 +187,9 @@ template <class Scalar>
 void forward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx) {
 #if LITTORAL_BLAS
   use_one_thread();
-  if (k == 1)
+  if (k == 1 && small(n, n))
+    forward_small(n, L, ldl, x);
+  else if (k == 1)
     Blas<Scalar>::trsv("L", "N", "N", &n, L, &ldl, x, &step);
   else
     Blas<Scalar>::trsm("L", "L", "N", "N", &n, &k, &one<Scalar>, L, &ldl, x, &ldx);
@@ -163,7 +202,9 @@ template <class Scalar>
 void backward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx) {
 #if LITTORAL_BLAS
   use_one_thread();
-  if (k == 1)
+  if (k == 1 && small(n, n))
+    backward_small(n, L, ldl, x);
+  else if (k == 1)
     Blas<Scalar>::trsv("L", "C", "N", &n, L, &ldl, x, &step);
   else
     Blas<Scalar>::trsm("L", "L", "C", "N", &n, &k, &one<Scalar>, L, &ldl, x, &ldx);
@@ -181,7 +222,9 @@ void times(int m, int n, int k, const Scalar* A, int lda, const Scalar* x, int l
   if (m == 0) return;
 #if LITTORAL_BLAS
   use_one_thread();
-  if (k == 1)
+  if (k == 1 && small(m, n))
+    times_small(m, n, A, lda, x, y);
+  else if (k == 1)
     Blas<Scalar>::gemv("N", &m, &n, &one<Scalar>, A, &lda, x, &step, &zero<Scalar>, y, &step);
   else
     Blas<Scalar>::gemm("N", "N", &m, &k, &n, &one<Scalar>, A, &lda, x, &ldx, &zero<Scalar>, y,
@@ -197,7 +240,9 @@ void subtract_adjoint(int m, int n, int k, const Scalar* A, int lda, const Scala
   if (m == 0) return;
 #if LITTORAL_BLAS
   use_one_thread();
-  if (k == 1)
+  if (k == 1 && small(m, n))
+    subtract_adjoint_small(m, n, A, lda, y, x);
+  else if (k == 1)
     Blas<Scalar>::gemv("C", &m, &n, &minus<Scalar>, A, &lda, y, &step, &one<Scalar>, x, &step);
   else
     Blas<Scalar>::gemm("C", "N", &n, &k, &m, &minus<Scalar>, A, &lda, y, &ldy, &one<Scalar>, x,

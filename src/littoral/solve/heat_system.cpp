@@ -91,11 +91,12 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
   Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 
   int passes = 0;
-  std::vector<char> outside(static_cast<std::size_t>(r.size()), 1);  // unknowns of no layer yet
+  constexpr char older = 0, outside = 1, fresh = 2;  // unknowns of earlier layers, none, this one
+  std::vector<char> side(static_cast<std::size_t>(r.size()), outside);
   while (left > 0) {
     task.checkpoint();
-    const int p = passes++;
-    const Vector z = factor.solve(r, outside);
+    const int p = passes++;  // side: all outside or older
+    const Vector z = factor.solve(r, side);
     double top = 0;
     for (Eigen::Index i = 0; i < n; ++i)
       if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
@@ -106,7 +107,7 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
       field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
       if (block_magnitude(z, i, block_) < front * top) continue;
       field.layer[i] = p;
-      std::fill_n(outside.begin() + i * block_, block_, 0);
+      std::fill_n(side.begin() + i * block_, block_, fresh);
       ++taken;
     }
     left -= taken;
@@ -114,22 +115,23 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
 
     // b - A (x truncated to the layers so far): nonzero on both sides of the front only.
     r.setZero();
-    auto inside = [&](Eigen::Index i) { return field.layer[i / block_] >= 0; };
-    auto fresh = [&](Eigen::Index i) { return field.layer[i / block_] == p; };
     for (int j = 0; j < A_->outerSize(); ++j) {
+      const char at_j = side[j];
       for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
         const Eigen::Index i = it.row();
-        if (inside(i) == inside(j)) continue;
+        if ((side[i] ^ at_j) != (outside | fresh)) continue;  // not one outside, one fresh
         const Scalar a = it.value(), a_transposed = Eigen::numext::conj(a);
-        if (fresh(j)) {  // i outside
+        if (at_j == fresh) {
           r[i] -= a * field.x[j];
           r[j] += a_transposed * field.x[i];
-        } else if (fresh(i)) {  // j outside
+        } else {
           r[j] -= a_transposed * field.x[i];
           r[i] += a * field.x[j];
         }
       }
     }
+    for (char& s : side)
+      if (s == fresh) s = older;
     double m = 0;
     for (Eigen::Index i = 0; i < r.size(); ++i) m = std::max(m, magnitude(r[i]));
     if (!(m > 0)) break;

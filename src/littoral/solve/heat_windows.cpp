@@ -16,8 +16,34 @@ constexpr double window = 50;            // decay lengths kept of every window
 constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
                                          // arrives at what is kept exp(-2 * overlap) times smaller
 constexpr double longest_overlap = 120;
+constexpr double around_held = 24;  // what lies beyond does not change a source that holds values
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// The same with several layers made one where the range of numbers allows it.
+template <class Scalar>
+LayeredField<Scalar> with_fewer_layers(LayeredField<Scalar> field, int block) {
+  constexpr double range = 1e-60;
+  std::vector<double> scale, unit;  // new layers; old layers in units of their new one
+  std::vector<int> layer;           // old layers: the new one
+  for (double s : field.scale) {
+    if (unit.empty() || unit.back() * s < range) {
+      scale.push_back(unit.empty() ? s : unit.back() * s);
+      unit.push_back(1);
+    } else {
+      unit.push_back(unit.back() * s);
+    }
+    layer.push_back(static_cast<int>(scale.size()) - 1);
+  }
+  for (std::size_t i = 0; i < field.layer.size(); ++i) {
+    int& p = field.layer[i];
+    if (p < 0) continue;
+    field.x.segment(static_cast<Eigen::Index>(i) * block, block) *= unit[p];
+    p = layer[p];
+  }
+  field.scale = std::move(scale);
+  return field;
+}
+
 }  // namespace
 
 VecX decay_lengths(const VecX& M, double t) { return (M.array().max(0.0) / t).sqrt(); }
@@ -161,7 +187,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   if (!best) return std::nullopt;
   report.iterations.emplace_back("heat windows", best_windows);
   report.residuals.emplace_back("heat, between windows", least);
-  return best;
+  return with_fewer_layers(std::move(*best), block_);
 }
 
 template <class Scalar>
@@ -255,9 +281,9 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, 2 * shortest_overlap);
+  const std::vector<double> d = distances(from, around_held);
   for (int i = 0; i < n; ++i)
-    if (!known[i] && d[i] <= 2 * shortest_overlap) blocks.push_back(i);
+    if (!known[i] && d[i] <= around_held) blocks.push_back(i);
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
   Vector x = held;

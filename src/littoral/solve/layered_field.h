@@ -18,15 +18,14 @@ struct LayeredField {
   std::vector<int> layer;     // blocks
   std::vector<double> scale;  // layers
 
-  /// The entries of layer p and, in its units, of layer p + 1; 0 elsewhere.
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> around_layer(int p) const {
+  /// The entries of layer p, in its units; 0 elsewhere.
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> in_layer(int p) const {
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y = decltype(y)::Zero(x.size());
     const auto block =
         x.size() / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(layer.size()));
     for (std::size_t i = 0; i < layer.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i) * block;
       if (layer[i] == p) y.segment(at, block) = x.segment(at, block);
-      if (layer[i] == p + 1) y.segment(at, block) = x.segment(at, block) * scale[p + 1];
     }
     return y;
   }

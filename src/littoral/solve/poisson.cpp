@@ -23,7 +23,8 @@ std::vector<int> first_of_components(const std::vector<int>& component, int n_co
   return first;
 }
 
-/// L with an entry on the whole diagonal, so that every matrix made from it has one pattern.
+/// L with an entry on the whole diagonal, so that every matrix made from it has one pattern with
+/// the diagonal first in every column.
 SpMat with_diagonal(const SpMat& L) {
   SpMat I(L.rows(), L.cols());
   I.setIdentity();
@@ -54,6 +55,7 @@ DefiniteSystem solved_by(PoissonSolver solver, SpMat K, const Ordering& order, c
 Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
                  const Ordering& order, PoissonSolver solver)
     : L_(with_diagonal(L)),
+      mean_diagonal_(mean_diagonal(L_)),
       component_(std::move(component)),
       first_(first_of_components(component_, n_components)),
       free_(solved_by(solver, pinned(std::vector<char>(n_components, 0)), order, task)) {}
@@ -62,11 +64,12 @@ SpMat Poisson::pinned(const std::vector<char>& held) const {
   // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
   // force if b sums to 0, and changes one entry of the matrix only.
   SpMat K = L_;
-  const double d = mean_diagonal(L_);
+  const double d = mean_diagonal_;
+  const auto lift = [&](Eigen::Index i) { K.valuePtr()[K.outerIndexPtr()[i]] += d; };
   for (Eigen::Index i = 0; i < K.rows(); ++i)
-    if (component_[i] < 0) K.coeffRef(i, i) += d;
+    if (component_[i] < 0) lift(i);
   for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) K.coeffRef(first_[c], first_[c]) += d;
+    if (!held[c]) lift(first_[c]);
   return K;
 }
 
@@ -92,9 +95,8 @@ VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
   return x;
 }
 
-DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
+DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
                                      const std::vector<char>& held, const Task& task) const {
-  const SpMat K = pinned(held);
   if (free_.iterates())
     return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A), task);
   if (auto in_place = with_rows_in_place(K, A, weight)) {
@@ -112,7 +114,7 @@ DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                          Report& report) const {
   const auto held = components_of(A);
-  const DefiniteSystem system = with_penalty(A, weight, held, task);
+  const DefiniteSystem system = with_penalty(pinned(held), A, weight, held, task);
   VecX x = system.solve(b, task, report);
   report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
   drop_constants(held, x);
@@ -141,9 +143,11 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
 
   // Augmented Lagrangian: every step solves with the factor of K = L + w A^T A, and c by what is
   // left for it; dependent rows only make multipliers y that are not unique.
-  const double w = 1e5 * mean_diagonal(L_);
+  const double w = 1e5 * mean_diagonal_;
   const auto held = components_of(rows.A);
-  const DefiniteSystem system = with_penalty(rows.A, VecX::Constant(rows.A.rows(), w), held, task);
+  const SpMat K0 = pinned(held);
+  const DefiniteSystem system =
+      with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), held, task);
   const SpMat At = rows.A.transpose();
   Eigen::LDLT<MatX> rest;
   if (n_free > 0) {
@@ -157,7 +161,6 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     }
     rest.compute(0.5 * (S + S.transpose()));
   }
-  const SpMat K0 = pinned(held);
   VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
   VecX miss = y;  // A x - B c
   double violation = 0, residual = 0;

@@ -51,10 +51,11 @@ class Poisson {
   SpMat pinned(const std::vector<char>& held) const;
   std::vector<char> components_of(const SpMat& A) const;
   void drop_constants(const std::vector<char>& held, VecX& x) const;
-  DefiniteSystem with_penalty(const SpMat& A, const VecX& weight, const std::vector<char>& held,
-                              const Task& task) const;
+  DefiniteSystem with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
+                              const std::vector<char>& held, const Task& task) const;
 
   SpMat L_;
+  double mean_diagonal_;
   std::vector<int> component_;
   std::vector<int> first_;  // per component
   DefiniteSystem free_;

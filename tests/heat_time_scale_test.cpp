@@ -1,0 +1,117 @@
+// Directions far from the source on meshes of large obtuse cells: what goes wrong there is noticed,
+// and a longer diffusion puts it right.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "heat_helpers.h"
+#include "littoral/api/distance.h"
+#include "littoral/methods/exact_polyhedral.h"
+#include "littoral/methods/time_scale.h"
+#include "littoral/sources/triangle_sources.h"
+#include "subdivided_meshes.h"
+
+namespace littoral {
+namespace {
+
+/// A sphere, stretched and sheared so that many of its large triangles are obtuse, each in 16.
+SurfaceMesh sheared_ellipsoid() {
+  PolygonSoup soup = test::octasphere_soup(3);
+  soup.points.col(0) += 6 * soup.points.col(2);
+  soup.points.col(2) *= 4;
+  return SurfaceMesh(test::quartered(test::quartered(soup)));
+}
+
+VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  return exact_polyhedral(T, triangle_sources(mesh, T, prepare(mesh, sources, false, report)), {},
+                          report);
+}
+
+/// Mean error over the largest distance.
+double mean_error(const VecX& phi, const VecX& truth) {
+  return (phi.cwiseAbs() - truth).cwiseAbs().mean() / truth.maxCoeff();
+}
+
+bool raised(const Report& report) {
+  return std::any_of(report.warnings.begin(), report.warnings.end(),
+                     [](const std::string& w) { return w.find("raised") != std::string::npos; });
+}
+
+std::string used(const Report& report, const std::string& option) {
+  for (const auto& [name, value] : report.options)
+    if (name == option) return value;
+  return "";
+}
+
+constexpr int pole = 4;  // a vertex of the octasphere
+
+TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
+  const SurfaceMesh mesh = sheared_ellipsoid();
+  const SurfaceSources sources = test::vertex_points({pole});
+  const VecX truth = exact(mesh, sources);
+  for (const char* method : {"signed-heat", "unsigned-heat"}) {
+    SCOPED_TRACE(method);
+    Report given, chosen;
+    const std::string small = method == std::string("signed-heat") ? "16" : "1";
+    const VecX wrong =
+        surface_distance(mesh, sources, {method, {{"time-scale", small}}}, {}, given);
+    const VecX right = surface_distance(mesh, sources, {method, {}}, {}, chosen);
+    EXPECT_GT(mean_error(wrong, truth), 0.2);
+    EXPECT_LT(mean_error(right, truth), 0.02);
+    EXPECT_GT(share_against(given), tolerable_share);
+    EXPECT_LT(share_against(chosen), tolerable_share);
+    EXPECT_FALSE(raised(given));
+    EXPECT_FALSE(given.warnings.empty());
+    EXPECT_TRUE(raised(chosen));
+    EXPECT_GT(std::stod(used(chosen, "time-scale")), std::stod(small));
+  }
+}
+
+TEST(HeatTimeScale, RisesForCurvesToo) {
+  const SurfaceMesh mesh = sheared_ellipsoid();
+  SurfaceSources sources;
+  SurfaceCurve curve;  // around the pole
+  const VecX from_pole = exact(mesh, test::vertex_points({pole}));
+  for (int v : test::loop_at(mesh.soup(), from_pole, 0.15 * from_pole.maxCoeff()))
+    curve.nodes.push_back(SurfacePoint::at_vertex(v));
+  sources.curves.push_back(curve);
+  const VecX truth = exact(mesh, sources);
+  Report given, chosen;
+  const VecX wrong =
+      surface_distance(mesh, sources, {"signed-heat", {{"time-scale", "1"}}}, {}, given);
+  const VecX right = surface_distance(mesh, sources, {"signed-heat", {}}, {}, chosen);
+  EXPECT_GT(mean_error(wrong, truth), 0.2);
+  EXPECT_LT(mean_error(right, truth), 0.02);
+  EXPECT_TRUE(raised(chosen));
+}
+
+TEST(HeatTimeScale, StaysWhereCellsAreEven) {
+  const SurfaceMesh mesh(test::octasphere_soup(4));
+  Report report;
+  surface_distance(mesh, test::vertex_points({pole}), {"signed-heat", {}}, {}, report);
+  EXPECT_LT(share_against(report), tolerable_share);
+  EXPECT_EQ(used(report, "time-scale"), "16");
+  EXPECT_TRUE(report.warnings.empty());
+}
+
+TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirections) {
+  const SurfaceMesh mesh(test::grid_soup(4, 4));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Calculus C = triangle_operators(T).scalar;
+  const VecX x = mesh.points().col(0) / T.unit;
+  VecX Y = C.G.apply(x);
+  EXPECT_EQ(share_against(C, x, Y), 0);
+  EXPECT_EQ(share_against(C, -x, Y), 1);
+  Y.segment<2>(0) *= -1;  // one of 32 equal cells
+  EXPECT_NEAR(share_against(C, x, Y), 1.0 / 32, 1e-12);
+  Y.segment<2>(0).setZero();  // not reached: not counted
+  EXPECT_EQ(share_against(C, x, Y), 0);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -22,8 +22,9 @@ CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
       const double m = y.segment<2>(2 * c).cwiseAbs().maxCoeff();
       if (std::isfinite(out.log_length[c]) || !(m > negligible)) continue;
       const Eigen::Vector2d v = y.segment<2>(2 * c) / m;
-      out.Y.segment<2>(2 * c) = v.normalized();
-      out.log_length[c] = log_scale + std::log(m) + std::log(v.norm());
+      const double length = v.norm();  // from 1 to sqrt(2)
+      out.Y.segment<2>(2 * c) = v / length;
+      out.log_length[c] = log_scale + std::log(m * length);
     }
   }
   return out;

@@ -33,6 +33,14 @@ class Improvement {
         sum += M_.edges[M_.faces[f].e[k]].length;
       }
     }
+    for (std::size_t f = 0; f < M_.faces.size(); ++f) {  // wedges between fixed edges
+      const auto cot = M_.shape(static_cast<int>(f)).cot;
+      const auto& face = M_.faces[f];
+      for (int k = 0; k < 3; ++k)
+        if (std::atan2(1, cot[k]) < least_angle_ && M_.fixed(face.e[k]) &&
+            M_.fixed(face.e[(k + 2) % 3]))
+          angle_[face.v[k]] = 0;
+    }
     shortest_ = 1e-6 * sum / (3 * static_cast<double>(M_.faces.size()));
   }
 
@@ -99,15 +107,17 @@ class Improvement {
 
  private:
   /// Has the face an angle that is too small and that splitting can mend? Not one between two edges
-  /// that cannot be flipped, nor one at a vertex that has hardly any angle to share out.
+  /// that cannot be flipped, nor one beside a vertex that has hardly any angle to share out: the
+  /// tip of a wedge would be halved for ever.
   bool sharp(int f) const {
     const auto cot = M_.shape(f).cot;
     const auto& face = M_.faces[f];
-    for (int k = 0; k < 3; ++k) {
-      if (!(cot[k] > cot_) || (M_.fixed(face.e[k]) && M_.fixed(face.e[(k + 2) % 3]))) continue;
-      if (face.v[k] >= static_cast<int>(angle_.size()) || angle_[face.v[k]] > least_angle_)
-        return true;
-    }
+    const auto is_tip = [&](int v) {
+      return v < static_cast<int>(angle_.size()) && angle_[v] < least_angle_;
+    };
+    if (std::any_of(face.v.begin(), face.v.end(), is_tip)) return false;
+    for (int k = 0; k < 3; ++k)
+      if (cot[k] > cot_ && !(M_.fixed(face.e[k]) && M_.fixed(face.e[(k + 2) % 3]))) return true;
     return false;
   }
   /// Is an edge of the face not Delaunay that cannot be flipped, as it is opposite an obtuse angle,
@@ -140,7 +150,17 @@ class Improvement {
       if (longer == e) break;
       e = longer;
     }
+    // Beside a fixed second longest edge halving the longest one would go on for ever.
+    if (!M_.fixed(e))
+      for (int g : M_.edges[e].faces)
+        for (int s : M_.faces[g].e)
+          if (s != e && M_.fixed(s) && !is_shortest(s, g)) return s;
     return e;
+  }
+  bool is_shortest(int e, int f) const {
+    const auto& sides = M_.faces[f].e;
+    return std::all_of(sides.begin(), sides.end(),
+                       [&](int s) { return M_.edges[s].length >= M_.edges[e].length; });
   }
 
   MarkedTriangulation& M_;

@@ -1,6 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build test format tidy docs bench peers clean
+.PHONY: help demo build test format tidy docs bench peers domains clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -37,14 +37,17 @@ bench:  ## benchmarks
 	cmake --build build/bench
 	build/bench/bench/littoral_bench
 
-peers:  ## littoral beside other programs: the table and plot of docs/performance.md
-	scripts/setup.sh test
-	cmake --preset bench
-	cmake --build build/bench --target littoral_surface_timer littoral_domain_timer
-	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
+peers: domains  ## littoral beside other programs: the tables and plot of docs/performance.md
+	cmake --build build/bench --target littoral_surface_timer
 	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer $(or $(CLOCK),wall) \
 	  docs/performance.md docs/gallery/performance-surface.png $(MESHES)
-	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/performance.md
+
+domains:  ## the part of that about polygon meshes and point clouds
+	scripts/setup.sh test
+	cmake --preset bench
+	cmake --build build/bench --target littoral_domain_timer
+	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
+	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/performance.md 96 192
 
 clean:  ## remove what was built
 	rm -rf build out

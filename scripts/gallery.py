@@ -62,6 +62,25 @@ def rows_for_knitting(obj: Path) -> str:
     return "".join(lines)
 
 
+def ring_around(points: list[list[float]], axis: int, height: float, turn: float) -> str:
+    """A circle around the middle of a shape, in space, as OBJ: across `axis` at a share of it."""
+    low, high = (
+        [min(column) for column in zip(*points, strict=True)],
+        [max(c) for c in zip(*points, strict=True)],
+    )
+    centre = [0.5 * (a + b) for a, b in zip(low, high, strict=True)]
+    centre[axis] = low[axis] + height * (high[axis] - low[axis])
+    i, j = (k for k in range(3) if k != axis)
+    rows = []
+    for k in range(201):
+        angle = 2 * math.pi * turn * k / 200
+        x = centre[:]
+        x[i] += 0.6 * (high[i] - low[i]) * math.cos(angle)
+        x[j] += 0.6 * (high[j] - low[j]) * math.sin(angle)
+        rows.append(f"v {x[0]} {x[1]} {x[2]}\n")
+    return "".join(rows) + "l " + " ".join(str(k + 1) for k in range(201)) + "\n"
+
+
 def main(program: str, shared: Path) -> None:
     out = ROOT / "docs" / "gallery"
     with tempfile.TemporaryDirectory() as folder:
@@ -95,9 +114,9 @@ def main(program: str, shared: Path) -> None:
         (work / "snout.txt").write_text("unsigned_point\nv 306\n")
         (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
         smooth = "--method", "regularized", "--alpha", "0.1"
-        rows = "--regularizer", "align", "--field", str(work / "rows.txt"), "--field-width", "0.15"
+        along = "--regularizer", "align", "--field", str(work / "rows.txt"), "--field-width", "0.15"
         picture("regularized", data / "spot.obj", work / "snout.txt", *smooth)
-        picture("knitting", data / "spot.obj", work / "snout.txt", *smooth, *rows)
+        picture("knitting", data / "spot.obj", work / "snout.txt", *smooth, *along)
         curves = shared / "data" / "curves"
         if not curves.is_dir():
             print(f"{curves} is not there: the other pictures are left as they are")
@@ -117,6 +136,20 @@ def main(program: str, shared: Path) -> None:
         subprocess.run([program, "winding", loops, "--quiet", "-o", str(regions)], check=True)
         bear = curves / "polygon-bear.obj"
         picture("polygon-bear", bear, bear.with_suffix(".txt"))
+        intrinsic = "--intrinsic-delaunay"
+        for name, mesh, axis, height, turn, more in (
+            ("holes", data / "soups" / "shm3d-chair.obj", 1, 0.5, 1.0, [intrinsic]),
+            ("tunnels", data / "surfaces" / "3holes.off", 0, 0.5, 0.8, []),
+        ):
+            cut = work / "cut.obj"
+            convert = [program, "convert", str(mesh), "-o", str(cut), "--quiet"]
+            subprocess.run(convert, check=True)
+            rows = [line.split() for line in cut.read_text().splitlines()]
+            points = [[float(x) for x in row[1:4]] for row in rows if row[:1] == ["v"]]
+            (work / "ring.obj").write_text(ring_around(points, axis, height, turn))
+            picture(name, mesh, work / "ring.obj", *more)
+        (work / "door.txt").write_text("unsigned_point\nv 500\n")
+        picture("nonmanifold", data / "soups" / "beetle.obj", work / "door.txt", intrinsic)
         duck = curves / "ducky-star.pc"
         picture("ducky-star", duck, duck.with_suffix(".txt"))
         bunny, field, ring = shared / "data" / "volumes" / "bunny-64.vol", "field.ply", "ring.obj"

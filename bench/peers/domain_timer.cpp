@@ -21,6 +21,7 @@
 #include "littoral/methods/signed_heat.h"
 #include "littoral/operators/nodal.h"
 #include "littoral/sources/nodal_source_terms.h"
+#include "littoral/sources/refined_sources.h"
 
 namespace littoral {
 namespace {
@@ -48,8 +49,9 @@ int run(char** argv) {
                                ? polygon_surface(mesh, report)
                                : cloud_surface(mesh.points(), mesh.soup().normals, report);
     const auto ops = std::make_shared<const Operators>(nodal_operators(S));
-    terms =
-        nodal_source_terms(S, prepare(*S.refined, refined_sources(mesh, S, given), false, report));
+    terms = nodal_source_terms(
+        S, prepare(*S.refined, refined_sources(mesh, *S.refined, S.face_offsets, given), false,
+                   report));
     method = std::make_unique<SignedHeat>(ops, 1, Task(), Diffusions{true, false}, expect);
     phi = method->solve(terms, options, {}, report);
   };

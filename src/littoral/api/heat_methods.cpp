@@ -1,5 +1,6 @@
 // The heat methods, signed and unsigned, as entries of the registry.
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,8 +11,10 @@
 #include "littoral/api/surface_method.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/cloud_surface.h"
+#include "littoral/domain/covering_mesh.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/polygon_surface.h"
+#include "littoral/domain/triangulate.h"
 #include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat.h"
 #include "littoral/methods/time_scale.h"
@@ -20,6 +23,7 @@
 #include "littoral/operators/triangles.h"
 #include "littoral/sources/carried_sources.h"
 #include "littoral/sources/nodal_source_terms.h"
+#include "littoral/sources/refined_sources.h"
 #include "littoral/sources/triangle_source_terms.h"
 
 namespace littoral {
@@ -29,6 +33,10 @@ namespace {
 const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", "point cloud",
                                                "voxel surface"};
 
+/// What the method diffuses from the sources: functions can use a cover, vectors cannot.
+enum class Diffused { functions, vectors };
+using Needs = std::function<Diffused(const PreparedSources&)>;
+
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
@@ -36,24 +44,47 @@ struct Translated {
   std::shared_ptr<const SurfaceMesh> faces;             // of a cloud: something to look at
 };
 
+/// Throws where there are no polygons to cut into triangles.
 void needs_triangles(const SurfaceProblem& problem, const std::string& option) {
-  if (problem.domain() != "triangle mesh")
-    throw UnsupportedError("option " + option + " works on triangle meshes, not on a " +
+  if (problem.domain() != "triangle mesh" && problem.domain() != "polygon mesh")
+    throw UnsupportedError("option " + option + " works on triangle and polygon meshes, not on a " +
                            problem.domain());
+}
+
+/// A polygon mesh cut into triangles on its own vertices, with the same sources.
+struct CutProblem {
+  SurfaceMesh mesh;
+  SurfaceSources sources;
+};
+
+CutProblem cut_into_triangles(const SurfaceProblem& problem, Report& report) {
+  const SurfaceMesh& input = problem.mesh;
+  CutProblem cut{SurfaceMesh(triangulate(input.soup())), {}};
+  std::vector<int> face_offsets{0};  // n corners give n - 2 triangles
+  for (int f = 0; f < input.n_faces(); ++f)
+    face_offsets.push_back(face_offsets.back() + static_cast<int>(input.face(f).size()) - 2);
+  cut.sources = refined_sources(input, cut.mesh, face_offsets, problem.sources);
+  report.warn("the polygons were cut into triangles, as the options ask for these");
+  return cut;
 }
 
 /// Throws unless the options go with the domain and with each other.
 void check_options(const SurfaceProblem& problem, const SignedHeatOptions& options) {
   if (options.discontinuous) needs_triangles(problem, "discontinuous");
   if (options.bounding_only) needs_triangles(problem, "bounding-only");
+  if (options.intrinsic_delaunay) needs_triangles(problem, "intrinsic-delaunay");
   if (options.discontinuous && options.intrinsic_delaunay)
     throw UnsupportedError(
         "options discontinuous and intrinsic-delaunay exclude each other: the surface is torn "
         "along its own edges");
 }
 
-Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Task& task,
-                               Report& report) {
+bool is_nonmanifold(const IntrinsicTriangulation& T) {
+  return std::any_of(T.edge_use.begin(), T.edge_use.end(), [](int n) { return n > 2; });
+}
+
+Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Needs needs,
+                               Task& task, Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
   IntrinsicTriangulation triangulation = [&] {
@@ -70,7 +101,12 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
   }
   const Retriangulated fine = [&] {
     const Stopwatch watch(report, "retriangulation");
-    return retriangulated(problem.mesh, triangulation, prepared, {}, report, stage);
+    if (needs(prepared) == Diffused::vectors || !is_nonmanifold(triangulation))
+      return retriangulated(problem.mesh, triangulation, prepared, {}, report, stage);
+    const CoveringMesh cover = covering_mesh(problem.mesh, triangulation);
+    return retriangulated(cover.mesh, cover.T,
+                          covering_sources(problem.mesh, triangulation, cover, prepared), {},
+                          report, stage);
   }();
   const Stopwatch watch(report, "operators");
   auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
@@ -91,18 +127,18 @@ Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& re
   }();
   task.stage(0.03, "operators").checkpoint();
   const PreparedSources prepared = prepared_sources(
-      problem, *S.refined, refined_sources(problem.mesh, S, problem.sources), task, report);
+      problem, *S.refined,
+      refined_sources(problem.mesh, *S.refined, S.face_offsets, problem.sources), task, report);
   const Stopwatch watch(report, "operators");
   return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared),
           std::nullopt, problem.mesh.n_faces() ? nullptr : S.refined};
 }
 
 /// The problem as operators and source terms: the first 10 % of a task.
-Translated translate(const SurfaceProblem& problem, bool retriangulate, Task& task,
+Translated translate(const SurfaceProblem& problem, bool retriangulate, Needs needs, Task& task,
                      Report& report) {
   const bool triangles = problem.domain() == "triangle mesh";
-  if (retriangulate) needs_triangles(problem, "intrinsic-delaunay");
-  Translated out = triangles ? translate_triangles(problem, retriangulate, task, report)
+  Translated out = triangles ? translate_triangles(problem, retriangulate, needs, task, report)
                              : translate_nodes(problem, task, report);
   task.stage(0.05, "heat method").checkpoint();
   return out;
@@ -134,6 +170,11 @@ VecX at_time_scale(
 SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
                           Report& report) {
   check_options(problem, options);
+  if (problem.domain() == "polygon mesh" &&
+      (options.discontinuous || options.bounding_only || options.intrinsic_delaunay)) {
+    const CutProblem cut = cut_into_triangles(problem, report);
+    return signed_heat({cut.mesh, cut.sources, problem.flip}, options, task, report);
+  }
   if (options.bounding_only) {
     const SurfaceSources kept =
         without_nonbounding(problem, task.stage(0.3, "bounding curves"), report);
@@ -145,7 +186,13 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   }
   if (options.sharpen && options.discontinuous)
     throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
-  const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
+  const auto needs = [&](const PreparedSources& sources) {
+    const bool gradients = sources.pieces.empty() && !options.preserve_normals &&
+                           static_cast<PointVectors>(options.points) == PointVectors::gradient;
+    return gradients ? Diffused::functions : Diffused::vectors;
+  };
+  const auto [ops, terms, T, faces] =
+      translate(problem, options.intrinsic_delaunay, needs, task, report);
   const bool automatic = options.time_scale == 0;
   if (automatic) options.time_scale = automatic_time_scale(terms);
   auto method = [&, &operators = ops, &source = terms] {
@@ -171,7 +218,16 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
 
 SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
                             Report& report) {
-  const auto [ops, terms, T, faces] = translate(problem, options.intrinsic_delaunay, task, report);
+  if (options.intrinsic_delaunay) {
+    needs_triangles(problem, "intrinsic-delaunay");
+    if (problem.domain() == "polygon mesh") {
+      const CutProblem cut = cut_into_triangles(problem, report);
+      return unsigned_heat({cut.mesh, cut.sources, problem.flip}, options, task, report);
+    }
+  }
+  const auto needs = [](const PreparedSources&) { return Diffused::functions; };
+  const auto [ops, terms, T, faces] =
+      translate(problem, options.intrinsic_delaunay, needs, task, report);
   const bool automatic = options.time_scale == 0;
   if (automatic) options.time_scale = 1;
   auto method = [&, &operators = ops] {

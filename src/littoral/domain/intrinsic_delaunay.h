@@ -36,15 +36,16 @@ struct Retriangulation {
   IntrinsicTriangulation T;
   Marks marks;
   int flips = 0, added = 0;  // operations
-  int not_delaunay = 0;      // edges left whose opposite angles sum to more than 180 degrees
+  int not_delaunay = 0;      // edges left with a negative weight in the cotan Laplacian
 };
 
 /// Flips edges until the triangulation is intrinsically Delaunay (Bobenko and Springborn 2007), and
 /// splits the edges that end the longest-edge paths of triangles with a small angle, flipping again
 /// (Rivara, "New longest-edge algorithms", 1997), until there are none or a bound is reached.
 ///
-/// Edges of one or of more than two faces are never flipped, nor is an edge whose flip would join
-/// two vertices twice. Segments are cut where new edges cross them, in the plane of the two
+/// Edges of one or of more than two faces are never flipped; refinement splits them where they are
+/// not Delaunay. Several edges of the result may join two vertices, but no face has a vertex twice.
+/// Segments are cut where new edges cross them, in the plane of the two
 /// triangles of each flip, so nothing is traced and nothing moves. At most 50 flips an edge.
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                    Marks marks, const RefineOptions& options, Report& report,

@@ -26,11 +26,6 @@ std::array<double, 3> barycentrics(Complex x, const std::array<Complex, 3>& p) {
 
 }  // namespace
 
-std::uint64_t MarkedTriangulation::key(int a, int b) const {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 |
-         static_cast<std::uint32_t>(std::max(a, b));
-}
-
 int MarkedTriangulation::side_of(int f, int e) const {
   const auto& list = faces[f].e;
   return static_cast<int>(std::find(list.begin(), list.end(), e) - list.begin());
@@ -55,8 +50,7 @@ int MarkedTriangulation::longest_edge(int f) const {
 
 double MarkedTriangulation::delaunay_sum(int e) const {
   const Edge& edge = edges[e];
-  if (edge.faces.size() != 2 || edge.faces[0] == edge.faces[1])
-    return std::numeric_limits<double>::infinity();
+  if (edge.faces.empty()) return std::numeric_limits<double>::infinity();
   double sum = 0;
   for (int f : edge.faces) sum += shape(f).cot[(side_of(f, e) + 2) % 3];
   return sum;
@@ -164,15 +158,20 @@ void MarkedTriangulation::place(const Drawing& drawing, int edge, int left, cons
   }
 }
 
-bool MarkedTriangulation::flip(int e) {
-  if (edges[e].faces.size() != 2) return false;
+bool MarkedTriangulation::fixed(int e) const {
+  if (edges[e].faces.size() != 2) return true;
   const int f = edges[e].faces[0], g = edges[e].faces[1];
-  if (f == g) return false;
+  const int i = side_of(f, e), j = side_of(g, e);
+  return f == g || faces[f].v[i] != faces[g].v[(j + 1) % 3] || faces[f].bank[i] == faces[g].bank[j];
+}
+
+bool MarkedTriangulation::flip(int e) {
+  if (fixed(e)) return false;
+  const int f = edges[e].faces[0], g = edges[e].faces[1];
   const int i = side_of(f, e), j = side_of(g, e);
   const Face F = faces[f], G = faces[g];
-  if (F.v[i] != G.v[(j + 1) % 3] || F.bank[i] == G.bank[j]) return false;  // no common orientation
   const int a = F.v[i], b = F.v[(i + 1) % 3], c = F.v[(i + 2) % 3], d = G.v[(j + 2) % 3];
-  if (c == d || joined_.count(key(c, d))) return false;
+  if (c == d) return false;
   // The two triangles in the plane: a at 0, b on the real axis, c above, d below.
   const double ab = edges[e].length, bc = edges[F.e[(i + 1) % 3]].length,
                ca = edges[F.e[(i + 2) % 3]].length, ad = edges[G.e[(j + 1) % 3]].length,
@@ -200,8 +199,6 @@ bool MarkedTriangulation::flip(int e) {
   faces[g] = {{d, b, c},
               {G.e[(j + 2) % 3], F.e[(i + 1) % 3], e},
               {G.bank[(j + 2) % 3], F.bank[(i + 1) % 3], -1}};
-  joined_.erase(key(a, b));
-  joined_.insert(key(c, d));
   edges[e].tail = d;
   edges[e].head = c;
   edges[e].length = cd;
@@ -228,9 +225,6 @@ void MarkedTriangulation::split(int e) {
   edges[e].length /= 2;
   edges[e].head = m;
   edges.push_back({m, head, edges[e].length, {}});
-  joined_.erase(key(tail, head));
-  joined_.insert(key(tail, m));
-  joined_.insert(key(m, head));
   nodes_on_edge_.emplace_back();
   on_edge_.emplace_back();
   const std::vector<int> on = std::move(nodes_on_edge_[e]);
@@ -283,7 +277,6 @@ void MarkedTriangulation::split(int e) {
     const Complex A = cut.at[i], B = cut.at[(i + 1) % 3], C = cut.at[(i + 2) % 3],
                   M = 0.5 * (A + B);
     edges.push_back({m, c, std::abs(C - M), {f, cut.right}});
-    joined_.insert(key(m, c));
     nodes_on_edge_.emplace_back();
     on_edge_.emplace_back();
     faces[f] = {{a, m, c}, {at_a, cut.edge, F.e[(i + 2) % 3]}, {F.bank[i], 1, F.bank[(i + 2) % 3]}};

@@ -2,7 +2,6 @@
 // A triangulation that can be flipped and split, with marks on it.
 
 #include <array>
-#include <unordered_set>
 #include <vector>
 
 #include "littoral/domain/intrinsic_delaunay.h"
@@ -12,9 +11,9 @@ namespace littoral {
 /// How far from collinear triangles stay, in units of their longest side.
 constexpr double collinear_margin = 1e-10;
 
-/// Triangles glued along edges of given length; every pair of vertices is joined by at most one
-/// edge. Corners run counter-clockwise seen from the side of the orientation, as far as there is
-/// one.
+/// Triangles of three different vertices, glued along edges of given length; several edges may join
+/// two vertices. Corners run counter-clockwise seen from the side of the orientation, as far as
+/// there is one.
 class MarkedTriangulation {
  public:
   struct Face {
@@ -29,8 +28,12 @@ class MarkedTriangulation {
 
   MarkedTriangulation(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, Marks marks);
 
-  /// Sum of the cotangents opposite an edge; +infinity if the edge may not be flipped at all.
+  /// Sum of the cotangents opposite an edge, over all its faces: twice its weight in the cotan
+  /// Laplacian; +infinity without a face.
   double delaunay_sum(int e) const;
+  /// Can the edge not be flipped whatever its triangles' shapes? One with more or fewer than two,
+  /// or with two that have no common orientation.
+  bool fixed(int e) const;
   /// Flips an edge if its two triangles allow it.
   bool flip(int e);
   /// Puts a vertex in the middle of an edge.
@@ -63,13 +66,11 @@ class MarkedTriangulation {
   Complex position(const SurfacePoint& p, const std::vector<std::pair<int, Corners>>& layout) const;
   void add_segment(Marks::Segment segment);
   int side_of(int f, int e) const;
-  std::uint64_t key(int a, int b) const;
 
   std::vector<Vec3> points_;
   std::vector<SurfacePoint> nodes_;
   std::vector<std::vector<int>> nodes_in_face_, nodes_on_edge_;
   std::vector<std::vector<Marks::Segment>> in_face_, on_edge_;
-  std::unordered_set<std::uint64_t> joined_;
 };
 
 }  // namespace littoral

@@ -10,10 +10,7 @@ namespace littoral {
 MarkedTriangulation::MarkedTriangulation(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                          Marks marks) {
   for (int v = 0; v < mesh.n_vertices(); ++v) points_.push_back(mesh.point(v));
-  for (int e = 0; e < T.n_edges(); ++e) {
-    edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
-    joined_.insert(key(T.edges(e, 0), T.edges(e, 1)));
-  }
+  for (int e = 0; e < T.n_edges(); ++e) edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
   for (int f = 0; f < T.n_faces(); ++f) {
     Face face;
     const bool reversed = T.orientation[f] < 0;
@@ -58,8 +55,12 @@ Retriangulation MarkedTriangulation::finish(const IntrinsicTriangulation& before
   PolygonSoup soup;
   soup.points.resize(n_vertices(), 3);
   for (int v = 0; v < n_vertices(); ++v) soup.points.row(v) = points_[v];
-  for (const Face& f : faces) soup.add_face(f.v);
-  Retriangulation out{SurfaceMesh(std::move(soup)), {}, {}, 0, 0, 0};
+  std::vector<int> edge_of_side;
+  for (const Face& f : faces) {
+    soup.add_face(f.v);
+    edge_of_side.insert(edge_of_side.end(), f.e.begin(), f.e.end());
+  }
+  Retriangulation out{SurfaceMesh(std::move(soup), edge_of_side), {}, {}, 0, 0, 0};
   IntrinsicTriangulation& T = out.T;
   T.unit = before.unit;
   T.n_vertices = n_vertices();

@@ -39,35 +39,25 @@ void check_faces(const PolygonSoup& soup) {
   }
 }
 
-}  // namespace
-
-SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {
-  if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
-    throw InputError("the mesh has too many face corners for 32-bit numbering");
-  check_faces(soup_);
-  const int n = n_vertices();
-  const std::size_t n_corners = soup_.corners.size();
-
-  std::vector<int> face_of(n_corners), tail(n_corners), head(n_corners);
-  for (int f = 0; f < n_faces(); ++f) {
-    const auto corners = face(f);
-    triangles_ = triangles_ && corners.size() == 3;
+/// For each side (by its first corner) the first one with the same two ends.
+std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
+  const std::size_t n_corners = soup.corners.size();
+  std::vector<int> tail(n_corners), head(n_corners);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::size_t c = static_cast<std::size_t>(soup_.face_offsets[f]) + k;
-      face_of[c] = f;
+      const std::size_t c = static_cast<std::size_t>(soup.face_offsets[f]) + k;
       tail[c] = corners[k];
       head[c] = corners[(k + 1) % corners.size()];
     }
   }
-
-  // Sides with the same smaller vertex are few: match them there, then number the edges by first
-  // encounter.
+  // Sides with the same smaller vertex are few: match them there.
   std::vector<int> low(n_corners), all(n_corners), offsets, by_low;
   std::iota(all.begin(), all.end(), 0);
   for (std::size_t c = 0; c < n_corners; ++c) low[c] = std::min(tail[c], head[c]);
-  bucket(low, all, n, offsets, by_low);
+  bucket(low, all, soup.n_vertices(), offsets, by_low);
   std::vector<int> first_side(n_corners);
-  for (int v = 0; v < n; ++v) {
+  for (int v = 0; v < soup.n_vertices(); ++v) {
     const auto begin = by_low.begin() + offsets[v], end = by_low.begin() + offsets[v + 1];
     std::stable_sort(begin, end, [&](int a, int b) {
       return std::max(tail[a], head[a]) < std::max(tail[b], head[b]);
@@ -78,22 +68,63 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {
       first_side[*it] = same ? first_side[*(it - 1)] : *it;
     }
   }
+  return first_side;
+}
+
+}  // namespace
+
+void SurfaceMesh::check() {
+  if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
+    throw InputError("the mesh has too many face corners for 32-bit numbering");
+  check_faces(soup_);
+}
+
+SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {
+  check();
+  connect(first_sides_by_ends(soup_));
+  find_components();
+}
+
+SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
+    : soup_(std::move(soup)) {
+  check();
+  std::vector<int> first_of(edge_of_side.size(), -1), first_side(edge_of_side.size());
+  for (std::size_t c = 0; c < edge_of_side.size(); ++c) {
+    int& first = first_of[edge_of_side[c]];
+    if (first < 0) first = static_cast<int>(c);
+    first_side[c] = first;
+  }
+  connect(first_side);
+  find_components();
+}
+
+void SurfaceMesh::connect(const std::vector<int>& first_side) {
+  const std::size_t n_corners = soup_.corners.size();
+  std::vector<int> face_of(n_corners), first_ends;
   side_edge_.resize(n_corners);
-  std::vector<int> first;
-  for (std::size_t c = 0; c < n_corners; ++c) {
-    if (first_side[c] == static_cast<int>(c)) {
-      side_edge_[c] = static_cast<int>(first.size());
-      first.push_back(static_cast<int>(c));
-    } else {
-      side_edge_[c] = side_edge_[first_side[c]];
+  for (int f = 0; f < n_faces(); ++f) {
+    const auto corners = face(f);
+    triangles_ = triangles_ && corners.size() == 3;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const std::size_t c = static_cast<std::size_t>(soup_.face_offsets[f]) + k;
+      face_of[c] = f;
+      if (first_side[c] != static_cast<int>(c)) {
+        side_edge_[c] = side_edge_[first_side[c]];
+        continue;
+      }
+      side_edge_[c] = static_cast<int>(first_ends.size() / 2);
+      first_ends.push_back(corners[k]);
+      first_ends.push_back(corners[(k + 1) % corners.size()]);
     }
   }
-  edges_.resize(static_cast<Eigen::Index>(first.size()), 2);
-  for (std::size_t e = 0; e < first.size(); ++e)
-    edges_.row(static_cast<Eigen::Index>(e)) << tail[first[e]], head[first[e]];
+  edges_ = Eigen::Map<const Rows<int, 2>>(first_ends.data(),
+                                          static_cast<Eigen::Index>(first_ends.size() / 2), 2);
   bucket(side_edge_, face_of, n_edges(), edge_offsets_, edge_faces_);
-  bucket(soup_.corners, face_of, n, vertex_offsets_, vertex_faces_);
+  bucket(soup_.corners, face_of, n_vertices(), vertex_offsets_, vertex_faces_);
+}
 
+void SurfaceMesh::find_components() {
+  const int n = n_vertices();
   vertex_component_.assign(n, -1);
   std::vector<int> stack;
   for (int seed = 0; seed < n; ++seed) {

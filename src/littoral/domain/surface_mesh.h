@@ -21,6 +21,10 @@ class SurfaceMesh {
   /// Builds the connectivity. Throws InputError if a face has fewer than three corners or a vertex
   /// used by a face is not finite (naming it). Unused non-finite vertices are allowed.
   explicit SurfaceMesh(PolygonSoup soup);
+  /// The same with the edges given: sides are one edge if their numbers in `edge_of_side` (per
+  /// corner, any numbers from 0 below that of corners) are the same, so that several edges may join
+  /// two vertices. No face may have two sides with the same ends.
+  SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side);
 
   int n_vertices() const { return soup_.n_vertices(); }
   int n_faces() const { return soup_.n_faces(); }
@@ -46,13 +50,17 @@ class SurfaceMesh {
     return {vertex_faces_.data() + vertex_offsets_[v],
             vertex_faces_.data() + vertex_offsets_[v + 1]};
   }
-  /// The edge between two vertices, or -1.
+  /// An edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   /// Component of each vertex, by shared faces; -1 for vertices without a face.
   const std::vector<int>& vertex_component() const { return vertex_component_; }
   int n_components() const { return n_components_; }
 
  private:
+  void check();
+  void connect(const std::vector<int>& first_side);
+  void find_components();
+
   PolygonSoup soup_;
   bool triangles_ = true;
   Rows<int, 2> edges_;

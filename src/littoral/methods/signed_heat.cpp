@@ -168,11 +168,14 @@ VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& option
       reached[V.piece[i]] = 1;
 
   const Stopwatch watch(report, "integrate");
-  const VecX d0 = needed.scalars ? terms.d0 : VecX::Zero(terms.d0.size());
-  const VecX g0 = ops_->scalar.G.apply(d0);
-  VecX phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
-  while (add_across_pinches(phi, reached, Y, poisson_stage, report))
-    phi = d0 + integrate(terms, Y - g0, options, poisson_stage, report);
+  const bool near = needed.scalars && !terms.d0.isZero(0);
+  const VecX g0 = near ? ops_->scalar.G.apply(terms.d0) : VecX();
+  const auto integrated = [&] {
+    if (!near) return integrate(terms, Y, options, poisson_stage, report);
+    return VecX(terms.d0 + integrate(terms, Y - g0, options, poisson_stage, report));
+  };
+  VecX phi = integrated();
+  while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();
   report.residuals.emplace_back(against_directions, share_against(ops_->scalar, phi, Y));
   report.sizes.emplace_back("factor_mb", factor_megabytes());
   return finish_field(*ops_, terms, phi, report);

@@ -3,27 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "littoral/operators/triangles.h"
+#include "littoral/operators/nodal_cells.h"
 
 namespace littoral {
 
 namespace {
 
-/// Numbers the members of one patch: fine vertices or nodes.
+/// Numbers the members of one patch, fine vertices or nodes, in ascending order.
 class Numbering {
  public:
   explicit Numbering(Eigen::Index n) : local_(static_cast<std::size_t>(n), -1) {}
-  Eigen::Index operator()(int item) {
-    if (local_[item] < 0) {
-      local_[item] = static_cast<int>(items.size());
-      items.push_back(item);
-    }
-    return local_[item];
+  void clear() { items.clear(); }
+  void add(int item) { items.push_back(item); }
+  void number() {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+    for (std::size_t i = 0; i < items.size(); ++i) local_[items[i]] = static_cast<int>(i);
   }
-  void clear() {
-    for (int item : items) local_[item] = -1;
-    items.clear();
-  }
+  Eigen::Index operator()(int item) const { return local_[item]; }
   std::vector<int> items;
 
  private:
@@ -43,77 +40,83 @@ Complex cell_axis(const NodalSurface& S, int c, const TangentFrame& frame) {
   return unit_or_one(frame.coordinates(side)) * std::conj(T.shape(c).side[k]);
 }
 
-/// The stiffness of a patch and the connection on it.
+/// The stiffness of the patches and the connection on them.
 class Assembly {
  public:
-  explicit Assembly(const NodalSurface& S) : S_(S), fine_(S.P.rows()), node_(S.P.cols()) {}
+  explicit Assembly(const NodalSurface& S)
+      : cells(std::make_shared<NodalCells>(S)), S_(S), fine_(S.P.rows()), node_(S.P.cols()) {
+    L.reserve(static_cast<std::size_t>(S.cells->n_faces()) * 3);
+    connection.reserve(static_cast<std::size_t>(S.cells->n_faces()) * 3);
+  }
 
   void add_patch(int p) {
     const IntrinsicTriangulation& T = *S_.cells;
+    const int first = S_.patch_offsets[p], last = S_.patch_offsets[p + 1];
     fine_.clear();
     node_.clear();
-    for (int c = S_.patch_offsets[p]; c < S_.patch_offsets[p + 1]; ++c)
-      for (int k = 0; k < 3; ++k) fine_(T.faces(c, k));
+    for (int c = first; c < last; ++c)
+      for (int k = 0; k < 3; ++k) fine_.add(T.faces(c, k));
+    fine_.number();
     for (int v : fine_.items)
-      for (Interpolation::InnerIterator it(S_.P, v); it; ++it) node_(static_cast<int>(it.col()));
+      for (Interpolation::InnerIterator it(S_.P, v); it; ++it)
+        node_.add(static_cast<int>(it.col()));
+    node_.number();
     const auto m = static_cast<Eigen::Index>(fine_.items.size()),
                n = static_cast<Eigen::Index>(node_.items.size());
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(m, m), P = Eigen::MatrixXd::Zero(m, n);
+    K_.setZero(m, m);
+    P_.setZero(m, n);
     for (Eigen::Index v = 0; v < m; ++v)
       for (Interpolation::InnerIterator it(S_.P, fine_.items[v]); it; ++it)
-        P(v, node_(static_cast<int>(it.col()))) = it.value();
+        P_(v, node_(static_cast<int>(it.col()))) = it.value();
     const TangentFrame frame(S_.patch_normals.row(p));
-    VecXc turn(n);
+    turn_.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
-      turn[i] = TangentFrame(S_.normals.row(node_.items[i])).turn_into(frame);
-
-    for (int c = S_.patch_offsets[p]; c < S_.patch_offsets[p + 1]; ++c) {
+      turn_[i] = TangentFrame(S_.normals.row(node_.items[i])).turn_into(frame);
+    axes_.resize(last - first);
+    for (int c = first; c < last; ++c) {
+      axes_[c - first] = cell_axis(S_, c, frame);
       const auto cot = T.shape(c).cot;
-      VecX mean = VecX::Zero(n);
       for (int k = 0; k < 3; ++k) {
         const Eigen::Index i = fine_(T.faces(c, k)), j = fine_(T.faces(c, (k + 1) % 3));
         const double w = 0.5 * S_.weight[c] * cot[(k + 2) % 3];
-        K(i, i) += w;
-        K(j, j) += w;
-        K(i, j) -= w;
-        K(j, i) -= w;
-        mean += P.row(i).transpose() / 3;
+        K_(i, i) += w;
+        K_(j, j) += w;
+        K_(i, j) -= w;
+        K_(j, i) -= w;
       }
-      const Complex axis = std::conj(cell_axis(S_, c, frame));
-      for (Eigen::Index i = 0; i < n; ++i)
-        if (mean[i] != 0) to_cells.emplace_back(c, node_.items[i], mean[i] * axis * turn[i]);
     }
-    const Eigen::MatrixXd L_p = P.transpose() * K * P;
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j) {
+    cells->add_patch(node_.items, turn_, axes_);
+    KP_.noalias() = K_.lazyProduct(P_);
+    L_p_.noalias() = P_.transpose().lazyProduct(KP_);
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Eigen::Index i = j; i < n; ++i) {
         const int row = node_.items[i], col = node_.items[j];
-        if (row < col) continue;
-        L.emplace_back(row, col, L_p(i, j));
+        L.emplace_back(row, col, L_p_(i, j));
         connection.emplace_back(
-            row, col, row == col ? Complex(L_p(i, i)) : L_p(i, j) * std::conj(turn[i]) * turn[j]);
+            row, col,
+            row == col ? Complex(L_p_(i, i)) : L_p_(i, j) * std::conj(turn_[i]) * turn_[j]);
       }
   }
 
   Triplets L;
-  std::vector<Eigen::Triplet<Complex>> connection, to_cells;
+  std::vector<Eigen::Triplet<Complex>> connection;
+  std::shared_ptr<NodalCells> cells;
 
  private:
-  using Interpolation = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using Interpolation = NodalCells::Interpolation;
   const NodalSurface& S_;
   Numbering fine_, node_;
+  Eigen::MatrixXd K_, P_, KP_, L_p_;  // kept for the next patch
+  VecXc turn_, axes_;
 };
 
-/// A complex matrix on interleaved pairs.
-LinearMap as_linear_map(std::shared_ptr<const Eigen::SparseMatrix<Complex, Eigen::RowMajor>> Q) {
-  using Pairs = Eigen::Map<const VecXc>;
-  auto pairs = [](const VecX& x) {
-    return Pairs(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
-  };
-  auto reals = [](const VecXc& z) {
-    return VecX(Eigen::Map<const VecX>(reinterpret_cast<const double*>(z.data()), 2 * z.size()));
-  };
-  return {2 * Q->rows(), 2 * Q->cols(), [=](const VecX& x) { return reals(VecXc(*Q * pairs(x))); },
-          [=](const VecX& y) { return reals(VecXc(Q->adjoint() * pairs(y))); }};
+/// A matrix from its entries, which are given up.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> matrix_of(int n, std::vector<Eigen::Triplet<Scalar>>& entries) {
+  Eigen::SparseMatrix<Scalar> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  std::vector<Eigen::Triplet<Scalar>>().swap(entries);
+  return A;
 }
 
 /// Masses of the cells at their corners, shared among the nodes that determine those: positive, and
@@ -139,7 +142,6 @@ Complex TangentFrame::turn_into(const TangentFrame& other) const {
 
 Operators nodal_operators(const NodalSurface& S) {
   const int n = S.n_nodes();
-  const Calculus fine = triangle_calculus(S.cells);
   Assembly assembly(S);
   for (int p = 0; p < S.n_patches(); ++p) assembly.add_patch(p);
 
@@ -147,13 +149,14 @@ Operators nodal_operators(const NodalSurface& S) {
   ops.domain = S.domain;
   ops.unit = S.place->unit;
   Calculus& C = ops.scalar;
-  C.L.resize(n, n);
-  C.L.setFromTriplets(assembly.L.begin(), assembly.L.end());
-  C.A = fine.A.cwiseProduct(S.weight);
+  C.L = matrix_of(n, assembly.L);
+  C.A.resize(S.cells->n_faces());
+  for (int c = 0; c < S.cells->n_faces(); ++c) {
+    const auto l = S.cells->length.row(c);
+    C.A[c] = S.weight[c] * area_of_lengths(l[0], l[1], l[2]);
+  }
   C.M = node_masses(S, C.A);
-  const auto P = std::make_shared<const SpMat>(S.P);
-  C.G = {fine.G.rows, n, [P, G = fine.G](const VecX& u) { return G.apply(*P * u); },
-         [P, G = fine.G](const VecX& g) { return VecX(P->transpose() * G.adjoint(g)); }};
+  C.G = NodalCells::gradient(assembly.cells);
   C.h = S.spacing;
   C.component.assign(S.place->component.begin(), S.place->component.begin() + n);
   C.n_components = S.place->n_components;
@@ -167,11 +170,8 @@ Operators nodal_operators(const NodalSurface& S) {
   V.n = n;
   V.at_nodes = true;
   V.M = C.M;
-  V.L.resize(n, n);
-  V.L.setFromTriplets(assembly.connection.begin(), assembly.connection.end());
-  auto Q = std::make_shared<Eigen::SparseMatrix<Complex, Eigen::RowMajor>>(fine.A.size(), n);
-  Q->setFromTriplets(assembly.to_cells.begin(), assembly.to_cells.end());
-  V.to_cells = as_linear_map(Q);
+  V.L = matrix_of(n, assembly.connection);
+  V.to_cells = NodalCells::mean(assembly.cells);
   V.h = S.spacing;
   V.piece = C.component;
   V.n_pieces = C.n_components;

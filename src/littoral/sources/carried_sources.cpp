@@ -1,5 +1,6 @@
 #include "littoral/sources/carried_sources.h"
 
+#include <algorithm>
 #include <string>
 
 #include "littoral/sources/constraint_rows.h"
@@ -31,7 +32,57 @@ Marks marks_of(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
   return marks;
 }
 
+/// A point on all the sheets of the cover.
+void add_on_sheets(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                   const CoveringMesh& cover, const SurfacePoint& p,
+                   std::vector<SurfacePoint>& out) {
+  if (p.on == SurfacePoint::On::vertex) {
+    out.push_back(p);
+  } else if (p.on == SurfacePoint::On::face) {
+    const int t = T.triangle_of_face[p.element];
+    if (t < 0) return;
+    out.push_back(SurfacePoint::in_face(2 * t, p.b[0], p.b[1], p.b[2]));
+    out.push_back(SurfacePoint::in_face(2 * t + 1, p.b[0], p.b[2], p.b[1]));
+  } else {
+    std::vector<int> sheets;  // edges of the cover
+    for (int face : mesh.edge_faces(p.element)) {
+      const int t = T.triangle_of_face[face];
+      for (int k = 0; k < 3 && t >= 0; ++k) {
+        if (mesh.side_edge(face, k) != p.element) continue;
+        sheets.push_back(cover.mesh.side_edge(2 * t, k));
+        sheets.push_back(cover.mesh.side_edge(2 * t + 1, 2 - k));
+      }
+    }
+    std::sort(sheets.begin(), sheets.end());
+    sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
+    for (int e : sheets) {
+      const bool same = cover.mesh.edges()(e, 0) == mesh.edges()(p.element, 0);
+      out.push_back(SurfacePoint::on_edge(e, same ? p.b[1] : p.b[0]));
+    }
+  }
+}
+
 }  // namespace
+
+PreparedSources covering_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                 const CoveringMesh& cover, const PreparedSources& sources) {
+  PreparedSources out;
+  out.n_curves = sources.n_curves;
+  out.nodes.resize(sources.nodes.size());
+  for (CurvePiece piece : sources.pieces) {
+    const int face = piece.face, t = T.triangle_of_face[face];
+    if (t < 0) continue;
+    piece.face = 2 * t;
+    for (int k = 0; k < 3; ++k)
+      if (piece.edge >= 0 && mesh.side_edge(face, k) == piece.edge) {
+        piece.edge = cover.mesh.side_edge(2 * t, k);
+        break;
+      }
+    out.pieces.push_back(piece);
+  }
+  for (const SurfacePoint& p : sources.points) add_on_sheets(mesh, T, cover, p, out.points);
+  return out;
+}
 
 Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                               const PreparedSources& sources, const RefineOptions& options,

@@ -1,6 +1,7 @@
 #pragma once
 // Sources on a triangulation that changes under them.
 
+#include "littoral/domain/covering_mesh.h"
 #include "littoral/domain/intrinsic_delaunay.h"
 #include "littoral/sources/pieces.h"
 
@@ -12,6 +13,11 @@ struct Retriangulated {
   IntrinsicTriangulation T;
   PreparedSources sources;
 };
+
+/// The same sources on the covering mesh of T, for functions at vertices: curves on the fronts, as
+/// vertices are shared; points inside triangles and on edges on all the sheets they are seen from.
+PreparedSources covering_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                 const CoveringMesh& cover, const PreparedSources& sources);
 
 /// Flips and refines (intrinsic_delaunay), with the sources cut by the new edges where these cross
 /// them: the same curves and points on the same surface.

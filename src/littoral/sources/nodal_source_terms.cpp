@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "littoral/operators/nodal.h"
 #include "littoral/sources/carriers.h"
-#include "littoral/sources/surface_points.h"
-#include "littoral/spatial/closest_on_triangle.h"
 
 namespace littoral {
 
@@ -120,32 +117,6 @@ class NodeCarriers : public Carriers {
   std::vector<int> face_of_;  // triangle of `place` -> face
 };
 
-/// A point of the input on the refined mesh.
-SurfacePoint refined_point(const SurfaceMesh& input, const NodalSurface& S, const SurfacePoint& p) {
-  check_element(input, p);
-  if (p.on == SurfacePoint::On::vertex) return p;
-  if (p.on == SurfacePoint::On::edge) {
-    const int a = input.edges()(p.element, 0), b = input.edges()(p.element, 1);
-    const int e = S.refined->find_edge(a, b);
-    return SurfacePoint::on_edge(e, S.refined->edges()(e, 0) == a ? p.b[1] : p.b[0]);
-  }
-  const int first = S.face_offsets[p.element], last = S.face_offsets[p.element + 1];
-  if (input.face(p.element).size() == 3)
-    return SurfacePoint::in_face(first, p.b[0], p.b[1], p.b[2]);
-  const Vec3 x = input.position(p);
-  double nearest = std::numeric_limits<double>::infinity();
-  SurfacePoint out;
-  for (int f = first; f < last; ++f) {
-    const auto c = S.refined->face(f);
-    const TriangleFoot hit = closest_on_triangle(
-        S.refined->point(c[0]) - x, S.refined->point(c[1]) - x, S.refined->point(c[2]) - x);
-    if (!(hit.squared < nearest)) continue;
-    nearest = hit.squared;
-    out = SurfacePoint::in_face(f, hit.barycentric[0], hit.barycentric[1], hit.barycentric[2]);
-  }
-  return out;
-}
-
 /// From triangles sources are placed on to cells, where exact distances are known at all corners.
 void on_cells(const NodalSurface& S, SourceTerms& terms) {
   std::vector<char> known(static_cast<std::size_t>(S.n_nodes()), 0);
@@ -159,16 +130,6 @@ void on_cells(const NodalSurface& S, SourceTerms& terms) {
 }
 
 }  // namespace
-
-SurfaceSources refined_sources(const SurfaceMesh& input, const NodalSurface& S,
-                               const SurfaceSources& sources) {
-  SurfaceSources out = sources;
-  if (S.face_offsets.empty()) return out;  // the input has nothing but nodes
-  for (SurfaceCurve& curve : out.curves)
-    for (SurfacePoint& p : curve.nodes) p = refined_point(input, S, p);
-  for (SurfacePoint& p : out.points) p = refined_point(input, S, p);
-  return out;
-}
 
 SourceTerms nodal_source_terms(const NodalSurface& S, const PreparedSources& sources) {
   SourceTerms terms = source_terms(*S.refined, *S.place, sources, NodeCarriers(S));

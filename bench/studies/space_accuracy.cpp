@@ -1,13 +1,13 @@
 // Signed distance in space against closed forms.
 // usage: littoral_space_accuracy exact         error against spacing, with observed orders,
 // Markdown
-//        littoral_space_accuracy landscapes    error of clouds under noise, outliers, flips and
-//                                              sparsity, as .csv for space_landscapes.py
+//        littoral_space_accuracy landscapes N  error of clouds under noise, outliers, flips and
+//                                              sparsity on N^3 nodes, .csv for space_landscapes.py
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
@@ -139,7 +139,7 @@ std::vector<Damage> damages() {
     c.normals.conservativeResize(n, 3);
   };
   return {{"noise",
-           {0, 0.01, 0.02, 0.05, 0.1},
+           {0, 0.01, 0.03, 0.1},
            [](PolygonSoup& c, double amount, std::mt19937& random) {
              if (amount == 0) return;
              std::normal_distribution<double> normal(0, amount);
@@ -148,7 +148,7 @@ std::vector<Damage> damages() {
              c.normals.rowwise().normalize();
            }},
           {"outliers",
-           {0, 0.02, 0.05, 0.1, 0.3},
+           {0, 0.03, 0.1, 0.3},
            [share, shorten](PolygonSoup& c, double amount, std::mt19937& random) {
              std::uniform_real_distribution<double> u(-1, 1);
              std::normal_distribution<double> normal;
@@ -160,19 +160,17 @@ std::vector<Damage> damages() {
              }
            }},
           {"flips",
-           {0, 0.05, 0.1, 0.2, 0.3},
+           {0, 0.05, 0.15, 0.3},
            [share](PolygonSoup& c, double amount, std::mt19937&) {
              c.normals.topRows(share(c, amount)) *= -1;
            }},
-          {"points",
-           {2048, 1024, 512, 256, 128},
-           [shorten](PolygonSoup& c, double amount, std::mt19937&) {
+          {"points", {2048, 768, 256, 96}, [shorten](PolygonSoup& c, double amount, std::mt19937&) {
              shorten(c, static_cast<Eigen::Index>(amount));
            }}};
 }
 
-/// Figures 7.7 and 7.8 of the thesis, on a coarser grid: a line for each place of the landscapes.
-void landscapes() {
+/// Figures 7.7 and 7.8 of the thesis, on another grid: a line for each place of the landscapes.
+void landscapes(int nodes) {
   const std::vector<Way> ways = {{"signed-heat, grid", "signed-heat", {}},
                                  {"signed-heat, tets", "signed-heat", {}, true},
                                  {"winding", "winding", {}},
@@ -180,11 +178,11 @@ void landscapes() {
                                  {"planar", "planar", {}},
                                  {"tori", "tori", {}},
                                  {"tori, noisy", "tori", {{"noisy", "on"}}}};
-  const Grid grid = test::cube_grid(33, 1);
+  const Grid grid = test::cube_grid(nodes, 1);
   std::printf("shape,damage,method,radius,amount,error\n");
   for (const bool cylinder : {true, false})
     for (const Damage& damage : damages())
-      for (const double radius : {0.1, 0.2, 0.3, 0.45, 0.6})
+      for (const double radius : {0.15, 0.3, 0.6})
         for (const double amount : damage.amounts) {
           std::mt19937 random(7);
           PolygonSoup cloud = cloud_of(cylinder, radius, 2048, random);
@@ -204,12 +202,13 @@ void landscapes() {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count == 2 && std::strcmp(words[1], "exact") == 0) {
+  const std::string verb = count > 1 ? words[1] : "";
+  if (count == 2 && verb == "exact") {
     exact();
-  } else if (count == 2 && std::strcmp(words[1], "landscapes") == 0) {
-    landscapes();
+  } else if (count == 3 && verb == "landscapes" && std::atoi(words[2]) > 1) {
+    landscapes(std::atoi(words[2]));
   } else {
-    std::fprintf(stderr, "usage: littoral_space_accuracy exact|landscapes\n");
+    std::fprintf(stderr, "usage: littoral_space_accuracy exact | landscapes N\n");
     return 2;
   }
 }

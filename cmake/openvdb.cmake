@@ -1,4 +1,4 @@
-# OpenVDB (MPL 2), for writing .vdb. Its own find module wants a dozen packages that this does not; what
+# OpenVDB (MPL 2), for writing .vdb: a module that the library loads when it is asked for one. Its own find module wants a dozen packages that this does not; what
 # its headers need (boost, Imath) shows when they are compiled.
 include(CheckCXXSourceCompiles)
 find_path(OpenVDB_INCLUDE_DIR openvdb/openvdb.h)
@@ -29,11 +29,16 @@ if(NOT OpenVDB_LINKS)
   message(STATUS "OpenVDB not found: littoral is built without .vdb")
   return()
 endif()
-target_include_directories(littoral SYSTEM PRIVATE ${OpenVDB_INCLUDE_DIR})
-target_link_libraries(littoral PRIVATE ${OpenVDB_LIBRARIES})
-set_source_files_properties(src/littoral/io/volume_vdb.cpp PROPERTIES
-  SKIP_PRECOMPILE_HEADERS ON COMPILE_DEFINITIONS LITTORAL_OPENVDB=1)
+add_library(littoral_vdb MODULE src/vdb/write_vdb.cpp)
+# Symbols stay visible: OpenVDB's templates keep state that the library and its user must share.
+set_target_properties(littoral_vdb PROPERTIES PREFIX "" SUFFIX ".so")
+target_include_directories(littoral_vdb PRIVATE src)
+target_include_directories(littoral_vdb SYSTEM PRIVATE ${OpenVDB_INCLUDE_DIR})
+target_link_libraries(littoral_vdb PRIVATE Eigen3::Eigen ${OpenVDB_LIBRARIES})
+target_compile_definitions(littoral_vdb PRIVATE LITTORAL_VERSION="${PROJECT_VERSION}" EIGEN_MPL2_ONLY)
+littoral_warnings(littoral_vdb)
 if(LITTORAL_SANITIZE)
-  set_source_files_properties(src/littoral/io/volume_vdb.cpp PROPERTIES
-    COMPILE_OPTIONS -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/cmake/sanitizers.ignore)
+  target_compile_options(littoral_vdb PRIVATE
+    -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/cmake/sanitizers.ignore)
 endif()
+install(TARGETS littoral_vdb LIBRARY DESTINATION ${littoral_modules_dir})

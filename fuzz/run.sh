@@ -12,7 +12,7 @@ fi
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
 status=0
-for name in obj off ply stl pc xyz pcd vti nrrd npy vol sources; do
+for name in obj off ply stl pc xyz pcd vti nrrd npy vol mesh tet vtk sources; do
   found="$build/fuzz/$name"
   mkdir -p "$found/corpus" "$found/failed"
   echo "== $name"

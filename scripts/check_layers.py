@@ -23,6 +23,7 @@ BELOW: dict[str, set[str]] = {
     "io": {"sources"},
     "api": {"methods", "io"},
     "cli": {"api"},
+    "vdb": {"io"},  # a module that io loads, not linked with it
 }
 WITHOUT_DOMAIN = "methods"
 NEEDS_DOMAIN = ("fast_marching", "exact_polyhedral", "cutting")

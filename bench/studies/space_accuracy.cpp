@@ -1,11 +1,13 @@
-// Signed distance in space against closed forms. Prints Markdown.
-// usage: littoral_space_accuracy exact      error against spacing, with observed orders
-//        littoral_space_accuracy corrupt    error of clouds under noise, outliers, flips, sparsity
+// Signed distance in space against closed forms.
+// usage: littoral_space_accuracy exact         error against spacing, with observed orders,
+// Markdown
+//        littoral_space_accuracy landscapes N  error of clouds under noise, outliers, flips and
+//                                              sparsity on N^3 nodes, .csv for space_landscapes.py
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
@@ -95,23 +97,28 @@ void exact() {
     }
 }
 
-/// n points on a shape, evenly by area, with the normals of the exact distance.
-PolygonSoup cloud_of(const Shape& shape, int n, std::mt19937& random) {
-  Report report;
-  const OrientedPoints fine = sample_faces(shape.mesh(0.02), 0.03, report);
-  std::vector<double> weights(fine.areas.begin(), fine.areas.end());
-  std::discrete_distribution<int> pick(weights.begin(), weights.end());
+/// n points evenly by area, with exact normals: a sphere, or a closed cylinder of height 1 about z.
+PolygonSoup cloud_of(bool cylinder, double radius, int n, std::mt19937& random) {
+  std::uniform_real_distribution<double> u(-1, 1);
+  std::normal_distribution<double> normal;
   PolygonSoup cloud;
   cloud.points.resize(n, 3);
   cloud.normals.resize(n, 3);
   for (int i = 0; i < n; ++i) {
-    const int s = pick(random);
-    cloud.points.row(i) = fine.points.row(s);
-    cloud.normals.row(i) = fine.normals.row(s);
-    // Off the lattice of the mesh: anywhere within its triangle.
-    std::uniform_real_distribution<double> u(-0.01, 0.01);
-    const Vec3 p = cloud.points.row(i).transpose() + Vec3(u(random), u(random), u(random));
-    cloud.points.row(i) = p - shape.distance(p) * Vec3(fine.normals.row(s));
+    Vec3 out = Vec3(normal(random), normal(random), cylinder ? 0 : normal(random)).normalized();
+    Vec3 p = radius * out;
+    if (cylinder) {
+      p[2] = u(random) / 2;
+      // The two caps have `radius` times the area of the side, which is 1 high.
+      if ((1 + u(random)) / 2 * (1 + radius) < radius) {
+        const double side = u(random) < 0 ? -1 : 1;
+        p *= std::sqrt((1 + u(random)) / 2);
+        p[2] = side / 2;
+        out = Vec3(0, 0, side);
+      }
+    }
+    cloud.points.row(i) = p;
+    cloud.normals.row(i) = out;
   }
   return cloud;
 }
@@ -122,81 +129,86 @@ struct Damage {
   std::function<void(PolygonSoup&, double, std::mt19937&)> apply;
 };
 
-void corrupt() {
+/// The four kinds of the thesis, section 7.2.
+std::vector<Damage> damages() {
   const auto share = [](const PolygonSoup& c, double amount) {
-    return static_cast<int>(std::lround(amount * c.n_vertices()));
+    return static_cast<Eigen::Index>(amount * c.n_vertices());
   };
-  const std::vector<Damage> damages = {
-      {"noise, in % of the box",
-       {0, 0.5, 1, 2, 4},
-       [](PolygonSoup& c, double amount, std::mt19937& random) {
-         std::normal_distribution<double> normal(0, amount / 100 * 2);
-         for (double& x : c.points.reshaped()) x += normal(random);
-       }},
-      {"outliers, in %",
-       {0, 2, 5, 10, 20},
-       [share](PolygonSoup& c, double amount, std::mt19937& random) {
-         std::uniform_real_distribution<double> u(-1.3, 1.3);
-         for (int i = 0; i < share(c, amount / 100); ++i) {
-           for (int a = 0; a < 3; ++a) c.points(i, a) = u(random);
-           Vec3 n(u(random), u(random), u(random));
-           c.normals.row(i) = n.normalized();
-         }
-       }},
-      {"flipped normals, in %",
-       {0, 2, 5, 10, 20},
-       [share](PolygonSoup& c, double amount, std::mt19937&) {
-         c.normals.topRows(share(c, amount / 100)) *= -1;
-       }},
-      {"points",
-       {4096, 1024, 512, 256, 128},
-       [](PolygonSoup& c, double amount, std::mt19937&) {
-         const auto n = static_cast<Eigen::Index>(amount);
-         c.points.conservativeResize(n, 3);
-         c.normals.conservativeResize(n, 3);
-       }},
+  const auto shorten = [](PolygonSoup& c, Eigen::Index n) {
+    c.points.conservativeResize(n, 3);
+    c.normals.conservativeResize(n, 3);
   };
-  const std::vector<Way> ways = {{"grid", "signed-heat", {}},
-                                 {"tets", "signed-heat", {}, true},
+  return {{"noise",
+           {0, 0.01, 0.03, 0.1},
+           [](PolygonSoup& c, double amount, std::mt19937& random) {
+             if (amount == 0) return;
+             std::normal_distribution<double> normal(0, amount);
+             for (double& x : c.points.reshaped()) x += normal(random);
+             for (double& x : c.normals.reshaped()) x += normal(random);
+             c.normals.rowwise().normalize();
+           }},
+          {"outliers",
+           {0, 0.03, 0.1, 0.3},
+           [share, shorten](PolygonSoup& c, double amount, std::mt19937& random) {
+             std::uniform_real_distribution<double> u(-1, 1);
+             std::normal_distribution<double> normal;
+             const Eigen::Index old = c.points.rows();
+             shorten(c, old + share(c, amount));
+             for (Eigen::Index i = old; i < c.points.rows(); ++i) {
+               c.points.row(i) << u(random), u(random), u(random);
+               c.normals.row(i) = Vec3(normal(random), normal(random), normal(random)).normalized();
+             }
+           }},
+          {"flips",
+           {0, 0.05, 0.15, 0.3},
+           [share](PolygonSoup& c, double amount, std::mt19937&) {
+             c.normals.topRows(share(c, amount)) *= -1;
+           }},
+          {"points", {2048, 768, 256, 96}, [shorten](PolygonSoup& c, double amount, std::mt19937&) {
+             shorten(c, static_cast<Eigen::Index>(amount));
+           }}};
+}
+
+/// Figures 7.7 and 7.8 of the thesis, on another grid: a line for each place of the landscapes.
+void landscapes(int nodes) {
+  const std::vector<Way> ways = {{"signed-heat, grid", "signed-heat", {}},
+                                 {"signed-heat, tets", "signed-heat", {}, true},
                                  {"winding", "winding", {}},
                                  {"hopf-cole", "hopf-cole", {}},
                                  {"planar", "planar", {}},
                                  {"tori", "tori", {}},
                                  {"tori, noisy", "tori", {{"noisy", "on"}}}};
-  const Grid grid = test::cube_grid(41, 1.5);
-  for (const std::size_t s : {std::size_t(0), std::size_t(3)}) {
-    const Shape& shape = shapes()[s];
-    for (const Damage& damage : damages) {
-      std::printf("\n| %s: %s |", shape.name.c_str(), damage.name.c_str());
-      for (const double amount : damage.amounts) std::printf(" %g |", amount);
-      std::printf("\n|---|");
-      for (std::size_t i = 0; i < damage.amounts.size(); ++i) std::printf("---|");
-      std::printf("\n");
-      for (const Way& way : ways) {
-        std::printf("| %s |", way.name.c_str());
+  const Grid grid = test::cube_grid(nodes, 1);
+  std::printf("shape,damage,method,radius,amount,error\n");
+  for (const bool cylinder : {true, false})
+    for (const Damage& damage : damages())
+      for (const double radius : {0.15, 0.3, 0.6})
         for (const double amount : damage.amounts) {
           std::mt19937 random(7);
-          PolygonSoup cloud = cloud_of(shape, damage.name == "points" ? 4096 : 2048, random);
+          PolygonSoup cloud = cloud_of(cylinder, radius, 2048, random);
           damage.apply(cloud, amount, random);
-          const VecX values = distance(cloud, grid, way);
-          std::printf(" %.4f |", test::mean_error(grid, values, shape.distance));
-          std::fflush(stdout);
+          for (const Way& way : ways) {
+            const double error = test::mean_error(
+                grid, distance(cloud, grid, way), [cylinder, radius](const Vec3& x) {
+                  return cylinder ? test::cylinder_distance(x, radius, 0.5) : x.norm() - radius;
+                });
+            std::printf("%s,%s,\"%s\",%g,%g,%.5f\n", cylinder ? "cylinder" : "sphere",
+                        damage.name.c_str(), way.name.c_str(), radius, amount, error);
+            std::fflush(stdout);
+          }
         }
-        std::printf("\n");
-      }
-    }
-  }
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  if (count == 2 && std::strcmp(words[1], "exact") == 0) {
+  const std::string verb = count > 1 ? words[1] : "";
+  if (count == 2 && verb == "exact") {
     exact();
-  } else if (count == 2 && std::strcmp(words[1], "corrupt") == 0) {
-    corrupt();
+  } else if (count == 3 && verb == "landscapes" && std::atoi(words[2]) > 1) {
+    landscapes(std::atoi(words[2]));
   } else {
-    std::fprintf(stderr, "usage: littoral_space_accuracy exact|corrupt\n");
+    std::fprintf(stderr, "usage: littoral_space_accuracy exact | landscapes N\n");
     return 2;
   }
 }

@@ -5,6 +5,7 @@
 
 #include "cli/method_options.h"
 #include "cli/surface_input.h"
+#include "cli/tet_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/distance.h"
 #include "littoral/api/registry.h"
@@ -84,6 +85,10 @@ void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
 }
 
 void run(Arguments& arguments, Session& session) {
+  if (io::is_tets(arguments.domain))
+    return distance_through_tets({arguments.domain, arguments.request.method, arguments.sources,
+                                  arguments.out, arguments.vertices, arguments.options},
+                                 session);
   for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
   arguments.request.flip = session.flip;
   use_method_options(arguments.options, arguments.request);
@@ -111,19 +116,22 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_distance(CLI::App& program, Session& session) {
-  CLI::App* verb =
-      program.add_subcommand("distance", "distance on a surface from curves and points on it");
+  CLI::App* verb = program.add_subcommand("distance",
+                                          "distance on a surface from curves and points on it, or "
+                                          "through tets");
   auto arguments = std::make_shared<Arguments>();
   std::string names;
   for (const MethodInfo& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
   verb->add_option("DOMAIN", arguments->domain,
                    "the surface: mesh .obj .ply .off .stl, point cloud .pc .xyz .pcd .ply, "
-                   "voxels .vol .npy .nrrd .vti")
+                   "voxels .vol .npy .nrrd .vti; or tets .mesh .vtk .tet")
       ->required()
       ->type_name("");
-  verb->add_option("--sources,-s", arguments->sources,
-                   "what distance is measured from: .txt .json .obj .ply; may be repeated; without "
-                   "sources and --vertex, the lines of DOMAIN")
+  verb->add_option(
+          "--sources,-s", arguments->sources,
+          "what distance is measured from: .txt .json .obj .ply, in tets any surface or cloud; "
+          "may be repeated; without sources and --vertex, the lines of DOMAIN, or the "
+          "triangles among its tets")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
@@ -131,8 +139,10 @@ void add_distance(CLI::App& program, Session& session) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("I");
-  verb->add_option("-o,--output", arguments->out,
-                   "where to write: .ply .obj .vtp .csv .npy .txt .html .png; may be repeated")
+  verb->add_option(
+          "-o,--output", arguments->out,
+          "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too; "
+          "may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

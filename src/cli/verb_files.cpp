@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/surface_input.h"
+#include "cli/tet_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/api/level_lines.h"
@@ -39,6 +40,8 @@ void info(const Arguments& arguments, Session& session) {
   std::vector<InfoEntry> entries;
   if (arguments.mesh.empty() && io::is_volume(arguments.in)) {
     entries = volume_info(io::read_volume(arguments.in, arguments.field));
+  } else if (arguments.mesh.empty() && io::is_tets(arguments.in)) {
+    entries = tet_info(io::read_tets(arguments.in));
   } else if (arguments.mesh.empty()) {
     entries = surface_info(io::read_surface(arguments.in));
   } else {
@@ -53,9 +56,19 @@ void info(const Arguments& arguments, Session& session) {
 void convert(const Arguments& arguments, Session& session) {
   if (io::is_volume(arguments.in))
     return convert_volume(arguments.in, arguments.field, arguments.out, arguments.band, session);
+  const bool tets = io::is_tets(arguments.in);
+  if (extension_of(arguments.out) == ".vtk" || extension_of(arguments.out) == ".vtu") {
+    if (!tets) throw InputError(arguments.out + " holds tets, " + arguments.in + " has none");
+    const io::TetFile file = io::read_tets(arguments.in);
+    PolygonSoup fields;
+    fields.scalars = file.scalars;
+    const std::string name = choose_field(fields, arguments.field, arguments.in);
+    return io::write_tets(arguments.out, file.mesh, file.scalars.at(name), name);
+  }
   check_output(arguments.out, {".obj", ".ply", ".off", ".stl", ".vtp", ".csv", ".npy", ".txt"},
                "a surface");
-  PolygonSoup soup = io::read_surface(arguments.in);
+  PolygonSoup soup =
+      tets ? boundary_of(io::read_tets(arguments.in)) : io::read_surface(arguments.in);
   const bool field_only = is_field_file(extension_of(arguments.out));
   const bool texture = extension_of(arguments.out) == ".obj";
   std::string field;
@@ -75,6 +88,8 @@ void contour(const Arguments& arguments, Session& session) {
   if (io::is_volume(arguments.in))
     return contour_volume(arguments.in, arguments.field, levels, arguments.clip, arguments.outs,
                           session);
+  if (io::is_tets(arguments.in))
+    return contour_tets(arguments.in, arguments.field, levels, arguments.outs, session);
   check_level_outputs(arguments.outs, levels.size(), {".obj", ".ply"}, "lines");
   PolygonSoup soup = io::read_surface(arguments.in);
   const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
@@ -108,7 +123,7 @@ void add_info(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb = add_verb(program, session, arguments, info, "info",
                             "what is in a file, and what is wrong with it");
-  verb.add_option("FILE", arguments->in, "a surface, a volume, or with --mesh sources")
+  verb.add_option("FILE", arguments->in, "a surface, a volume, tets, or with --mesh sources")
       ->required()
       ->type_name("");
   verb.add_option("--mesh", arguments->mesh, "the surface that the sources in FILE lie on")
@@ -124,7 +139,7 @@ void add_convert(CLI::App& program, Session& session) {
       add_verb(program, session, arguments, convert, "convert", "between file formats");
   verb.add_option("IN", arguments->in,
                   "a surface or cloud: .obj .ply .off .stl .pc .xyz .pcd, or a volume: .vti .nrrd "
-                  ".npy .vol")
+                  ".npy .vol, or the boundary of tets: .mesh .vtk .tet")
       ->required()
       ->type_name("");
   verb.add_option("-o,--output", arguments->out,
@@ -148,7 +163,8 @@ void add_contour(CLI::App& program, Session& session) {
                             "given values");
   verb.add_option(
           "FIELD", arguments->in,
-          "a surface with values: .ply, or .obj with texture; or a volume: .vti .nrrd .npy .vol")
+          "a surface with values: .ply, or .obj with texture; a volume: .vti .nrrd .npy .vol; or "
+          "tets with values: .vtk")
       ->required()
       ->type_name("");
   verb.add_option("--level", arguments->levels,

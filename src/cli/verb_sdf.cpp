@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/space_input.h"
+#include "cli/tet_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/api/report_json.h"
@@ -20,8 +21,8 @@ namespace littoral::cli {
 
 namespace {
 
-const std::vector<std::string> outputs = {".vti", ".npy", ".nrrd", ".vdb",  ".obj",
-                                          ".ply", ".off", ".stl",  ".html", ".png"};
+const std::vector<std::string> outputs = {".vti", ".npy", ".nrrd", ".vdb", ".obj", ".ply",
+                                          ".off", ".stl", ".html", ".png", ".vtk", ".vtu"};
 
 struct Arguments {
   SpaceTexts space;
@@ -53,6 +54,8 @@ void write_results(const Arguments& arguments, const VolumeField& volume, const 
     session.task().checkpoint();
     if (is_among(file, volume_outputs)) {
       io::write_volume(file, volume, {.band = arguments.band});
+    } else if (extension_of(file) == ".vtk" || extension_of(file) == ".vtu") {
+      write_tet_field(file, tets.mesh, tets.values, "distance", session);
     } else if (is_among(file, surface_outputs)) {
       write_shells({file}, shells_of(volume, tets, levels, session));
     } else {
@@ -69,8 +72,12 @@ void write_results(const Arguments& arguments, const VolumeField& volume, const 
 }
 
 void run(Arguments& arguments, Session& session) {
-  for (const std::string& file : arguments.out)
+  for (const std::string& file : arguments.out) {
     check_output(file, outputs, "signed distance in space");
+    const std::string extension = extension_of(file);
+    if (arguments.domain != "tets" && (extension == ".vtk" || extension == ".vtu"))
+      throw InputError(file + " holds tets: they are there with --domain tets");
+  }
   parse_numbers("--level", arguments.levels);
   use_space_options(arguments.space, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
@@ -100,9 +107,10 @@ void add_sdf(CLI::App& program, Session& session) {
       program.add_subcommand("sdf", "signed distance in space around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
   add_space_input(*verb, arguments->space, session);
-  verb->add_option("-o,--output", arguments->out,
-                   "where to write: .vti .npy .nrrd .vdb, the surface at --level as .obj .ply .off "
-                   ".stl, or .html .png; may be repeated")
+  verb->add_option(
+          "-o,--output", arguments->out,
+          "where to write: .vti .npy .nrrd .vdb, of --domain tets .vtk .vtu, the surface at "
+          "--level as .obj .ply .off .stl, or .html .png; may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

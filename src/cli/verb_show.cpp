@@ -7,6 +7,7 @@
 
 #include "cli/serve.h"
 #include "cli/surface_input.h"
+#include "cli/tet_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/base/error.h"
@@ -35,7 +36,8 @@ io::Scene read_scene_of(const Arguments& arguments, Session& session) {
                        " is a volume");
     return read_volume_scene(arguments.in, arguments.field, arguments.volume);
   }
-  PolygonSoup soup = io::read_surface(arguments.in);
+  PolygonSoup soup = io::is_tets(arguments.in) ? boundary_of(io::read_tets(arguments.in))
+                                               : io::read_surface(arguments.in);
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
   io::Scene scene =
@@ -100,8 +102,7 @@ CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Argument
   verb->add_option(
           "FILE", arguments->in,
           "a surface or cloud, with values or without: .obj .ply .off .stl .pc .xyz .pcd; or a "
-          "volume: .vti "
-          ".nrrd .npy .vol")
+          "volume: .vti .nrrd .npy .vol; or the boundary of tets: .mesh .vtk .tet")
       ->required()
       ->type_name("");
   verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")

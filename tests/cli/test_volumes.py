@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import signal
 import struct
 import subprocess
@@ -184,3 +185,18 @@ def test_interrupt(run: Run, ball: str, tmp_path: Path, delay: float) -> None:
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=30) in (130, -signal.SIGINT)
     assert sorted(p.name for p in tmp_path.iterdir()) == [ball, "noise.nrrd"]
+
+
+def test_vdb_without_its_module_is_a_clear_error(ball: str, tmp_path: Path) -> None:
+    program = shutil.which(PROGRAM)
+    assert program is not None
+    alone = tmp_path / "alone" / "bin" / "littoral"
+    alone.parent.mkdir(parents=True)
+    shutil.copy(program, alone)
+    words = [str(alone), "convert", str(tmp_path / ball), "-o", str(tmp_path / "ball.vdb")]
+    result = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    if result.returncode == 0:
+        pytest.skip("the module is installed where the program looks last")
+    assert result.returncode == 2
+    assert "littoral_vdb.so" in result.stderr
+    assert not (tmp_path / "ball.vdb").exists()

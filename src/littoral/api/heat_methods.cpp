@@ -32,6 +32,9 @@ namespace {
 
 const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", "point cloud",
                                                "voxel surface"};
+// Through tets it is a function of its own: api/tet_distance.h.
+const std::vector<std::string> signed_heat_domains = {"triangle mesh", "polygon mesh",
+                                                      "point cloud", "voxel surface", "tet mesh"};
 
 /// What the method diffuses from the sources: functions can use a cover, vectors cannot.
 enum class Diffused { functions, vectors };
@@ -251,7 +254,7 @@ std::vector<SurfaceMethod> heat_methods() {
               {"signed-heat",
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
-               heat_domains,
+               signed_heat_domains,
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),

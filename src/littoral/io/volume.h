@@ -39,12 +39,12 @@ struct VolumeWriteOptions {
 
 /// Writes a volume by extension. Reading .vti, .nrrd or .npy again gives the same numbers, exactly;
 /// .vdb has single precision and is of class "level set", negative inside, with background 3
-/// spacings or the band's half width. Throws UnsupportedError for other extensions and where .vdb
-/// is not built in, InputError for a wrong number of values, IoError.
+/// spacings or the band's half width. Throws UnsupportedError for other extensions and where the
+/// module for .vdb is missing, InputError for a wrong number of values, IoError.
 void write_volume(const std::filesystem::path& path, const VolumeField& volume,
                   const VolumeWriteOptions& options = {});
 
-/// True if .vdb can be written by this build (OpenVDB was found).
+/// True if .vdb can be written: the module littoral_vdb is there (io/vdb_module.h). Loads it.
 bool has_openvdb();
 
 }  // namespace littoral::io

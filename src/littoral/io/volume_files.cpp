@@ -70,8 +70,10 @@ void write_volume(const std::filesystem::path& path, const VolumeField& volume,
     write(write_npy_volume);
   } else if (format == ".vdb") {
     if (!has_openvdb())
-      throw UnsupportedError("cannot write " + path.string() +
-                             ": this build has no OpenVDB; .vti, .nrrd and .npy work");
+      throw UnsupportedError(
+          "cannot write " + path.string() +
+          ": the module littoral_vdb.so, which needs OpenVDB to be built, is not "
+          "installed with the program; .vti, .nrrd and .npy work");
     write([&](std::ostream& out, const VolumeField& v) { write_vdb(out, v, options); });
   } else {
     throw UnsupportedError("cannot write " + path.string() + ": " + in_quotes(format) +

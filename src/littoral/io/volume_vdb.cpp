@@ -1,62 +1,70 @@
-// OpenVDB level sets, where the library is there.
+// Finding the module that writes .vdb.
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <vector>
 
 #include "littoral/base/error.h"
+#include "littoral/io/vdb_module.h"
 #include "littoral/io/volume_formats.h"
-
-#ifdef LITTORAL_OPENVDB
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Prune.h>
-
-#include <cmath>
-#endif
 
 namespace littoral::io {
 
-#ifdef LITTORAL_OPENVDB
+namespace {
 
-bool has_openvdb() { return true; }
+namespace fs = std::filesystem;
+constexpr const char* file_name = "littoral_vdb.so";
+
+/// The folder of the program or shared library that this code is part of.
+fs::path own_folder() {
+  std::error_code none;
+  Dl_info info{};
+  static const int here = 0;
+  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+  // Of the program itself, the loader knows no more than how it was called.
+  fs::path object = fs::canonical(info.dli_fname, none);
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  if (object.empty() || object.filename() == program.filename()) object = program;
+  return object.parent_path();
+}
+
+/// Beside the program, one folder up (a build's tests), or where it is installed.
+const VdbModule* find_module() {
+  std::vector<fs::path> places;
+  if (const fs::path folder = own_folder(); !folder.empty())
+    places = {folder, folder.parent_path(),
+              (folder / LITTORAL_MODULES_FROM_PROGRAM).lexically_normal(), folder / "littoral"};
+  places.emplace_back(LITTORAL_MODULES);
+  for (const fs::path& place : places) {
+    std::error_code none;
+    const fs::path file = place / file_name;
+    if (!fs::exists(file, none)) continue;
+    void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) continue;
+    const auto entry = reinterpret_cast<const VdbModule* (*)()>(dlsym(module, vdb_module_symbol));
+    if (entry == nullptr) continue;
+    const VdbModule* found = entry();
+    if (std::string(found->version) == LITTORAL_VERSION) return found;
+  }
+  return nullptr;
+}
+
+const VdbModule* module() {
+  static const VdbModule* const found = find_module();
+  return found;
+}
+
+}  // namespace
+
+bool has_openvdb() { return module() != nullptr; }
 
 void write_vdb(std::ostream& out, const VolumeField& volume, const VolumeWriteOptions& options) {
-  openvdb::initialize();
-  const Grid& g = volume.grid;
-  const double largest = g.spacing.maxCoeff();
-  const double background = (options.band > 0 ? options.band : 3) * largest;
-  auto grid = openvdb::FloatGrid::create(static_cast<float>(background));
-  grid->setName(volume.name);
-  grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  using openvdb::math::ScaleTranslateMap;
-  grid->setTransform(
-      openvdb::math::Transform::Ptr(new openvdb::math::Transform(ScaleTranslateMap::Ptr(
-          new ScaleTranslateMap(openvdb::Vec3d(g.spacing[0], g.spacing[1], g.spacing[2]),
-                                openvdb::Vec3d(g.origin[0], g.origin[1], g.origin[2]))))));
-  auto accessor = grid->getAccessor();
-  Eigen::Index v = 0;
-  for (int k = 0; k < g.n[2]; ++k) {
-    for (int j = 0; j < g.n[1]; ++j) {
-      for (int i = 0; i < g.n[0]; ++i, ++v) {
-        const double value = volume.values[v];
-        if (options.band > 0 && !(std::abs(value) < background)) {
-          if (value < 0) accessor.setValueOff({i, j, k}, static_cast<float>(-background));
-        } else {
-          accessor.setValueOn({i, j, k}, static_cast<float>(value));
-        }
-      }
-    }
-  }
-  if (options.band > 0) openvdb::tools::pruneInactive(grid->tree());
-  openvdb::GridPtrVec grids{grid};
-  openvdb::io::Stream(out).write(grids);
+  if (module() == nullptr)
+    throw UnsupportedError(std::string("there is no module ") + file_name +
+                           " beside the program; it is built where OpenVDB is");
+  const std::string error = module()->write(out, volume, options.band);
+  if (!error.empty()) throw IoError("OpenVDB: " + error);
 }
-
-#else
-
-bool has_openvdb() { return false; }
-
-void write_vdb(std::ostream&, const VolumeField&, const VolumeWriteOptions&) {
-  throw UnsupportedError("this build has no OpenVDB");
-}
-
-#endif
 
 }  // namespace littoral::io

@@ -77,6 +77,14 @@ std::string xml_text(const std::string& plain) {
   return text;
 }
 
+void AppendedArrays::announce(const char* type, const std::string& name, int components,
+                              std::uint64_t bytes) {
+  out_ << "<DataArray type=\"" << type << "\" Name=\"" << xml_text(name)
+       << "\" NumberOfComponents=\"" << components << "\" format=\"appended\" offset=\"" << offset_
+       << "\"/>\n";
+  offset_ += sizeof(std::uint64_t) + bytes;
+}
+
 void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest) {
   std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
                        (first_axis_fastest ? "True" : "False") + ", 'shape': (" + shape + "), }";
@@ -98,19 +106,11 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   for (const auto& line : soup.lines) lines.add(line);
   const VecX& values = soup.scalars.at(field);
 
-  // Every block of appended data is its length in bytes and then the data.
-  std::size_t offset = 0;
-  const auto array = [&](const char* type, const std::string& name, int components,
-                         std::size_t bytes) {
-    out << "<DataArray type=\"" << type << "\" Name=\"" << xml_text(name)
-        << "\" NumberOfComponents=\"" << components << "\" format=\"appended\" offset=\"" << offset
-        << "\"/>\n";
-    offset += sizeof(std::uint64_t) + bytes;
-  };
+  AppendedArrays arrays(out);
   const auto cells = [&](const char* element, const Cells& set) {
     out << '<' << element << ">\n";
-    array("Int64", "connectivity", 1, 8 * set.connectivity.size());
-    array("Int64", "offsets", 1, 8 * set.ends.size());
+    arrays.announce("Int64", "connectivity", 1, 8 * set.connectivity.size());
+    arrays.announce("Int64", "offsets", 1, 8 * set.ends.size());
     out << "</" << element << ">\n";
   };
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
@@ -120,9 +120,9 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
       << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << soup.n_faces()
       << "\">\n<PointData Scalars=\"" << xml_text(field) << "\">\n";
   const auto points = static_cast<std::size_t>(soup.n_vertices());
-  array("Float64", field, 1, 8 * points);
+  arrays.announce("Float64", field, 1, 8 * points);
   out << "</PointData>\n<Points>\n";
-  array("Float64", "Points", 3, 24 * points);
+  arrays.announce("Float64", "Points", 3, 24 * points);
   out << "</Points>\n";
   cells("Lines", lines);
   cells("Polys", faces);

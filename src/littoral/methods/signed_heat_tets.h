@@ -15,4 +15,10 @@ namespace littoral {
 VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
                       double tolerance, const SpaceHeatOptions& options, Task task, Report& report);
 
+/// Distance without sign, from vertices (the rows of terms.A), by the diffusion of a scalar (Crane
+/// et al. 2013): t = 4 time_scale h^2. Otherwise as above.
+VecX unsigned_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
+                        double tolerance, const SpaceHeatOptions& options, Task task,
+                        Report& report);
+
 }  // namespace littoral

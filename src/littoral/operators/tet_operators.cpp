@@ -130,6 +130,21 @@ VecX TetOperators::divergence(const MatX3& Y) const {
   return b;
 }
 
+MatX3 TetOperators::gradient(const VecX& u) const {
+  MatX3 g = MatX3::Zero(tets_.rows(), 3);
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t)
+    for (int k = 0; k < 4; ++k)
+      g.row(t) += u[tets_(t, k)] * gradients[static_cast<std::size_t>(t)].row(k);
+  return g;
+}
+
+VecX TetOperators::vertex_mass() const {
+  VecX mass = VecX::Zero(L.rows());
+  for (Eigen::Index t = 0; t < tets_.rows(); ++t)
+    for (int k = 0; k < 4; ++k) mass[tets_(t, k)] += volumes[t] / 4;
+  return mass;
+}
+
 MatX3 TetOperators::to_tets(const MatX3& X) const {
   MatX3 mean(tet_faces.rows(), 3);
   for (Eigen::Index t = 0; t < tet_faces.rows(); ++t) {

@@ -27,6 +27,10 @@ struct TetOperators {
   /// G^T A Y for Y constant on tets (tets x 3): the integral of grad lambda_i . Y (eq. 22, where a
   /// factor -1/3 is missing). Vertices.
   VecX divergence(const MatX3& Y) const;
+  /// Gradient on tets of a function linear on each (tets x 3).
+  MatX3 gradient(const VecX& u) const;
+  /// Lumped mass (vertices) [length^3]: a quarter of each tet's volume at each of its corners.
+  VecX vertex_mass() const;
   /// Mean over the four faces of a tet (B.2): faces x 3 -> tets x 3.
   MatX3 to_tets(const MatX3& X) const;
 

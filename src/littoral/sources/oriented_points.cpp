@@ -55,7 +55,8 @@ void refine(const Triangle& whole, double max_side, const Visit& visit) {
 
 }  // namespace
 
-OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report) {
+OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report,
+                            SamplesPerTriangle count) {
   check_faces(soup);
   const PolygonSoup triangles = triangulate(soup);
   std::vector<Vec3> points, normals;
@@ -71,9 +72,19 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
       continue;
     }
     refine(t, max_side, [&](const Triangle& part) {
-      points.emplace_back((part[0] + part[1] + part[2]) / 3);
-      normals.emplace_back(twice / norm);
-      areas.push_back((part[1] - part[0]).cross(part[2] - part[0]).stableNorm() / 2);
+      const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
+      const double area = (part[1] - part[0]).cross(part[2] - part[0]).stableNorm() / 2;
+      if (count == SamplesPerTriangle::one) {
+        points.push_back(middle);
+        normals.emplace_back(twice / norm);
+        areas.push_back(area);
+        return;
+      }
+      for (const Vec3& corner : part) {
+        points.emplace_back((middle + corner) / 2);
+        normals.emplace_back(twice / norm);
+        areas.push_back(area / 3);
+      }
     });
     if (points.size() > max_samples)
       throw InputError("more than " + std::to_string(max_samples) +

@@ -17,13 +17,18 @@ struct OrientedPoints {
   Eigen::Index size() const { return points.rows(); }
 };
 
-/// One sample per triangle, at its barycentre (section 8.2). Polygons are triangulated first;
-/// triangles with a side longer than `max_side` [length] are halved until no side is (infinity:
-/// never). Faces without area are left out, with a warning.
+/// One, at the barycentre, or three half way between it and the corners: these integrate quadratic
+/// functions exactly.
+enum class SamplesPerTriangle { one, three };
+
+/// One sample per triangle, at its barycentre (section 8.2), or three. Polygons are triangulated
+/// first; triangles with a side longer than `max_side` [length] are halved until no side is
+/// (infinity: never). Faces without area are left out, with a warning.
 ///
 /// Throws InputError for a soup without faces, a face with a vertex that is not finite, faces that
 /// all have no area, or more than 2^26 samples.
-OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report);
+OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report,
+                            SamplesPerTriangle count = SamplesPerTriangle::one);
 
 /// One sample per point, with its normal made unit and the area of its Voronoi cell among its
 /// neighbours in its tangent plane. Points whose normal is zero or not finite are left out, with a

@@ -1,5 +1,6 @@
 #include "littoral/sources/tet_source_terms.h"
 
+#include <algorithm>
 #include <map>
 
 namespace littoral {
@@ -34,6 +35,20 @@ TetSourceTerms tet_source_terms(const TetMesh& mesh, const TetOperators& ops,
   for (auto& e : entries)
     e = {e.row(), e.col(), e.value() / weight[static_cast<std::size_t>(e.row())]};
   terms.A.resize(terms.weight.size(), mesh.n_vertices());
+  terms.A.setFromTriplets(entries.begin(), entries.end());
+  return terms;
+}
+
+TetSourceTerms vertex_source_terms(const TetOperators& ops, std::vector<int> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  TetSourceTerms terms;
+  Triplets entries;
+  for (int v : vertices)
+    if (ops.component[static_cast<std::size_t>(v)] >= 0)
+      entries.emplace_back(static_cast<int>(entries.size()), v, 1);
+  terms.weight = VecX::Ones(static_cast<Eigen::Index>(entries.size()));
+  terms.A.resize(terms.weight.size(), ops.L.rows());
   terms.A.setFromTriplets(entries.begin(), entries.end());
   return terms;
 }

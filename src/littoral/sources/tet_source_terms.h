@@ -23,4 +23,7 @@ TetSourceTerms tet_source_terms(const TetMesh& mesh, const TetOperators& ops,
                                 const OrientedPoints& source, const std::vector<TetPoint>& places,
                                 const std::vector<int>& group);
 
+/// Each vertex a row of its own, all of one weight; X0 is empty.
+TetSourceTerms vertex_source_terms(const TetOperators& ops, std::vector<int> vertices);
+
 }  // namespace littoral

@@ -2,10 +2,12 @@
 // Generalized winding number of triangles or oriented points in space.
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "littoral/base/types.h"
 #include "littoral/spatial/cluster_tree.h"
+#include "littoral/spatial/winding_kernels.h"
 
 namespace littoral {
 
@@ -40,15 +42,33 @@ class WindingNumber {
   };
   using Triangle = std::array<Vec3, 3>;
 
-  void add(Moments& m, std::size_t item) const;
-  double expand(const Moments& m, const Vec3& query) const;
-  double near_sum(int begin, int end, const Vec3& query) const;
-  void build(const MatX3& centres, const std::vector<Vec3>& areas);
+  // Up to eight clusters of the binary tree under one of their ancestors.
+  struct Node {
+    ClusterLanes moments;
+    std::array<int, winding_lanes> child;  // another node, -1 - leaf, or `none`
+  };
+  static constexpr int none = std::numeric_limits<int>::min();
 
-  ClusterTree tree_;
-  std::vector<Moments> moments_;       // per cluster
-  std::vector<Triangle> triangles_;    // by place; empty for points
-  std::vector<Vec3> centres_, areas_;  // by place
+  // Items in the order of the tree; coordinates are relative to origin_, in units of unit_.
+  struct Items {
+    ClusterTree tree;
+    std::vector<Triangle> triangles;  // empty for points
+    std::vector<Vec3> centres, areas;
+  };
+
+  void set_frame(const MatX3& centres);
+  void build(Items items);
+  int add_leaf(const Items& items, const Cluster& cluster);
+  int add_node(const Items& items, const std::vector<Moments>& moments, int root);
+  double leaf_sum(int leaf, const double* q) const;
+
+  Vec3 origin_ = Vec3::Zero();
+  double unit_ = 1;
+  Vec3 total_ = Vec3::Zero();  // vector area
+  int root_ = none;
+  std::vector<Node> nodes_;
+  std::vector<TriangleLanes> triangle_leaves_;  // one of the two
+  std::vector<DipoleLanes> dipole_leaves_;
 };
 
 /// The same, one solid angle after the other in extended precision: what the fast sum is tested

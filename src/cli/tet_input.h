@@ -1,0 +1,42 @@
+#pragma once
+// Tet meshes in the verbs that take surfaces and volumes too.
+
+#include <string>
+#include <vector>
+
+#include "cli/method_options.h"
+#include "cli/session.h"
+#include "littoral/api/mesh_info.h"
+#include "littoral/api/tet_distance.h"
+#include "littoral/io/tets.h"
+
+namespace littoral::cli {
+
+/// The extensions that a field on tets is written to.
+extern const std::vector<std::string> tet_outputs;
+
+/// littoral distance on a tet mesh.
+struct TetArguments {
+  std::string domain, method;
+  std::vector<std::string> sources, out;
+  std::vector<long long> vertices;
+  GivenOptions options;
+};
+void distance_through_tets(const TetArguments& arguments, Session& session);
+
+/// The boundary of tets as a surface with the fields of the file.
+PolygonSoup boundary_of(const io::TetFile& file);
+
+/// Writes a field on tets: whole as .vtk and .vtu, its values as .csv .npy .txt, or the boundary.
+void write_tet_field(const std::string& file, const TetMesh& mesh, const VecX& values,
+                     const std::string& field, const Session& session);
+
+/// Facts about a tet mesh.
+std::vector<InfoEntry> tet_info(const io::TetFile& file);
+
+/// Level sets of a field on tets, one file for all or one for each.
+void contour_tets(const std::string& file, const std::string& field,
+                  const std::vector<double>& levels, const std::vector<std::string>& out,
+                  Session& session);
+
+}  // namespace littoral::cli

@@ -1,0 +1,49 @@
+#pragma once
+// The sums of winding_number.h over eight clusters, triangles or points at once, by the widest
+// instructions the processor has. Which ones changes nothing in the results.
+
+#include <array>
+
+namespace littoral {
+
+constexpr int winding_lanes = 8;
+
+/// Moments of the vector areas of eight clusters, each about its own centre, contracted as the
+/// expansion needs them. Single precision: they are far away.
+struct ClusterLanes {
+  using Lanes = std::array<float, winding_lanes>;
+  alignas(32) Lanes x, y, z, radius;  // centre, and how far from it the items reach
+  Lanes ax, ay, az;                   // sum of vector areas a
+  Lanes trace;                        // of the first moment, sum of a d^T
+  std::array<Lanes, 6> first;         // its symmetric part: xx yy zz xy yz zx
+  Lanes sx, sy, sz;                   // 2 sum Q_iik + sum Q_kjj, Q = sum of a (d d^T)
+  std::array<Lanes, 10> cubic;        // Q r r r: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
+};
+
+/// Corners a, b, c of eight triangles; unused lanes hold one point three times.
+struct TriangleLanes {
+  alignas(64) std::array<std::array<double, winding_lanes>, 9> corner;  // ax ay az bx ...
+};
+
+/// Eight points with vector areas; unused lanes have area zero.
+struct DipoleLanes {
+  alignas(64) std::array<std::array<double, winding_lanes>, 3> at, area;
+};
+
+/// 2 arg(den + i num) is the solid angle of a triangle; |num| + |den| is 1, or both are 0.
+struct AngleLanes {
+  alignas(64) std::array<double, winding_lanes> num, den;
+};
+
+struct WindingKernels {
+  /// Sum of the fields of the clusters farther from q than `accuracy` of their radii; `near` gets a
+  /// bit for each of the others.
+  float (*far)(const ClusterLanes&, const float* q, float accuracy, unsigned& near);
+  void (*angles)(const TriangleLanes&, const double* q, AngleLanes&);
+  double (*dipoles)(const DipoleLanes&, const double* q);
+};
+
+/// The fastest ones for the processor that runs the program.
+const WindingKernels& winding_kernels();
+
+}  // namespace littoral

@@ -112,8 +112,11 @@ LinearMap as_linear_map(std::shared_ptr<const Eigen::SparseMatrix<Complex, Eigen
   auto reals = [](const VecXc& z) {
     return VecX(Eigen::Map<const VecX>(reinterpret_cast<const double*>(z.data()), 2 * z.size()));
   };
-  return {2 * Q->rows(), 2 * Q->cols(), [=](const VecX& x) { return reals(VecXc(*Q * pairs(x))); },
-          [=](const VecX& y) { return reals(VecXc(Q->adjoint() * pairs(y))); }};
+  return {2 * Q->rows(),
+          2 * Q->cols(),
+          [=](const VecX& x) { return reals(VecXc(*Q * pairs(x))); },
+          [=](const VecX& y) { return reals(VecXc(Q->adjoint() * pairs(y))); },
+          {}};
 }
 
 /// Masses of the cells at their corners, shared among the nodes that determine those: positive, and
@@ -153,7 +156,8 @@ Operators nodal_operators(const NodalSurface& S) {
   C.M = node_masses(S, C.A);
   const auto P = std::make_shared<const SpMat>(S.P);
   C.G = {fine.G.rows, n, [P, G = fine.G](const VecX& u) { return G.apply(*P * u); },
-         [P, G = fine.G](const VecX& g) { return VecX(P->transpose() * G.adjoint(g)); }};
+         [P, G = fine.G](const VecX& g) { return VecX(P->transpose() * G.adjoint(g)); },
+         [P, G = fine.G] { return SpRows(G.matrix() * SpRows(*P)); }};
   C.h = S.spacing;
   C.component.assign(S.place->component.begin(), S.place->component.begin() + n);
   C.n_components = S.place->n_components;

@@ -1,6 +1,7 @@
 #include "littoral/operators/triangles.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
 
@@ -39,6 +40,32 @@ Complex hat_gradient(const IntrinsicTriangulation& T, const TriangleShape& t, in
   return Complex(0, T.orientation[f]) * opposite / (2 * t.area);
 }
 
+/// The same for all faces: rows 2 f and 2 f + 1 hold the parts of face f's gradient.
+SpRows gradient_matrix(const IntrinsicTriangulation& T) {
+  SpRows G(2 * T.n_faces(), T.n_vertices);
+  G.resizeNonZeros(6 * Eigen::Index{T.n_faces()});
+  int* begin = G.outerIndexPtr();
+  begin[2 * T.n_faces()] = 6 * T.n_faces();
+  parallel_for(T.n_faces(), face_grain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t s = first; s < end; ++s) {
+      const int f = static_cast<int>(s);
+      const TriangleShape t = T.shape(f);
+      std::array<int, 3> corner = {0, 1, 2};
+      std::sort(corner.begin(), corner.end(),
+                [&](int a, int b) { return T.faces(f, a) < T.faces(f, b); });
+      for (int d = 0; d < 2; ++d) begin[2 * f + d] = 6 * f + 3 * d;
+      for (int k = 0; k < 3; ++k) {
+        const Complex g = hat_gradient(T, t, f, corner[k]);
+        for (int d = 0; d < 2; ++d) {
+          G.innerIndexPtr()[6 * f + 3 * d + k] = T.faces(f, corner[k]);
+          G.valuePtr()[6 * f + 3 * d + k] = d == 0 ? g.real() : g.imag();
+        }
+      }
+    }
+  });
+  return G;
+}
+
 LinearMap gradient(Triangulation T) {
   LinearMap G;
   G.rows = 2 * T->n_faces();
@@ -68,6 +95,7 @@ LinearMap gradient(Triangulation T) {
     }
     return u;
   };
+  G.matrix = [T] { return gradient_matrix(*T); };
   return G;
 }
 

@@ -9,6 +9,7 @@
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
 #include "littoral/contour/isosurface.h"
+#include "test_meshes.h"
 #include "volume_helpers.h"
 
 namespace littoral {
@@ -264,33 +265,12 @@ TEST(Isosurface, Cancels) {
   EXPECT_THROW(isosurface(field.grid, field.values, 0, {}, report, Task(cancel)), Cancelled);
 }
 
-// A lattice of cubes of six tets each, some of them mirrored.
+// n nodes along each axis of the test grids' box.
 TetMesh kuhn_lattice(int n) {
-  TetMesh mesh;
+  TetMesh mesh = test::tet_box(n - 1);
   const Grid grid = box_grid(n);
-  mesh.points.resize(static_cast<Eigen::Index>(grid.n_nodes()), 3);
-  std::vector<std::array<int, 4>> tets;
-  const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-  for (int k = 0; k < n; ++k) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        mesh.points.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
-        if (std::max({i, j, k}) == n - 1) continue;
-        for (const auto& axes : order) {
-          std::array<int, 3> at{i, j, k};
-          std::array<int, 4> tet{static_cast<int>(grid.node(i, j, k))};
-          for (int c = 0; c < 3; ++c) {
-            ++at[axes[c]];
-            tet[c + 1] = static_cast<int>(grid.node(at[0], at[1], at[2]));
-          }
-          tets.push_back(tet);
-        }
-      }
-    }
-  }
-  mesh.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    for (int c = 0; c < 4; ++c) mesh.tets(static_cast<Eigen::Index>(t), c) = tets[t][c];
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    mesh.points.row(v) = grid.point(v % n, v / n % n, v / n / n);
   return mesh;
 }
 

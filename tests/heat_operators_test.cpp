@@ -118,6 +118,7 @@ TEST_P(HeatOperators, GradientAndItsAdjointIntegrateByParts) {
   const VecX x = random_vector(C.G.cols), Y = random_vector(C.G.rows);
   const VecX gradient = C.G.apply(x);
   EXPECT_NEAR(gradient.dot(Y), x.dot(C.G.adjoint(Y)), 1e-12 * gradient.norm() * Y.norm());
+  EXPECT_LE((C.G.matrix() * x - gradient).norm(), 1e-12 * gradient.norm());
 }
 
 TEST_P(HeatOperators, MassesSumToTheArea) {

@@ -78,6 +78,7 @@ TEST(P2, CalculusIsConsistent) {
   EXPECT_NEAR((C.divergence(C.G.apply(u)) - Lu).norm(), 0, 1e-11 * Lu.norm());
   EXPECT_NEAR(C.G.apply(VecX::Ones(u.size())).norm(), 0, 1e-11);
   const VecX Gu = C.G.apply(u);
+  EXPECT_LE((C.G.matrix() * u - Gu).norm(), 1e-12 * Gu.norm());
   EXPECT_NEAR(Gu.dot(C.G.apply(v)), v.dot(C.G.adjoint(Gu)), 1e-9);
   EXPECT_NEAR(C.M.sum(), C.A.sum(), 1e-12);
   EXPECT_GT(C.M.minCoeff(), 0);

@@ -9,6 +9,7 @@
 #include "heat_helpers.h"
 #include "littoral/api/distance.h"
 #include "littoral/base/error.h"
+#include "littoral/operators/grid.h"
 #include "littoral/operators/tet_operators.h"
 #include "test_meshes.h"
 
@@ -109,58 +110,10 @@ TEST(Sharpen, ComponentsWithoutASourceStayInfinite) {
 }
 
 TEST(Sharpen, TetsFromAPlane) {
-  // A box of 3^3 cubes, five or six tets each are equally good: distance to the plane x = 0.5.
-  const int n = 4;
-  TetMesh mesh;
-  mesh.points.resize((n + 1) * (n + 1) * (n + 1), 3);
-  auto id = [](int i, int j, int k) { return i + 5 * (j + 5 * k); };
-  for (int k = 0; k <= n; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) mesh.points.row(id(i, j, k)) << i / 4., j / 4., k / 4.;
-  std::vector<std::array<int, 4>> tets;
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const int a = id(i, j, k), h = id(i + 1, j + 1, k + 1);
-        const int path[6][2] = {{1, 2}, {1, 4}, {2, 1}, {2, 4}, {4, 1}, {4, 2}};
-        auto corner = [&](int bits) {
-          return id(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));
-        };
-        for (const auto& p : path) tets.push_back({a, corner(p[0]), corner(p[0] | p[1]), h});
-      }
-  mesh.tets.resize(static_cast<Eigen::Index>(tets.size()), 4);
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    for (int c = 0; c < 4; ++c) mesh.tets(static_cast<Eigen::Index>(t), c) = tets[t][c];
-  const auto tet = std::make_shared<const TetOperators>(tet_operators(mesh));
+  const TetMesh mesh = test::tet_box(4);  // distance to the plane x = 0.5
   Operators ops;
-  Calculus& C = ops.scalar;
-  const Eigen::Index nt = mesh.tets.rows(), nv = mesh.points.rows();
-  C.L = tet->L;
-  C.A = tet->volumes;
-  C.M = VecX::Zero(nv);
-  for (Eigen::Index t = 0; t < nt; ++t)
-    for (int c = 0; c < 4; ++c) C.M[mesh.tets(t, c)] += C.A[t] / 4;
-  C.G.rows = 3 * nt;
-  C.G.cols = nv;
-  C.G.apply = [&mesh, tet, nt](const VecX& u) {
-    VecX g(3 * nt);
-    for (Eigen::Index t = 0; t < nt; ++t) {
-      Vec3 sum = Vec3::Zero();
-      for (int c = 0; c < 4; ++c) sum += u[mesh.tets(t, c)] * tet->gradients[t].row(c).transpose();
-      g.segment<3>(3 * t) = sum;
-    }
-    return g;
-  };
-  C.G.adjoint = [&mesh, tet, nt, nv](const VecX& g) {
-    VecX u = VecX::Zero(nv);
-    for (Eigen::Index t = 0; t < nt; ++t)
-      for (int c = 0; c < 4; ++c)
-        u[mesh.tets(t, c)] += tet->gradients[t].row(c).dot(g.segment<3>(3 * t));
-    return u;
-  };
-  C.h = 0.25;
-  C.component = tet->component;
-  C.n_components = tet->n_components;
+  ops.scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
+  const Eigen::Index nv = mesh.n_vertices();
   SourceTerms terms;
   terms.reached = {1};
   Triplets rows;
@@ -175,6 +128,60 @@ TEST(Sharpen, TetsFromAPlane) {
   const VecX phi = sharpen(ops, terms, phi0, {}, {}, report);
   EXPECT_EQ(report.status, "converged");
   for (Eigen::Index v = 0; v < nv; ++v) EXPECT_NEAR(phi[v], mesh.points(v, 0) - 0.5, 5e-3) << v;
+}
+
+TEST(Sharpen, GridAroundASphere) {
+  Grid grid;
+  grid.n = {17, 17, 17};
+  grid.origin.setConstant(-1);
+  grid.spacing.setConstant(0.125);
+  Operators ops;
+  ops.scalar = grid_calculus(grid);
+  // Flattened far away, steepened near: only the zero set is right, r = 0.6.
+  VecX phi0(static_cast<Eigen::Index>(grid.n_nodes())), r(phi0.size());
+  for (int k = 0; k < 17; ++k)
+    for (int j = 0; j < 17; ++j)
+      for (int i = 0; i < 17; ++i) {
+        const auto node = static_cast<Eigen::Index>(grid.node(i, j, k));
+        r[node] = grid.point(i, j, k).norm();
+        phi0[node] = std::tanh(3 * (r[node] - 0.6)) / 3;
+      }
+  PolygonSoup sphere = test::octasphere_soup(3);
+  const MatX3 on_it = 0.6 * sphere.points;
+  const SpMat rows = grid_rows(grid, on_it, VecX::Ones(on_it.rows())).A;
+  for (const SharpenSolver solver : {SharpenSolver::pdhg, SharpenSolver::admm}) {
+    Report report;
+    const VecX phi = sharpen_in_space(ops, rows, phi0, solver, {}, report);
+    EXPECT_EQ(report.status, "converged");
+    EXPECT_GE(phi.cwiseProduct(phi0).minCoeff(), 0);
+    double before = 0, after = 0;
+    for (Eigen::Index v = 0; v < phi.size(); ++v) {
+      before += std::abs(phi0[v] - (r[v] - 0.6));
+      after += std::abs(phi[v] - (r[v] - 0.6));
+    }
+    EXPECT_LT(after, 0.25 * before);
+    EXPECT_LT(after / static_cast<double>(phi.size()), 0.03);  // a quarter of the spacing
+  }
+}
+
+TEST(GridCalculus, FitsTogetherAndIsExactForLinearFunctions) {
+  Grid grid;
+  grid.n = {5, 4, 3};
+  grid.origin << 1, 2, 3;
+  grid.spacing << 0.5, 0.25, 1;
+  const Calculus C = grid_calculus(grid);
+  VecX u(60), v(60), linear(60);
+  for (int i = 0; i < 60; ++i) {
+    u[i] = std::sin(7.1 * i);
+    v[i] = std::cos(3.3 * i);
+    linear[i] = Vec3(2, -1, 0.5).dot(grid.point(i % 5, i / 5 % 4, i / 20));
+  }
+  const VecX Gu = C.G.apply(u);
+  EXPECT_LT((C.G.matrix() * u - Gu).norm(), 1e-12);
+  const VecX Lu = C.L.selfadjointView<Eigen::Lower>() * u;
+  EXPECT_LT((C.divergence(Gu) - Lu).norm(), 1e-12 * Lu.norm());
+  EXPECT_NEAR(Gu.dot(C.G.apply(v)), v.dot(C.G.adjoint(Gu)), 1e-10);
+  EXPECT_LT((C.G.apply(linear).segment<3>(0) - Vec3(2, -1, 0.5)).norm(), 1e-12);
 }
 
 TEST(Sharpen, ThroughTheFrontDoor) {

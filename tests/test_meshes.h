@@ -7,6 +7,7 @@
 #include <random>
 
 #include "littoral/domain/surface_mesh.h"
+#include "littoral/domain/tet_mesh.h"
 
 namespace littoral::test {
 
@@ -49,6 +50,31 @@ inline PolygonSoup jittered_grid_soup(int nx, int ny, double amount, unsigned se
       soup.points(i + j * (nx + 1), 1) += u(random) / ny;
     }
   return soup;
+}
+
+/// The unit cube in n^3 cubes of six tets each around their diagonals.
+inline TetMesh tet_box(int n) {
+  TetMesh mesh;
+  const int m = n + 1;
+  mesh.points.resize(m * m * m, 3);
+  auto id = [m](int i, int j, int k) { return i + m * (j + m * k); };
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        mesh.points.row(id(i, j, k)) << double(i) / n, double(j) / n, double(k) / n;
+  mesh.tets.resize(6 * n * n * n, 4);
+  int t = 0;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const int path[6][2] = {{1, 2}, {1, 4}, {2, 1}, {2, 4}, {4, 1}, {4, 2}};
+        auto corner = [&](int bits) {
+          return id(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));
+        };
+        for (const auto& p : path)
+          mesh.tets.row(t++) << corner(0), corner(p[0]), corner(p[0] | p[1]), corner(7);
+      }
+  return mesh;
 }
 
 /// Octahedron refined `level` times, on the unit sphere; 8 * 4^level faces. The equator z = 0 and

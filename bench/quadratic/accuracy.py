@@ -175,6 +175,7 @@ def draw(
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
+    from matplotlib.ticker import NullFormatter
 
     figure, axes = pyplot.subplots(1, 2, figsize=(8, 3.4))
     for axis, which, what in ((axes[0], 0, "RMSE"), (axes[1], 1, "largest error")):
@@ -182,6 +183,7 @@ def draw(
             axis.loglog(
                 [h for h, _ in results], [e[n][which] for _, e in results], "o-", label=LABELS[n]
             )
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.set_xlabel(label)
         axis.set_title(f"{title}: {what}", fontsize=9)
         axis.grid(True, which="both", alpha=0.3)

@@ -1,13 +1,14 @@
 """Regularized distance in the tables of its paper, on meshes at hand.
 
-usage: study.py sizes MESH [--levels N] | errors MESH... | pairs MESH... | symmetry MESH
-                | reference FOLDER
+usage: study.py sizes MESH[:N]... | errors MESH... | pairs MESH... | symmetry MESH
+                | spectrum MESH | reference FOLDER
 
-Prints Markdown. `sizes` is table 1: iterations and seconds as a mesh is subdivided. `errors` is
-table 2: largest error over the largest exact distance, beside heat. `pairs` is table 3: the share
-of triplets against the triangle inequality, and the asymmetry, for all pairs of vertices.
-`symmetry` is figure 11. `reference` compares with the authors' answers in the folder of one of
-their meshes: difference, objective, longest gradient. Seconds are processor time of the program.
+Prints Markdown. `sizes` is table 1: iterations and seconds, of meshes subdivided N times.
+`errors` is table 2: largest error over the largest exact distance, beside heat. `pairs` is table
+3: the share of triplets against the triangle inequality, and the asymmetry, for all pairs of
+vertices. `symmetry` is figure 11, `spectrum` figure 4 of the supplement. `reference` compares with
+the authors' answers in the folder of one of their meshes: difference, objective, longest gradient.
+Seconds are processor time of the program.
 """
 
 import argparse
@@ -16,7 +17,9 @@ import resource
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -39,23 +42,45 @@ def items(entries: dict[str, float] | list[list[str | float]]) -> list[tuple[str
     return [(str(name), float(value)) for name, value in entries]
 
 
-def sizes(path: Path, levels: int) -> None:
-    """Table 1: one source, alpha-hat 0.05, the default tolerance."""
-    points, faces = load(path)
-    print("| faces | iterations | seconds | of these solving | longest gradient over 1 |")
-    print("|---|---|---|---|---|")
-    for level in range(levels):
-        if level > 0:
+def sizes(meshes: list[str]) -> None:
+    """Table 1: one source, alpha-hat 0.05, the default tolerance; MESH:N is subdivided N times."""
+    print(
+        "| mesh | faces | iterations | processor seconds | of these reading and factoring (wall) "
+        "| peak memory, MB | longest gradient over 1 |"
+    )
+    print("|---" * 7 + "|")
+    for name in meshes:
+        path, _, times = name.partition(":")
+        points, faces = load(Path(path))
+        for _ in range(int(times or 0)):
             finer = Subdivision(points, faces)
             points, faces = finer.points, finer.faces
-        run = Run(points, faces, 0, "regularized")
-        iterations, longest, status = facts(run)
-        solving = dict(items(run.report["timings"])).get("solve", 0)
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = Path(folder) / "mesh.obj"
+            write_obj(mesh, points, faces)
+            report, seconds = timed(
+                ["distance", str(mesh), "--vertex", "0", "--method", "regularized",
+                 "-o", str(Path(folder) / "d.npy")]
+            )  # fmt: skip
+        timings = dict(items(report["timings"]))
+        longest = find(dict(items(report["residuals"])), "over 1")
         print(
-            f"| {len(faces)} | {iterations} | {run.seconds:.1f} | {solving:.1f} (wall) "
-            f"| {longest:.1e}{'' if status == 'converged' else ' (' + status + ')'} |",
+            f"| {Path(path).stem} | {len(faces)} | {dict(items(report['iterations']))['admm']:.0f} "
+            f"| {seconds:.1f} | {timings['read'] + timings['factor']:.1f} "
+            f"| {report['peak_memory_mb']:.0f} | {longest:.1e} |",
             flush=True,
         )
+
+
+def timed(arguments: list[str]) -> tuple[dict[str, Any], float]:
+    """Report and processor seconds of one call of the program."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [PROGRAM, *arguments, "--json", "--quiet"], check=True, capture_output=True, text=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads(done.stdout), seconds
 
 
 COLUMNS: list[tuple[str, str, list[str]]] = [
@@ -92,16 +117,8 @@ def all_pairs(mesh: Path, extra: list[str]) -> tuple[dict[str, float], float, Fl
     """Residuals of the report, processor seconds, matrix."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "d.npy"
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(
-            [PROGRAM, "pairs", str(mesh), "-o", str(out), "--json", "--quiet", *extra],
-            check=True,
-            capture_output=True,
-            text=True,
-        )
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        return dict(items(json.loads(done.stdout)["residuals"])), seconds, np.load(out)
+        report, seconds = timed(["pairs", str(mesh), "-o", str(out), *extra])
+        return dict(items(report["residuals"])), seconds, np.load(out)
 
 
 def pairs(paths: list[Path]) -> None:
@@ -158,6 +175,49 @@ def symmetry(path: Path) -> None:
                 print(f"| {name} | {v} | {e.mean():.1e} | {e.max():.1e} |", flush=True)
 
 
+def eigenfunctions(points: Floats, faces: Ints) -> tuple[Floats, Floats]:
+    """Of the cotangent Laplacian, as columns ascending, and the lumped masses."""
+    n = len(points)
+    L, M = np.zeros((n, n)), np.zeros(n)
+    for k in range(3):
+        i, j, o = faces[:, k], faces[:, (k + 1) % 3], faces[:, (k + 2) % 3]
+        a, b = points[i] - points[o], points[j] - points[o]
+        double = np.linalg.norm(np.cross(a, b), axis=1)
+        w = 0.5 * (a * b).sum(1) / double
+        for r, c, sign in ((i, i, 1), (j, j, 1), (i, j, -1), (j, i, -1)):
+            np.add.at(L, (r, c), sign * w)
+        np.add.at(M, o, double / 6)
+    root = 1 / np.sqrt(M)
+    _, vectors = np.linalg.eigh(root[:, None] * L * root[None, :])
+    return root[:, None] * vectors, M
+
+
+def spectrum(path: Path) -> None:
+    """What is left of a distance after projection to the first eigenfunctions, relative, mean."""
+    points, faces = load(path)
+    functions, M = eigenfunctions(points, faces)
+    counts = (5, 10, 20, 40, 80)
+    print("| method | " + " | ".join(f"{k} functions" for k in counts) + " |")
+    print("|---" * (1 + len(counts)) + "|")
+    with tempfile.TemporaryDirectory() as folder:
+        mesh = Path(folder) / "mesh.obj"
+        write_obj(mesh, points, faces)
+        for name, extra in (
+            ("heat", ["--method", "unsigned-heat"]),
+            ("fast marching", ["--method", "fast-marching"]),
+            ("exact", ["--method", "exact"]),
+            ("alpha 0.05, one source each", ["--method", "regularized"]),
+            ("alpha 0.05, symmetric", []),
+            ("alpha 0.15, one source each", ["--method", "regularized", "--alpha", "0.15"]),
+            ("alpha 0.15, symmetric", ["--alpha", "0.15"]),
+        ):
+            _, _, d = all_pairs(mesh, extra)
+            weights = functions.T @ (M[:, None] * d.T)  # functions x sources
+            size = np.sqrt((M[:, None] * d.T**2).sum(0))
+            left = [np.sqrt((weights[k:] ** 2).sum(0)) / size for k in counts]
+            print(f"| {name} | " + " | ".join(f"{100 * e.mean():.2f} %" for e in left) + " |")
+
+
 def objective(points: Floats, faces: Ints, u: Floats, alpha_hat: float) -> tuple[float, float]:
     """Eq. 11 with the Dirichlet energy, of u shrunk to slope 1, and u's longest gradient."""
     p, q, r = (points[faces[:, k]] for k in range(3))
@@ -203,23 +263,23 @@ def reference(folder: Path) -> None:
             )
 
 
+STUDIES: dict[str, Callable[[list[Path]], None]] = {
+    "sizes": lambda paths: sizes([str(path) for path in paths]),
+    "errors": errors,
+    "pairs": pairs,
+    "symmetry": lambda paths: symmetry(paths[0]),
+    "spectrum": lambda paths: spectrum(paths[0]),
+    "reference": lambda paths: reference(paths[0]),
+}
+
+
 def main() -> None:
     """Reads the arguments."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", choices=["sizes", "errors", "pairs", "symmetry", "reference"])
+    parser.add_argument("study", choices=sorted(STUDIES))
     parser.add_argument("paths", nargs="+", type=Path)
-    parser.add_argument("--levels", type=int, default=4)
     arguments = parser.parse_args()
-    if arguments.study == "sizes":
-        sizes(arguments.paths[0], arguments.levels)
-    elif arguments.study == "errors":
-        errors(arguments.paths)
-    elif arguments.study == "pairs":
-        pairs(arguments.paths)
-    elif arguments.study == "symmetry":
-        symmetry(arguments.paths[0])
-    else:
-        reference(arguments.paths[0])
+    STUDIES[arguments.study](arguments.paths)
 
 
 if __name__ == "__main__":

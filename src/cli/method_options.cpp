@@ -42,6 +42,13 @@ void add_method_options(CLI::App& verb, GivenOptions& given) {
   add_method_options(verb, given, methods());
 }
 
+void add_method_option(CLI::App& verb, std::string& name, const std::vector<MethodInfo>& methods) {
+  std::string names;
+  for (const MethodInfo& method : methods) names += (names.empty() ? "" : ", ") + method.name;
+  verb.add_option("--method", name, names + " [default " + methods.front().name + "]")
+      ->type_name("NAME");
+}
+
 void use_method_options(const GivenOptions& given, DistanceRequest& request) {
   const MethodInfo& method = find_method(request.method);
   for (const auto& [name, text] : given) {

@@ -17,6 +17,9 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
 /// The same for the methods on surfaces.
 void add_method_options(CLI::App& verb, GivenOptions& given);
 
+/// Adds --method, whose help lists them and says that the first is the default.
+void add_method_option(CLI::App& verb, std::string& name, const std::vector<MethodInfo>& methods);
+
 /// Puts the options that were given into the request and checks it.
 void use_method_options(const GivenOptions& given, DistanceRequest& request);
 

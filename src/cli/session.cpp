@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 
+#include "littoral/api/report_json.h"
 #include "littoral/base/error.h"
 #include "littoral/base/option_table.h"
 #include "littoral/io/scene.h"
@@ -62,6 +64,12 @@ void Session::print_warnings() {
       std::fprintf(stderr, "littoral: warning: %s\n", one_line(report.warnings[warned_]).c_str());
 }
 
+void Session::print_report() {
+  print_warnings();
+  print_details();
+  if (json) std::cout << report_json(report) << "\n";
+}
+
 void Session::print_details() const {
   if (!verbose) return;
   std::fprintf(stderr, "method: %s on a %s\n", report.method.c_str(), report.domain.c_str());
@@ -85,6 +93,12 @@ void add_common_options(CLI::App& verb, Session& session) {
       ->type_name("WHEN");
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
+}
+
+void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help) {
+  add_repeated_option(verb, "-o,--output", files, help + "; may be repeated")
+      ->required()
+      ->type_name("OUT");
 }
 
 void add_json_option(CLI::App& verb, Session& session) {

@@ -34,6 +34,8 @@ struct Session {
   void print_warnings();
   /// Prints method, options, sizes and timings on stderr.
   void print_details() const;
+  /// What a verb says at its end: warnings, details, and the report as JSON where asked for.
+  void print_report();
 
  private:
   bool drawn_ = false;
@@ -42,6 +44,16 @@ struct Session {
 
 /// Adds --threads, --progress, --verbose and --quiet.
 void add_common_options(CLI::App& verb, Session& session);
+/// Adds an option that may be given several times, one value each.
+template <class T>
+CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::vector<T>& values,
+                                 const std::string& help) {
+  return verb.add_option(names, values, help)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+/// Adds -o, which must be given and may be several times.
+void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help);
 /// Adds --json.
 void add_json_option(CLI::App& verb, Session& session);
 /// Adds --index-base.

@@ -1,6 +1,5 @@
 // littoral distance: distance on a surface from curves and points on it.
 
-#include <iostream>
 #include <memory>
 
 #include "cli/method_options.h"
@@ -9,12 +8,12 @@
 #include "cli/verbs.h"
 #include "littoral/api/distance.h"
 #include "littoral/api/registry.h"
-#include "littoral/api/report_json.h"
 #include "littoral/base/error.h"
 #include "littoral/io/picture.h"
 #include "littoral/io/read.h"
 #include "littoral/io/scene.h"
 #include "littoral/io/write.h"
+#include "littoral/sources/boundary_curves.h"
 
 namespace littoral::cli {
 
@@ -27,6 +26,7 @@ struct Arguments {
   std::string domain;
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
+  bool boundary = false;
   DistanceRequest request;
   GivenOptions options;
 };
@@ -36,10 +36,17 @@ SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mes
   SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
   for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
     sources.points.push_back(SurfacePoint::at_vertex(v));
+  if (arguments.boundary) {
+    const std::vector<SurfaceCurve> loops = boundary_curves(mesh);
+    if (loops.empty())
+      throw InputError("option --boundary: " + arguments.domain + " has no boundary");
+    sources.curves.insert(sources.curves.end(), loops.begin(), loops.end());
+  }
   if (!sources.empty()) return sources;
   if (!mesh.soup().lines.empty()) return io::sources_from_lines(mesh.soup(), arguments.domain);
-  throw InputError("nothing to measure distance from: name --sources FILE or --vertex I (" +
-                   arguments.domain + " has no lines of its own)");
+  throw InputError(
+      "nothing to measure distance from: name --sources FILE, --vertex I or --boundary (" +
+      arguments.domain + " has no lines of its own)");
 }
 
 /// Files get a cloud's points without the triangles that show it.
@@ -108,9 +115,7 @@ void run(Arguments& arguments, Session& session) {
     write_results(arguments, mesh, sources, std::move(answer), task.stage(0.05, "writing"),
                   session);
   }
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(report) << "\n";
+  session.print_report();
 }
 
 }  // namespace
@@ -120,35 +125,25 @@ void add_distance(CLI::App& program, Session& session) {
                                           "distance on a surface from curves and points on it, or "
                                           "through tets");
   auto arguments = std::make_shared<Arguments>();
-  std::string names;
-  for (const MethodInfo& method : methods()) names += (names.empty() ? "" : ", ") + method.name;
   verb->add_option("DOMAIN", arguments->domain,
                    "the surface: mesh .obj .ply .off .stl, point cloud .pc .xyz .pcd .ply, "
                    "voxels .vol .npy .nrrd .vti; or tets .mesh .vtk .tet")
       ->required()
       ->type_name("");
-  verb->add_option(
-          "--sources,-s", arguments->sources,
-          "what distance is measured from: .txt .json .obj .ply, in tets any surface or cloud; "
-          "may be repeated; without sources and --vertex, the lines of DOMAIN, or the "
-          "triangles among its tets")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  add_repeated_option(*verb, "--sources,-s", arguments->sources,
+                      "what distance is measured from: .txt .json .obj .ply, in tets any surface "
+                      "or cloud; may be repeated; without sources, --vertex and --boundary, the "
+                      "lines of DOMAIN, or the triangles among its tets")
       ->type_name("FILE");
-  verb->add_option("--vertex", arguments->vertices, "a source vertex, from 0; may be repeated")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  add_repeated_option(*verb, "--vertex", arguments->vertices,
+                      "a source vertex, from 0; may be repeated")
       ->type_name("I");
-  verb->add_option(
-          "-o,--output", arguments->out,
-          "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too; "
-          "may be repeated")
-      ->required()
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("OUT");
-  verb->add_option("--method", arguments->request.method, names + " [default signed-heat]")
-      ->type_name("NAME");
+  verb->add_flag("--boundary", arguments->boundary,
+                 "measure from the boundary of the surface, without sign");
+  add_output_option(
+      *verb, arguments->out,
+      "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too");
+  add_method_option(*verb, arguments->request.method, methods());
   verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
   add_method_options(*verb, arguments->options);
   add_index_option(*verb, session);

@@ -1,13 +1,11 @@
 // littoral pairs: distance between all pairs of vertices of a surface.
 
-#include <iostream>
 #include <memory>
 
 #include "cli/method_options.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/pairs.h"
-#include "littoral/api/report_json.h"
 #include "littoral/base/error.h"
 #include "littoral/io/write_table.h"
 
@@ -49,9 +47,7 @@ void run(Arguments& arguments, Session& session) {
       io::write_table(file, names, answer.distances);
     }
   }
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(report) << "\n";
+  session.print_report();
 }
 
 }  // namespace
@@ -60,26 +56,15 @@ void add_pairs(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "pairs", "distance between all pairs of vertices of a triangle mesh, as a matrix");
   auto arguments = std::make_shared<Arguments>();
-  std::string names;
-  for (const MethodInfo& method : pair_methods())
-    names += (names.empty() ? "" : ", ") + method.name;
   verb->add_option("DOMAIN", arguments->domain, "the surface: .obj .ply .off .stl")
       ->required()
       ->type_name("");
-  verb->add_option("--vertex", arguments->vertices,
-                   "a vertex to measure from, from 0; may be repeated; without, all")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  add_repeated_option(*verb, "--vertex", arguments->vertices,
+                      "a vertex to measure from, from 0; may be repeated; without, all")
       ->type_name("I");
-  verb->add_option("-o,--output", arguments->out,
-                   "the matrix, a row for each vertex measured from: .npy .csv .txt; may be "
-                   "repeated")
-      ->required()
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("OUT");
-  verb->add_option("--method", arguments->request.method, names + " [default symmetric]")
-      ->type_name("NAME");
+  add_output_option(*verb, arguments->out,
+                    "the matrix, a row for each vertex measured from: .npy .csv .txt");
+  add_method_option(*verb, arguments->request.method, pair_methods());
   add_method_options(*verb, arguments->options, pair_methods());
   add_index_option(*verb, session);
   add_json_option(*verb, session);

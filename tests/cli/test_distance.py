@@ -53,6 +53,25 @@ def test_vertex_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
     assert values(tmp_path / "b.txt") == a
 
 
+def test_boundary_is_a_source(run: Run, mesh: Path, tmp_path: Path) -> None:
+    for method in ("exact", "fast-marching", "regularized", "signed-heat"):
+        run("distance", mesh, "--boundary", "--method", method, "-o", "a.txt", "-o", "a.png")
+        a = values(tmp_path / "a.txt")
+        assert a[60] == pytest.approx(0.5, abs=0.08)  # the middle of the unit square
+        assert max(abs(a[i]) for i in range(11)) == pytest.approx(0, abs=0.06)
+    run("distance", mesh, "--boundary", "--vertex", 60, "--method", "exact", "-o", "b.txt")
+    b = values(tmp_path / "b.txt")
+    assert b[60] == 0 and max(b) < 0.3
+
+
+def test_quadratic_elements(run: Run, mesh: Path, tmp_path: Path) -> None:
+    words = ("distance", mesh, "--vertex", 0, "--method", "regularized", "--elements", "quadratic")
+    run(*words, "--subdivide", 2, "-o", "a.ply")
+    assert b"element vertex 441" in (tmp_path / "a.ply").read_bytes()
+    result = run(*words, "--regularizer", "hessian", "-o", "a.ply", status=2)
+    assert "Dirichlet" in result.stderr
+
+
 def test_lines_of_the_mesh_are_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
     line = "l " + " ".join(str(6 + 11 * j) for j in range(11)) + "\n"
     (tmp_path / "lines.obj").write_text(mesh.read_text() + line)

@@ -9,20 +9,17 @@
 
 #include "littoral/api/discontinuous.h"
 #include "littoral/api/surface_method.h"
+#include "littoral/api/translated.h"
 #include "littoral/base/error.h"
-#include "littoral/domain/cloud_surface.h"
 #include "littoral/domain/covering_mesh.h"
 #include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/domain/polygon_surface.h"
 #include "littoral/domain/triangulate.h"
 #include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat.h"
 #include "littoral/methods/time_scale.h"
 #include "littoral/methods/unsigned_heat.h"
-#include "littoral/operators/nodal.h"
 #include "littoral/operators/triangles.h"
 #include "littoral/sources/carried_sources.h"
-#include "littoral/sources/nodal_source_terms.h"
 #include "littoral/sources/refined_sources.h"
 #include "littoral/sources/triangle_source_terms.h"
 
@@ -30,22 +27,16 @@ namespace littoral {
 
 namespace {
 
-const std::vector<std::string> heat_domains = {"triangle mesh", "polygon mesh", "point cloud",
-                                               "voxel surface"};
-// Through tets it is a function of its own: api/tet_distance.h.
-const std::vector<std::string> signed_heat_domains = {"triangle mesh", "polygon mesh",
-                                                      "point cloud", "voxel surface", "tet mesh"};
+/// Through tets it is a function of its own: api/tet_distance.h.
+std::vector<std::string> signed_heat_domains() {
+  std::vector<std::string> domains = all_surfaces();
+  domains.push_back("tet mesh");
+  return domains;
+}
 
 /// What the method diffuses from the sources: functions can use a cover, vectors cannot.
 enum class Diffused { functions, vectors };
 using Needs = std::function<Diffused(const PreparedSources&)>;
-
-struct Translated {
-  std::shared_ptr<const Operators> ops;
-  SourceTerms terms;
-  std::optional<IntrinsicTriangulation> triangulation;  // of the input itself
-  std::shared_ptr<const SurfaceMesh> faces;             // of a cloud: something to look at
-};
 
 /// Throws where there are no polygons to cut into triangles.
 void needs_triangles(const SurfaceProblem& problem, const std::string& option) {
@@ -116,27 +107,6 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
   return {std::move(ops), source_terms(fine.mesh, fine.T, fine.sources), std::nullopt, nullptr};
 }
 
-NodalSurface nodal_surface(const SurfaceProblem& problem, const Task& task, Report& report) {
-  const SurfaceMesh& mesh = problem.mesh;
-  if (problem.face_normals) return voxel_surface(mesh, *problem.face_normals, report);
-  return mesh.n_faces() ? polygon_surface(mesh, report)
-                        : cloud_surface(mesh.points(), mesh.soup().normals, report, task);
-}
-
-Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& report) {
-  const NodalSurface S = [&] {
-    const Stopwatch watch(report, "triangulation");
-    return nodal_surface(problem, task, report);
-  }();
-  task.stage(0.03, "operators").checkpoint();
-  const PreparedSources prepared = prepared_sources(
-      problem, *S.refined,
-      refined_sources(problem.mesh, *S.refined, S.face_offsets, problem.sources), task, report);
-  const Stopwatch watch(report, "operators");
-  return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared),
-          std::nullopt, problem.mesh.n_faces() ? nullptr : S.refined};
-}
-
 /// The problem as operators and source terms: the first 10 % of a task.
 Translated translate(const SurfaceProblem& problem, bool retriangulate, Needs needs, Task& task,
                      Report& report) {
@@ -144,17 +114,6 @@ Translated translate(const SurfaceProblem& problem, bool retriangulate, Needs ne
   Translated out = triangles ? translate_triangles(problem, retriangulate, needs, task, report)
                              : translate_nodes(problem, task, report);
   task.stage(0.05, "heat method").checkpoint();
-  return out;
-}
-
-/// Values at the vertices of the input, which come first; a cloud is shown with triangles.
-SurfaceResult at_input(const SurfaceProblem& problem, const SurfaceMesh* faces,
-                       const VecX& values) {
-  SurfaceResult out{values.head(problem.mesh.n_vertices()), {}};
-  if (faces) {
-    out.shown = faces->soup();
-    out.shown->scalars["distance"] = out.values;
-  }
   return out;
 }
 
@@ -254,13 +213,13 @@ std::vector<SurfaceMethod> heat_methods() {
               {"signed-heat",
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
-               signed_heat_domains,
+               signed_heat_domains(),
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),
           surface_method({"unsigned-heat",
                           "Unsigned distance to curves and points.",
-                          heat_domains,
+                          all_surfaces(),
                           {},
                           "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
                          unsigned_heat_options(), unsigned_heat)};

@@ -122,10 +122,10 @@ FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Do
     options = options_of(constrained_options(), texts, report);
     options.alpha = 0;
   }
-  const auto regularized = std::make_shared<const Regularized>(
-      regularized_on(domain->mesh, domain->T, domain->ops, options, factoring, report));
+  const auto regularized = std::make_shared<const RegularizedSurface>(domain->mesh, domain->T,
+                                                                      options, factoring, report);
   return [domain, regularized, options](int v, const Task& t, Report& r) {
-    return regularized->solve(domain->terms(v), options, t, r);
+    return VecX(regularized->solve(domain->at(v), options, t, r).head(domain->mesh.n_vertices()));
   };
 }
 

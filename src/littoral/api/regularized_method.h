@@ -1,5 +1,5 @@
 #pragma once
-// The regularized method of one mesh, for callers that measure from many sources.
+// The regularized method of one triangle mesh, for callers that measure from many sources.
 
 #include <memory>
 
@@ -8,13 +8,32 @@
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/domain/surface_mesh.h"
 #include "littoral/methods/regularized.h"
+#include "littoral/operators/p2.h"
+#include "littoral/sources/pieces.h"
 
 namespace littoral {
 
-/// Reads and interpolates what the options name and factors what all sources share. ops: those of
-/// T, which is the mesh's. Throws InputError for bad directions.
-Regularized regularized_on(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                           const std::shared_ptr<const Operators>& ops,
-                           const RegularizedOptions& options, const Task& task, Report& report);
+/// Everything that sources share: directions read and interpolated, elements, one factorization.
+/// Immutable.
+class RegularizedSurface {
+ public:
+  /// mesh and T are referred to. Throws InputError for bad directions, UnsupportedError for a
+  /// regularizer that the elements do not have.
+  RegularizedSurface(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                     const RegularizedOptions& options, const Task& task, Report& report);
+
+  /// At the nodes [length of the input]: those of the vertices come first.
+  VecX solve(const PreparedSources& sources, const RegularizedOptions& options, const Task& task,
+             Report& report) const;
+
+  /// The quadratic elements, if those were asked for.
+  const P2Elements<2>* quadratic() const { return elements_.get(); }
+
+ private:
+  const SurfaceMesh& mesh_;
+  const IntrinsicTriangulation& T_;
+  std::shared_ptr<const P2Elements<2>> elements_;
+  std::unique_ptr<const Regularized> method_;
+};
 
 }  // namespace littoral

@@ -1,9 +1,14 @@
 // Regularized geodesic distance as an entry of the registry.
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "littoral/api/regularized_method.h"
+#include "littoral/api/subdivided.h"
 #include "littoral/api/surface_method.h"
+#include "littoral/api/translated.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/io/read_directions.h"
@@ -11,6 +16,7 @@
 #include "littoral/operators/curved_hessian.h"
 #include "littoral/operators/line_field.h"
 #include "littoral/operators/triangles.h"
+#include "littoral/sources/p2_sources.h"
 #include "littoral/sources/triangle_source_terms.h"
 
 namespace littoral {
@@ -77,36 +83,106 @@ VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
   return V;
 }
 
+/// Only the Hessian needs more than the scalar operators.
+std::shared_ptr<const Operators> operators_for(const IntrinsicTriangulation& T,
+                                               const P2Elements<2>* elements, bool vectors) {
+  if (vectors) return std::make_shared<const Operators>(triangle_operators(T));
+  Operators ops;
+  ops.domain = "triangle mesh";
+  ops.unit = T.unit;
+  ops.scalar = elements ? p2_calculus(*elements)
+                        : triangle_calculus(std::make_shared<const IntrinsicTriangulation>(T));
+  return std::make_shared<const Operators>(std::move(ops));
+}
+
+/// Rows u = 0 at points of quadratic elements.
+SourceTerms quadratic_terms(const P2Elements<2>& E, const std::vector<P2Source<2>>& sources) {
+  std::vector<P2Point<2>> points;
+  SourceTerms terms;
+  terms.reached.assign(static_cast<std::size_t>(E.n_components), 0);
+  for (const P2Source<2>& source : sources) {
+    points.push_back(source.where.front());
+    terms.reached[E.component[E.node[points.back().element][0]]] = 1;
+  }
+  terms.A = p2_interpolation<2>(E, points);
+  return terms;
+}
+
 }  // namespace
 
-Regularized regularized_on(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                           const std::shared_ptr<const Operators>& ops,
-                           const RegularizedOptions& options, const Task& task, Report& report) {
+RegularizedSurface::RegularizedSurface(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                       const RegularizedOptions& options, const Task& task,
+                                       Report& report)
+    : mesh_(mesh), T_(T) {
   const Stopwatch watch(report, "factor");
-  const auto regularizer = static_cast<Regularizer>(options.regularizer);
+  const auto regularizer =
+      options.alpha > 0 ? static_cast<Regularizer>(options.regularizer) : Regularizer::dirichlet;
+  if (static_cast<Elements>(options.elements) == Elements::quadratic) {
+    if (regularizer != Regularizer::dirichlet)
+      throw UnsupportedError(
+          "quadratic elements have the Dirichlet energy only: leave out --elements quadratic");
+    elements_ = std::make_shared<const P2Elements<2>>(p2_elements(T));
+  }
+  const auto ops = operators_for(T, elements_.get(), regularizer == Regularizer::hessian);
   RegularizerData data;
-  if (options.alpha > 0 && regularizer == Regularizer::align)
-    data.V = field(mesh, T, ops, options, task, report);
-  if (options.alpha > 0 && regularizer == Regularizer::hessian)
-    data.W = curved_hessian(T, ops->vector);
+  if (regularizer == Regularizer::align) data.V = field(mesh, T, ops, options, task, report);
+  if (regularizer == Regularizer::hessian) data.W = curved_hessian(T, ops->vector);
   if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, T);
-  return Regularized(ops, options.alpha > 0 ? regularizer : Regularizer::dirichlet, std::move(data),
-                     task);
+  method_ = std::make_unique<const Regularized>(ops, regularizer, std::move(data), task);
+}
+
+VecX RegularizedSurface::solve(const PreparedSources& sources, const RegularizedOptions& options,
+                               const Task& task, Report& report) const {
+  const SourceTerms terms = elements_
+                                ? quadratic_terms(*elements_, p2_sources(mesh_, T_, sources, 0.5))
+                                : source_terms(mesh_, T_, sources);
+  return method_->solve(terms, options, task, report);
 }
 
 namespace {
 
-SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& options, Task& task,
-                          Report& report) {
+SurfaceResult on_triangles(const SurfaceProblem& problem, const RegularizedOptions& options,
+                           Task& task, Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
   const IntrinsicTriangulation T = intrinsic_triangulation(problem.mesh, report);
-  const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-  const SourceTerms terms = source_terms(problem.mesh, T, prepared);
-  Task factoring = task.stage(0.3, "factoring");
-  const Regularized method = regularized_on(problem.mesh, T, ops, options, factoring, report);
+  const RegularizedSurface method(problem.mesh, T, options, task.stage(0.3, "factoring"), report);
   const Stopwatch watch(report, "solve");
-  return {method.solve(terms, options, task.stage(0.65, "alternating directions"), report), {}};
+  const VecX u =
+      method.solve(prepared, options, task.stage(0.65, "alternating directions"), report);
+  SurfaceResult result{u.head(problem.mesh.n_vertices()), {}};
+  const int n = static_cast<int>(options.subdivide);
+  const P2Elements<2>* E = method.quadratic();
+  if (E && n > 1)
+    result.shown = subdivided(problem.mesh, T, n, result.values, [&](int triangle, const Vec3& b) {
+      const double d = E->value(u, triangle, b);
+      return std::isfinite(d) ? std::max(0.0, d) : std::numeric_limits<double>::infinity();
+    });
+  return result;
+}
+
+/// Polygon meshes, point clouds, voxel surfaces: functions of values at nodes all the same.
+SurfaceResult on_nodes(const SurfaceProblem& problem, const RegularizedOptions& options, Task& task,
+                       Report& report) {
+  if (static_cast<Elements>(options.elements) == Elements::quadratic)
+    throw UnsupportedError("quadratic elements need a triangle mesh, not a " + problem.domain());
+  const auto regularizer = static_cast<Regularizer>(options.regularizer);
+  if (options.alpha > 0 && regularizer != Regularizer::dirichlet)
+    throw UnsupportedError("on a " + problem.domain() +
+                           " there is the regularizer dirichlet only; the others need a triangle "
+                           "mesh: littoral convert --triangulate");
+  const Translated on = translate_nodes(problem, task, report);
+  const Regularized method(on.ops, Regularizer::dirichlet, {}, task.stage(0.3, "factoring"));
+  const Stopwatch watch(report, "solve");
+  return at_input(
+      problem, on.faces.get(),
+      method.solve(on.terms, options, task.stage(0.65, "alternating directions"), report));
+}
+
+SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& options, Task& task,
+                          Report& report) {
+  return problem.domain() == "triangle mesh" ? on_triangles(problem, options, task, report)
+                                             : on_nodes(problem, options, task, report);
 }
 
 SurfaceResult belyaev_fayolle(const SurfaceProblem& problem, RegularizedOptions& options,
@@ -122,16 +198,15 @@ std::vector<SurfaceMethod> regularized_methods() {
       surface_method(
           {"regularized",
            "Unsigned distance that is smooth at the cut locus, aligned to directions, or "
-           "unaffected by "
-           "boundaries.",
-           {"triangle mesh"},
+           "unaffected by boundaries.",
+           all_surfaces(),
            {},
            "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
            "Geodesic Distances (2023)"},
           regularized_options(), regularized),
       surface_method({"belyaev-fayolle",
                       "Unsigned distance as the largest function of slope at most 1.",
-                      {"triangle mesh"},
+                      all_surfaces(),
                       {},
                       "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation "
                       "(2020)"},

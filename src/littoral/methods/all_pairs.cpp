@@ -36,22 +36,8 @@ constexpr Eigen::Index block = 16;  // columns worked on together
 constexpr double relaxation = 1.8;  // Boyd et al. 2011, 3.4.3
 constexpr int check_every = 5;
 
-using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 template <class Number>
 using Strip = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// The matrix of a map, from its products with the unit vectors.
-RowSparse assembled(const LinearMap& map) {
-  Triplets entries;
-  for (Eigen::Index j = 0; j < map.cols; ++j) {
-    const VecX column = map.apply(VecX::Unit(map.cols, j));
-    for (Eigen::Index i = 0; i < map.rows; ++i)
-      if (column[i] != 0) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), column[i]);
-  }
-  RowSparse matrix(map.rows, map.cols);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
 
 /// Squared norms over the product of the domain with itself.
 struct Norms {
@@ -77,10 +63,10 @@ class AllPairs {
     rho1_ = 2 * std::sqrt(area_);
     rho2_ = 50 / std::sqrt(area_);
     alpha_ = options.alpha * std::sqrt(area_);  // 7.1
-    G_ = assembled(C.G);
+    G_ = C.G.matrix();
     VecX A(2 * cells_);
     for (Eigen::Index c = 0; c < cells_; ++c) A.segment<2>(2 * c).setConstant(C.A[c]);
-    D_ = RowSparse(G_.transpose()) * A.asDiagonal();
+    D_ = SpRows(G_.transpose()) * A.asDiagonal();
     for (Eigen::Index j = 0; j < n_; j += block)
       S_.push_back(Strip<Number>::Zero(2 * cells_, std::min(block, n_ - j)));
     T_ = U_ = X_ = Matrix::Zero(n_, n_);
@@ -290,7 +276,7 @@ class AllPairs {
   Eigen::Index n_, cells_;
   double area_, rho1_ = 0, rho2_ = 0, alpha_ = 0, longest_ = 0, progress_ = 0;
   int next_change_ = 50;
-  RowSparse G_, D_;
+  SpRows G_, D_;
   std::unique_ptr<DefiniteSystem> factor_;
   std::vector<Strip<Number>> S_;  // 2 cells x nodes, by blocks of columns
   Matrix T_, U_, X_;              // nodes x nodes

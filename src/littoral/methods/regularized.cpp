@@ -11,7 +11,7 @@ namespace littoral {
 
 namespace {
 
-/// When to stop.
+/// When to stop, and on which functions.
 OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> table) {
   using O = RegularizedOptions;
   return table
@@ -21,7 +21,13 @@ OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> ta
               "If not 0, iterations go on until the duality gap is below this share of the "
               "objective.")
       .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-              "Iterations after which the best answer so far is given.");
+              "Iterations after which the best answer so far is given.")
+      .choice(
+          &O::elements, "elements", {"linear", "quadratic"},
+          "Functions on triangles: linear, or quadratic, which bend inside them and are rounder "
+          "near the source (Dirichlet energy and no energy; triangle meshes).")
+      .number(&O::subdivide, "subdivide", "", 1, 64,
+              "Write and draw a mesh with every side cut into this many parts (quadratic).");
 }
 
 }  // namespace
@@ -120,8 +126,7 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
   problem.A = C.A;
   problem.dim = dim;
   problem.energy = energy.get();
-  problem.gradient = C.G.apply;
-  problem.divergence = [&C](const VecX& z) { return C.divergence(z); };
+  problem.G = C.G.matrix();
 
   AdmmOptions admm_options;
   admm_options.relative = options.tolerance;

@@ -17,6 +17,9 @@ namespace littoral {
 /// F of eq. 2: what smoothness means.
 enum class Regularizer { dirichlet, hessian, align, max_norm };
 
+/// What functions are between the nodes; chosen where the operators are made (supplement 10.5).
+enum class Elements { linear, quadratic };
+
 struct RegularizedOptions {
   double alpha = 0.05;  // alpha-hat (7.1); 0: the distance of Belyaev and Fayolle (eq. 1)
   int regularizer = static_cast<int>(Regularizer::dirichlet);
@@ -27,6 +30,8 @@ struct RegularizedOptions {
   double tolerance = 2e-3;  // eps^rel of supplement 8
   double gap = 0;           // > 0: iterate until the relative duality gap is below
   double max_iterations = 10000;
+  int elements = static_cast<int>(Elements::linear);
+  double subdivide = 1;  // cuts of a triangle's sides where the field is shown
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.

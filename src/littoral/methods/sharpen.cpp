@@ -74,6 +74,22 @@ std::vector<int> band_of(const SpMat& L, const std::vector<int>& s) {
   return band;
 }
 
+/// G, and below it each row of R as the first of `dim` rows.
+SpRows stacked(const SpRows& G, const SpMat& R, int dim) {
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(G.nonZeros() + R.nonZeros()));
+  for (int r = 0; r < G.outerSize(); ++r)
+    for (SpRows::InnerIterator it(G, r); it; ++it)
+      entries.emplace_back(r, static_cast<int>(it.col()), it.value());
+  for (int j = 0; j < R.outerSize(); ++j)
+    for (SpMat::InnerIterator it(R, j); it; ++it)
+      entries.emplace_back(static_cast<int>(G.rows()) + dim * static_cast<int>(it.row()), j,
+                           it.value());
+  SpRows both(G.rows() + dim * R.rows(), G.cols());
+  both.setFromTriplets(entries.begin(), entries.end());
+  return both;
+}
+
 }  // namespace
 
 VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
@@ -98,7 +114,7 @@ VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
     for (SpMat::InnerIterator it(terms.A, j); it; ++it)
       entries.emplace_back(first_row + static_cast<int>(it.row()), static_cast<int>(it.col()),
                            it.value() / C.h);
-  for (Eigen::Index r = 0; r < terms.A.rows(); ++r) weight.push_back(10 * C.h * C.h);
+  for (Eigen::Index r = 0; r < terms.A.rows(); ++r) weight.push_back(10 * std::pow(C.h, dim));
   const auto extra = static_cast<Eigen::Index>(weight.size());
   SpMat R(extra, n);
   R.setFromTriplets(entries.begin(), entries.end());
@@ -117,23 +133,12 @@ VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
   }
   const SignedBall energy(dim, cells, band_sign);
   problem.energy = &energy;
-  problem.gradient = [&](const VecX& u) {
-    VecX z = VecX::Zero(dim * (cells + extra));
-    z.head(dim * cells) = C.G.apply(u);
-    const VecX values = R * u;
-    for (Eigen::Index r = 0; r < extra; ++r) z[dim * (cells + r)] = values[r];
-    return z;
-  };
-  problem.divergence = [&](const VecX& z) {
-    VecX values(extra);
-    for (Eigen::Index r = 0; r < extra; ++r) values[r] = w[r] * z[dim * (cells + r)];
-    return VecX(C.divergence(z.head(dim * cells)) + R.transpose() * values);
-  };
+  problem.G = stacked(C.G.matrix(), R, dim);
   VecX start(n);
   for (Eigen::Index i = 0; i < n; ++i) start[i] = gone[i] ? 0 : phi0[i] / ops.unit;
 
   AdmmState state;
-  state.z = problem.gradient(start);
+  multiply(problem.G, start, state.z, task);
   for (Eigen::Index c = 0; c < cells + extra; ++c) {
     const VecX given = state.z.segment(dim * c, dim);
     energy.prox(c, 1, given.data(), state.z.data() + dim * c);
@@ -169,6 +174,19 @@ VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
   for (Eigen::Index i = 0; i < n; ++i)
     if (!gone[i]) out[i] = s[i] * std::max(0.0, s[i] * result.u[i]) * ops.unit;
   return out;
+}
+
+VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
+                      SharpenSolver solver, const Task& task, Report& report) {
+  const Calculus& C = ops.scalar;
+  SourceTerms terms;
+  terms.A = rows;
+  terms.reached.assign(static_cast<std::size_t>(C.n_components), 0);
+  for (const int i : unknowns_of(rows))
+    if (C.component[i] >= 0) terms.reached[C.component[i]] = 1;
+  SharpenOptions options;
+  options.solver = solver;
+  return sharpen(ops, terms, phi0, options, task, report);
 }
 
 }  // namespace littoral

@@ -26,4 +26,9 @@ struct SharpenOptions {
 VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report);
 
+/// The same in space, where the source is rows (rows x nodes) at which phi vanishes and a component
+/// without a row has no source.
+VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
+                      SharpenSolver solver, const Task& task, Report& report);
+
 }  // namespace littoral

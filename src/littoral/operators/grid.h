@@ -7,6 +7,7 @@
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
 #include "littoral/domain/grid.h"
+#include "littoral/operators/calculus.h"
 
 namespace littoral {
 
@@ -16,6 +17,14 @@ using Directions = Rows<float, 3>;  // nodes x 3
 /// ends: the weak form of -div Y whose natural boundary condition is that of eq. 3. Nodes; sums to
 /// 0.
 VecX grid_divergence(const Grid& grid, const Directions& Y);
+
+/// The same as assembled operators, for methods that multiply often: a cell at every node, whose
+/// gradient (three numbers) is that of the grid edges that leave the node along the axes, 0 where
+/// none does; cell and node have the volume of a cube of the grid.
+Calculus grid_calculus(const Grid& grid);
+
+/// Bytes of that for so many nodes, with what `sharpen` needs on it.
+double grid_sharpening_memory(double nodes);
 
 /// Values at points from values at the nodes, linear along each axis. One row per grid cell that
 /// holds points: the mean over these points by weight, so that rows are independent (a point of

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "littoral/base/types.h"
+#include "littoral/solve/sparse_rows.h"
 
 namespace littoral {
 
@@ -12,6 +13,7 @@ struct LinearMap {
   Eigen::Index rows = 0, cols = 0;
   std::function<VecX(const VecX&)> apply;    // cols -> rows
   std::function<VecX(const VecX&)> adjoint;  // rows -> cols
+  std::function<SpRows()> matrix;            // rows x cols, for who multiplies often; may be empty
 };
 
 }  // namespace littoral

@@ -1,6 +1,7 @@
 #include "littoral/operators/nodal_cells.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "littoral/base/parallel.h"
 
@@ -45,7 +46,7 @@ void NodalCells::add_patch(const std::vector<int>& nodes, const VecXc& turn, con
 }
 
 LinearMap NodalCells::gradient(std::shared_ptr<const NodalCells> cells) {
-  LinearMap G{2 * cells->n_cells(), cells->n_nodes(), {}, {}};
+  LinearMap G{2 * cells->n_cells(), cells->n_nodes(), {}, {}, {}};
   G.apply = [cells](const VecX& u) {
     const VecX v = cells->P_ * u;
     VecX g(2 * cells->n_cells());
@@ -72,6 +73,23 @@ LinearMap NodalCells::gradient(std::shared_ptr<const NodalCells> cells) {
       v[corner[2]] += v2;
     }
     return VecX(cells->P_.transpose() * v);
+  };
+  G.matrix = [cells] {
+    Triplets entries;
+    for (int c = 0; c < cells->n_cells(); ++c) {
+      const auto corner = cells->corner_.row(c);
+      const auto s = cells->slope_.row(c);
+      for (const auto& [row, k, value] : {std::tuple(0, 1, s[0]),
+                                          {0, 0, -s[0]},
+                                          {1, 1, s[1]},
+                                          {1, 2, s[2]},
+                                          {1, 0, -s[1] - s[2]}})
+        for (Interpolation::InnerIterator it(cells->P_, corner[k]); it; ++it)
+          entries.emplace_back(2 * c + row, it.col(), value * it.value());
+    }
+    SpRows matrix(2 * cells->n_cells(), cells->n_nodes());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
   };
   return G;
 }
@@ -120,7 +138,7 @@ void NodalCells::adjoint_of_mean_in_patch(int p, const VecXc& Y, VecXc& X) const
 }
 
 LinearMap NodalCells::mean(std::shared_ptr<const NodalCells> cells) {
-  LinearMap Q{2 * cells->n_cells(), 2 * cells->n_nodes(), {}, {}};
+  LinearMap Q{2 * cells->n_cells(), 2 * cells->n_nodes(), {}, {}, {}};
   Q.apply = [cells](const VecX& x) {
     const VecXc X = as_complex(x);
     VecXc Y(cells->n_cells());

@@ -38,6 +38,20 @@ LinearMap gradient_map(std::shared_ptr<const P2Elements<2>> E) {
     }
     return u;
   };
+  G.matrix = [E] {
+    Triplets entries;
+    entries.reserve(E->node.size() * 36);
+    for (int f = 0; f < E->n_elements(); ++f) {
+      const auto g = slopes_at_cells(*E, f);
+      for (int k = 0; k < 3; ++k)
+        for (int d = 0; d < 2; ++d)
+          for (int i = 0; i < Shape::nodes; ++i)
+            entries.emplace_back(6 * f + 2 * k + d, E->node[f][i], g[k][d][i]);
+    }
+    SpRows matrix(6 * Eigen::Index{E->n_elements()}, E->n_nodes());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  };
   return G;
 }
 

@@ -2,10 +2,12 @@
 // The calculus of tet meshes: Crouzeix-Raviart functions on faces for diffusion (Appendix B),
 // linear functions on vertices for distance.
 
+#include <memory>
 #include <vector>
 
 #include "littoral/base/types.h"
 #include "littoral/domain/tet_mesh.h"
+#include "littoral/operators/calculus.h"
 
 namespace littoral {
 
@@ -34,6 +36,8 @@ struct TetOperators {
   /// Mean over the four faces of a tet (B.2): faces x 3 -> tets x 3.
   MatX3 to_tets(const MatX3& X) const;
 
+  const Rows<int, 4>& tets() const { return tets_; }
+
  private:
   friend TetOperators tet_operators(const TetMesh& mesh);
   Rows<int, 4> tets_;
@@ -42,5 +46,10 @@ struct TetOperators {
 /// Flat tets count as nothing. Orientation does not matter. Throws InputError for an index out of
 /// range, a vertex of a tet that is not finite, and a mesh without volume.
 TetOperators tet_operators(const TetMesh& mesh);
+
+/// Linear functions on the vertices as a calculus, for methods that know no tets: cells are tets
+/// with three numbers each, M [length^3] is lumped, h the mean edge of
+/// regular tets of these volumes.
+Calculus tet_calculus(const std::shared_ptr<const TetOperators>& T);
 
 }  // namespace littoral

@@ -65,6 +65,32 @@ auto per_face(const IntrinsicTriangulation& T, Compute compute) {
   return std::make_shared<const PerFace<Compute>>(T, std::move(compute));
 }
 
+/// The same for all faces: rows 2 f and 2 f + 1 hold the parts of face f's gradient.
+SpRows gradient_matrix(const IntrinsicTriangulation& T) {
+  SpRows G(2 * T.n_faces(), T.n_vertices);
+  G.resizeNonZeros(6 * Eigen::Index{T.n_faces()});
+  int* begin = G.outerIndexPtr();
+  begin[2 * T.n_faces()] = 6 * T.n_faces();
+  parallel_for(T.n_faces(), face_grain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t s = first; s < end; ++s) {
+      const int f = static_cast<int>(s);
+      const TriangleShape t = T.shape(f);
+      std::array<int, 3> corner = {0, 1, 2};
+      std::sort(corner.begin(), corner.end(),
+                [&](int a, int b) { return T.faces(f, a) < T.faces(f, b); });
+      for (int d = 0; d < 2; ++d) begin[2 * f + d] = 6 * f + 3 * d;
+      for (int k = 0; k < 3; ++k) {
+        const Complex g = hat_gradient(T, t, f, corner[k]);
+        for (int d = 0; d < 2; ++d) {
+          G.innerIndexPtr()[6 * f + 3 * d + k] = T.faces(f, corner[k]);
+          G.valuePtr()[6 * f + 3 * d + k] = d == 0 ? g.real() : g.imag();
+        }
+      }
+    }
+  });
+  return G;
+}
+
 LinearMap gradient(Triangulation T) {
   const auto hats = per_face(*T, [T](int f) {
     const TriangleShape t = T->shape(f);
@@ -99,6 +125,7 @@ LinearMap gradient(Triangulation T) {
     }
     return u;
   };
+  G.matrix = [T] { return gradient_matrix(*T); };
   return G;
 }
 

@@ -9,6 +9,7 @@
 #include "littoral/base/task.h"
 #include "littoral/base/types.h"
 #include "littoral/solve/cell_energy.h"
+#include "littoral/solve/sparse_rows.h"
 
 namespace littoral {
 
@@ -17,12 +18,13 @@ struct SplitProblem {
   VecX b;       // unknowns
   VecX A;       // cells, positive: the weights of the cells and of all norms over them
   int dim = 2;  // numbers a cell
-  std::function<VecX(const VecX& u)> gradient;           // G u: dim cells
-  std::function<VecX(const VecX& z)> divergence;         // D z = G^T A z: unknowns
+  SpRows G;     // dim cells x unknowns
   std::function<VecX(const VecX& u)> quadratic;          // P u; empty: P = 0
   std::function<VecX(const VecX& b, double rho)> solve;  // argmin 1/2 u^T (P + rho G^T A G) u - b^T
                                                          // u over the u that are allowed
   const CellEnergy* energy = nullptr;
+
+  SpRows divergence() const;  // D = G^T A, unknowns x dim cells
 };
 
 struct AdmmOptions {

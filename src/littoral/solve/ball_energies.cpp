@@ -53,16 +53,17 @@ BallQuadratic::BallQuadratic(int dim, double a, double b, VecX v)
     : dim_(dim), a_(a), b_(b), v_(std::move(v)) {}
 
 void BallQuadratic::prox(Eigen::Index cell, double rho, const double* w, double* z) const {
-  const In in(w, dim_);
-  Out out(z, dim_);
   const double v2 = b_ > 0 ? v_.segment(cell * dim_, dim_).squaredNorm() : 0;
   if (v2 > 0) {
     const Small n = v_.segment(cell * dim_, dim_) / std::sqrt(v2);
-    out = minimize_in_ball(a_ + rho, b_ * v2, n, Small(rho * in));
+    Out(z, dim_) = minimize_in_ball(a_ + rho, b_ * v2, n, Small(rho * In(w, dim_)));
     return;
   }
-  const double length = in.norm() * rho / (a_ + rho);
-  out = in * (rho / (a_ + rho) / std::max(1.0, length));
+  double length2 = 0;
+  for (int d = 0; d < dim_; ++d) length2 += w[d] * w[d];
+  const double share = rho / (a_ + rho), length = share * std::sqrt(length2);
+  const double shrink = length > 1 ? share / length : share;
+  for (int d = 0; d < dim_; ++d) z[d] = shrink * w[d];
 }
 
 double BallQuadratic::value(Eigen::Index cell, const double* z) const {

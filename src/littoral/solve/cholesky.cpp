@@ -13,6 +13,8 @@ namespace littoral {
 
 namespace {
 
+constexpr int narrow = 24;  // columns of a supernode up to which calls cost more than loops
+
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
 template <class Scalar>
@@ -195,13 +197,16 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
                       k) += in(i, k);
     }
     const Scalar* block = supernodes_[s].block.get();
-    dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
-    if (below == 0) continue;
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
     const int ldy = static_cast<int>(y.rows());
-    dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
-                 ldy);
+    if (n_rhs == 1 && columns <= narrow) {
+      dense::forward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+    } else {
+      dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
+      dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
+                   ldy);
+    }
     const int* target = E.target.data() + E.rows_begin[s];
     for (int k = 0; k < n_rhs; ++k)
       for (int i = 0; i < below; ++i) subtract_at(target[i], k) -= y(i, k);
@@ -217,16 +222,18 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
     if (!active[s]) continue;
     const int columns = E.columns(s), below = E.below(s), height = columns + below;
     const Scalar* block = supernodes_[s].block.get();
-    if (below > 0) {
-      if (y.rows() < below || y.cols() != n_rhs)
-        y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
-      const int ldy = static_cast<int>(y.rows());
-      const int* rows = E.rows.data() + E.rows_begin[s];
-      for (int k = 0; k < n_rhs; ++k)
-        for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
-      dense::subtract_adjoint(below, columns, n_rhs, block + columns, height, y.data(), ldy,
-                              &x(E.first[s], 0), E.n);
+    if (y.rows() < below || y.cols() != n_rhs)
+      y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
+    const int ldy = static_cast<int>(y.rows());
+    const int* rows = E.rows.data() + E.rows_begin[s];
+    for (int k = 0; k < n_rhs; ++k)
+      for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
+    if (n_rhs == 1 && columns <= narrow) {
+      dense::backward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+      continue;
     }
+    dense::subtract_adjoint(below, columns, n_rhs, block + columns, height, y.data(), ldy,
+                            &x(E.first[s], 0), E.n);
     dense::backward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
   }
 }

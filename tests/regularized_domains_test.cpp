@@ -1,0 +1,242 @@
+// Regularized distance on everything that has operators: tets, quadratic elements, polygon meshes,
+// point clouds, voxel surfaces; and from the boundary.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "littoral/api/distance.h"
+#include "littoral/api/pairs.h"
+#include "littoral/base/error.h"
+#include "littoral/domain/voxels.h"
+#include "littoral/operators/tet_operators.h"
+#include "littoral/sources/boundary_curves.h"
+#include "regularized_helpers.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+using test::solve;
+using test::with_alpha;
+
+/// The interval [0, 1] from 0 with the Dirichlet energy: u' = min(1, (1 - x) / alpha).
+double from_one_end(double x, double alpha) {
+  const double free = 1 - alpha;
+  return x <= free ? x : 1 - alpha / 2 - (1 - x) * (1 - x) / (2 * alpha);
+}
+
+/// Quads on the unit square.
+PolygonSoup quads(int n) {
+  const PolygonSoup triangles = test::grid_soup(n, n);
+  PolygonSoup soup;
+  soup.points = triangles.points;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = i + j * (n + 1);
+      soup.add_face(std::array{a, a + 1, a + n + 2, a + n + 1});
+    }
+  return soup;
+}
+
+/// Every vertex of the side x = 0.
+SurfaceSources left_side(const SurfaceMesh& mesh) {
+  SurfaceSources sources;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.point(v).x() == 0) sources.points.push_back(SurfacePoint::at_vertex(v));
+  return sources;
+}
+
+VecX by_name(const SurfaceMesh& mesh, const SurfaceSources& sources, OptionTexts options,
+             const MatX3* normals = nullptr) {
+  options.emplace_back("tolerance", "1e-4");
+  Report report;
+  VecX u = surface_distance(mesh, sources, {"regularized", options}, {}, report, normals);
+  EXPECT_EQ(report.status, "converged");
+  return u;
+}
+
+TEST(RegularizedDomains, IntervalOnTrianglesQuadsAndQuadraticElements) {
+  const double alpha = 0.4;  // the area is 1, so alpha-hat is alpha
+  for (const bool polygons : {false, true})
+    for (const char* elements : {"linear", "quadratic"}) {
+      if (polygons && *elements == 'q') continue;
+      const SurfaceMesh mesh(polygons ? quads(16) : test::grid_soup(16, 16, 1));
+      const VecX u = by_name(mesh, left_side(mesh), {{"alpha", "0.4"}, {"elements", elements}});
+      for (int v = 0; v < mesh.n_vertices(); ++v)
+        EXPECT_NEAR(u[v], from_one_end(mesh.point(v).x(), alpha), 4e-3) << elements << v;
+    }
+}
+
+TEST(RegularizedDomains, IntervalOnTets) {
+  // Figure 13: the same class on three numbers a cell.
+  const TetMesh mesh = test::tet_box(8);
+  auto ops = std::make_shared<Operators>();
+  ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
+  SourceTerms terms;
+  terms.reached = {1};
+  Triplets rows;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.points(v, 0) == 0) rows.emplace_back(static_cast<int>(rows.size()), v, 1);
+  terms.A.resize(static_cast<Eigen::Index>(rows.size()), mesh.n_vertices());
+  terms.A.setFromTriplets(rows.begin(), rows.end());
+  const Regularized method(ops, Regularizer::dirichlet, {}, {});
+  for (const double alpha : {0.0, 0.3}) {
+    Report report;
+    const VecX u = method.solve(terms, with_alpha(alpha), {}, report);
+    EXPECT_EQ(report.status, "converged");
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      EXPECT_NEAR(u[v], from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
+  }
+}
+
+TEST(RegularizedDomains, TetsTendToTheDistance) {
+  const TetMesh mesh = test::tet_box(6);
+  auto ops = std::make_shared<Operators>();
+  ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
+  SourceTerms terms;
+  terms.reached = {1};
+  terms.A.resize(1, mesh.n_vertices());
+  terms.A.insert(0, 0) = 1;  // a corner of the cube
+  const Regularized method(ops, Regularizer::dirichlet, {}, {});
+  double before = 1e9;
+  for (const double alpha : {0.4, 0.1, 0.0}) {
+    Report report;
+    const VecX u = method.solve(terms, with_alpha(alpha, 1e-3), {}, report);
+    double worst = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      worst = std::max(worst, std::abs(u[v] - mesh.points.row(v).norm()));
+    EXPECT_LT(worst, before);
+    before = worst;
+  }
+  EXPECT_LT(before, 0.25);  // first order in edges of 1/6 at a point
+}
+
+TEST(RegularizedDomains, QuadraticElementsAreRounder) {
+  // Figure S6: from the middle of a coarse disk, linear functions have polygons for isolines.
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  auto error = [&](const char* elements) {
+    const VecX u =
+        by_name(mesh, test::vertex_points({4}), {{"alpha", "0"}, {"elements", elements}});
+    double sum = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      sum += std::abs(u[v] - std::acos(std::clamp(mesh.point(v).z(), -1., 1.)));
+    return sum / mesh.n_vertices();
+  };
+  EXPECT_LT(error("quadratic"), 0.6 * error("linear"));
+}
+
+TEST(RegularizedDomains, QuadraticElementsShowWhatIsBetween) {
+  const SurfaceMesh mesh(test::octasphere_soup(1));
+  Report report;
+  const SurfaceResult result =
+      solve_distance(mesh, test::vertex_points({0}),
+                     {"regularized", {{"elements", "quadratic"}, {"subdivide", "3"}}}, {}, report);
+  ASSERT_TRUE(result.shown);
+  EXPECT_EQ(result.shown->n_faces(), 9 * mesh.n_faces());
+  const VecX& d = result.shown->scalars.at("distance");
+  EXPECT_TRUE(d.allFinite());
+  EXPECT_GE(d.minCoeff(), 0);
+  EXPECT_EQ((d.head(mesh.n_vertices()) - result.values).cwiseAbs().maxCoeff(), 0);
+}
+
+TEST(RegularizedDomains, CloudsAndVoxelsTendToTheDistance) {
+  PolygonSoup cloud = test::octasphere_soup(3);
+  cloud.normals = cloud.points;
+  PolygonSoup points;
+  points.points = cloud.points;
+  points.normals = cloud.normals;
+  const SurfaceMesh sphere(points);
+  double before = 1e9;
+  for (const char* alpha : {"0.4", "0.1", "0"}) {
+    const VecX u = by_name(sphere, test::vertex_points({4}), {{"alpha", alpha}});
+    double worst = 0;
+    for (int v = 0; v < sphere.n_vertices(); ++v)
+      worst = std::max(worst, std::abs(u[v] - std::acos(std::clamp(sphere.point(v).z(), -1., 1.))));
+    EXPECT_LT(worst, before);
+    before = worst;
+  }
+  EXPECT_LT(before, 0.3);
+
+  Grid grid;
+  grid.n = {12, 12, 12};
+  grid.origin.setZero();
+  grid.spacing.setOnes();
+  std::vector<unsigned char> inside(static_cast<std::size_t>(grid.n_nodes()), 0);
+  for (int k = 1; k < 11; ++k)
+    for (int j = 1; j < 11; ++j)
+      for (int i = 1; i < 11; ++i) inside[grid.node(i, j, k)] = 1;
+  const VoxelSurface box = boundary_of_voxels(grid, inside);
+  const VecX u = by_name(box.mesh, test::vertex_points({0}), {{"alpha", "0"}}, &box.face_normals);
+  for (int v = 0; v < box.mesh.n_vertices(); ++v) {
+    const Vec3 d = (box.mesh.point(v) - box.mesh.point(0)).cwiseAbs();
+    EXPECT_GT(u[v], 0.7 * d.norm() - 1);
+    EXPECT_LT(u[v], 1.2 * d.sum() + 1);
+  }
+}
+
+TEST(RegularizedDomains, SaysWhatADomainDoesNotHave) {
+  Report report;
+  const SurfaceMesh mesh(quads(3)), triangles(test::grid_soup(3, 3));
+  const auto asked = [&](const SurfaceMesh& on, const OptionTexts& options) {
+    return surface_distance(on, test::vertex_points({0}), {"regularized", options}, {}, report);
+  };
+  EXPECT_THROW(asked(mesh, {{"regularizer", "hessian"}}), UnsupportedError);
+  EXPECT_THROW(asked(mesh, {{"regularizer", "max-norm"}}), UnsupportedError);
+  EXPECT_THROW(asked(mesh, {{"elements", "quadratic"}}), UnsupportedError);
+  EXPECT_THROW(asked(triangles, {{"elements", "quadratic"}, {"regularizer", "hessian"}}),
+               UnsupportedError);
+  EXPECT_THROW(asked(triangles, {{"elements", "cubic"}}), InputError);
+}
+
+TEST(RegularizedDomains, PairsWithQuadraticElements) {
+  const SurfaceMesh mesh(test::octasphere_soup(1));
+  Report report;
+  const OptionTexts options = {{"elements", "quadratic"}, {"tolerance", "1e-4"}};
+  const MatX rows = pair_distances(mesh, {"regularized", options, {3}}, {}, report).distances;
+  const VecX alone = by_name(mesh, test::vertex_points({3}), {{"elements", "quadratic"}});
+  EXPECT_LT((rows.row(0).transpose() - alone).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(BoundaryCurves, LoopsAreClosedAndDistanceGrowsInward) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
+  const std::vector<SurfaceCurve> loops = boundary_curves(mesh);
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_EQ(loops[0].nodes.size(), 49U);
+  EXPECT_EQ(loops[0].nodes.front().element, loops[0].nodes.back().element);
+  EXPECT_FALSE(loops[0].is_signed);
+  SurfaceSources boundary;
+  boundary.curves = loops;
+  for (const char* method : {"regularized", "exact", "fast-marching"}) {
+    Report report;
+    OptionTexts options;
+    if (*method == 'r') options = {{"alpha", "0"}, {"tolerance", "1e-4"}};
+    const VecX u = surface_distance(mesh, boundary, {method, options}, {}, report);
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      const Vec3 p = mesh.point(v);
+      const double d = std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()});
+      EXPECT_NEAR(u[v], d, 0.02) << method << v;
+    }
+  }
+  EXPECT_TRUE(boundary_curves(SurfaceMesh(test::octasphere_soup(1))).empty());
+  EXPECT_EQ(boundary_curves(test::ring(12, 2, 0.1)).size(), 2U);
+}
+
+TEST(BoundaryCurves, LoopsThatTouchAndFacesThatRepeatAVertex) {
+  PolygonSoup soup = test::grid_soup(2, 1);
+  soup.points.conservativeResize(soup.points.rows() + 2, 3);
+  soup.points.bottomRows(2) << -1, 0, 0, -1, 1, 0;
+  test::add_triangle(soup, 0, 6, 7);  // touches in vertex 0
+  test::add_triangle(soup, 1, 1, 2);
+  const SurfaceMesh mesh(soup);
+  int edges = 0, seen = 0;
+  for (int e = 0; e < mesh.n_edges(); ++e)
+    edges += mesh.edge_faces(e).size() == 1 && mesh.edges()(e, 0) != mesh.edges()(e, 1);
+  for (const SurfaceCurve& curve : boundary_curves(mesh))
+    seen += static_cast<int>(curve.nodes.size()) - 1;
+  EXPECT_EQ(seen, edges);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -82,7 +82,7 @@ def measure(program: str, faces: int) -> dict[str, Any]:
     return {
         "faces": len(triangles),
         "cpu": used.ru_utime + used.ru_stime,
-        "mb": used.ru_maxrss / 1024,
+        "mb": result["peak_memory_mb"],
         "mean": 100 * float(error.mean()),
         "largest": 100 * float(error.max()),
         "iterations": dict(result.get("iterations", {})),

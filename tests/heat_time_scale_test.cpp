@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "heat_helpers.h"
 #include "littoral/api/distance.h"
@@ -16,12 +17,17 @@
 namespace littoral {
 namespace {
 
-/// A sphere, stretched and sheared so that many of its large triangles are obtuse, each in 16.
-SurfaceMesh sheared_ellipsoid() {
+/// A sphere, stretched and sheared so that many of its large triangles are obtuse.
+PolygonSoup sheared_ellipsoid() {
   PolygonSoup soup = test::octasphere_soup(3);
   soup.points.col(0) += 6 * soup.points.col(2);
   soup.points.col(2) *= 4;
-  return SurfaceMesh(test::quartered(test::quartered(soup)));
+  return soup;
+}
+
+/// Each triangle in 16.
+SurfaceMesh refined(const PolygonSoup& soup, std::vector<int>* curve = nullptr) {
+  return SurfaceMesh(test::quartered(test::quartered(soup, curve), curve));
 }
 
 VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
@@ -50,7 +56,7 @@ std::string used(const Report& report, const std::string& option) {
 constexpr int pole = 4;  // a vertex of the octasphere
 
 TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
-  const SurfaceMesh mesh = sheared_ellipsoid();
+  const SurfaceMesh mesh = refined(sheared_ellipsoid());
   const SurfaceSources sources = test::vertex_points({pole});
   const VecX truth = exact(mesh, sources);
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
@@ -72,12 +78,13 @@ TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
 }
 
 TEST(HeatTimeScale, RisesForCurvesToo) {
-  const SurfaceMesh mesh = sheared_ellipsoid();
+  const PolygonSoup coarse = sheared_ellipsoid();
+  const VecX from_pole = exact(SurfaceMesh(coarse), test::vertex_points({pole}));
+  std::vector<int> loop = test::loop_at(coarse, from_pole, 0.15 * from_pole.maxCoeff());
+  const SurfaceMesh mesh = refined(coarse, &loop);
   SurfaceSources sources;
-  SurfaceCurve curve;  // around the pole
-  const VecX from_pole = exact(mesh, test::vertex_points({pole}));
-  for (int v : test::loop_at(mesh.soup(), from_pole, 0.15 * from_pole.maxCoeff()))
-    curve.nodes.push_back(SurfacePoint::at_vertex(v));
+  SurfaceCurve curve;
+  for (int v : loop) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   sources.curves.push_back(curve);
   const VecX truth = exact(mesh, sources);
   Report given, chosen;

@@ -25,6 +25,8 @@ inline constexpr const char* against_directions = "slope against directions";
 /// for curves with gaps; directions that mean nothing give several times as much.
 double share_against(const Calculus& C, const VecX& phi, const VecX& Y);
 inline constexpr double tolerable_share = 0.005;
+/// What is asked for on a mesh that has shown more: half-way, directions may be smooth and wrong.
+inline constexpr double settled_share = 0.001;
 
 /// The share that a solve has put into its report.
 double share_against(const Report& report);
@@ -49,7 +51,8 @@ VecX solve_raising(
   VecX phi = solve(method, task.stage(0.4, "solving"), best);
   const double first = share_against(best), given = time_scale;
   double scale = given;
-  for (int k = 0; k < most_raises && share_against(best) > tolerable_share; ++k) {
+  for (int k = 0; k < most_raises && first > tolerable_share; ++k) {
+    if (share_against(best) <= settled_share) break;
     scale *= 4;
     Task again = task.stage(0.2, "longer diffusion");
     Report other;

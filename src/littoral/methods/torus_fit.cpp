@@ -29,8 +29,9 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   Mat6 M = Mat6::Zero();  // normal equations; unknowns a00, a01, a10, a11, a02, a20
   Vec6 r = Vec6::Zero();
   auto add = [&](const Vec6& g, double value, double weight) {
-    M.selfadjointView<Eigen::Lower>().rankUpdate(g, weight);
-    r += weight * value * g;
+    const Vec6 weighted = weight * g;
+    M.noalias() += weighted * g.transpose();
+    r += value * weighted;
   };
   for (const Neighbour& neighbour : neighbours) {
     const Vec3 d = (cloud.points.row(neighbour.point).transpose() - p) / scale;
@@ -40,7 +41,10 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
     // its curvature: on it |d|^2 = -2 R H.
     const double flat = S * S + T * T, H = d.dot(n);
     const double height = flat > 0 ? H * flat / (flat + H * H) : 0.0;
-    const double weight = std::pow(std::max(d.norm(), 0.05), -fit.weight_exponent);
+    const double apart = std::max(d.norm(), 0.05);
+    const double weight = fit.weight_exponent == 2   ? 1 / (apart * apart)
+                          : fit.weight_exponent == 1 ? 1 / apart
+                                                     : std::pow(apart, -fit.weight_exponent);
     rows.push_back({S, T, A, B, weight});
     add((Vec6() << 1, T, S, S * T, T * T, S * S).finished(), height, weight);
     // Normals: the derivatives of the height are minus the normal's tangential components
@@ -52,7 +56,7 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   M(0, 0) += fit.self_weight;
   M.diagonal().tail<3>().array() += fit.ridge;
   M.diagonal().array() += 1e-9;
-  const Vec6 a = M.selfadjointView<Eigen::Lower>().ldlt().solve(r);
+  const Vec6 a = M.ldlt().solve(r);
   HeightPolynomial out;
   if (!a.allFinite()) return out;
   double residual = 0, total = 0;

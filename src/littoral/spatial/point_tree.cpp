@@ -10,44 +10,43 @@ namespace littoral {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int leaf_size = 8;
+using Order = std::vector<int>;  // place in the tree -> point
 
-}  // namespace
-
-PointTree::PointTree(const MatX3& points) : order_(static_cast<std::size_t>(points.rows())) {
-  std::iota(order_.begin(), order_.end(), 0);
-  if (order_.empty()) return;
-  build(points, 0, size());
-  for (int d = 0; d < 3; ++d) {
-    x_[d].reserve(order_.size());
-    for (int p : order_) x_[d].push_back(points(p, d));
-  }
-}
-
-void PointTree::split(const MatX3& points, int begin, int end, int levels, std::vector<int>& cuts) {
-  if (levels == 0 || end - begin <= leaf_size) {
+/// Halves a range of places along its longest side, `levels` times or until it is a leaf; appends
+/// where the parts end.
+void split(const MatX3& points, Order& order, int begin, int end, int levels, int leaf,
+           std::vector<int>& cuts) {
+  if (levels == 0 || end - begin <= leaf) {
     cuts.push_back(end);
     return;
   }
   Vec3 low = Vec3::Constant(infinity), high = -low;
   for (int i = begin; i < end; ++i) {
-    low = low.cwiseMin(points.row(order_[i]).transpose());
-    high = high.cwiseMax(points.row(order_[i]).transpose());
+    low = low.cwiseMin(points.row(order[i]).transpose());
+    high = high.cwiseMax(points.row(order[i]).transpose());
   }
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const int middle = begin + (end - begin) / 2;
   std::nth_element(
-      order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+      order.begin() + begin, order.begin() + middle, order.begin() + end, [&](int a, int b) {
         return points(a, axis) < points(b, axis) || (points(a, axis) == points(b, axis) && a < b);
       });
-  split(points, begin, middle, levels - 1, cuts);
-  split(points, middle, end, levels - 1, cuts);
+  split(points, order, begin, middle, levels - 1, leaf, cuts);
+  split(points, order, middle, end, levels - 1, leaf, cuts);
 }
 
-int PointTree::build(const MatX3& points, int begin, int end) {
+}  // namespace
+
+PointTree::PointTree(const MatX3& points) : size_(static_cast<int>(points.rows())) {
+  Order order(static_cast<std::size_t>(size_));
+  std::iota(order.begin(), order.end(), 0);
+  if (size_ > 0) build(points, order, 0, size_);
+}
+
+int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
   std::vector<int> cuts;
-  split(points, begin, end, 3, cuts);
+  split(points, order, begin, end, 3, leaf_size, cuts);
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   for (int c = 0; c < width; ++c) {
@@ -57,14 +56,20 @@ int PointTree::build(const MatX3& points, int begin, int end) {
       const int from = c == 0 ? begin : cuts[c - 1], to = cuts[c];
       high = -low;
       for (int i = from; i < to; ++i) {
-        low = low.cwiseMin(points.row(order_[i]).transpose());
-        high = high.cwiseMax(points.row(order_[i]).transpose());
+        low = low.cwiseMin(points.row(order[i]).transpose());
+        high = high.cwiseMax(points.row(order[i]).transpose());
       }
       if (to - from <= leaf_size) {
         child = -1 - static_cast<int>(leaves_.size());
-        leaves_.push_back({from, to});
+        Leaf& leaf = leaves_.emplace_back();
+        leaf.size = to - from;
+        for (int i = 0; i < leaf_size; ++i) {
+          leaf.point[i] = i < leaf.size ? order[from + i] : -1;
+          for (int d = 0; d < 3; ++d)
+            leaf.x[d][i] = i < leaf.size ? points(leaf.point[i], d) : infinity;
+        }
       } else {
-        child = build(points, from, to);
+        child = build(points, order, from, to);
       }
     }
     for (int d = 0; d < 3; ++d) {
@@ -93,7 +98,12 @@ void PointTree::search(const Vec3& q, Visit&& visit) const {
     if (entry.distance > bound) continue;
     if (entry.child < 0) {
       const Leaf& leaf = leaves_[-1 - entry.child];
-      bound = visit(leaf.begin, leaf.end);
+      double squared[leaf_size];  // all at once, in wide arithmetic
+      for (int i = 0; i < leaf_size; ++i) {
+        const double dx = leaf.x[0][i] - q[0], dy = leaf.x[1][i] - q[1], dz = leaf.x[2][i] - q[2];
+        squared[i] = dx * dx + dy * dy + dz * dz;
+      }
+      bound = visit(leaf, squared);
       continue;
     }
     const Node& node = nodes_[entry.child];
@@ -118,16 +128,18 @@ int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
   k = std::min(k, size());
   if (k <= 0) return 0;
   int n = 0;
-  search(q, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const double dx = x_[0][i] - q[0], dy = x_[1][i] - q[1], dz = x_[2][i] - q[2];
-      const Neighbour candidate{dx * dx + dy * dy + dz * dz, order_[i]};
+  double bound = infinity;
+  search(q, [&](const Leaf& leaf, const double* squared) {
+    for (int i = 0; i < leaf.size; ++i) {
+      if (squared[i] > bound) continue;
+      const Neighbour candidate{squared[i], leaf.point[i]};
       if (n == k && !(candidate < found[n - 1])) continue;
       int place = n < k ? n++ : n - 1;
       for (; place > 0 && candidate < found[place - 1]; --place) found[place] = found[place - 1];
       found[place] = candidate;
+      if (n == k) bound = found[n - 1].squared_distance;
     }
-    return n == k ? found[n - 1].squared_distance : infinity;
+    return bound;
   });
   return n;
 }
@@ -135,12 +147,9 @@ int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
 std::vector<Neighbour> PointTree::within(const Vec3& q, double radius) const {
   std::vector<Neighbour> found;
   const double bound = radius * radius;
-  search(q, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      const double dx = x_[0][i] - q[0], dy = x_[1][i] - q[1], dz = x_[2][i] - q[2];
-      const double squared = dx * dx + dy * dy + dz * dz;
-      if (squared <= bound) found.push_back({squared, order_[i]});
-    }
+  search(q, [&](const Leaf& leaf, const double* squared) {
+    for (int i = 0; i < leaf.size; ++i)
+      if (squared[i] <= bound) found.push_back({squared[i], leaf.point[i]});
     return bound;
   });
   std::sort(found.begin(), found.end());

@@ -25,7 +25,7 @@ class PointTree {
  public:
   explicit PointTree(const MatX3& points);  // points x 3, at least one
 
-  int size() const { return static_cast<int>(order_.size()); }
+  int size() const { return size_; }
 
   /// The k nearest points in ascending order (fewer where there are fewer points), written to
   /// `found`, which must hold k; returns how many. Exact, and the same for any order of the tree.
@@ -42,24 +42,24 @@ class PointTree {
   std::vector<Neighbour> within(const Vec3& q, double radius) const;
 
  private:
-  static constexpr int width = 8;
+  static constexpr int width = 8, leaf_size = 16;
   struct Node {
     double low[3][width], high[3][width];  // boxes of the children; empty ones are infinite
     int child[width];                      // another node, or -1 - (number of the leaf)
   };
   struct Leaf {
-    int begin, end;  // into order_
+    double x[3][leaf_size];  // by coordinate; infinite beyond `size`
+    int point[leaf_size];
+    int size;
   };
 
-  int build(const MatX3& points, int begin, int end);
-  void split(const MatX3& points, int begin, int end, int levels, std::vector<int>& cuts);
+  int build(const MatX3& points, std::vector<int>& order, int begin, int end);
   template <class Visit>
-  void search(const Vec3& q, Visit&& visit) const;  // visit(begin, end) -> bound
+  void search(const Vec3& q, Visit&& visit) const;  // visit(leaf, squared distances) -> bound
 
+  int size_;
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;
-  std::vector<int> order_;    // place in the tree -> point
-  std::vector<double> x_[3];  // coordinates by place
 };
 
 }  // namespace littoral

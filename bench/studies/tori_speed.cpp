@@ -1,0 +1,88 @@
+// Points as tori: processor time of fitting and asking, and errors, on tori of ever more random
+// points. usage: littoral_tori_speed POINTS...    Prints Markdown; one thread.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "littoral/base/parallel.h"
+#include "littoral/methods/tori.h"
+
+namespace littoral {
+namespace {
+
+const double pi = std::acos(-1.0);
+constexpr double tube = 0.4;
+
+/// Microseconds of processor time a call, for `count` calls in one.
+double microseconds(int count, const std::function<void()>& calls) {
+  const std::clock_t start = std::clock();
+  calls();
+  return 1e6 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count;
+}
+
+OrientedPoints torus_points(int n, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  OrientedPoints cloud;
+  cloud.points.resize(n, 3);
+  cloud.normals.resize(n, 3);
+  for (int i = 0; i < n;) {
+    const double u = 2 * pi * uniform(random), v = 2 * pi * uniform(random);
+    const double r = 1 + tube * std::cos(v);
+    if (uniform(random) * (1 + tube) > r) continue;  // evenly by area
+    cloud.points.row(i) << r * std::cos(u), r * std::sin(u), tube * std::sin(v);
+    cloud.normals.row(i) << std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v);
+    ++i;
+  }
+  return cloud;
+}
+
+void row(int n) {
+  constexpr int queries = 50000;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1.5, 1.5);
+  std::normal_distribution<double> normal;
+  const OrientedPoints cloud = torus_points(n, random);
+  const double spacing = std::sqrt(4 * pi * pi * tube / n);
+  const PointTree tree(cloud.points);
+  std::vector<Torus> fitted;
+  const double fit = microseconds(n, [&] { fitted = fit_tori(cloud, tree, TorusFit::exact()); });
+  const Tori tori(cloud.points, fitted);
+  std::printf("| %d | %.2f |", n, fit);
+  for (const double reach : {1.0, 8.0, 0.0}) {  // spacings from a point; 0: anywhere in a box
+    std::vector<Vec3> places;
+    for (int i = 0; i < queries; ++i) {
+      const Vec3 p = cloud.points.row(static_cast<int>(random() % static_cast<unsigned>(n)));
+      const Vec3 away(normal(random), normal(random), normal(random));
+      const Vec3 any(uniform(random), uniform(random), uniform(random));
+      places.push_back(reach > 0 ? Vec3(p + reach * spacing * away) : any);
+    }
+    double error = 0;
+    const double time = microseconds(queries, [&] {
+      for (const Vec3& x : places) {
+        const double exact = std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) - tube;
+        error += std::abs(tori.value(x) - exact) / queries;
+      }
+    });
+    std::printf(" %.2f, %.1e |", time, error);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace littoral
+
+int main(int argc, char** argv) {
+  littoral::set_thread_count(1);
+  std::printf(
+      "| points | fit, us a point | query 1 spacing away, us, error | 8 spacings | anywhere |\n"
+      "|---|---|---|---|---|\n");
+  for (int i = 1; i < argc; ++i) littoral::row(std::max(20, std::atoi(argv[i])));
+  return 0;
+}

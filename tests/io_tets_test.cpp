@@ -42,7 +42,9 @@ void expect_one_tet(const io::TetFile& file, bool triangles) {
   for (int k = 0; k < 4; ++k) EXPECT_EQ(file.mesh.tets(0, k), k);
   EXPECT_EQ(file.mesh.points.row(2), Eigen::RowVector3d(0, 1, 0));
   ASSERT_EQ(file.triangles.rows(), triangles ? 1 : 0);
-  if (triangles) EXPECT_EQ(file.triangles.row(0), Eigen::RowVector3i(0, 1, 2));
+  if (triangles) {
+    EXPECT_EQ(file.triangles.row(0), Eigen::RowVector3i(0, 1, 2));
+  }
 }
 
 TEST(TetFiles, EveryFormatHoldsTheSameTet) {

@@ -63,6 +63,7 @@ void convert(const Arguments& arguments, Session& session) {
     PolygonSoup fields;
     fields.scalars = file.scalars;
     const std::string name = choose_field(fields, arguments.field, arguments.in);
+    session.reading = false;
     return io::write_tets(arguments.out, file.mesh, file.scalars.at(name), name);
   }
   check_output(arguments.out, {".obj", ".ply", ".off", ".stl", ".vtp", ".csv", ".npy", ".txt"},

@@ -21,10 +21,10 @@ namespace littoral {
 namespace {
 
 SpaceHeatOptions heat_options(const SpaceRequest& request) {
-  const SpaceMethod& method = find_space_method(request.method);
   if (request.method != "signed-heat")
     throw UnsupportedError("method " + request.method +
                            " does not run on tets; signed-heat does, and grids take all methods");
+  const SpaceMethod& method = find_space_method(request.method);
   return parse_options(method.info, space_heat_options(), request.options);
 }
 
@@ -234,6 +234,10 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
   if (from_vertices && (sources.surface.n_faces() > 0 || sources.surface.n_vertices() > 0))
     throw UnsupportedError(
         "distance through tets is signed, from surfaces, or unsigned, from vertices: not both");
+  for (const int v : sources.vertices)
+    if (v < 0 || v >= mesh.n_vertices())
+      throw InputError("there is no vertex " + std::to_string(v) +
+                       " to measure from, the mesh has " + std::to_string(mesh.n_vertices()));
   report.method = request.method;
   report.domain = "tet mesh";
   report.sizes.emplace_back("tets", mesh.n_tets());
@@ -257,6 +261,9 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
   std::iota(all.begin(), all.end(), 0);
   const Placed placed =
       place(local, sources, wanted, frame, mean_edge(*local, all), building, report);
+  for (const int v : placed.vertices)
+    if (ops->component[static_cast<std::size_t>(v)] < 0)
+      report.warn("source vertex " + std::to_string(v) + " belongs to no tet and is left out");
   std::vector<std::vector<int>> tets_of(static_cast<std::size_t>(ops->n_components));
   for (int t : tets_with_sources(*local, placed))
     if (ops->volumes[t] > 0)

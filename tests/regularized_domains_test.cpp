@@ -92,7 +92,7 @@ TEST(RegularizedDomains, IntervalOnTets) {
 }
 
 TEST(RegularizedDomains, TetsTendToTheDistance) {
-  const TetMesh mesh = test::tet_box(6);
+  const TetMesh mesh = test::tet_box(8);
   auto ops = std::make_shared<Operators>();
   ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
   SourceTerms terms;
@@ -110,7 +110,7 @@ TEST(RegularizedDomains, TetsTendToTheDistance) {
     EXPECT_LT(worst, before);
     before = worst;
   }
-  EXPECT_LT(before, 0.25);  // first order in edges of 1/6 at a point
+  EXPECT_LT(before, 0.2);  // first order in edges of 1/8 at a point
 }
 
 TEST(RegularizedDomains, QuadraticElementsAreRounder) {

@@ -180,9 +180,9 @@ def draw(
     figure, axes = pyplot.subplots(1, 2, figsize=(8, 3.4))
     for axis, which, what in ((axes[0], 0, "RMSE"), (axes[1], 1, "largest error")):
         for n in names:
-            axis.loglog(
-                [h for h, _ in results], [e[n][which] for _, e in results], "o-", label=LABELS[n]
-            )
+            # On the reference's own mesh the exact distance has no error to draw.
+            values = [e[n][which] if e[n][which] > 1e-12 else np.nan for _, e in results]
+            axis.loglog([h for h, _ in results], values, "o-", label=LABELS[n])
         axis.xaxis.set_minor_formatter(NullFormatter())
         axis.set_xlabel(label)
         axis.set_title(f"{title}: {what}", fontsize=9)

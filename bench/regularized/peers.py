@@ -6,7 +6,8 @@ Prints a Markdown table. One vertex source, the same mesh, one round of all four
 other, medians of processor seconds. littoral's are those of the whole process, with starting,
 reading the OBJ and writing; what a run with `littoral info` takes, which reads and connects the
 same mesh, is stated beside them. The others' are of the construction and the call alone, on arrays
-in memory. Answers are compared first: largest difference over the largest distance.
+in memory. Answers are compared first: largest difference over the largest distance. Needs what
+bench/peers/requirements.txt lists.
 """
 
 import argparse

@@ -186,6 +186,7 @@ VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
     if (C.component[i] >= 0) terms.reached[C.component[i]] = 1;
   SharpenOptions options;
   options.solver = solver;
+  if (solver == SharpenSolver::pdhg) options.max_iterations = 2000;  // then it only creeps
   return sharpen(ops, terms, phi0, options, task, report);
 }
 

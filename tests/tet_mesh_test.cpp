@@ -246,7 +246,8 @@ TEST(TetMeshDistanceSlow, OfABallFromItsBoundary) {
   const io::TetFile file = io::read_tets(test::shared() / "data/tets/sphere.mesh");
   PolygonSoup boundary;
   boundary.points = file.mesh.points;
-  for (const auto& f : boundary_faces(file.mesh).rowwise()) {
+  const MatX3i faces = boundary_faces(file.mesh);
+  for (const auto& f : faces.rowwise()) {
     const int corners[3] = {f[0], f[1], f[2]};
     boundary.add_face(corners);
   }

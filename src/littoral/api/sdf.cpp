@@ -11,7 +11,6 @@
 #include "littoral/domain/cloud_normals.h"
 #include "littoral/domain/tet_lattice.h"
 #include "littoral/domain/triangulate.h"
-#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_tets.h"
 #include "littoral/methods/tori.h"
 #include "littoral/spatial/winding_number.h"
@@ -275,8 +274,7 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
   check_memory(2.1 * mesh.n_tets() * 60 * 16.0,
                "a lattice of " + std::to_string(mesh.n_tets()) + " tets",
                "use a smaller --resolution");
-  const auto shared = std::make_shared<const TetOperators>(tet_operators(mesh));
-  const TetOperators& ops = *shared;
+  const TetOperators ops = tet_operators(mesh);
   building.checkpoint();
   std::vector<TetPoint> places;
   std::vector<int> cubes;
@@ -288,15 +286,8 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
   if (terms.outside > 0)
     report.warn(std::to_string(terms.outside) + " samples of the input lie outside the box");
   const double h = std::max(sample_spacing(source), lattice.finest());
-  VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
-                              task.stage(options.sharpen ? 0.4 : 0.8, "distance"), report);
-  if (options.sharpen) {
-    Operators in_space;
-    in_space.domain = report.domain;
-    in_space.scalar = tet_calculus(shared);
-    phi = sharpen_in_space(in_space, terms.A, phi, SharpenSolver::admm,
-                           task.stage(0.4, "sharpening"), report);
-  }
+  const VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
+                                    task.stage(0.8, "distance"), report);
   report_options(space_heat_options(), options, report);
   if (on_grid != nullptr) {
     on_grid->resize(static_cast<Eigen::Index>(grid.n_nodes()));

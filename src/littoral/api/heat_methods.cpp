@@ -117,13 +117,14 @@ Translated translate(const SurfaceProblem& problem, bool retriangulate, Needs ne
   return out;
 }
 
-/// Solves at an automatic time scale, which may rise, or at the given one.
+/// Solves at a time scale that may rise, or at the given one. Vectors at nodes do not show what
+/// makes it rise elsewhere, and unsigned curves are wrong there at larger ones.
 template <class Method>
 VecX at_time_scale(
-    bool automatic, Method& method, double& time_scale,
+    bool may_rise, Method& method, double& time_scale,
     const std::type_identity_t<std::function<VecX(const Method&, const Task&, Report&)>>& solve,
     const Task& task, Report& report) {
-  if (automatic) return solve_raising(method, time_scale, solve, task, report);
+  if (may_rise) return solve_raising(method, time_scale, solve, task, report);
   VecX phi = solve(method, task, report);
   warn_against(report);
   return phi;
@@ -155,7 +156,7 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   };
   const auto [ops, terms, T, faces] =
       translate(problem, options.intrinsic_delaunay, needs, task, report);
-  const bool automatic = options.time_scale == 0;
+  const bool automatic = options.time_scale == 0, may_rise = automatic && !ops->vector.at_nodes;
   if (automatic) options.time_scale = automatic_time_scale(terms);
   auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
@@ -165,7 +166,7 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   if (options.discontinuous)
     return discontinuous_distance(problem.mesh, *T, *ops, terms, method, options, task, report);
   VecX phi = at_time_scale(
-      automatic, method, options.time_scale,
+      may_rise, method, options.time_scale,
       [&, &source = terms](const SignedHeat& heat, const Task& stage, Report& r) {
         return heat.solve(source, options, stage, r);
       },
@@ -190,7 +191,7 @@ SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& 
   const auto needs = [](const PreparedSources&) { return Diffused::functions; };
   const auto [ops, terms, T, faces] =
       translate(problem, options.intrinsic_delaunay, needs, task, report);
-  const bool automatic = options.time_scale == 0;
+  const bool automatic = options.time_scale == 0, may_rise = automatic && !ops->vector.at_nodes;
   if (automatic) options.time_scale = 1;
   auto method = [&, &operators = ops] {
     const Stopwatch watch(report, "factor");
@@ -198,7 +199,7 @@ SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& 
   }();
   const Stopwatch watch(report, "solve");
   const VecX phi = at_time_scale(
-      automatic, method, options.time_scale,
+      may_rise, method, options.time_scale,
       [&source = terms](const UnsignedHeat& heat, const Task& stage, Report& r) {
         return heat.solve(source, stage, r);
       },

@@ -4,10 +4,8 @@
 
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
-#include "littoral/base/memory.h"
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
-#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_grid.h"
 #include "littoral/methods/tori.h"
 
@@ -85,21 +83,7 @@ std::vector<SpaceMethod> space_heat_methods() {
   heat.on_grid = [info](const SpaceProblem& problem, const Grid& grid, const OptionTexts& texts,
                         Task& task, Report& report) {
     const SpaceHeatOptions options = parse_options(info, space_heat_options(), texts);
-    if (options.sharpen)
-      check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
-                   "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
-                   "use a smaller --resolution or leave out --sharpen");
-    VecX phi = signed_heat_grid(grid, problem.samples, options,
-                                task.stage(options.sharpen ? 0.4 : 1, "signed heat"), report);
-    if (options.sharpen) {
-      Operators ops;
-      ops.domain = "grid";
-      ops.scalar = grid_calculus(grid);
-      const SpMat rows = grid_rows(grid, problem.samples.points, problem.samples.areas).A;
-      // A factor of a grid grows like the nodes to the power of 4/3.
-      const auto solver = grid.n_nodes() <= 100'000 ? SharpenSolver::admm : SharpenSolver::pdhg;
-      phi = sharpen_in_space(ops, rows, phi, solver, task.stage(1, "sharpening"), report);
-    }
+    VecX phi = signed_heat_grid(grid, problem.samples, options, task, report);
     report_options(space_heat_options(), options, report);
     return phi;
   };

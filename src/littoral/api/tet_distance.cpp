@@ -13,7 +13,6 @@
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/tet_locator.h"
-#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_tets.h"
 
 namespace littoral {
@@ -72,17 +71,6 @@ Part part_of(const TetMesh& mesh, const TetOperators& ops, int component) {
   return part;
 }
 
-/// Step III's answer, sharpened if that is wanted (7.3).
-VecX finished(const TetOperators& ops, const TetSourceTerms& terms, VecX phi,
-              const SpaceHeatOptions& options, const Task& task, Report& report) {
-  if (!options.sharpen) return phi;
-  Operators in_space;
-  in_space.domain = report.domain;
-  in_space.scalar = tet_calculus(
-      std::shared_ptr<const TetOperators>(std::shared_ptr<void>(), &ops));  // outlives the calculus
-  return sharpen_in_space(in_space, terms.A, phi, SharpenSolver::admm, task, report);
-}
-
 /// Sources with their places in a mesh.
 struct Placed {
   OrientedPoints samples;
@@ -108,9 +96,7 @@ VecX solve_part(const TetMesh& mesh, const TetOperators& ops, const Placed& sour
   }
   const TetSourceTerms terms =
       tet_source_terms(mesh, ops, sources.samples, sources.places, nearest);
-  const VecX phi = signed_heat_tets(ops, terms, std::max(sources.h, edge), tolerance, options,
-                                    task.stage(options.sharpen ? 0.5 : 1, "distance"), report);
-  return finished(ops, terms, phi, options, task.stage(1, "sharpening"), report);
+  return signed_heat_tets(ops, terms, std::max(sources.h, edge), tolerance, options, task, report);
 }
 
 /// The tets that hold sources, each once.
@@ -196,9 +182,8 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
   if (terms.outside > 0)
     report.warn(std::to_string(terms.outside) + " samples of the input lie outside the box");
   const double h = std::max(sample_spacing(source), lattice.finest());
-  VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
-                              task.stage(options.sharpen ? 0.4 : 0.8, "distance"), report);
-  phi = finished(ops, terms, phi, options, task.stage(0.8, "sharpening"), report);
+  const VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
+                                    task.stage(0.8, "distance"), report);
   report_options(space_heat_options(), options, report);
   if (on_grid != nullptr) {
     on_grid->resize(static_cast<Eigen::Index>(grid.n_nodes()));

@@ -84,6 +84,4 @@ Calculus grid_calculus(const Grid& grid) {
   return C;
 }
 
-double grid_sharpening_memory(double nodes) { return 900 * nodes; }
-
 }  // namespace littoral

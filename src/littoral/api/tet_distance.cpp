@@ -80,8 +80,8 @@ struct Placed {
 };
 
 VecX solve_part(const TetMesh& mesh, const TetOperators& ops, const Placed& sources,
-                const std::vector<int>& held_tets, const SpaceHeatOptions& options, Task task,
-                Report& report) {
+                const std::vector<int>& held_tets, const SpaceHeatOptions& options,
+                const Task& task, Report& report) {
   const double edge = mean_edge(mesh, held_tets);
   const double tolerance = held_to * edge;
   if (!sources.vertices.empty())

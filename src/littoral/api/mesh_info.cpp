@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/base/option_table.h"
 #include "littoral/sources/pieces.h"
 
@@ -16,22 +16,6 @@ namespace littoral {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Disjoint sets.
-class Sets {
- public:
-  explicit Sets(int n) : parent_(static_cast<std::size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 bool has_finite_corners(const PolygonSoup& soup, int f) {
   for (int v : soup.face(f))
@@ -49,7 +33,7 @@ PolygonSoup sound_part(const PolygonSoup& soup) {
 }
 
 int count_boundary_loops(const SurfaceMesh& mesh, int& n_edges) {
-  Sets sets(mesh.n_vertices());
+  DisjointSets sets(mesh.n_vertices());
   std::vector<char> on(static_cast<std::size_t>(mesh.n_vertices()), 0);
   n_edges = 0;
   for (int e = 0; e < mesh.n_edges(); ++e) {
@@ -59,7 +43,7 @@ int count_boundary_loops(const SurfaceMesh& mesh, int& n_edges) {
     sets.join(mesh.edges()(e, 0), mesh.edges()(e, 1));
   }
   int n = 0;
-  for (int v = 0; v < mesh.n_vertices(); ++v) n += on[v] && sets.root(v) == v;
+  for (int v = 0; v < mesh.n_vertices(); ++v) n += on[v] && sets.find(v) == v;
   return n;
 }
 
@@ -78,7 +62,7 @@ int count_nonmanifold_vertices(const SurfaceMesh& mesh) {
           by_edge.emplace_back(mesh.side_edge(faces[i], static_cast<int>(k)), static_cast<int>(i));
     }
     std::sort(by_edge.begin(), by_edge.end());
-    Sets sets(static_cast<int>(faces.size()));
+    DisjointSets sets(static_cast<int>(faces.size()));
     for (std::size_t i = 1; i < by_edge.size(); ++i)
       if (by_edge[i].first == by_edge[i - 1].first)
         sets.join(by_edge[i].second, by_edge[i - 1].second);
@@ -86,7 +70,7 @@ int count_nonmanifold_vertices(const SurfaceMesh& mesh) {
     for (std::size_t i = 1; i < faces.size(); ++i)
       if (faces[i] == faces[i - 1]) sets.join(static_cast<int>(i), static_cast<int>(i - 1));
     for (std::size_t i = 1; i < faces.size(); ++i)
-      if (sets.root(static_cast<int>(i)) != sets.root(0)) {
+      if (sets.find(static_cast<int>(i)) != sets.find(0)) {
         ++n;
         break;
       }
@@ -109,7 +93,7 @@ struct Orientation {
 Orientation orientation_of(const SurfaceMesh& mesh) {
   Orientation out;
   const int n = mesh.n_faces();
-  Sets sets(2 * n);  // face f as given: f; reversed: f + n
+  DisjointSets sets(2 * n);  // face f as given: f; reversed: f + n
   for (int e = 0; e < mesh.n_edges(); ++e) {
     const auto faces = mesh.edge_faces(e);
     if (faces.size() != 2 || faces[0] == faces[1]) continue;
@@ -118,7 +102,7 @@ Orientation orientation_of(const SurfaceMesh& mesh) {
     sets.join(faces[0], same ? faces[1] + n : faces[1]);
     sets.join(faces[0] + n, same ? faces[1] : faces[1] + n);
   }
-  for (int f = 0; f < n && out.orientable; ++f) out.orientable = sets.root(f) != sets.root(f + n);
+  for (int f = 0; f < n && out.orientable; ++f) out.orientable = sets.find(f) != sets.find(f + n);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/edge_sides.h"
 
@@ -167,22 +168,14 @@ void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSi
 }
 
 void find_components(IntrinsicTriangulation& T) {
-  std::vector<int> parent(T.n_vertices);
-  for (int v = 0; v < T.n_vertices; ++v) parent[v] = v;
-  auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets vertices(T.n_vertices);
   std::vector<char> used(T.n_vertices, 0);
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) {
       used[T.faces(f, k)] = 1;
-      const int a = root(T.faces(f, 0)), b = root(T.faces(f, k));
-      parent[std::max(a, b)] = std::min(a, b);
+      vertices.join(T.faces(f, 0), T.faces(f, k));
     }
-  T.component.assign(T.n_vertices, -1);
-  for (int v = 0; v < T.n_vertices; ++v)
-    if (used[v]) T.component[v] = root(v) == v ? T.n_components++ : T.component[root(v)];
+  T.component = vertices.numbered(T.n_components, used);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/methods/jump_laplace.h"
 #include "littoral/methods/residual.h"
 #include "littoral/solve/poisson.h"
@@ -20,26 +20,15 @@ double along_side(const JumpCalculus& J, const VecX& Y, int f, int k) {
 
 /// Corners at one node that are joined across edges where `joined`.
 MatX3i pieces(const JumpCalculus& J, const std::vector<char>& joined, int& n) {
-  std::vector<int> leader(3 * static_cast<std::size_t>(J.n_faces));
-  std::iota(leader.begin(), leader.end(), 0);
-  const auto find = [&](int a) {
-    while (leader[a] != a) a = leader[a] = leader[leader[a]];
-    return a;
-  };
+  DisjointSets corners(3 * J.n_faces);
   for (int e = 0; e < J.n_edges; ++e) {
     if (!J.interior(e) || !joined[e]) continue;
     const auto& [left, right] = J.sides[e];
     const auto a = J.ends(left), b = J.ends(right);
-    for (int end = 0; end < 2; ++end) {
-      const int p = find(3 * left.face + a[end]), q = find(3 * right.face + b[end]);
-      leader[std::max(p, q)] = std::min(p, q);
-    }
+    for (int end = 0; end < 2; ++end) corners.join(3 * left.face + a[end], 3 * right.face + b[end]);
   }
-  MatX3i piece(J.n_faces, 3);
-  n = 0;
-  for (int c = 0; c < 3 * J.n_faces; ++c)
-    piece(c / 3, c % 3) = find(c) == c ? n++ : piece(find(c) / 3, find(c) % 3);
-  return piece;
+  const std::vector<int> piece = corners.numbered(n);
+  return Eigen::Map<const MatX3i>(piece.data(), J.n_faces, 3);
 }
 
 /// One backward Euler step (M + t L) phi = M phi0 of heat flow on the torn surface, from the mean

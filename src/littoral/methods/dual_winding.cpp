@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/solve/l1_integration.h"
 #include "littoral/solve/poisson.h"
 
@@ -34,21 +34,10 @@ std::vector<DualEdge> dual_edges(const JumpCalculus& J, const DualCurve& curve) 
 /// The same surface; components connected by pairs are one.
 JumpCalculus joined(const JumpCalculus& J, const std::vector<FacePair>& pairs) {
   JumpCalculus D = J;
-  std::vector<int> into(static_cast<std::size_t>(J.n_components));
-  std::iota(into.begin(), into.end(), 0);
-  const auto find = [&](int c) {
-    while (into[c] != c) c = into[c] = into[into[c]];
-    return c;
-  };
-  for (const FacePair& p : pairs) {
-    const int a = find(J.component[p.left]), b = find(J.component[p.right]);
-    into[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<int> id(into.size(), -1);
-  D.n_components = 0;
-  for (int c = 0; c < J.n_components; ++c)
-    if (find(c) == c) id[c] = D.n_components++;
-  for (int& c : D.component) c = id[find(c)];
+  DisjointSets components(J.n_components);
+  for (const FacePair& p : pairs) components.join(J.component[p.left], J.component[p.right]);
+  const std::vector<int> number = components.numbered(D.n_components);
+  for (int& c : D.component) c = number[c];
   return D;
 }
 

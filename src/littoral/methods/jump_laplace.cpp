@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/solve/poisson.h"
 
 namespace littoral {
@@ -41,29 +41,9 @@ bool walk_round(const JumpCalculus& J, const VecX& jump, int face, int corner, M
   return consistent;
 }
 
-/// Disjoint sets of nodes, each led by its lowest.
-class Sets {
- public:
-  explicit Sets(int n) : leader_(static_cast<std::size_t>(n)) {
-    std::iota(leader_.begin(), leader_.end(), 0);
-  }
-  int find(int a) {
-    while (leader_[a] != a) a = leader_[a] = leader_[leader_[a]];
-    return a;
-  }
-  void join(int a, int b) {
-    a = find(a);
-    b = find(b);
-    leader_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> leader_;
-};
-
 /// The unknown of every node: its own, or one for each stretch of the boundary.
 std::vector<int> unknowns(const JumpCalculus& J, const VecX& jump, Boundary boundary) {
-  Sets sets(J.n_nodes);
+  DisjointSets sets(J.n_nodes);
   std::vector<char> touched(static_cast<std::size_t>(J.n_nodes), 0);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
@@ -82,7 +62,7 @@ std::vector<int> unknowns(const JumpCalculus& J, const VecX& jump, Boundary boun
 /// Connected parts of the unknowns, -1 for those of open nodes and of none.
 std::vector<int> parts(const JumpCalculus& J, const std::vector<int>& unknown,
                        const std::vector<char>& open, int& n) {
-  Sets sets(J.n_nodes);
+  DisjointSets sets(J.n_nodes);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
       const int i = J.node(f, k), j = J.node(f, (k + 1) % 3);

@@ -2,45 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <string>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/base/error.h"
 
 namespace littoral {
 
 namespace {
-
-class Classes {
- public:
-  explicit Classes(int n) : leader_(static_cast<std::size_t>(n)) {
-    std::iota(leader_.begin(), leader_.end(), 0);
-  }
-  int find(int a) {
-    while (leader_[a] != a) a = leader_[a] = leader_[leader_[a]];
-    return a;
-  }
-  void join(int a, int b) {
-    a = find(a);
-    b = find(b);
-    leader_[std::max(a, b)] = std::min(a, b);
-  }
-  /// Numbers the classes from 0 by their lowest members; returns how many there are.
-  template <class Number>
-  int number(Number&& number) {
-    int n = 0;
-    std::vector<int> id(leader_.size(), -1);
-    for (int a = 0; a < static_cast<int>(leader_.size()); ++a) {
-      const int top = find(a);
-      if (top == a) id[a] = n++;
-      number(a, id[top]);
-    }
-    return n;
-  }
-
- private:
-  std::vector<int> leader_;
-};
 
 void glue(const IntrinsicTriangulation& T, JumpCalculus& J) {
   std::vector<int> count(J.n_edges, 0);
@@ -67,7 +36,7 @@ void glue(const IntrinsicTriangulation& T, JumpCalculus& J) {
 }
 
 void find_nodes(JumpCalculus& J) {
-  Classes corners(3 * J.n_faces), faces(J.n_faces);
+  DisjointSets corners(3 * J.n_faces), faces(J.n_faces);
   for (int e = 0; e < J.n_edges; ++e) {
     if (!J.interior(e)) continue;
     const auto [a, b] = J.sides[e];
@@ -75,10 +44,9 @@ void find_nodes(JumpCalculus& J) {
     for (int end = 0; end < 2; ++end) corners.join(3 * a.face + at_a[end], 3 * b.face + at_b[end]);
     faces.join(a.face, b.face);
   }
-  J.node.resize(J.n_faces, 3);
-  J.n_nodes = corners.number([&](int c, int id) { J.node(c / 3, c % 3) = id; });
-  J.component.resize(J.n_faces);
-  J.n_components = faces.number([&](int f, int id) { J.component[f] = id; });
+  const std::vector<int> node = corners.numbered(J.n_nodes);
+  J.node = Eigen::Map<const MatX3i>(node.data(), J.n_faces, 3);
+  J.component = faces.numbered(J.n_components);
 }
 
 /// A component without holes or handles: a sphere or a disk, by its Euler characteristic.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numeric>
 #include <utility>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/base/parallel.h"
 
 namespace littoral {
@@ -228,20 +228,10 @@ SpMat connection_laplacian_real(const IntrinsicTriangulation& T) {
 
 /// Pieces of edges connected through faces, and the vertices where several of them touch.
 void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
-  std::vector<int> parent(T.n_edges());
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int e) {
-    while (parent[e] != e) e = parent[e] = parent[parent[e]];
-    return e;
-  };
+  DisjointSets edges(T.n_edges());
   for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 1; k < 3; ++k) {
-      const int a = root(T.side_edge(f, 0)), b = root(T.side_edge(f, k));
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  V.piece.assign(T.n_edges(), -1);
-  for (int e = 0; e < T.n_edges(); ++e)
-    if (T.edge_use[e]) V.piece[e] = root(e) == e ? V.n_pieces++ : V.piece[root(e)];
+    for (int k = 1; k < 3; ++k) edges.join(T.side_edge(f, 0), T.side_edge(f, k));
+  V.piece = edges.numbered(V.n_pieces, {T.edge_use.begin(), T.edge_use.end()});
   if (V.n_pieces == T.n_components) return;  // nothing touches at vertices only
 
   std::vector<std::pair<int, int>> corners;  // (vertex, face), for vertices of several pieces

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "littoral/base/error.h"
 #include "littoral/solve/flow_interior_point.h"
@@ -33,6 +34,19 @@ void check(const L1Integration& p) {
   }
 }
 
+/// s such that c_e + s_f - s_g is `jump` on every arc of a forest, 0 at its roots. jump_at(arc)
+/// gives the problem's arc e and the jump there.
+template <class JumpAt>
+VecX along_forest(const L1Integration& p, const Forest& forest, const JumpAt& jump_at) {
+  VecX s = VecX::Zero(p.n);
+  for (int u : forest.order) {
+    if (forest.parent_arc[u] < 0) continue;
+    const auto [e, jump] = jump_at(forest.parent_arc[u]);
+    s[u] = p.f[e] == u ? s[p.g[e]] - p.c[e] + jump : s[p.f[e]] + p.c[e] - jump;
+  }
+  return s;
+}
+
 /// Integrates c along a spanning forest of the dearest arcs: with s measured from there, c is 0 on
 /// the forest and round all loops where it is closed, exactly so where it was but for rounding.
 /// What is left of it lies where jumps are cheap, near the optimum.
@@ -41,12 +55,8 @@ VecX integrate_over_forest(L1Integration& p) {
   for (int e = 0; e < p.n_arcs(); ++e)
     if (p.w[e] > 0) order.push_back(e);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p.w[a] > p.w[b]; });
-  const Forest forest = spanning_forest(p.n, p.f, p.g, order);
-  VecX s = VecX::Zero(p.n);
-  for (int u : forest.order) {
-    const int e = forest.parent_arc[u];
-    if (e >= 0) s[u] = p.f[e] == u ? s[p.g[e]] - p.c[e] : s[p.f[e]] + p.c[e];
-  }
+  const VecX s = along_forest(p, spanning_forest(p.n, p.f, p.g, order),
+                              [](int e) { return std::pair(Eigen::Index{e}, 0.0); });
   const double noise = p.c.size() ? 1e-12 * p.c.cwiseAbs().maxCoeff() : 0;
   for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
     p.c[e] += s[p.f[e]] - s[p.g[e]];
@@ -132,17 +142,12 @@ VecX tree_potentials(const L1Integration& p, const Scaled& scaled, const FlowSol
   for (int arc : flow.tree)
     if (arc >= p.n_arcs() || p.w[arc] > 0) arcs.push_back(arc);
   const Forest forest = spanning_forest(p.n, network.tail, network.head, arcs);
-  VecX s = VecX::Zero(p.n);
-  for (int u : forest.order) {
-    const int arc = forest.parent_arc[u];
-    if (arc < 0) continue;
+  return along_forest(p, forest, [&](int arc) {
     const Eigen::Index bound = arc - p.n_arcs();
-    const Eigen::Index e = bound < 0 ? arc : scaled.bound_arc[bound];
-    const double jump = bound < 0 ? 0 : scaled.bound_sign[bound] > 0 ? p.hi[e] : p.lo[e];
-    // c + s_f - s_g = jump.
-    s[u] = p.f[e] == u ? s[p.g[e]] - p.c[e] + jump : s[p.f[e]] + p.c[e] - jump;
-  }
-  return s;
+    if (bound < 0) return std::pair(Eigen::Index{arc}, 0.0);
+    const Eigen::Index e = scaled.bound_arc[bound];
+    return std::pair(e, scaled.bound_sign[bound] > 0 ? p.hi[e] : p.lo[e]);
+  });
 }
 
 void evaluate(const L1Integration& p, L1Solution& solution, const VecX& multiplier_hi,

@@ -1,22 +1,15 @@
 #include "littoral/solve/spanning_tree.h"
 
-#include <numeric>
+#include "littoral/base/disjoint_sets.h"
 
 namespace littoral {
 
 Forest spanning_forest(int n_nodes, const std::vector<int>& tail, const std::vector<int>& head,
                        const std::vector<int>& order) {
-  std::vector<int> leader(static_cast<std::size_t>(n_nodes));
-  std::iota(leader.begin(), leader.end(), 0);
-  const auto find = [&](int u) {
-    while (leader[u] != u) u = leader[u] = leader[leader[u]];
-    return u;
-  };
+  DisjointSets joined(n_nodes);
   std::vector<int> taken, offset(static_cast<std::size_t>(n_nodes) + 1, 0);
   for (int e : order) {
-    const int a = find(tail[e]), b = find(head[e]);
-    if (a == b) continue;
-    leader[std::max(a, b)] = std::min(a, b);
+    if (!joined.join(tail[e], head[e])) continue;
     taken.push_back(e);
     ++offset[tail[e] + 1];
     ++offset[head[e] + 1];

@@ -13,14 +13,9 @@ int SourceNodes::id(const SurfacePoint& p) {
   if (added) {
     points.push_back(p);
     weight.push_back(0);
-    parent_.push_back(it->second);
+    joined_.add();
   }
   return it->second;
-}
-
-int SourceNodes::root(int a) {
-  while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-  return a;
 }
 
 std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfacePoint& p) {

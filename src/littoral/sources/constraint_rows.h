@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "littoral/base/disjoint_sets.h"
 #include "littoral/sources/source_terms.h"
 #include "littoral/sources/surface_points.h"
 
@@ -17,14 +18,14 @@ namespace littoral {
 class SourceNodes {
  public:
   int id(const SurfacePoint& p);
-  void join(int a, int b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-  int root(int a);
+  void join(int a, int b) { joined_.join(a, b); }
+  int root(int a) { return joined_.find(a); }
   std::vector<SurfacePoint> points;
   std::vector<double> weight;  // length that the node's value stands for, mean edge lengths
 
  private:
   std::map<std::tuple<int, int, std::array<double, 3>>, int> ids_;
-  std::vector<int> parent_;
+  DisjointSets joined_;
 };
 
 /// Hat functions at a point in its simplest form: (vertex, value).

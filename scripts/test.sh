@@ -54,7 +54,10 @@ clang=()
 command -v clang++-14 >/dev/null || clang=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
 
 # Address and undefined-behaviour sanitizers; suites named *Slow* would take too long under them.
-stage_sanitize() { configure_and_build asan "${clang[@]}" && run_ctest asan -E Slow; }
+stage_sanitize() {
+  cmake --preset asan -DLITTORAL_WERROR=ON "${clang[@]}" &&
+    cmake --build build/asan -j "$jobs" --target littoral_tests && run_ctest asan -E Slow
+}
 
 stage_fuzz() {
   cmake --preset fuzz -DLITTORAL_WERROR=ON "${clang[@]}" &&

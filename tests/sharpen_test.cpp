@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "heat_helpers.h"
 #include "littoral/api/distance.h"
+#include "littoral/api/sdf.h"
 #include "littoral/base/error.h"
 #include "littoral/operators/grid.h"
 #include "littoral/operators/tet_operators.h"
+#include "space_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -182,6 +185,41 @@ TEST(GridCalculus, FitsTogetherAndIsExactForLinearFunctions) {
   EXPECT_LT((C.divergence(Gu) - Lu).norm(), 1e-12 * Lu.norm());
   EXPECT_NEAR(Gu.dot(C.G.apply(v)), v.dot(C.G.adjoint(Gu)), 1e-10);
   EXPECT_LT((C.G.apply(linear).segment<3>(0) - Vec3(2, -1, 0.5)).norm(), 1e-12);
+}
+
+/// Nodes at most two spacings from the surface whose value is less than a quarter of what it should
+/// be, although that is more than a spacing: dents.
+int dents(const Grid& grid, const VecX& phi, const std::function<double(const Vec3&)>& exact) {
+  int count = 0;
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i) {
+        const double d = std::abs(exact(grid.point(i, j, k))), h = grid.spacing[0];
+        const double u = std::abs(phi[static_cast<Eigen::Index>(grid.node(i, j, k))]);
+        if (d > h && d < 2.5 * h && u < 0.25 * d) ++count;
+      }
+  return count;
+}
+
+TEST(SharpenSlow, SpheresAndBoxesOnGridsGetNoDents) {
+  const Grid grid = test::cube_grid(19, 1.5);
+  const Vec3 half(0.9, 0.7, 0.5);
+  const auto ball = [](const Vec3& x) { return x.norm() - 1; };
+  const auto box = [half](const Vec3& x) { return test::box_distance(x, half); };
+  const std::pair<PolygonSoup, std::function<double(const Vec3&)>> shapes[] = {
+      {test::octasphere_soup(4), ball}, {test::box_soup(half), box}};
+  for (const auto& [soup, exact] : shapes) {
+    Report report;
+    SpaceRequest request;
+    const VecX plain = grid_distance(soup, grid, request, {}, report);
+    request.options = {{"sharpen", "on"}};
+    const VecX sharp = grid_distance(soup, grid, request, {}, report);
+    EXPECT_EQ(report.status, "converged");
+    EXPECT_GE(sharp.cwiseProduct(plain).minCoeff(), 0);
+    EXPECT_EQ(dents(grid, sharp, exact), 0);
+    EXPECT_LT(test::mean_error(grid, sharp, exact),
+              std::max(0.02, 0.6 * test::mean_error(grid, plain, exact)));
+  }
 }
 
 TEST(Sharpen, ThroughTheFrontDoor) {

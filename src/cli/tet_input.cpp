@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -74,11 +75,13 @@ TetSources gather(const TetArguments& arguments, const io::TetFile& file, Sessio
   TetSources sources;
   sources.vertices =
       checked_vertices(arguments.vertices, file.mesh.n_vertices(), arguments.domain, session);
+  sources.boundary = arguments.boundary;
   sources.surface = read_sources_of(arguments.sources);
-  if (sources.vertices.empty() && arguments.sources.empty()) {
+  if (sources.vertices.empty() && arguments.sources.empty() && !sources.boundary) {
     if (file.triangles.rows() == 0)
-      throw InputError("nothing to measure distance from: name --sources FILE or --vertex I (" +
-                       arguments.domain + " has no triangles of its own)");
+      throw InputError(
+          "nothing to measure distance from: name --sources FILE, --vertex I or --boundary (" +
+          arguments.domain + " has no triangles of its own)");
     sources.surface = triangles_of(file, file.triangles);
   }
   return sources;
@@ -88,6 +91,75 @@ TetSources gather(const TetArguments& arguments, const io::TetFile& file, Sessio
 
 PolygonSoup boundary_of(const io::TetFile& file) {
   return triangles_of(file, boundary_faces(file.mesh));
+}
+
+namespace {
+
+/// The part of a triangle whose x is at most `position` along an axis, as corners with their value
+/// appended: a polygon of up to four corners.
+std::vector<Eigen::Vector4d> clipped(const std::array<Eigen::Vector4d, 3>& triangle, int axis,
+                                     double position) {
+  std::vector<Eigen::Vector4d> out;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector4d &a = triangle[static_cast<std::size_t>(k)],
+                          &b = triangle[static_cast<std::size_t>((k + 1) % 3)];
+    const double x = a[axis] - position, y = b[axis] - position;
+    if (x <= 0) out.push_back(a);
+    if ((x < 0 && y > 0) || (x > 0 && y < 0)) out.push_back(a + x / (x - y) * (b - a));
+  }
+  return out;
+}
+
+}  // namespace
+
+PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
+  const TetMesh& mesh = file.mesh;
+  const std::string field = file.scalars.empty() ? "" : file.scalars.begin()->first;
+  const VecX values = field.empty() ? VecX::Zero(mesh.n_vertices()) : file.scalars.at(field);
+  std::vector<Eigen::Vector4d> points;
+  PolygonSoup out;
+  const auto add = [&](const std::vector<Eigen::Vector4d>& polygon) {
+    if (polygon.size() < 3) return;
+    for (const Eigen::Vector4d& p : polygon) {
+      out.corners.push_back(static_cast<int>(points.size()));
+      points.push_back(p);
+    }
+    out.face_offsets.push_back(static_cast<int>(out.corners.size()));
+  };
+  const MatX3i boundary = boundary_faces(mesh);
+  for (const auto& face : boundary.rowwise()) {
+    std::array<Eigen::Vector4d, 3> triangle;
+    for (int k = 0; k < 3; ++k)
+      triangle[static_cast<std::size_t>(k)] << mesh.points.row(face[k]).transpose(),
+          values[face[k]];
+    add(clipped(triangle, axis, position));
+  }
+  // The section, with the value of the tet that holds each of its corners.
+  Report unread;
+  const VecX height = mesh.points.col(axis).array() - position;
+  const PolygonSoup section = isosurface(mesh, height, 0, unread);
+  if (section.n_faces() == 0) throw InputError("the plane of --slice misses the tets");
+  const TetLocator locator(mesh);
+  for (int f = 0; f < section.n_faces(); ++f) {
+    std::vector<Eigen::Vector4d> polygon;
+    for (const int v : section.face(f)) {
+      const TetPoint p = locator.locate(section.points.row(v));
+      double value = 0;
+      for (int k = 0; k < 4 && p.tet >= 0; ++k)
+        value += p.barycentric[static_cast<std::size_t>(k)] * values[mesh.tets(p.tet, k)];
+      if (p.tet < 0) break;
+      polygon.emplace_back(section.points(v, 0), section.points(v, 1), section.points(v, 2), value);
+    }
+    add(polygon);
+  }
+  out.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  VecX at(out.points.rows());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    out.points.row(i) = points[static_cast<std::size_t>(i)].head<3>();
+    at[i] = points[static_cast<std::size_t>(i)][3];
+  }
+  if (!field.empty()) out.scalars[field] = at;
+  return out;
 }
 
 void write_tet_field(const std::string& file, const TetMesh& mesh, const VecX& values,

@@ -20,12 +20,17 @@ struct TetArguments {
   std::string domain, method;
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
+  bool boundary = false;
   GivenOptions options;
 };
 void distance_through_tets(const TetArguments& arguments, Session& session);
 
 /// The boundary of tets as a surface with the fields of the file.
 PolygonSoup boundary_of(const io::TetFile& file);
+
+/// What is left of it on the far side of a plane across an axis, seen along that, and the section
+/// of the tets there. Throws InputError if the plane misses the tets.
+PolygonSoup cut_open(const io::TetFile& file, int axis, double position);
 
 /// Writes a field on tets: whole as .vtk and .vtu, its values as .csv .npy .txt, or the boundary.
 void write_tet_field(const std::string& file, const TetMesh& mesh, const VecX& values,

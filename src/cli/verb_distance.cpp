@@ -93,9 +93,10 @@ void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
 
 void run(Arguments& arguments, Session& session) {
   if (io::is_tets(arguments.domain))
-    return distance_through_tets({arguments.domain, arguments.request.method, arguments.sources,
-                                  arguments.out, arguments.vertices, arguments.options},
-                                 session);
+    return distance_through_tets(
+        {arguments.domain, arguments.request.method, arguments.sources, arguments.out,
+         arguments.vertices, arguments.boundary, arguments.options},
+        session);
   for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
   arguments.request.flip = session.flip;
   use_method_options(arguments.options, arguments.request);
@@ -139,7 +140,7 @@ void add_distance(CLI::App& program, Session& session) {
                       "a source vertex, from 0; may be repeated")
       ->type_name("I");
   verb->add_flag("--boundary", arguments->boundary,
-                 "measure from the boundary of the surface, without sign");
+                 "measure from the boundary of the surface or of the tets, without sign");
   add_output_option(
       *verb, arguments->out,
       "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too");

@@ -29,6 +29,15 @@ struct Arguments {
   int levels = 20;
 };
 
+/// A surface or cloud, or the boundary of tets, which --slice cuts open.
+PolygonSoup read_shown(const Arguments& arguments) {
+  if (!io::is_tets(arguments.in)) return io::read_surface(arguments.in);
+  const io::TetFile file = io::read_tets(arguments.in);
+  const VolumeViewTexts& view = arguments.volume;
+  return view.position.empty() ? boundary_of(file)
+                               : cut_open(file, view.axis_number(), view.slice_at());
+}
+
 io::Scene read_scene_of(const Arguments& arguments, Session& session) {
   if (io::is_volume(arguments.in)) {
     if (!arguments.sources.empty())
@@ -36,8 +45,7 @@ io::Scene read_scene_of(const Arguments& arguments, Session& session) {
                        " is a volume");
     return read_volume_scene(arguments.in, arguments.field, arguments.volume);
   }
-  PolygonSoup soup = io::is_tets(arguments.in) ? boundary_of(io::read_tets(arguments.in))
-                                               : io::read_surface(arguments.in);
+  PolygonSoup soup = read_shown(arguments);
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
   io::Scene scene =

@@ -19,14 +19,18 @@ double parse_number(const std::string& option, const std::string& text) {
 
 }  // namespace
 
+double VolumeViewTexts::slice_at() const { return parse_number("--slice", position); }
+
 void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts) {
   const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
   volumes(verb.add_option("--axis", texts.axis,
                           "the slice is orthogonal to this axis: x, y or z [default z]"))
       ->check(CLI::IsMember({"x", "y", "z"}).description(""))
       ->type_name("A");
-  volumes(verb.add_option("--slice", texts.position,
-                          "where along the axis [length; default: the middle of the box]"))
+  volumes(
+      verb.add_option("--slice", texts.position,
+                      "where along the axis [length; default: the middle of the box]; tets are cut "
+                      "open there"))
       ->type_name("P");
   volumes(verb.add_option("--level", texts.level,
                           "the level of the surface shown [default 0, or half way where the values "
@@ -38,8 +42,8 @@ void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts) {
 io::Scene read_volume_scene(const std::string& file, const std::string& field,
                             const VolumeViewTexts& texts) {
   io::VolumeView view;
-  view.axis = texts.axis.front() - 'x';
-  if (!texts.position.empty()) view.position = parse_number("--slice", texts.position);
+  view.axis = texts.axis_number();
+  if (!texts.position.empty()) view.position = texts.slice_at();
   if (!texts.level.empty()) view.level = parse_number("--level", texts.level);
   view.isosurface = !texts.no_surface;
   const VolumeField volume = io::read_volume(file, field);

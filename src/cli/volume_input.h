@@ -13,6 +13,8 @@ namespace littoral::cli {
 /// Options of `view` and `render` that are about volumes, as given.
 struct VolumeViewTexts {
   std::string axis = "z", position, level;
+  int axis_number() const { return axis.front() - 'x'; }
+  double slice_at() const;  // --slice; throws InputError unless it is one number
   bool no_surface = false;
 };
 void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts);

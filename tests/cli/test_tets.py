@@ -74,6 +74,22 @@ def test_distance_from_a_vertex_and_its_level_set(run: Run, cube: str, tmp_path:
     assert json.loads(run("info", "boundary.obj", "--json").stdout)["faces"] == 192
 
 
+def test_regularized_distance_from_the_boundary_cut_open(
+    run: Run, cube: str, tmp_path: Path
+) -> None:
+    words = ["--method", "regularized", "--boundary", "--alpha", "0"]
+    out = ["--json", "-o", "d.vtk", "-o", "d.txt"]
+    report = json.loads(run("distance", cube, *words, *out).stdout)
+    assert report["status"] == "converged"
+    values = [float(line) for line in (tmp_path / "d.txt").read_text().splitlines()]
+    assert max(values) == pytest.approx(0.5, abs=0.05)
+    assert values[0] == 0
+    run("render", "d.vtk", "--axis", "x", "--slice", "0.4", "-o", "cut.png")
+    assert "misses" in run("render", "d.vtk", "--slice", "7", "-o", "x.png", status=2).stderr
+    message = run("distance", cube, *words[:3], "--regularizer", "hessian", "-o", "d.vtk", status=2)
+    assert "triangle mesh" in message.stderr
+
+
 def test_the_lattice_is_written_as_tets(run: Run, cube: str) -> None:
     run("sdf", "half.obj", "--domain", "tets", "--resolution", 9, "-o", "lattice.vtu")
     run("sdf", "half.obj", "--domain", "tets", "--resolution", 9, "-o", "lattice.vtk")
@@ -85,7 +101,7 @@ def test_errors_are_clear(run: Run, cube: str, tmp_path: Path) -> None:
     def error(*words: object, status: int = 2) -> str:
         return run("distance", cube, *words, status=status).stderr
 
-    assert "--sources FILE or --vertex I" in error("-o", "d.vtk")
+    assert "--sources FILE, --vertex I or --boundary" in error("-o", "d.vtk")
     assert "there is no vertex 125" in error("--vertex", 125, "-o", "d.vtk")
     assert "not both" in error("--vertex", 0, "--sources", "half.obj", "-o", "d.vtk")
     assert "does not run on tets" in error("--vertex", 0, "--method", "winding", "-o", "d.vtk")

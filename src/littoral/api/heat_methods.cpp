@@ -27,13 +27,6 @@ namespace littoral {
 
 namespace {
 
-/// Through tets it is a function of its own: api/tet_distance.h.
-std::vector<std::string> signed_heat_domains() {
-  std::vector<std::string> domains = all_surfaces();
-  domains.push_back("tet mesh");
-  return domains;
-}
-
 /// What the method diffuses from the sources: functions can use a cover, vectors cannot.
 enum class Diffused { functions, vectors };
 using Needs = std::function<Diffused(const PreparedSources&)>;
@@ -214,7 +207,7 @@ std::vector<SurfaceMethod> heat_methods() {
               {"signed-heat",
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
-               signed_heat_domains(),
+               surfaces_and_tets(),
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),

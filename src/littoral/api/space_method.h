@@ -62,6 +62,7 @@ std::vector<SpaceMethod> space_heat_methods();
 std::vector<SpaceMethod> closest_point_methods();
 std::vector<SpaceMethod> convolutional_methods();
 std::vector<SpaceMethod> tori_methods();
+std::vector<SpaceMethod> regularized_space_methods();
 
 /// What the world may know about each of them.
 std::vector<MethodInfo> space_method_infos();

@@ -4,8 +4,10 @@
 
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
+#include "littoral/base/memory.h"
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
+#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_grid.h"
 #include "littoral/methods/tori.h"
 
@@ -83,7 +85,19 @@ std::vector<SpaceMethod> space_heat_methods() {
   heat.on_grid = [info](const SpaceProblem& problem, const Grid& grid, const OptionTexts& texts,
                         Task& task, Report& report) {
     const SpaceHeatOptions options = parse_options(info, space_heat_options(), texts);
-    VecX phi = signed_heat_grid(grid, problem.samples, options, task, report);
+    if (options.sharpen)
+      check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
+                   "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
+                   "use a smaller --resolution or leave out --sharpen");
+    VecX phi = signed_heat_grid(grid, problem.samples, options,
+                                task.stage(options.sharpen ? 0.2 : 1, "signed heat"), report);
+    if (options.sharpen) {
+      Operators ops;
+      ops.domain = "grid";
+      ops.scalar = grid_calculus(grid);
+      phi = sharpen_in_space(ops, grid_rows(grid, problem.samples.points, problem.samples.areas).A,
+                             phi, SharpenSolver::admm, task.stage(0.8, "sharpening"), report);
+    }
     report_options(space_heat_options(), options, report);
     return phi;
   };
@@ -152,8 +166,8 @@ std::vector<SpaceMethod> tori_methods() {
 const std::vector<SpaceMethod>& space_methods() {
   static const std::vector<SpaceMethod> all = [] {
     std::vector<SpaceMethod> out;
-    for (auto family :
-         {space_heat_methods, closest_point_methods, convolutional_methods, tori_methods}) {
+    for (auto family : {space_heat_methods, closest_point_methods, convolutional_methods,
+                        tori_methods, regularized_space_methods}) {
       std::vector<SpaceMethod> entries = family();
       out.insert(out.end(), std::make_move_iterator(entries.begin()),
                  std::make_move_iterator(entries.end()));

@@ -9,10 +9,12 @@
 #include <numeric>
 #include <string>
 
+#include "littoral/api/regularized_space.h"
 #include "littoral/api/space_problem.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/tet_locator.h"
+#include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_tets.h"
 
 namespace littoral {
@@ -22,7 +24,8 @@ namespace {
 SpaceHeatOptions heat_options(const SpaceRequest& request) {
   if (request.method != "signed-heat")
     throw UnsupportedError("method " + request.method +
-                           " does not run on tets; signed-heat does, and grids take all methods");
+                           " does not run on tets; signed-heat does, and through tets that are "
+                           "given regularized and belyaev-fayolle, too");
   const SpaceMethod& method = find_space_method(request.method);
   return parse_options(method.info, space_heat_options(), request.options);
 }
@@ -79,24 +82,37 @@ struct Placed {
   double h = 0;  // of the samples; [length]
 };
 
-VecX solve_part(const TetMesh& mesh, const TetOperators& ops, const Placed& sources,
-                const std::vector<int>& held_tets, const SpaceHeatOptions& options,
-                const Task& task, Report& report) {
-  const double edge = mean_edge(mesh, held_tets);
-  const double tolerance = held_to * edge;
-  if (!sources.vertices.empty())
-    return unsigned_heat_tets(ops, vertex_source_terms(ops, sources.vertices), edge, tolerance,
-                              options, task, report);
-  // A row for each vertex, of the samples nearest to it: as many as vertices next to the source.
+/// A row for each vertex of the source or, of a surface, for each vertex next to it, of the samples
+/// nearest to that.
+TetSourceTerms terms_of(const TetMesh& mesh, const TetOperators& ops, const Placed& sources) {
+  if (!sources.vertices.empty()) return vertex_source_terms(ops, sources.vertices);
   std::vector<int> nearest;
   for (const TetPoint& p : sources.places) {
     const auto corner = std::max_element(p.barycentric.begin(), p.barycentric.end());
     nearest.push_back(
         p.tet < 0 ? -1 : mesh.tets(p.tet, static_cast<int>(corner - p.barycentric.begin())));
   }
-  const TetSourceTerms terms =
-      tet_source_terms(mesh, ops, sources.samples, sources.places, nearest);
-  return signed_heat_tets(ops, terms, std::max(sources.h, edge), tolerance, options, task, report);
+  return tet_source_terms(mesh, ops, sources.samples, sources.places, nearest);
+}
+
+VecX solve_part(const TetMesh& mesh, const TetOperators& ops, const Placed& sources,
+                const std::vector<int>& held_tets, const SpaceHeatOptions& options,
+                const Task& task, Report& report) {
+  const double edge = mean_edge(mesh, held_tets);
+  const double tolerance = held_to * edge;
+  const TetSourceTerms terms = terms_of(mesh, ops, sources);
+  return sources.vertices.empty()
+             ? signed_heat_tets(ops, terms, std::max(sources.h, edge), tolerance, options, task,
+                                report)
+             : unsigned_heat_tets(ops, terms, edge, tolerance, options, task, report);
+}
+
+VecX sharpened(const std::shared_ptr<const TetOperators>& ops, const SpMat& rows, const VecX& phi,
+               const Task& task, Report& report) {
+  Operators in_space;
+  in_space.domain = report.domain;
+  in_space.scalar = tet_calculus(ops);
+  return sharpen_in_space(in_space, rows, phi, SharpenSolver::admm, task, report);
 }
 
 /// The tets that hold sources, each once.
@@ -182,8 +198,10 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
   if (terms.outside > 0)
     report.warn(std::to_string(terms.outside) + " samples of the input lie outside the box");
   const double h = std::max(sample_spacing(source), lattice.finest());
-  const VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
-                                    task.stage(0.8, "distance"), report);
+  VecX phi = signed_heat_tets(ops, terms, h, 0.01 * lattice.finest(), options,
+                              task.stage(options.sharpen ? 0.4 : 0.8, "distance"), report);
+  if (options.sharpen)
+    phi = sharpened(made_operators, terms.A, phi, task.stage(0.4, "sharpening"), report);
   report_options(space_heat_options(), options, report);
   if (on_grid != nullptr) {
     on_grid->resize(static_cast<Eigen::Index>(grid.n_nodes()));
@@ -214,8 +232,12 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
   };
   if (std::none_of(wanted.options.begin(), wanted.options.end(), is_hold))
     wanted.options.emplace_back("constraint", "zero-set");
-  const SpaceHeatOptions options = heat_options(wanted);
-  const bool from_vertices = !sources.vertices.empty();
+  const bool is_convex = request.method == "regularized" || request.method == "belyaev-fayolle";
+  const RegularizedOptions convex_options =
+      is_convex ? regularized_options_in_space(request.method, request.options, report)
+                : RegularizedOptions();
+  const SpaceHeatOptions options = is_convex ? SpaceHeatOptions() : heat_options(wanted);
+  const bool from_vertices = !sources.vertices.empty() || sources.boundary;
   if (from_vertices && (sources.surface.n_faces() > 0 || sources.surface.n_vertices() > 0))
     throw UnsupportedError(
         "distance through tets is signed, from surfaces, or unsigned, from vertices: not both");
@@ -244,8 +266,15 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
   const auto ops = made(building, [local] { return tet_operators(*local); });
   std::vector<int> all(static_cast<std::size_t>(mesh.n_tets()));
   std::iota(all.begin(), all.end(), 0);
-  const Placed placed =
-      place(local, sources, wanted, frame, mean_edge(*local, all), building, report);
+  TetSources from = sources;
+  if (sources.boundary) {
+    const MatX3i faces = boundary_faces(*local);
+    from.vertices.insert(from.vertices.end(), faces.data(), faces.data() + faces.size());
+    std::sort(from.vertices.begin(), from.vertices.end());
+    from.vertices.erase(std::unique(from.vertices.begin(), from.vertices.end()),
+                        from.vertices.end());
+  }
+  const Placed placed = place(local, from, wanted, frame, mean_edge(*local, all), building, report);
   for (const int v : placed.vertices)
     if (ops->component[static_cast<std::size_t>(v)] < 0)
       report.warn("source vertex " + std::to_string(v) + " belongs to no tet and is left out");
@@ -255,9 +284,15 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
       tets_of[static_cast<std::size_t>(ops->component[static_cast<std::size_t>(local->tets(t, 0))])]
           .push_back(t);
 
+  Task solving = task.stage(options.sharpen ? 0.4 : 0.9, "distance");
+  if (is_convex) {
+    const SpMat rows = terms_of(*local, *ops, placed).A;
+    if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
+    return regularized_in_space(tet_calculus(ops), rows, convex_options, solving, report) *
+           frame.unit;
+  }
   VecX phi = VecX::Constant(mesh.n_vertices(), std::numeric_limits<double>::infinity());
   bool any = false;
-  Task solving = task.stage(0.9, "distance");
   for (int c = 0; c < ops->n_components; ++c) {
     const std::vector<int>& held = tets_of[static_cast<std::size_t>(c)];
     const Task stage = solving.stage(1.0 / ops->n_components, "distance");
@@ -286,6 +321,9 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
     phi(part.vertices) = values;
   }
   if (!any) throw InputError("no source vertex belongs to a tet");
+  if (options.sharpen)
+    phi = sharpened(ops, terms_of(*local, *ops, placed).A, phi, task.stage(0.5, "sharpening"),
+                    report);
   report_options(space_heat_options(), options, report);
   return phi * frame.unit;
 }

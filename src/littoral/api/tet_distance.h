@@ -8,15 +8,17 @@
 namespace littoral {
 
 /// What distance through tets is measured from: a surface or cloud in space (faces of tets, or
-/// anything else within them), or vertices.
+/// anything else within them), or vertices, or those of the boundary.
 struct TetSources {
   PolygonSoup surface;
   std::vector<int> vertices;
+  bool boundary = false;
 };
 
-/// Signed heat from a surface, unsigned from vertices, at the vertices of the mesh [length]; +inf
-/// on components that no source reaches, and at vertices of no tet. Of the request, the method must
-/// be signed-heat, whose options are those of `sdf`, with constraint zero-set where none is given.
+/// Distance at the vertices of the mesh [length]; +inf on components that no source reaches, and at
+/// vertices of no tet. Methods: signed-heat, signed from a surface and unsigned from vertices, with
+/// the options of `sdf` but constraint zero-set where none is given; regularized and
+/// belyaev-fayolle, unsigned from either.
 ///
 /// Flat and inverted tets are harmless; parts of the surface outside the tets are left out, with a
 /// warning. Throws InputError for bad input, and if no source lies in a tet, UnsupportedError for

@@ -7,6 +7,7 @@
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/base/parallel.h"
+#include "littoral/solve/strips.h"
 
 namespace littoral {
 
@@ -32,12 +33,25 @@ double all_pairs_memory(double nodes, double cells, double bytes_per_number) {
 
 namespace {
 
-constexpr Eigen::Index block = 16;  // columns worked on together
-constexpr double relaxation = 1.8;  // Boyd et al. 2011, 3.4.3
+constexpr Eigen::Index block = strip_width;  // columns worked on together
+constexpr double relaxation = 1.8;           // Boyd et al. 2011, 3.4.3
 constexpr int check_every = 5;
 
-template <class Number>
-using Strip = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Row = Eigen::Array<double, 1, block, Eigen::RowMajor>;
+
+/// Row r of A x.
+Row row_of_product(const SpRows& A, Eigen::Index r, const Strip& x) {
+  Row sum = Row::Zero();
+  for (SpRows::InnerIterator it(A, r); it; ++it) sum += it.value() * x.row(it.col()).array();
+  return sum;
+}
+
+/// Shrinks the vectors (x, y) to length 1 at most.
+void project(Row& x, Row& y) {
+  const Row shrink = (x.square() + y.square()).max(1.0).sqrt().inverse();
+  x *= shrink;
+  y *= shrink;
+}
 
 /// Squared norms over the product of the domain with itself.
 struct Norms {
@@ -68,7 +82,7 @@ class AllPairs {
     for (Eigen::Index c = 0; c < cells_; ++c) A.segment<2>(2 * c).setConstant(C.A[c]);
     D_ = SpRows(G_.transpose()) * A.asDiagonal();
     for (Eigen::Index j = 0; j < n_; j += block)
-      S_.push_back(Strip<Number>::Zero(2 * cells_, std::min(block, n_ - j)));
+      S_.push_back(StripOf<Number>::Zero(2 * cells_, block));
     T_ = U_ = X_ = Matrix::Zero(n_, n_);
     factor();
   }
@@ -105,43 +119,25 @@ class AllPairs {
     SpMat K(n_, n_);
     K.setFromTriplets(entries.begin(), entries.end());
     K += (alpha_ + rho1_) * C_.L;
-    factor_ = factor_ ? std::make_unique<DefiniteSystem>(K, factor_->structure(), task_)
-                      : std::make_unique<DefiniteSystem>(K, task_);
+    if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
+    factor_ = std::make_unique<const StripFactor>(K, *structure_);
     response_.resize(n_, n_);
     parallel_for(static_cast<std::size_t>(n_), block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      const auto width = static_cast<Eigen::Index>(end - begin);
-      MatX unit = MatX::Zero(n_, width);
-      for (Eigen::Index k = 0; k < width; ++k) unit(static_cast<Eigen::Index>(begin) + k, k) = 1;
-      response_.middleCols(static_cast<Eigen::Index>(begin), width) =
-          factor_->approximate(unit, task_).template cast<Number>();
+      const auto first = static_cast<Eigen::Index>(begin),
+                 width = static_cast<Eigen::Index>(end - begin);
+      Strip unit = Strip::Zero(n_, block);
+      for (Eigen::Index k = 0; k < width; ++k) unit(first + k, k) = 1;
+      factor_->solve(unit);
+      response_.middleCols(first, width) = unit.leftCols(width).template cast<Number>();
     });
   }
 
-  /// z := Proj(z, unit balls).
-  void project(Strip<double>& z) const {
-    for (Eigen::Index c = 0; c < cells_; ++c) {
-      auto x = z.row(2 * c).array(), y = z.row(2 * c + 1).array();
-      const Eigen::Array<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, block> shrink =
-          (x.square() + y.square()).max(1.0).sqrt().inverse();
-      x *= shrink;
-      y *= shrink;
-    }
-  }
-  /// Sum over cells of their squared length times area, and over columns times M.
-  double cells2(const Strip<double>& z, Eigen::Index begin) const {
-    double sum = 0;
-    for (Eigen::Index j = 0; j < z.cols(); ++j) {
-      double column = 0;
-      for (Eigen::Index c = 0; c < cells_; ++c)
-        column += C_.A[c] * (z(2 * c, j) * z(2 * c, j) + z(2 * c + 1, j) * z(2 * c + 1, j));
-      sum += C_.M[begin + j] * column;
-    }
-    return sum;
-  }
-  double forces2(const Strip<double>& z, Eigen::Index begin) const {
-    const Strip<double> force = D_ * z;
-    return force.colwise().squaredNorm() * C_.M.segment(begin, z.cols());
+  /// Of the columns from `begin` on; 0 beyond the last.
+  Row masses(Eigen::Index begin) const {
+    Row m = Row::Zero();
+    for (Eigen::Index k = 0; k < std::min(block, n_ - begin); ++k) m[k] = C_.M[begin + k];
+    return m;
   }
 
   Norms iterate(bool check) {
@@ -166,49 +162,77 @@ class AllPairs {
     return norms;
   }
 
-  /// Steps X, Z, Y, and T = H + X of columns.
+  /// Steps X, Z, Y, and T = H + X of columns. Of Z and Y only their sum s is read and written: z is
+  /// its projection, and what is multiplied by D is p = z - w = 2 z - s.
   void update_columns(Eigen::Index begin, Eigen::Index end, bool check, Norms& norms,
                       double& longest) {
     const Eigen::Index width = end - begin;
-    Strip<double> s = S_[begin / block].template cast<double>(), old_z = s;
-    project(old_z);
+    StripOf<Number>& S = S_[static_cast<std::size_t>(begin / block)];
+    Strip p(2 * cells_, block);
+    for (Eigen::Index c = 0; c < 2 * cells_; c += 2) {
+      const Row sx = S.row(c).template cast<double>(), sy = S.row(c + 1).template cast<double>();
+      Row x = sx, y = sy;
+      project(x, y);
+      p.row(c) = 2 * x - sx;
+      p.row(c + 1) = 2 * y - sy;
+    }
     // M_P - D Y + rho1 D Z - M H + rho2 M U; h = t - u.
-    const Strip<double> force = D_ * (2 * old_z - s).eval();
-    const VecX half = VecX::Constant(n_, 0.5);
-    MatX rhs(n_, width);
+    Strip X(n_, block);
+    for (Eigen::Index i = 0; i < n_; ++i)
+      X.row(i) = rho1_ * row_of_product(D_, i, p) + 0.5 * C_.M[i];
+    X.rightCols(block - width).setZero();
     for (Eigen::Index k = 0; k < width; ++k) {
       const Eigen::Index j = begin + k;
-      const VecX apart = (2 * U_.col(j) - T_.col(j)).template cast<double>();
-      rhs.col(k) = rho1_ * force.col(k) + C_.M.cwiseProduct(rho2_ * apart + half);
+      X.col(k) += rho2_ * C_.M.cwiseProduct((2 * U_.col(j) - T_.col(j)).template cast<double>());
     }
-    Strip<double> X = factor_->approximate(rhs, task_);
+    factor_->solve(X);
     for (Eigen::Index k = 0; k < width; ++k) {
       const Eigen::Index j = begin + k;
       const double pull = X(j, k) / double(response_(j, j));
       X.col(k) -= pull * response_.col(j).template cast<double>();
     }
-    const Strip<double> g = G_ * X;
-    s += relaxation * (g - old_z);
-    Strip<double> z = s;
-    project(z);
-    if (check) {
-      norms.gap = cells2(g - z, begin);
-      norms.g = cells2(g, begin);
-      norms.z = cells2(z, begin);
-      norms.dz = forces2(z - old_z, begin);
-      norms.w = forces2(s - z, begin);
-      for (Eigen::Index c = 0; c < cells_; ++c)
-        longest =
-            std::max(longest, (g.row(2 * c).cwiseAbs2() + g.row(2 * c + 1).cwiseAbs2()).maxCoeff());
-      longest = std::sqrt(longest);
+    const Row mass = masses(begin);
+    Strip before, multiplier;  // z - old z and w, where norms of D times them are wanted
+    if (check) before.resize(2 * cells_, block), multiplier.resize(2 * cells_, block);
+    for (Eigen::Index c = 0; c < 2 * cells_; c += 2) {
+      const Row gx = row_of_product(G_, c, X), gy = row_of_product(G_, c + 1, X);
+      Row sx = S.row(c).template cast<double>(), sy = S.row(c + 1).template cast<double>();
+      const Row zx = 0.5 * (p.row(c).array() + sx), zy = 0.5 * (p.row(c + 1).array() + sy);
+      sx += relaxation * (gx - zx);
+      sy += relaxation * (gy - zy);
+      S.row(c) = sx.template cast<Number>();
+      S.row(c + 1) = sy.template cast<Number>();
+      if (!check) continue;
+      Row x = sx, y = sy;
+      project(x, y);
+      const double area = C_.A[c / 2];
+      const Row length2 = gx.square() + gy.square();
+      norms.gap += area * (mass * ((gx - x).square() + (gy - y).square())).sum();
+      norms.g += area * (mass * length2).sum();
+      norms.z += area * (mass * (x.square() + y.square())).sum();
+      longest = std::max(longest, length2.maxCoeff());
+      before.row(c) = x - zx;
+      before.row(c + 1) = y - zy;
+      multiplier.row(c) = sx - x;
+      multiplier.row(c + 1) = sy - y;
     }
-    S_[begin / block] = s.cast<Number>();
+    if (check) {
+      longest = std::sqrt(longest);
+      norms.dz = forces2(before, mass);
+      norms.w = forces2(multiplier, mass);
+    }
     for (Eigen::Index k = 0; k < width; ++k) {
       const auto x = X.col(k).template cast<Number>().eval();
-      X_.col(begin + k) = x;
+      if (check) X_.col(begin + k) = x;
       // h + relaxed x = t - u + 1.8 x - .8 u
       T_.col(begin + k) += Number(relaxation) * (x - U_.col(begin + k));
     }
+  }
+
+  double forces2(const Strip& z, const Row& mass) const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) sum += (mass * row_of_product(D_, i, z).square()).sum();
+    return sum;
   }
 
   /// U = max((T + T^T) / 2, 0), 0 on the diagonal: columns begin to end of it.
@@ -258,14 +282,18 @@ class AllPairs {
 
   /// Keeps Y = rho1 w and H = rho2 h where the penalties change.
   void rescale(double f1, double f2) {
-    parallel_for(S_.size(), 1, [&](std::size_t p, std::size_t) {
-      const Strip<double> s = S_[p].template cast<double>();
-      Strip<double> z = s;
-      project(z);
-      S_[p] = (z + (s - z) / f1).template cast<Number>();
-      const auto begin = static_cast<Eigen::Index>(p) * block;
-      auto T = T_.middleCols(begin, s.cols());
-      const auto U = U_.middleCols(begin, s.cols());
+    parallel_for(S_.size(), 1, [&](std::size_t at, std::size_t) {
+      StripOf<Number>& S = S_[at];
+      for (Eigen::Index c = 0; c < 2 * cells_; c += 2) {
+        const Row sx = S.row(c).template cast<double>(), sy = S.row(c + 1).template cast<double>();
+        Row x = sx, y = sy;
+        project(x, y);
+        S.row(c) = (x + (sx - x) / f1).template cast<Number>();
+        S.row(c + 1) = (y + (sy - y) / f1).template cast<Number>();
+      }
+      const auto begin = static_cast<Eigen::Index>(at) * block, width = std::min(block, n_ - begin);
+      auto T = T_.middleCols(begin, width);
+      const auto U = U_.middleCols(begin, width);
       T = U + (T - U) / Number(f2);
     });
   }
@@ -277,10 +305,11 @@ class AllPairs {
   double area_, rho1_ = 0, rho2_ = 0, alpha_ = 0, longest_ = 0, progress_ = 0;
   int next_change_ = 50;
   SpRows G_, D_;
-  std::unique_ptr<DefiniteSystem> factor_;
-  std::vector<Strip<Number>> S_;  // 2 cells x nodes, by blocks of columns
-  Matrix T_, U_, X_;              // nodes x nodes
-  Matrix response_;               // to a force at each node
+  std::unique_ptr<const Elimination> structure_;
+  std::unique_ptr<const StripFactor> factor_;
+  std::vector<StripOf<Number>> S_;  // 2 cells x nodes, by blocks of columns
+  Matrix T_, U_, X_;                // nodes x nodes
+  Matrix response_;                 // to a force at each node
 };
 
 }  // namespace
@@ -311,63 +340,6 @@ MatX all_pairs(const Operators& ops, const AllPairsOptions& options, const Task&
       U(i, i) = 0;
     }
   return U;
-}
-
-PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
-  const Eigen::Index n = D.rows();
-  const double root = std::sqrt(area);
-  MatX S(n, n);
-  PairStatistics out;
-  double sum = 0, pairs = 0;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double a = D(i, j), b = D(j, i);
-      const bool finite = std::isfinite(a) && std::isfinite(b);
-      S(i, j) = finite ? 0.5 * (a + b) : std::numeric_limits<double>::infinity();
-      if (!finite || i == j) continue;
-      out.largest_asymmetry = std::max(out.largest_asymmetry, std::abs(a - b) / root);
-      sum += std::abs(a - b) / root;
-      ++pairs;
-    }
-  out.mean_asymmetry = pairs > 0 ? sum / pairs : 0;
-  // Pairs i < j with i in steps; every k.
-  const Eigen::Index step = std::max<Eigen::Index>(1, n / 600);
-  const double round_off = 1e-12 * root;
-  struct Count {
-    double triplets = 0, violated = 0, largest = 0;
-  };
-  std::vector<Count> counts(static_cast<std::size_t>((n + step - 1) / step));
-  parallel_for(counts.size(), 4, [&](std::size_t begin, std::size_t end) {
-    task.checkpoint();
-    for (std::size_t p = begin; p < end; ++p) {
-      const Eigen::Index i = static_cast<Eigen::Index>(p) * step;
-      Count& count = counts[p];
-      for (Eigen::Index j = i + 1; j < n; ++j) {
-        const double d = S(i, j);
-        if (!std::isfinite(d)) continue;
-        int violated = 0;
-        double least = std::numeric_limits<double>::infinity();
-        const double* a = S.col(i).data();
-        const double* b = S.col(j).data();
-        for (Eigen::Index k = 0; k < n; ++k) {
-          const double around = a[k] + b[k];  // k = i, j: d itself
-          violated += around < d - round_off;
-          least = std::min(least, around);
-        }
-        count.violated += violated;
-        count.triplets += static_cast<double>(n - 2);
-        count.largest = std::max(count.largest, (d - least) / root);
-      }
-    }
-  });
-  double violated = 0;
-  for (const Count& count : counts) {
-    out.triplets += count.triplets;
-    violated += count.violated;
-    out.largest_violation = std::max(out.largest_violation, count.largest);
-  }
-  out.violations = out.triplets > 0 ? violated / out.triplets : 0;
-  return out;
 }
 
 }  // namespace littoral

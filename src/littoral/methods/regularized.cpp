@@ -11,8 +11,17 @@ namespace littoral {
 
 namespace {
 
-/// When to stop, and on which functions.
-OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> table) {
+using Table = OptionTable<RegularizedOptions>;
+
+Table with_alpha(Table table) {
+  return table.number(
+      &RegularizedOptions::alpha, "alpha", "", 0, 1e6,
+      "Smoothing, whatever the size of the domain (alpha-hat); 0 gives the distance "
+      "of Belyaev and Fayolle.");
+}
+
+/// When to stop.
+Table with_stopping(Table table) {
   using O = RegularizedOptions;
   return table
       .number(&O::tolerance, "tolerance", "", 1e-10, 1,
@@ -21,7 +30,13 @@ OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> ta
               "If not 0, iterations go on until the duality gap is below this share of the "
               "objective.")
       .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-              "Iterations after which the best answer so far is given.")
+              "Iterations after which the best answer so far is given.");
+}
+
+/// On which functions.
+Table with_elements(Table table) {
+  using O = RegularizedOptions;
+  return table
       .choice(
           &O::elements, "elements", {"linear", "quadratic"},
           "Functions on triangles: linear, or quadratic, which bend inside them and are rounder "
@@ -34,11 +49,8 @@ OptionTable<RegularizedOptions> with_stopping(OptionTable<RegularizedOptions> ta
 
 const OptionTable<RegularizedOptions>& regularized_options() {
   using O = RegularizedOptions;
-  static const OptionTable<O> table = with_stopping(
-      OptionTable<O>()
-          .number(&O::alpha, "alpha", "", 0, 1e6,
-                  "Smoothing, whatever the size of the mesh (alpha-hat); 0 gives the distance of "
-                  "Belyaev and Fayolle.")
+  static const Table table = with_elements(with_stopping(
+      with_alpha({})
           .choice(
               &O::regularizer, "regularizer", {"dirichlet", "hessian", "align", "max-norm"},
               "What is smooth: small gradients, small second derivatives (unaffected by "
@@ -49,20 +61,32 @@ const OptionTable<RegularizedOptions>& regularized_options() {
                 "z`, interpolated.")
           .number(&O::field_width, "field-width", "square root of the area", 0, 1e6,
                   "If not 0, interpolated directions fade away from the given ones like a Gaussian "
-                  "of this width."));
+                  "of this width.")));
   return table;
 }
 
 const OptionTable<RegularizedOptions>& constrained_options() {
-  static const OptionTable<RegularizedOptions> table = with_stopping({});
+  static const Table table = with_elements(with_stopping({}));
+  return table;
+}
+
+const OptionTable<RegularizedOptions>& grid_regularized_options() {
+  static const Table table = with_stopping(with_alpha({}));
+  return table;
+}
+
+const OptionTable<RegularizedOptions>& grid_constrained_options() {
+  static const Table table = with_stopping({});
   return table;
 }
 
 namespace {
 
-/// alpha of eq. 11 from alpha-hat (7.1).
-double alpha_of(const RegularizedOptions& options, Regularizer regularizer, double area) {
-  const double root = std::sqrt(area);
+/// alpha of eq. 11 from alpha-hat (7.1); in space alpha, a length, scales with the cube root of the
+/// volume.
+double alpha_of(const RegularizedOptions& options, Regularizer regularizer, double measure,
+                int dim) {
+  const double root = std::pow(measure, 1.0 / dim);
   return options.alpha * (regularizer == Regularizer::hessian ? root * root * root : root);
 }
 
@@ -86,7 +110,7 @@ VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eig
 }  // namespace
 
 Regularized::Regularized(std::shared_ptr<const Operators> ops, Regularizer regularizer,
-                         RegularizerData data, const Task& task)
+                         RegularizerData data, const Task& task, HeldSystem::Rows expected)
     : ops_(std::move(ops)),
       regularizer_(regularizer),
       data_(std::make_shared<const RegularizerData>(std::move(data))) {
@@ -102,7 +126,7 @@ Regularized::Regularized(std::shared_ptr<const Operators> ops, Regularizer regul
       throw UnsupportedError("the Hessian regularizer needs a triangle mesh");
     return;  // nothing to factor before rho is known
   }
-  laplacian_ = std::make_shared<const HeldSystem>(C.L, C.component, C.n_components, task);
+  laplacian_ = std::make_shared<const HeldSystem>(C.L, C.component, C.n_components, task, expected);
 }
 
 AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& options,
@@ -120,8 +144,8 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
     if (c < 0 || !active[c]) problem.b[i] = 0;
     area += problem.b[i];
   }
-  const double alpha = alpha_of(options, regularizer_, area);
   const int dim = static_cast<int>(C.G.rows / C.A.size());
+  const double alpha = alpha_of(options, regularizer_, area, dim);
   const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
   problem.A = C.A;
   problem.dim = dim;
@@ -141,7 +165,8 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
     problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
     problem.solve = [&](const VecX& b, double rho) {
       if (rho != held_rho) {
-        held = HeldSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components, task)
+        held = HeldSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components, task,
+                          HeldSystem::Rows::many)
                    .hold(rows, task);
         held_rho = rho;
       }

@@ -40,6 +40,10 @@ const OptionTable<RegularizedOptions>& regularized_options();
 /// Those that are left where alpha is 0: eq. 1 has nothing to choose but when to stop.
 const OptionTable<RegularizedOptions>& constrained_options();
 
+/// Those of either that there are on grids: the Dirichlet energy of linear functions.
+const OptionTable<RegularizedOptions>& grid_regularized_options();
+const OptionTable<RegularizedOptions>& grid_constrained_options();
+
 /// What some regularizers need beside the operators.
 struct RegularizerData {
   VecX V;              // 2 cells; align: directions in the cells' frames, of length at most 1
@@ -53,8 +57,9 @@ class Regularized {
   /// Factors the Laplacian W_D once: every alpha, penalty, source set and regularizer of gradients
   /// solves with it, scaled. The Hessian, whose matrix alpha W_H + rho W_D no scaling reaches, is
   /// factored per penalty. Throws InputError if the data a regularizer needs is missing.
+  /// Where many rows are expected (surfaces in space) it is factored for each source set instead.
   Regularized(std::shared_ptr<const Operators> ops, Regularizer regularizer, RegularizerData data,
-              const Task& task);
+              const Task& task, HeldSystem::Rows expected = HeldSystem::Rows::few);
 
   /// Distance to the sources at the nodes (nodes) [length of the input], not negative, +inf on
   /// components that no source reaches: minimises eq. 11 by Alg. 1. `state`: from an earlier solve

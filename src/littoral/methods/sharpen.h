@@ -20,9 +20,11 @@ struct SharpenOptions {
 };
 
 /// Maximises the integral of sign(phi0) phi subject to |grad phi| <= 1 and phi = 0 at the sources
-/// (eq. 18), and sign(phi0) phi >= 0 at nodes of cells where phi0 changes sign, which holds the
-/// zero set where a curve has gaps. phi0: nodes [length of the input], where the iteration starts;
-/// +inf where no source reaches, which stays. Operators of surfaces and of tets alike.
+/// (eq. 18). Where phi0 changes sign within a cell its own zero set is kept, also in gaps of the
+/// source: at the nodes of such cells 0 <= sign(phi0) phi <= the distance from that zero set. phi0:
+/// nodes [length of the input], where the iteration starts; +inf where no source reaches, which
+/// stays. Operators of surfaces, tets and grids alike; in space, many nodes are solved for by
+/// multigrid, a few steps in each iteration, instead of a factor.
 VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report);
 

@@ -25,7 +25,10 @@ const OptionTable<SpaceHeatOptions>& space_heat_options() {
                   "to zero by a penalty on their squares.")
           .number(&O::soft, "soft", "weight", 1e-6, 1e12,
                   "Weight of that penalty; larger values follow the source more closely, with its "
-                  "noise.");
+                  "noise.")
+          .toggle(&O::sharpen, "sharpen",
+                  "Afterwards makes the distance as large as slope 1 allows, with the same zero "
+                  "set.");
   return table;
 }
 

@@ -16,7 +16,8 @@ enum class SpaceConstraint { none, zero_set, soft };
 struct SpaceHeatOptions {
   double time_scale = 1;  // t = time_scale h^2
   int constraint = static_cast<int>(SpaceConstraint::soft);
-  double soft = 10;  // weight of the penalty
+  double soft = 10;      // weight of the penalty
+  bool sharpen = false;  // afterwards (7.3), for whoever calls
 };
 
 /// Names, ranges, defaults and one sentence for each of the above.

@@ -23,6 +23,9 @@ VecX grid_divergence(const Grid& grid, const Directions& Y);
 /// none does; cell and node have the volume of a cube of the grid.
 Calculus grid_calculus(const Grid& grid);
 
+/// Bytes of that for so many nodes, with what `sharpen` needs on it.
+double grid_sharpening_memory(double nodes);
+
 /// Values at points from values at the nodes, linear along each axis. One row per grid cell that
 /// holds points: the mean over these points by weight, so that rows are independent (a point of
 /// which a cell has many would be held by many rows, and the cell would lock). Points outside the

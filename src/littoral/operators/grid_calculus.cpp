@@ -84,4 +84,6 @@ Calculus grid_calculus(const Grid& grid) {
   return C;
 }
 
+double grid_sharpening_memory(double nodes) { return 1800 * nodes; }
+
 }  // namespace littoral

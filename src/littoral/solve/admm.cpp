@@ -28,7 +28,7 @@ class Admm {
     if (state_.empty()) {
       state_.z = VecX::Zero(p_.dim * p_.A.size());
       state_.w = state_.z;
-      state_.rho = o_.rho * std::sqrt(total_);
+      state_.rho = o_.rho * p_.length();
     }
     pull_ = state_.z - state_.w;
   }
@@ -186,6 +186,8 @@ SpRows SplitProblem::divergence() const {
   for (Eigen::Index e = 0; e < D.nonZeros(); ++e) D.valuePtr()[e] *= A[D.innerIndexPtr()[e] / dim];
   return D;
 }
+
+double SplitProblem::length() const { return std::pow(A.sum(), 1.0 / dim); }
 
 AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
                 const Task& task) {

@@ -25,10 +25,11 @@ struct SplitProblem {
   const CellEnergy* energy = nullptr;
 
   SpRows divergence() const;  // D = G^T A, unknowns x dim cells
+  double length() const;      // the dim-th root of the total weight: what penalties scale with
 };
 
 struct AdmmOptions {
-  double rho = 2;          // first penalty, times the square root of the total weight
+  double rho = 2;          // first penalty, times the length of the problem
   double relative = 1e-2;  // eps^rel
   double absolute = 5e-6;  // eps^abs
   double gap = 0;          // > 0: stop only below this relative duality gap as well

@@ -53,6 +53,9 @@ class DefiniteSystem {
   /// One pass through the factor, for outer loops that correct each other's rounding; `solve` where
   /// the matrix had to be lifted.
   VecX solve_once(const VecX& b) const;
+  /// By multigrid: x and a correction of it that leaves a few per cent of its residual, for outer
+  /// loops that go on from their last x.
+  VecX improved(const VecX& x, const VecX& b, const Task& task) const;
   /// One solve with the factor, or multigrid to a relative 1e-6.
   MatX approximate(const MatX& b, const Task& task) const;
   double relative_residual(const VecX& x, const VecX& b) const;

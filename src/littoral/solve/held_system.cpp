@@ -1,15 +1,13 @@
 #include "littoral/solve/held_system.h"
 
 #include <Eigen/Eigenvalues>
-#include <string>
-
-#include "littoral/base/error.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr Eigen::Index few_rows = 64, most_rows = 2000;
+constexpr Eigen::Index few_rows = 64;
+constexpr double stiffness = 1e8;  // of many rows, times the mean diagonal
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
@@ -50,12 +48,46 @@ std::vector<char> pin_first(const std::vector<int>& component, std::vector<char>
 
 }  // namespace
 
-HeldSystem::HeldSystem(SpMat K, std::vector<int> component, int n_components, const Task& task)
+HeldSystem::HeldSystem(SpMat K, std::vector<int> component, int n_components, const Task& task,
+                       Rows expected)
     : K_(std::make_shared<const SpMat>(std::move(K))),
       component_(std::move(component)),
       n_components_(n_components),
-      pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})),
-      factor_(std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task)) {}
+      pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})) {
+  if (expected == Rows::few)
+    factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task);
+}
+
+/// Single unknowns by elimination, other rows by a penalty that leaves a millionth of what they
+/// would be otherwise.
+void HeldSystem::hold_many(const SpMat& A, Held& held, const Task& task) const {
+  const RowMatrix rows = A;
+  std::vector<char> fixed(static_cast<std::size_t>(n_components_), 0);
+  Triplets others;
+  int n = 0;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const int c = component_of_row(rows, r, component_);
+    if (c < 0) continue;
+    fixed[static_cast<std::size_t>(c)] = 1;
+    const bool single = holds_one_unknown(rows, r);
+    for (RowMatrix::InnerIterator it(rows, r); it; ++it) {
+      if (it.value() == 0) continue;
+      if (single)
+        held.gone_[static_cast<std::size_t>(it.col())] = 1;
+      else
+        others.emplace_back(n, static_cast<int>(it.col()), it.value());
+    }
+    n += single ? 0 : 1;
+  }
+  held.pinned_ = pin_first(component_, fixed, held.gone_);
+  SpMat K = *K_;
+  if (n > 0) {
+    SpMat stiff(n, K.cols());
+    stiff.setFromTriplets(others.begin(), others.end());
+    K = with_rows(K, stiff, VecX::Constant(n, stiffness * K.diagonal().mean()));
+  }
+  held.factor_ = std::make_shared<const DefiniteSystem>(eliminated(K, held.pinned_), task);
+}
 
 HeldSystem::Held HeldSystem::hold(const SpMat& A, const Task& task) const {
   const RowMatrix rows = A;
@@ -85,37 +117,11 @@ HeldSystem::Held HeldSystem::hold(const SpMat& A, const Task& task) const {
   }
   const auto n = static_cast<Eigen::Index>(component_.size());
   held.gauge_.resize(n, n_components_);
-  if (static_cast<Eigen::Index>(rest.size()) > few_rows) {
-    // Hold single unknowns by elimination, in every component that has one.
-    std::vector<char> fixed(n_components_, 0);
-    std::vector<Eigen::Index> remaining;
-    for (Eigen::Index r = 0; r < rows.rows(); ++r)
-      for (RowMatrix::InnerIterator it(rows, r); it; ++it)
-        if (it.value() != 0 && holds_one_unknown(rows, r) && component_[it.col()] >= 0) {
-          held.gone_[it.col()] = 1;
-          fixed[component_[it.col()]] = 1;
-        }
-    gauge.clear();
-    std::vector<char> gauged = fixed;
-    for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-      const int c = component_of_row(rows, r, component_);
-      if (c < 0 || holds_one_unknown(rows, r)) continue;
-      if (gauged[c]) {
-        remaining.push_back(r);
-      } else {
-        gauged[c] = 1;
-        put(gauge, r, c);
-      }
-    }
-    rest = std::move(remaining);
-    held.pinned_ = pin_first(component_, fixed, held.gone_);
-    held.factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, held.pinned_), task);
+  if (!factor_ || static_cast<Eigen::Index>(rest.size()) > few_rows) {
+    hold_many(A, held, task);
+    return held;
   }
   held.gauge_.setFromTriplets(gauge.begin(), gauge.end());
-  if (static_cast<Eigen::Index>(rest.size()) > most_rows)
-    throw UnsupportedError("the source crosses faces in " + std::to_string(rest.size()) +
-                           " stretches, more than " + std::to_string(most_rows) +
-                           "; let it run along edges, or use --method exact or fast-marching");
   if (rest.empty()) return held;
   for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], static_cast<int>(i));
   SpMat columns(n, static_cast<Eigen::Index>(rest.size()));
@@ -127,7 +133,7 @@ HeldSystem::Held HeldSystem::hold(const SpMat& A, const Task& task) const {
   }
   held.inverse_ = pseudo_inverse(columns.transpose() * response);
   held.rest_ = std::move(columns);
-  if (response.cols() <= few_rows) held.response_ = std::move(response);
+  held.response_ = std::move(response);
   return held;
 }
 
@@ -161,11 +167,7 @@ VecX HeldSystem::Held::solve_gauged(const VecX& b) const {
 VecX HeldSystem::Held::solve(const VecX& b) const {
   VecX u = solve_gauged(b);
   if (rest_.cols() == 0) return u;
-  const VecX lambda = inverse_ * (rest_.transpose() * u);
-  if (response_.cols() > 0)
-    u -= response_ * lambda;
-  else
-    u -= solve_gauged(rest_ * lambda);
+  u -= response_ * (inverse_ * (rest_.transpose() * u));
   return u;
 }
 

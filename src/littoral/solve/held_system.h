@@ -14,8 +14,12 @@ namespace littoral {
 /// component; immutable, copies share it.
 class HeldSystem {
  public:
+  /// How many rows there will be: many are factored for when they are known only.
+  enum class Rows { few, many };
+
   /// K: lower triangle. component: per unknown, -1 for unknowns in no equation.
-  HeldSystem(SpMat K, std::vector<int> component, int n_components, const Task& task);
+  HeldSystem(SpMat K, std::vector<int> component, int n_components, const Task& task,
+             Rows expected = Rows::few);
 
   /// min 1/2 u^T K u - b^T u subject to A u = 0, over the components that have a row; u = 0
   /// elsewhere. Const, from several threads.
@@ -40,18 +44,18 @@ class HeldSystem {
   };
 
   /// Rows (rows x unknowns) whose entries sum to 1. One row a component reuses the factorization
-  /// as it is; up to 64 rows more cost a solve each; beyond, rows that hold single unknowns are
-  /// eliminated, which factors again. Throws UnsupportedError for more than 2000 other rows.
+  /// as it is; up to 64 rows more cost a solve each. Beyond, K is factored again: rows that hold
+  /// single unknowns are eliminated, the others added as a stiff penalty.
   Held hold(const SpMat& rows, const Task& task) const;
 
-  double nonzeros() const { return factor_->nonzeros(); }
-
  private:
+  void hold_many(const SpMat& rows, Held& held, const Task& task) const;
+
   std::shared_ptr<const SpMat> K_;
   std::vector<int> component_;
   int n_components_;
   std::vector<char> pinned_;
-  std::shared_ptr<const DefiniteSystem> factor_;
+  std::shared_ptr<const DefiniteSystem> factor_;  // none where many rows are expected
 };
 
 }  // namespace littoral

@@ -1,0 +1,127 @@
+#include "littoral/api/regularized_space.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "littoral/api/registry.h"
+#include "littoral/base/error.h"
+#include "littoral/base/memory.h"
+#include "littoral/base/parallel.h"
+#include "littoral/operators/grid.h"
+#include "littoral/spatial/winding_number.h"
+
+namespace littoral {
+
+namespace {
+
+/// A factor of n nodes in space has about 13 n^(4/3) numbers, as seen from 16^3 to 48^3.
+double factor_memory(double nodes) { return 8 * 13 * std::pow(nodes, 4.0 / 3) + 600 * nodes; }
+
+const MethodInfo& info_of(const std::string& method) { return find_method(method); }
+
+/// 1 outside and -1 inside, at the nodes of a grid.
+VecX winding_signs(const SpaceProblem& problem, const Grid& grid, const Task& task) {
+  const OrientedPoints& s = problem.samples;
+  const WindingNumber winding = problem.is_cloud()
+                                    ? WindingNumber(s.points, s.normals, s.areas)
+                                    : WindingNumber(problem.surface.points, problem.triangles());
+  VecX sign(static_cast<Eigen::Index>(grid.n_nodes()));
+  const int rows = grid.n[1] * grid.n[2];
+  parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
+    task.checkpoint(static_cast<double>(row) / rows);
+    const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
+    for (int i = 0; i < grid.n[0]; ++i)
+      sign[static_cast<Eigen::Index>(grid.node(i, j, k))] =
+          winding(grid.point(i, j, k), 2.3) > 0.5 ? -1 : 1;
+  });
+  return sign;
+}
+
+VecX on_grid(const SpaceProblem& problem, const Grid& grid, const RegularizedOptions& options,
+             Task& task, Report& report) {
+  const auto nodes = static_cast<double>(grid.n_nodes());
+  check_memory(factor_memory(nodes),
+               "a factorization on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
+               "use a smaller --resolution or another --method");
+  const GridRows rows = grid_rows(grid, problem.samples.points, problem.samples.areas);
+  if (rows.A.rows() == 0) throw InputError("the box holds no sample of the input");
+  const VecX u = regularized_in_space(grid_calculus(grid), rows.A, options,
+                                      task.stage(0.9, "distance"), report);
+  return u.cwiseProduct(winding_signs(problem, grid, task.stage(0.1, "signs")));
+}
+
+SpaceMethod grid_method(const std::string& name, const std::string& summary,
+                        const OptionTable<RegularizedOptions>& table, double alpha) {
+  SpaceMethod method;
+  method.info = {name,
+                 summary,
+                 {"triangle mesh", "polygon soup", "point cloud"},
+                 table.infos(),
+                 info_of(name).reference};
+  const MethodInfo info = method.info;
+  method.check = [info, &table](const OptionTexts& texts) { parse_options(info, table, texts); };
+  method.on_grid = [info, &table, alpha](const SpaceProblem& problem, const Grid& grid,
+                                         const OptionTexts& texts, Task& task, Report& report) {
+    RegularizedOptions options = parse_options(info, table, texts);
+    if (alpha == 0) options.alpha = 0;
+    VecX phi = on_grid(problem, grid, options, task, report);
+    report_options(table, options, report);
+    return phi;
+  };
+  return method;
+}
+
+}  // namespace
+
+VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
+                          const Task& task, Report& report) {
+  if (options.alpha > 0 && static_cast<Regularizer>(options.regularizer) != Regularizer::dirichlet)
+    throw UnsupportedError(
+        "in space there is the regularizer dirichlet only; the others need a triangle mesh");
+  if (static_cast<Elements>(options.elements) != Elements::linear)
+    throw UnsupportedError("quadratic elements need a triangle mesh");
+  const auto ops = std::make_shared<Operators>();
+  ops->scalar = C;
+  const Stopwatch watch(report, "solve");
+  const Regularized method(ops, Regularizer::dirichlet, {}, task, HeldSystem::Rows::many);
+  AdmmState state;
+  const AdmmResult result = method.minimize(rows, options, state, task);
+  report_admm(result, report);
+  std::vector<char> reached(static_cast<std::size_t>(C.n_components), 0);
+  for (const int i : unknowns_of(rows))
+    if (C.component[static_cast<std::size_t>(i)] >= 0)
+      reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
+  VecX u = result.u.cwiseMax(0.0);
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const int c = C.component[static_cast<std::size_t>(i)];
+    if (c < 0 || reached[static_cast<std::size_t>(c)] == 0)
+      u[i] = std::numeric_limits<double>::infinity();
+  }
+  for (int c = 0; c < C.n_components; ++c)
+    if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
+  return u;
+}
+
+RegularizedOptions regularized_options_in_space(const std::string& method, const OptionTexts& texts,
+                                                Report& report) {
+  const bool plain = method == "belyaev-fayolle";
+  const auto& table = plain ? constrained_options() : regularized_options();
+  RegularizedOptions options = parse_options(info_of(method), table, texts);
+  report_options(table, options, report);
+  if (plain) options.alpha = 0;
+  return options;
+}
+
+std::vector<SpaceMethod> regularized_space_methods() {
+  return {grid_method("regularized",
+                      "Distance that is smooth at the medial axis, as large as slope 1 allows, "
+                      "signed by the winding number; small grids.",
+                      grid_regularized_options(), 1),
+          grid_method("belyaev-fayolle",
+                      "The same without smoothing: the largest function of slope at most 1.",
+                      grid_constrained_options(), 0)};
+}
+
+}  // namespace littoral

@@ -1,0 +1,24 @@
+#pragma once
+// Regularized distance in space: through tets and on grids (Edelstein et al. 2023, section 7.4).
+
+#include "littoral/api/space_method.h"
+#include "littoral/base/report.h"
+#include "littoral/base/task.h"
+#include "littoral/methods/regularized.h"
+
+namespace littoral {
+
+/// Distance to the rows (rows x nodes) at which it vanishes, at the nodes, not negative; +inf where
+/// no row is, and listed. Dirichlet energy only: throws UnsupportedError for other options.
+VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
+                          const Task& task, Report& report);
+
+/// The options of `regularized` or, with alpha = 0, `belyaev-fayolle` by name; their values used go
+/// to the report.
+RegularizedOptions regularized_options_in_space(const std::string& method, const OptionTexts& texts,
+                                                Report& report);
+
+/// Those two as methods on grids, with the sign of the winding number.
+std::vector<SpaceMethod> regularized_space_methods();
+
+}  // namespace littoral

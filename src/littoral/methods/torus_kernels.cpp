@@ -57,8 +57,8 @@ constexpr int lanes = torus_lanes;
 /// In a fixed order, whatever the instructions.
 template <class S>
 [[gnu::always_inline]] inline S sum_of(S* a) {
-  for (int l = 0; l < 8; ++l) a[l] += a[l + 8];
-  for (int l = 0; l < 4; ++l) a[l] += a[l + 4];
+  static_assert(lanes == 12);
+  for (int l = 0; l < 4; ++l) a[l] += a[l + 4] + a[l + 8];
   return (a[0] + a[2]) + (a[1] + a[3]);
 }
 

@@ -4,8 +4,8 @@
 
 namespace littoral {
 
-constexpr int torus_lanes = 16;
-constexpr int blended_tori = 12;       // that have a say at a place
+constexpr int blended_tori = 12;  // that have a say at a place
+constexpr int torus_lanes = blended_tori;
 constexpr double blend_sharpness = 8;  // decay of weights over one spacing
 constexpr double blend_floor = 1e-7;   // weight of the last of them
 

@@ -5,6 +5,9 @@
 #include "littoral/spatial/point_kernels.h"
 
 #include <cmath>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 namespace littoral {
 
@@ -31,23 +34,23 @@ namespace {
   }
 }
 
-[[gnu::always_inline]] inline unsigned leaf_points(const PointLeaf& leaf, const double* q,
-                                                   double bound, double* squared) {
+[[gnu::always_inline]] inline void leaf_points(const PointLeaf& leaf, const double* q,
+                                               double* squared) {
   const double qx = q[0], qy = q[1], qz = q[2];
-  alignas(64) long long near[leaf_lanes];
   for (int l = 0; l < leaf_lanes; ++l) {
     const double x = leaf.x[0][l] - qx, y = leaf.x[1][l] - qy, z = leaf.x[2][l] - qz;
     squared[l] = x * x + y * y + z * z;
-    near[l] = squared[l] <= bound ? 1LL << l : 0LL;
   }
-  long long bits = 0;
-  for (int l = 0; l < leaf_lanes; ++l) bits |= near[l];
-  return static_cast<unsigned>(bits) & ((1u << leaf.size) - 1);
 }
+
+unsigned used(const PointLeaf& leaf) { return (1u << leaf.size) - 1; }
 
 void node_plain(const PointNode& n, const double* q, double* squared) { node_lanes(n, q, squared); }
 unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double* squared) {
-  return leaf_points(leaf, q, bound, squared);
+  leaf_points(leaf, q, squared);
+  unsigned near = 0;
+  for (int l = 0; l < leaf_lanes; ++l) near |= (squared[l] <= bound ? 1u : 0u) << l;
+  return near & used(leaf);
 }
 
 #if defined(__x86_64__)
@@ -56,7 +59,14 @@ unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double
 }
 [[gnu::target("avx2")]] unsigned leaf_avx2(const PointLeaf& leaf, const double* q, double bound,
                                            double* squared) {
-  return leaf_points(leaf, q, bound, squared);
+  leaf_points(leaf, q, squared);
+  const __m256d most = _mm256_set1_pd(bound);
+  unsigned near = 0;
+  for (int l = 0; l < leaf_lanes; l += 4) {
+    const __m256d within = _mm256_cmp_pd(_mm256_load_pd(squared + l), most, _CMP_LE_OQ);
+    near |= static_cast<unsigned>(_mm256_movemask_pd(within)) << l;
+  }
+  return near & used(leaf);
 }
 #endif
 

@@ -1,131 +1,102 @@
 #include "littoral/methods/tori.h"
 
-#include <array>
-#include <numeric>
-#include <string>
-#include <unsupported/Eigen/AutoDiff>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "littoral/sources/distinct_points.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr int blended = 12;      // tori that have a say at a place
-constexpr double sharpness = 8;  // decay of weights over one spacing
+constexpr int blended = blended_tori;
 // Tori are believed on the side within this many spacings of the nearest point, or if no more than
 // this share of the weight disagrees; farther than this many spacings only if the winding number
 // is not this certain of the contrary: patches of flipped normals agree among themselves.
 constexpr double near_surface = 1.5, dissent = 0.02, far_away = 3, certain = 0.25;
 constexpr double side_accuracy = 2;  // of the winding number: errors of 0.01 do not matter
+// Points in groups: their normals are trusted if the winding number is certain on both sides of the
+// group, this many spacings away, and they agree among themselves to this extent; then on places
+// that see the nearest point within this cosine of its normal.
+constexpr int group = 16;
+constexpr double probe = 2.5, agreement = 0.9, frontal = 0.7;
 
-/// Which side a place is on, if it is known, and what the tori say about that.
-struct Side {
-  int known = 0;  // 1 outside, -1 inside, 0 not known
-  bool disputed = false, far = false;
+/// Do the tori need the winding number's word?
+struct Doubts {
+  bool disputed, far;
+  Doubts(double nearest, double rho, double negative)
+      : disputed(nearest > near_surface * rho && negative > dissent && negative < 1 - dissent),
+        far(nearest > far_away * rho) {}
 };
 
-/// Distinct points with unit normals.
-OrientedPoints distinct(const OrientedPoints& cloud, Report& report) {
-  const auto n = static_cast<int>(cloud.size());
-  if (n == 0) throw InputError("the point cloud is empty");
-  if (cloud.normals.rows() != n)
-    throw InputError("the point cloud has " + std::to_string(n) + " points and " +
-                     std::to_string(cloud.normals.rows()) + " normals");
-  for (int i = 0; i < n; ++i) {
-    if (!cloud.points.row(i).allFinite() || !cloud.normals.row(i).allFinite())
-      throw InputError("point " + std::to_string(i) + " has a coordinate that is not finite");
-    if (!(cloud.normals.row(i).stableNorm() > 0))
-      throw InputError("point " + std::to_string(i) + " has no normal");
-  }
-  std::vector<int> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  auto before = [&](int a, int b) {
-    for (int d = 0; d < 3; ++d)
-      if (cloud.points(a, d) != cloud.points(b, d)) return cloud.points(a, d) < cloud.points(b, d);
-    return false;
-  };
-  std::stable_sort(order.begin(), order.end(), before);
-  std::vector<std::pair<int, Vec3>> kept;  // first point of its place, sum of normals
-  int cancelled = 0;
-  for (int i = 0; i < n;) {
-    int end = i + 1;
-    Vec3 sum = cloud.normals.row(order[i]).stableNormalized();
-    const int members = i;
-    for (; end < n && !before(order[i], order[end]); ++end)
-      sum += cloud.normals.row(order[end]).stableNormalized();
-    if (sum.norm() > 1e-9 * (end - members))
-      kept.emplace_back(order[i], sum.normalized());
-    else
-      ++cancelled;
-    i = end;
-  }
-  if (kept.empty()) throw InputError("the normals of coincident points cancel everywhere");
-  if (cancelled)
-    report.warn(std::to_string(cancelled) +
-                " places where normals of coincident points cancel were left out");
-  std::sort(kept.begin(), kept.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (static_cast<int>(kept.size()) < n - cancelled)
-    report.warn(std::to_string(n - static_cast<int>(kept.size())) +
-                " points coincide with others; each place was used once");
-  OrientedPoints out;
-  out.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
-  out.normals.resize(out.points.rows(), 3);
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    out.points.row(static_cast<Eigen::Index>(i)) = cloud.points.row(kept[i].first);
-    out.normals.row(static_cast<Eigen::Index>(i)) = kept[i].second;
-  }
-  return out;
-}
-
-/// Eq. 5.1 over the nearest tori. Weights fall to zero at the last of them, so that the value does
-/// not jump when neighbours change.
+/// The surface passes near the nearest point: no farther than it, and not much nearer.
 template <class T>
-T blend(const MatX3& points, const std::vector<Torus>& tori, const Neighbour* found, int n,
-        const Eigen::Matrix<T, 3, 1>& x, Side& side) {
-  using std::exp;
-  using std::sqrt;
-  std::array<T, blended> d;
-  d.fill(T(0.0));
-  for (int j = 0; j < n; ++j) {
-    const Eigen::Matrix<T, 3, 1> y = x - points.row(found[j].point).transpose().template cast<T>();
-    d[j] = sqrt(T(y.squaredNorm() + 1e-300));
-  }
-  const T& nearest = d[0];
-  const T& farthest = d[n - 1];
-  T sum = T(0.0), total = T(0.0);
-  for (int j = 0; j < n; ++j) {
-    const T closeness = 1.0 - d[j] / farthest;
-    const T w = closeness * closeness + 1e-9;
-    sum += w * tori[found[j].point].rho;
-    total += w;
-  }
-  const T rho = sum / total;
-  const T last = exp(T(-sharpness * (farthest - nearest) / rho));
-  sum = T(0.0);
-  total = T(0.0);
-  T negative = T(0.0);  // weight of those that see x inside
-  for (int j = 0; j < n; ++j) {
-    const Torus& torus = tori[found[j].point];
-    const T decay = exp(T(-sharpness * (d[j] - nearest) / rho));
-    const T w = std::exp(torus.log_weight) * (decay - last) + 1e-7;
-    T g = patch_distance<T>(torus, x);
-    if (g < 0.0) negative += w;
-    if (side.known != 0 && (g < 0.0) != (side.known < 0)) g = -g;
-    sum += w * g;
-    total += w;
-  }
-  side.far = nearest > far_away * rho;
-  side.disputed = nearest > near_surface * rho && negative > dissent * total &&
-                  negative < (1 - dissent) * total;
-  // The surface passes near the nearest point: no farther than it, and not much nearer.
-  const T phi = sum / total;
+T kept_near(const T& phi, const T& nearest, const T& rho) {
   const T least = nearest - rho;
   const T size = phi < 0.0 ? T(-phi) : phi;
   if (size > nearest) return phi < 0.0 ? T(-nearest) : nearest;
   if (size < least) return phi < 0.0 ? T(-least) : least;
   return phi;
+}
+
+template <class T>
+struct Blend {
+  T phi, rho, nearest;
+  double negative;
+};
+
+/// Eq. 5.1 over the nearest tori. Weights fall to zero at the last of them, so that the value does
+/// not jump when neighbours change. known: the side if not 0, as in BlendKernel.
+template <class T>
+Blend<T> blend(const MatX3& points, const std::vector<Torus>& tori, const std::vector<int>& order,
+               const Neighbour* found, int n, const std::array<T, 3>& x, int known) {
+  using std::exp;
+  using std::sqrt;
+  const auto point = [&](int j) { return order[static_cast<std::size_t>(found[j].point)]; };
+  const auto torus = [&](int j) -> const Torus& {
+    return tori[static_cast<std::size_t>(point(j))];
+  };
+  std::array<T, blended> d;
+  d.fill(T(0.0));
+  for (int j = 0; j < n; ++j) {
+    T squared = T(torus_tiny<double>);
+    for (int k = 0; k < 3; ++k) {
+      const T y = x[static_cast<std::size_t>(k)] - T(points(point(j), k));
+      squared += y * y;
+    }
+    d[static_cast<std::size_t>(j)] = sqrt(squared);
+  }
+  const T& nearest = d[0];
+  const T& farthest = d[static_cast<std::size_t>(n - 1)];
+  T sum = T(0.0), total = T(0.0);
+  for (int j = 0; j < n; ++j) {
+    const T closeness = 1.0 - d[static_cast<std::size_t>(j)] / farthest;
+    const T w = closeness * closeness + 1e-9;
+    sum += w * torus(j).rho;
+    total += w;
+  }
+  const T rho = sum / total;
+  const T last = exp(T(-blend_sharpness * (farthest - nearest) / rho));
+  sum = T(0.0);
+  total = T(0.0);
+  T negative = T(0.0);  // weight of those that see x inside
+  for (int j = 0; j < n; ++j) {
+    const T decay = exp(T(-blend_sharpness * (d[static_cast<std::size_t>(j)] - nearest) / rho));
+    const T w = std::exp(torus(j).log_weight) * (decay - last) + blend_floor;
+    T g = patch_distance<T>(torus(j), x);
+    if (g < 0.0) negative += w;
+    if (known != 0 && (g < 0.0) != (known < 0)) g = -g;
+    sum += w * g;
+    total += w;
+  }
+  const T share = negative / total;
+  if constexpr (std::is_same_v<T, double>)
+    return {sum / total, rho, nearest, share};
+  else
+    return {sum / total, rho, nearest, share.value};
 }
 
 /// One torus stands for about this area: 5 (hexagons) to 6 (random points) lie within rho of it.
@@ -145,19 +116,6 @@ MatX3 normals_of(const std::vector<Torus>& tori) {
   return normals;
 }
 
-/// Everything that a constructor makes.
-struct Fitted {
-  MatX3 points;
-  std::vector<Torus> tori;
-};
-
-Fitted fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report) {
-  OrientedPoints used = distinct(cloud, report);
-  task.checkpoint();
-  std::vector<Torus> tori = fit_tori(used, PointTree(used.points), fit, task);
-  return {std::move(used.points), std::move(tori)};
-}
-
 /// 1 if normals point out of what the cloud encloses, -1 if into it, 0 if it encloses hardly
 /// anything: the sign of the enclosed volume.
 int orientation_of(const MatX3& points, const std::vector<Torus>& tori) {
@@ -173,58 +131,198 @@ int orientation_of(const MatX3& points, const std::vector<Torus>& tori) {
   return volume > least ? 1 : volume < -least ? -1 : 0;
 }
 
-template <class T>
-T ask(const MatX3& points, const std::vector<Torus>& tori, const PointTree& tree,
-      const WindingNumber& winding, int orientation, const Vec3& x,
-      const Eigen::Matrix<T, 3, 1>& at) {
-  std::array<Neighbour, blended> found;
-  const int n = tree.nearest(x, blended, found.data());
-  Side side;
-  const T phi = blend<T>(points, tori, found.data(), n, at, side);
-  if (!side.disputed && !(side.far && orientation != 0)) return phi;
-  const bool inward = orientation < 0;  // then what is enclosed is positive
-  const double enclosed = winding(x, side_accuracy) * (inward ? -1 : 1);
-  bool negative = phi < 0.0;
-  if (side.disputed) {
-    negative = (enclosed > 0.5) != inward;
-  } else if (enclosed < certain) {
-    negative = inward;
-  } else if (enclosed > 1 - certain) {
-    negative = !inward;
+/// The numbers of tori as the kernels read them, by place.
+template <class S>
+std::vector<TorusRecord<S>> records_of(const MatX3& points, const std::vector<Torus>& tori,
+                                       const std::vector<int>& order) {
+  const auto number = [](double x) {  // spacings of lone points are huge
+    constexpr double most = std::numeric_limits<S>::max();
+    return static_cast<S>(std::clamp(x, -most, most));
+  };
+  std::vector<TorusRecord<S>> records(tori.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Torus& t = tori[static_cast<std::size_t>(order[i])];
+    TorusRecord<S>& r = records[i];
+    for (int d = 0; d < 3; ++d) {
+      r.p[d] = points(order[i], d);
+      r.q[d] = number(t.q[d] - r.p[d]);
+      r.n[d] = number(t.n[d]);
+      r.e1[d] = number(t.e1[d]);
+    }
+    r.k1 = number(t.k1);
+    r.k2 = number(t.k2);
+    r.rho = number(t.rho);
+    r.weight = number(std::exp(t.log_weight));
   }
-  if (!side.disputed && negative == (phi < 0.0)) return phi;
-  side.known = negative ? -1 : 1;
-  return blend<T>(points, tori, found.data(), n, at, side);
+  return records;
+}
+
+/// The tori of neighbours as a place sees them.
+template <class S>
+void gather(const std::vector<TorusRecord<S>>& records, const Neighbour* found, int n,
+            const Vec3& x, TorusLanes<S>& lanes) {
+  for (int l = 0; l < torus_lanes; ++l) {
+    const Neighbour& neighbour = found[l < n ? l : 0];
+    const TorusRecord<S>& r = records[static_cast<std::size_t>(neighbour.point)];
+    for (int d = 0; d < 3; ++d) {
+      lanes.x[d][l] = static_cast<S>(x[d] - r.p[d]) - r.q[d];
+      lanes.n[d][l] = r.n[d];
+      lanes.e1[d][l] = r.e1[d];
+    }
+    lanes.k1[l] = r.k1;
+    lanes.k2[l] = r.k2;
+    lanes.rho[l] = r.rho;
+    lanes.weight[l] = r.weight;
+    lanes.squared[l] = static_cast<S>(neighbour.squared_distance);
+    lanes.excess[l] = static_cast<S>(neighbour.squared_distance - found[0].squared_distance);
+    lanes.used[l] = l < n ? S(1) : S(0);
+  }
+}
+
+Tori fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
+            auto make) {
+  OrientedPoints used = distinct_points(cloud, report);
+  task.checkpoint();
+  PointTree tree(used.points);
+  std::vector<Torus> tori = fit_tori(used, tree, fit, task);
+  return make(std::move(used.points), std::move(tori), std::move(tree));
 }
 
 }  // namespace
 
-Tori::Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report)
-    : Tori([&] {
-        Fitted all = fitted(cloud, fit, task, report);
-        return Tori(std::move(all.points), std::move(all.tori));
-      }()) {}
+Tori::Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
+           ToriPrecision precision)
+    : Tori(fitted(cloud, fit, task, report, [&](MatX3 p, std::vector<Torus> t, PointTree tree) {
+        return Tori(std::move(p), std::move(t), std::move(tree), precision);
+      })) {}
 
-Tori::Tori(MatX3 points, std::vector<Torus> tori)
+Tori::Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision)
+    : Tori(points, std::move(tori), PointTree(points), precision) {}
+
+Tori::Tori(MatX3 points, std::vector<Torus> tori, PointTree tree, ToriPrecision precision)
     : points_(std::move(points)),
       tori_(std::move(tori)),
-      tree_(points_),
+      tree_(std::move(tree)),
+      order_(tree_.renumber()),
       winding_(points_, normals_of(tori_), areas_of(tori_)),
       orientation_(orientation_of(points_, tori_)) {
   if (points_.rows() == 0 || static_cast<std::size_t>(points_.rows()) != tori_.size())
     throw InputError("tori need one point each, and at least one");
+  if (precision == ToriPrecision::single)
+    single_ = records_of<float>(points_, tori_, order_);
+  else
+    records_ = records_of<double>(points_, tori_, order_);
+  find_trusted();
+}
+
+void Tori::find_trusted() {
+  const std::size_t n = tori_.size();
+  trusted_.assign((n + group - 1) / group, 0);
+  if (orientation_ == 0) return;
+  parallel_for(trusted_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      const std::size_t from = g * group, to = std::min(n, from + group);
+      Vec3 centre = Vec3::Zero(), normal = Vec3::Zero();
+      double rho = 0;
+      for (std::size_t i = from; i < to; ++i) {
+        const Torus& t = tori_[static_cast<std::size_t>(order_[i])];
+        centre += points_.row(order_[i]);
+        normal += t.n;
+        rho += t.rho;
+      }
+      const auto members = static_cast<double>(to - from);
+      centre /= members;
+      const double length = normal.norm();
+      if (!(length > agreement * members)) continue;
+      const Vec3 away = probe * rho / members / length * normal;
+      if (!away.allFinite()) continue;
+      const double outside = orientation_ * winding_(centre + orientation_ * away, side_accuracy);
+      const double inside = orientation_ * winding_(centre - orientation_ * away, side_accuracy);
+      trusted_[g] = outside < certain && inside > 1 - certain ? 1 : 0;
+    }
+  });
+}
+
+/// The ball around x up to the nearest point is empty, so that x is on the side that this point's
+/// normal says, if it is seen from the front.
+bool Tori::trusted(const Neighbour& nearest, const Vec3& x, bool negative) const {
+  const auto place = static_cast<std::size_t>(nearest.point);
+  if (trusted_[place / group] == 0) return false;
+  const int point = order_[place];
+  const double height =
+      (x - points_.row(point).transpose()).dot(tori_[static_cast<std::size_t>(point)].n);
+  return height * height > frontal * frontal * nearest.squared_distance && (height < 0) == negative;
+}
+
+int Tori::side_of(const Vec3& x, bool negative, bool disputed) const {
+  const bool inward = orientation_ < 0;  // then what is enclosed is positive
+  const double enclosed = winding_(x, side_accuracy) * (inward ? -1 : 1);
+  if (disputed)
+    negative = (enclosed > 0.5) != inward;
+  else if (enclosed < certain)
+    negative = inward;
+  else if (enclosed > 1 - certain)
+    negative = !inward;
+  return negative ? -1 : 1;
+}
+
+template <class S>
+double Tori::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
+  std::array<Neighbour, littoral::blended> found;
+  const int n = tree_.nearest(x, littoral::blended, found.data());
+  TorusLanes<S> lanes;
+  gather(records, found.data(), n, x, lanes);
+  BlendedTori<S> out;
+  BlendKernel<S>* const kernel = blend_kernel<S>();
+  kernel(lanes, n, 0, out);
+  const Doubts doubts(out.nearest, out.rho, out.negative);
+  const bool negative = out.phi < 0;
+  if (doubts.disputed || (doubts.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
+    const int side = side_of(x, negative, doubts.disputed);
+    if (doubts.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
+  }
+  const double nearest = std::sqrt(found[0].squared_distance);
+  return kept_near<double>(out.phi, nearest, out.rho);
+}
+
+template <class T>
+T Tori::plain(const Vec3& x, const std::array<T, 3>& at) const {
+  std::array<Neighbour, littoral::blended> found;
+  const int n = tree_.nearest(x, littoral::blended, found.data());
+  const auto ask = [&](int known) {
+    return blend<T>(points_, tori_, order_, found.data(), n, at, known);
+  };
+  const auto number = [](const T& v) {
+    if constexpr (std::is_same_v<T, double>)
+      return v;
+    else
+      return v.value;
+  };
+  Blend<T> out = ask(0);
+  const Doubts doubts(number(out.nearest), number(out.rho), out.negative);
+  if (doubts.disputed || (doubts.far && orientation_ != 0)) {
+    const bool negative = number(out.phi) < 0;
+    const int side = side_of(x, negative, doubts.disputed);
+    if (doubts.disputed || (side < 0) != negative) out = ask(side);
+  }
+  return kept_near<T>(out.phi, out.nearest, out.rho);
 }
 
 double Tori::value(const Vec3& x) const {
-  return ask<double>(points_, tori_, tree_, winding_, orientation_, x, x);
+  return records_.empty() ? blended<float>(single_, x) : blended<double>(records_, x);
+}
+
+double Tori::value_by_plain_sums(const Vec3& x) const {
+  return plain<double>(x, {x[0], x[1], x[2]});
+}
+
+Jet Tori::jet(const Vec3& x) const {
+  return plain<Jet>(x, {Jet::coordinate(x, 0), Jet::coordinate(x, 1), Jet::coordinate(x, 2)});
 }
 
 DistanceSample Tori::at(const Vec3& x) const {
-  using Dual = Eigen::AutoDiffScalar<Vec3>;
-  Eigen::Matrix<Dual, 3, 1> place;
-  for (int d = 0; d < 3; ++d) place[d] = Dual(x[d], 3, d);
-  const Dual phi = ask<Dual>(points_, tori_, tree_, winding_, orientation_, x, place);
-  return {phi.value(), phi.derivatives()};
+  const Jet phi = jet(x);
+  return {phi.value, phi.gradient};
 }
 
 }  // namespace littoral

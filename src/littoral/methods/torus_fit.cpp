@@ -113,11 +113,13 @@ std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, 
   const auto n = static_cast<std::size_t>(cloud.size());
   std::vector<Torus> tori(n);
   const int wanted = std::max(fit.neighbours, spacing_neighbour) + 1;
+  const std::vector<int> order = tree.order();  // what is near is fitted soon after
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
     std::vector<Neighbour> found(static_cast<std::size_t>(wanted));
-    for (std::size_t i = begin; i < end; ++i) {
-      const int point = static_cast<int>(i);
+    for (std::size_t place = begin; place < end; ++place) {
+      const int point = order[place];
+      const auto i = static_cast<std::size_t>(point);
       const Vec3 p = cloud.points.row(point), normal = cloud.normals.row(point);
       // The first neighbour is the point itself, as points are distinct.
       const int others = tree.nearest(p, wanted, found.data()) - 1;

@@ -1,7 +1,9 @@
 #include "littoral/spatial/point_tree.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -36,6 +38,47 @@ void split(const MatX3& points, Order& order, int begin, int end, int levels, in
   split(points, order, middle, end, levels - 1, leaf, cuts);
 }
 
+/// The disk of a lane: its axis is the direction in which the points vary least. Many points are
+/// seldom flat; their box is all they have.
+void set_disk(const MatX3& points, const int* from, const int* to, PointNode& node, int lane) {
+  if (to - from > 2048) {
+    for (int d = 0; d < 3; ++d) node.centre[d][lane] = node.axis[d][lane] = 0;
+    node.radius[lane] = node.half[lane] = infinity;
+    return;
+  }
+  Vec3 centre = Vec3::Zero();
+  for (const int* i = from; i < to; ++i) centre += points.row(*i);
+  centre /= static_cast<double>(to - from);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double largest = 0;
+  for (const int* i = from; i < to; ++i)
+    largest = std::max(largest, (points.row(*i).transpose() - centre).cwiseAbs().maxCoeff());
+  const double unit = largest > 0 ? largest : 1;  // so that squares stay in range
+  for (const int* i = from; i < to; ++i) {
+    const Vec3 d = (points.row(*i).transpose() - centre) / unit;
+    spread.noalias() += d * d.transpose();
+  }
+  Vec3 axis = Vec3::UnitZ();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions;
+  directions.computeDirect(spread);
+  const Vec3 least = directions.eigenvectors().col(0);
+  if (least.allFinite() && least.norm() > 0.5) axis = least.normalized();
+  double radius = 0, half = 0;
+  for (const int* i = from; i < to; ++i) {
+    const Vec3 d = points.row(*i).transpose() - centre;
+    const double h = d.dot(axis);
+    half = std::max(half, std::abs(h));
+    radius = std::max(radius, (d - h * axis).norm());
+  }
+  const double slack = 1e-14 * (centre.lpNorm<1>() + largest);  // differences round
+  for (int d = 0; d < 3; ++d) {
+    node.centre[d][lane] = centre[d];
+    node.axis[d][lane] = axis[d];
+  }
+  node.radius[lane] = radius * (1 + 1e-14) + slack;
+  node.half[lane] = half * (1 + 1e-14) + slack;
+}
+
 }  // namespace
 
 PointTree::PointTree(const MatX3& points) : size_(static_cast<int>(points.rows())) {
@@ -52,13 +95,17 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
   for (int c = 0; c < width; ++c) {
     Vec3 low = Vec3::Constant(infinity), high = Vec3::Constant(infinity);
     int child = -1;
-    if (c < static_cast<int>(cuts.size())) {
+    if (c >= static_cast<int>(cuts.size())) {
+      for (int d = 0; d < 3; ++d) nodes_[at].centre[d][c] = nodes_[at].axis[d][c] = 0;
+      nodes_[at].radius[c] = nodes_[at].half[c] = 0;
+    } else {
       const int from = c == 0 ? begin : cuts[c - 1], to = cuts[c];
       high = -low;
       for (int i = from; i < to; ++i) {
         low = low.cwiseMin(points.row(order[i]).transpose());
         high = high.cwiseMax(points.row(order[i]).transpose());
       }
+      set_disk(points, order.data() + from, order.data() + to, nodes_[at], c);
       if (to - from <= leaf_size) {
         child = -1 - static_cast<int>(leaves_.size());
         Leaf& leaf = leaves_.emplace_back();
@@ -81,8 +128,23 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
   return at;
 }
 
+std::vector<int> PointTree::order() const {
+  std::vector<int> out;
+  out.reserve(static_cast<std::size_t>(size_));
+  for (const Leaf& leaf : leaves_) out.insert(out.end(), leaf.point, leaf.point + leaf.size);
+  return out;
+}
+
+std::vector<int> PointTree::renumber() {
+  std::vector<int> old = order();
+  int next = 0;
+  for (Leaf& leaf : leaves_)
+    for (int i = 0; i < leaf.size; ++i) leaf.point[i] = next++;
+  return old;
+}
+
 template <class Visit>
-void PointTree::search(const Vec3& q, Visit&& visit) const {
+void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
   // Depth first, nearest child first. A node adds at most eight entries and a path is at most
   // 11 nodes deep (each divides its points by eight).
   struct Entry {
@@ -90,29 +152,22 @@ void PointTree::search(const Vec3& q, Visit&& visit) const {
     int child;
   };
   std::array<Entry, 128> stack;
+  const PointKernels& kernels = point_kernels();
   int top = 0;
   stack[top++] = {0, 0};
-  double bound = infinity;
   while (top > 0) {
     const Entry entry = stack[--top];
     if (entry.distance > bound) continue;
     if (entry.child < 0) {
       const Leaf& leaf = leaves_[-1 - entry.child];
-      double squared[leaf_size];  // all at once, in wide arithmetic
-      for (int i = 0; i < leaf_size; ++i) {
-        const double dx = leaf.x[0][i] - q[0], dy = leaf.x[1][i] - q[1], dz = leaf.x[2][i] - q[2];
-        squared[i] = dx * dx + dy * dy + dz * dz;
-      }
-      bound = visit(leaf, squared);
+      alignas(64) double squared[leaf_size];
+      const unsigned near = kernels.leaf(leaf, q.data(), bound, squared);
+      if (near != 0) bound = visit(leaf, squared, near);
       continue;
     }
     const Node& node = nodes_[entry.child];
-    double distance[width] = {};
-    for (int d = 0; d < 3; ++d)
-      for (int c = 0; c < width; ++c) {
-        const double gap = std::max(std::max(node.low[d][c] - q[d], q[d] - node.high[d][c]), 0.0);
-        distance[c] += gap * gap;
-      }
+    alignas(64) double distance[width];
+    kernels.node(node, q.data(), distance);
     const int first = top;
     for (int c = 0; c < width; ++c) {
       if (!(distance[c] <= bound) || distance[c] == infinity) continue;
@@ -129,9 +184,9 @@ int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
   if (k <= 0) return 0;
   int n = 0;
   double bound = infinity;
-  search(q, [&](const Leaf& leaf, const double* squared) {
-    for (int i = 0; i < leaf.size; ++i) {
-      if (squared[i] > bound) continue;
+  search(q, bound, [&](const Leaf& leaf, const double* squared, unsigned near) {
+    for (; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
       const Neighbour candidate{squared[i], leaf.point[i]};
       if (n == k && !(candidate < found[n - 1])) continue;
       int place = n < k ? n++ : n - 1;
@@ -147,9 +202,11 @@ int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
 std::vector<Neighbour> PointTree::within(const Vec3& q, double radius) const {
   std::vector<Neighbour> found;
   const double bound = radius * radius;
-  search(q, [&](const Leaf& leaf, const double* squared) {
-    for (int i = 0; i < leaf.size; ++i)
-      if (squared[i] <= bound) found.push_back({squared[i], leaf.point[i]});
+  search(q, bound, [&](const Leaf& leaf, const double* squared, unsigned near) {
+    for (; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      found.push_back({squared[i], leaf.point[i]});
+    }
     return bound;
   });
   std::sort(found.begin(), found.end());

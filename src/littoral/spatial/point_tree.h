@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "littoral/base/types.h"
+#include "littoral/spatial/point_kernels.h"
 
 namespace littoral {
 
@@ -19,7 +20,7 @@ struct Neighbour {
   }
 };
 
-/// A tree of boxes, eight to a node, tight around their points; immutable, queries may run at the
+/// A tree of boxes and disks, eight to a node, tight around their points; queries may run at the
 /// same time. Coordinates must be finite.
 class PointTree {
  public:
@@ -41,21 +42,22 @@ class PointTree {
   /// All points within `radius` of q, ascending.
   std::vector<Neighbour> within(const Vec3& q, double radius) const;
 
+  /// The points as they lie in the leaves: neighbours are near each other.
+  std::vector<int> order() const;
+
+  /// Numbers the points anew, as they lie in the leaves; returns the old numbers by new. Results
+  /// then name new ones.
+  std::vector<int> renumber();
+
  private:
-  static constexpr int width = 8, leaf_size = 16;
-  struct Node {
-    double low[3][width], high[3][width];  // boxes of the children; empty ones are infinite
-    int child[width];                      // another node, or -1 - (number of the leaf)
-  };
-  struct Leaf {
-    double x[3][leaf_size];  // by coordinate; infinite beyond `size`
-    int point[leaf_size];
-    int size;
-  };
+  using Node = PointNode;
+  using Leaf = PointLeaf;
+  static constexpr int width = point_lanes, leaf_size = leaf_lanes;
 
   int build(const MatX3& points, std::vector<int>& order, int begin, int end);
   template <class Visit>
-  void search(const Vec3& q, Visit&& visit) const;  // visit(leaf, squared distances) -> bound
+  void search(const Vec3& q, double bound, Visit&& visit) const;
+  // visit(leaf, squared distances, bits of those within the bound) -> bound
 
   int size_;
   std::vector<Node> nodes_;

@@ -15,8 +15,9 @@ struct TetSources {
 };
 
 /// Signed heat from a surface, unsigned from vertices, at the vertices of the mesh [length]; +inf
-/// on components that no source reaches, and at vertices of no tet. Of the request, the method must
-/// be signed-heat, whose options are those of `sdf`, with constraint zero-set where none is given.
+/// on components that no source reaches, and at vertices of no tet. Of the request, the method is
+/// signed-heat, whose options are those of `sdf`, with constraint zero-set where none is given, or
+/// quadratic: unsigned, from vertices or a surface with faces.
 ///
 /// Flat and inverted tets are harmless; parts of the surface outside the tets are left out, with a
 /// warning. Throws InputError for bad input, and if no source lies in a tet, UnsupportedError for

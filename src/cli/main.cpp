@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli/interrupt.h"
+#include "cli/method_options.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 #include "littoral/base/error.h"
@@ -71,7 +72,9 @@ int main(int argc, char** argv) {
   cli::add_view(program, session);
   cli::add_render(program, session);
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> arguments = cli::with_words(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
+    program.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request);
   } catch (const CLI::ParseError& e) {

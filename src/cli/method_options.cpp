@@ -1,5 +1,7 @@
 #include "cli/method_options.h"
 
+#include <algorithm>
+
 #include "littoral/api/registry.h"
 
 namespace littoral::cli {
@@ -36,6 +38,25 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
       option->type_name(info.is_text ? "TEXT" : info.choices.empty() ? "X" : "WORD");
     option->group("Options of methods");
   }
+}
+
+std::vector<std::string> with_words(int argc, char** argv) {
+  std::map<std::string, std::vector<std::string>> may_stand_alone;
+  for (const MethodInfo& method : methods())
+    for (const OptionInfo& info : method.options)
+      if (std::find(info.choices.begin(), info.choices.end(), "on") != info.choices.end())
+        may_stand_alone["--" + info.name] = info.choices;
+  std::vector<std::string> out;
+  for (int i = 1; i < argc; ++i) {
+    out.emplace_back(argv[i]);
+    const auto found = may_stand_alone.find(out.back());
+    if (found == may_stand_alone.end()) continue;
+    const std::vector<std::string>& words = found->second;
+    const bool given =
+        i + 1 < argc && std::find(words.begin(), words.end(), argv[i + 1]) != words.end();
+    out.back() += "=" + std::string(given ? argv[++i] : "on");
+  }
+  return out;
 }
 
 void add_method_options(CLI::App& verb, GivenOptions& given) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "cli/session.h"
 #include "littoral/api/distance.h"
@@ -16,6 +17,10 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
                         const std::vector<MethodInfo>& methods);
 /// The same for the methods on surfaces.
 void add_method_options(CLI::App& verb, GivenOptions& given);
+
+/// The arguments after the program's name; options of which "on" is one of several words may stand
+/// without a word, and are joined to the one that follows or to "on" by "=".
+std::vector<std::string> with_words(int argc, char** argv);
 
 /// Adds --method, whose help lists them and says that the first is the default.
 void add_method_option(CLI::App& verb, std::string& name, const std::vector<MethodInfo>& methods);

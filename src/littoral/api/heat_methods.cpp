@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "littoral/api/discontinuous.h"
+#include "littoral/api/signed_quadratic.h"
 #include "littoral/api/surface_method.h"
 #include "littoral/api/translated.h"
 #include "littoral/base/error.h"
@@ -57,7 +58,11 @@ CutProblem cut_into_triangles(const SurfaceProblem& problem, Report& report) {
 
 /// Throws unless the options go with the domain and with each other.
 void check_options(const SurfaceProblem& problem, const SignedHeatOptions& options) {
+  const bool quadratic = static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic;
+  if (options.sharpen != 0 && options.discontinuous)
+    throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
   if (options.discontinuous) needs_triangles(problem, "discontinuous");
+  if (quadratic) needs_triangles(problem, "sharpen quadratic");
   if (options.bounding_only) needs_triangles(problem, "bounding-only");
   if (options.intrinsic_delaunay) needs_triangles(problem, "intrinsic-delaunay");
   if (options.discontinuous && options.intrinsic_delaunay)
@@ -127,7 +132,8 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
                           Report& report) {
   check_options(problem, options);
   if (problem.domain() == "polygon mesh" &&
-      (options.discontinuous || options.bounding_only || options.intrinsic_delaunay)) {
+      (options.discontinuous || options.bounding_only || options.intrinsic_delaunay ||
+       static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic)) {
     const CutProblem cut = cut_into_triangles(problem, report);
     return signed_heat({cut.mesh, cut.sources, problem.flip}, options, task, report);
   }
@@ -140,8 +146,6 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
     options.time_scale = all.time_scale;
     return result;
   }
-  if (options.sharpen && options.discontinuous)
-    throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
   const auto needs = [&](const PreparedSources& sources) {
     const bool gradients = sources.pieces.empty() && !options.preserve_normals &&
                            static_cast<PointVectors>(options.points) == PointVectors::gradient;
@@ -164,7 +168,10 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
         return heat.solve(source, options, stage, r);
       },
       task.stage(0.25, "solving"), report);
-  if (options.sharpen) {
+  if (static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic)
+    return signed_quadratic(problem, at_input(problem, nullptr, phi).values, {},
+                            task.stage(1, "sharpening"), report);
+  if (static_cast<Sharpening>(options.sharpen) == Sharpening::on) {
     SharpenOptions how;
     how.solver = static_cast<SharpenSolver>(options.sharpen_solver);
     phi = sharpen(*ops, terms, phi, how, task.stage(1, "sharpening"), report);

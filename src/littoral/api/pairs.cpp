@@ -95,7 +95,7 @@ FromVertex from_vertex(const std::string& method, const std::shared_ptr<const Do
     auto options = options_of(signed_heat_options(), texts, report);
     const SourceTerms terms = domain->terms(first);
     if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms);
-    if (options.discontinuous || options.bounding_only || options.sharpen)
+    if (options.discontinuous || options.bounding_only || options.sharpen != 0)
       throw UnsupportedError("pairs of vertices have no curves to tear, leave out or sharpen from");
     refuse_flips(options.intrinsic_delaunay);
     const auto heat = std::make_shared<const SignedHeat>(domain->ops, options.time_scale, factoring,

@@ -11,6 +11,7 @@
 
 #include "littoral/api/regularized_space.h"
 #include "littoral/api/space_problem.h"
+#include "littoral/api/tet_quadratic.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/tet_locator.h"
@@ -25,7 +26,7 @@ SpaceHeatOptions heat_options(const SpaceRequest& request) {
   if (request.method != "signed-heat")
     throw UnsupportedError("method " + request.method +
                            " does not run on tets; signed-heat does, and through tets that are "
-                           "given regularized and belyaev-fayolle, too");
+                           "given regularized, belyaev-fayolle and quadratic, too");
   const SpaceMethod& method = find_space_method(request.method);
   return parse_options(method.info, space_heat_options(), request.options);
 }
@@ -226,7 +227,11 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
 
 VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const SpaceRequest& request,
                        Task task, Report& report) {
+  const bool quadratic = request.method == "quadratic";
+  const QuadraticOptions quadratic_how =
+      quadratic ? tet_quadratic_options(request.options) : QuadraticOptions{};
   SpaceRequest wanted = request;
+  if (quadratic) wanted.method = "signed-heat", wanted.options.clear();
   const auto is_hold = [](const auto& option) {
     return option.first == "constraint" || option.first == "soft";
   };
@@ -278,6 +283,15 @@ VecX tet_mesh_distance(const TetMesh& mesh, const TetSources& sources, const Spa
   for (const int v : placed.vertices)
     if (ops->component[static_cast<std::size_t>(v)] < 0)
       report.warn("source vertex " + std::to_string(v) + " belongs to no tet and is left out");
+  if (quadratic) {
+    PolygonSoup surface = sources.surface;
+    surface.points = frame.local(surface.points);
+    const VecX d = quadratic_through_tets(*local, *ops, placed.vertices, surface,
+                                          tets_with_sources(*local, placed), quadratic_how,
+                                          task.stage(0.9, "distance"), report);
+    report_options(quadratic_options(), quadratic_how, report);
+    return d * frame.unit;
+  }
   std::vector<std::vector<int>> tets_of(static_cast<std::size_t>(ops->n_components));
   for (int t : tets_with_sources(*local, placed))
     if (ops->volumes[t] > 0)

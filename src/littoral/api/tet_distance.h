@@ -18,7 +18,8 @@ struct TetSources {
 /// Distance at the vertices of the mesh [length]; +inf on components that no source reaches, and at
 /// vertices of no tet. Methods: signed-heat, signed from a surface and unsigned from vertices, with
 /// the options of `sdf` but constraint zero-set where none is given; regularized and
-/// belyaev-fayolle, unsigned from either.
+/// belyaev-fayolle, unsigned from either; quadratic, unsigned from vertices or a surface with
+/// faces.
 ///
 /// Flat and inverted tets are harmless; parts of the surface outside the tets are left out, with a
 /// warning. Throws InputError for bad input, and if no source lies in a tet, UnsupportedError for

@@ -19,11 +19,12 @@ const OptionTable<QuadraticOptions>& quadratic_options() {
                   "Interior-point iterations for each component of the mesh.")
           .number(&O::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
                   "Distance allowed at a source.")
-          .number(
-              &O::spacing, "spacing", "mean edge lengths, 0 = exact", 0, 100,
-              "Distance between samples on curves; 0 holds all of every straight piece at zero.")
+          .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
+                  "Distance between samples on curves; 0 knows the distance around them instead.")
           .toggle(&O::insert_samples, "insert-samples",
                   "Adds sample points where the constraint is violated between the usual seven.")
+          .toggle(&O::is_signed, "signed",
+                  "Takes the sign, and curves that fill gaps, from the signed heat method.")
           .number(
               &O::subdivide, "subdivide", "", 1, 64,
               "Writes and draws a mesh with every side cut into this many parts, which shows the "

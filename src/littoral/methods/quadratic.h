@@ -18,8 +18,9 @@ struct QuadraticOptions {
   double tolerance = 1e-5;      // of the duality gap, relative to the integral of u
   double max_iterations = 100;  // of the interior-point method, for each component
   double source_radius = 1e-4;  // d at a source may be this many mean edge lengths
-  double spacing = 0.5;         // of samples on curves, in mean edge lengths
+  double spacing = 0;           // of samples on curves, in mean edge lengths; 0: none, distances
   bool insert_samples = true;   // hold u >= |grad u|^2 / 4 between the seven points too
+  bool is_signed = false;       // sign and zero set from the signed heat method
   double subdivide = 1;         // parts of each side in the mesh written for viewing
 };
 

@@ -26,11 +26,19 @@ double squared_length(const P2Elements<D>& E, int element,
   return std::max(0.0, sum);
 }
 
+/// A source in one of the elements that contain it, by the part's number.
+template <int D>
+struct Touched {
+  int element;
+  P2Point<D> point;
+  double distance;  // there, at most
+};
+
 /// Distance from the sources to the part's nodes along edges (Dijkstra); a middle node takes the
 /// mean of its ends.
 template <int D>
 VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
-                          const std::vector<std::pair<int, P2Point<D>>>& sources) {
+                          const std::vector<Touched<D>>& sources) {
   using Shape = P2Shape<D>;
   const auto n = part.nodes.size();
   std::vector<int> first(n + 1, 0);
@@ -60,10 +68,10 @@ VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
     d[v] = distance;
     queue.emplace(distance, v);
   };
-  for (const auto& [e, point] : sources)
+  for (const auto& [e, point, before] : sources)
     for (int i = 0; i < Shape::corners; ++i)
       reach(part.local_node[e][i],
-            std::sqrt(squared_length(E, point.element, Shape::corner(i) - point.b)));
+            before + std::sqrt(squared_length(E, point.element, Shape::corner(i) - point.b)));
   while (!queue.empty()) {
     const auto [distance, v] = queue.top();
     queue.pop();
@@ -168,23 +176,25 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
                                       const std::vector<P2Source<D>>& sources, double radius)
     : E_(E), part_(part), curve_inside_(part.elements.size(), 0) {
   using Shape = P2Shape<D>;
-  std::vector<std::pair<int, P2Point<D>>> touched;  // local element, point: all sources
+  std::vector<Touched<D>> touched;
   std::vector<int> holds(part.elements.size(), 0);  // sources
   const auto local = [&](int element) {
     const auto at = std::lower_bound(part.elements.begin(), part.elements.end(), element);
     const bool found = at != part.elements.end() && *at == element;
     return found ? static_cast<int>(at - part.elements.begin()) : -1;
   };
-  const double cap = std::pow(radius / part.scale, 2);
+  const auto cap = [&](double distance) {
+    return (radius * radius + distance * distance) / (part.scale * part.scale);
+  };
   for (const P2Source<D>& source : sources) {
     for (const P2Point<D>& point : source.where) {
       const int e = local(point.element);
       if (e < 0) continue;
-      touched.emplace_back(e, point);
+      touched.push_back({e, point, source.distance});
       ++holds[e];
       if (source.on_curve) curve_inside_[e] = 1;
       if (&point == &source.where.front())
-        program_.caps.push_back({e, cap, Shape::values(point.b)});
+        program_.caps.push_back({e, cap(source.distance), Shape::values(point.b)});
     }
   }
   if (touched.empty()) return;

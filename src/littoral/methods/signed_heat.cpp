@@ -41,8 +41,10 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
           .number(&O::smoothing, "smoothing", "multiple of h^2, 0 = none", 0, 1e6,
                   "Discontinuous: time of the heat flow that smooths out small jumps, h being the "
                   "mean edge length; 0 leaves all jumps.")
-          .toggle(&O::sharpen, "sharpen",
-                  "Afterwards makes the distance as large as slope 1 allows, with the same signs.")
+          .choice(&O::sharpen, "sharpen", {"off", "on", "quadratic"},
+                  "Afterwards makes the distance as large as slope 1 allows, with the same signs: "
+                  "on linear elements, or on quadratic ones from the curves and the zero set in "
+                  "their gaps (triangle and polygon meshes).")
           .choice(&O::sharpen_solver, "sharpen-solver", {"admm", "pdhg"},
                   "Sharpening by alternating directions, or by the primal-dual hybrid gradient "
                   "method, which factors nothing.")

@@ -19,6 +19,10 @@ namespace littoral {
 /// How values at the source are held (section 7.1).
 enum class Constraint { none, zero_set, level_sets };
 
+/// Afterwards slope 1 almost everywhere and the same signs: on linear elements (section 7.3), or
+/// with the zero set as the source of quadratic-order geodesics.
+enum class Sharpening { off, on, quadratic };
+
 /// Where the diffused vectors come from where all sources are points.
 enum class PointVectors { gradient, radial };
 
@@ -32,7 +36,7 @@ struct SignedHeatOptions {
   bool discontinuous = false;       // integrate with the least jumps (section 7.2) instead of none
   double tear = 1;                  // jumps above that many mean edge lengths stay ...
   double smoothing = 1;    // ... others close by heat flow for that many squared ones; 0: all stay
-  bool sharpen = false;    // afterwards slope 1 almost everywhere, the same signs (section 7.3)
+  int sharpen = 0;         // Sharpening
   int sharpen_solver = 0;  // SharpenSolver
   bool bounding_only = false;  // leave out parts of curves that bound nothing
 };

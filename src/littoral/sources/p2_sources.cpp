@@ -2,13 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "littoral/base/error.h"
 #include "littoral/sources/surface_points.h"
+#include "littoral/sources/triangle_sources.h"
 
 namespace littoral {
 
 namespace {
+
+template <class B>
+Complex on(const TriangleShape& t, const B& b) {
+  return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
+}
+
+double distance_to_segment(Complex x, Complex a, Complex b) {
+  const double length2 = std::norm(b - a);
+  const double s = length2 > 0 ? ((x - a) * std::conj(b - a)).real() / length2 : 0;
+  return std::abs(x - a - std::clamp(s, 0.0, 1.0) * (b - a));
+}
 
 class Builder {
  public:
@@ -36,9 +49,31 @@ class Builder {
     sources.push_back(std::move(source));
   }
 
+  /// Around the pieces of a curve: the nodes of the triangles that hold them, with the distance to
+  /// the nearest piece in the same triangle.
+  void add_around(std::span<const CurvePiece> pieces) {
+    for (const CurvePiece& piece : pieces)
+      for (const TriangleSources::Segment& segment : segments_of(mesh_, T_, piece)) {
+        const int f = segment.triangle;
+        if (f < 0) continue;
+        const TriangleShape shape = T_.shape(f);
+        for (int i = 0; i < P2Shape<2>::nodes; ++i) {
+          const Vec3 b = i < 3 ? P2Shape<2>::corner(i) : P2Shape<2>::middle(i - 3);
+          const int node = i < 3 ? T_.faces(f, i) : T_.n_vertices + T_.side_edge(f, i - 3);
+          const double distance =
+              distance_to_segment(on(shape, b), on(shape, segment.a), on(shape, segment.b));
+          const auto [at, fresh] = around_.try_emplace(node, sources.size());
+          if (fresh) sources.push_back({{{f, b}}, true, distance});
+          P2Source<2>& known = sources[at->second];
+          if (distance < known.distance) known = {{{f, b}}, true, distance};
+        }
+      }
+  }
+
   std::vector<P2Source<2>> sources;
 
  private:
+  std::map<int, std::size_t> around_;  // node -> its place among the sources
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
 };
@@ -74,8 +109,7 @@ std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTria
       sample(curve, spacing * T.mean_edge_length * T.unit, out);
       continue;
     }
-    for (const CurvePiece& piece : curve)
-      for (double s : {0.0, 0.5, 1.0}) out.add_on(piece, s);
+    out.add_around(curve);
   }
   if (out.sources.empty())
     throw InputError("no source lies on a face with three different vertices");

@@ -1,0 +1,87 @@
+#include "littoral/api/tet_quadratic.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "littoral/base/error.h"
+#include "littoral/domain/triangulate.h"
+#include "littoral/operators/p2_tets.h"
+#include "littoral/spatial/triangle_bvh.h"
+
+namespace littoral {
+
+namespace {
+
+using Shape = P2Shape<3>;
+
+Shape::Point local_node(int i) {
+  return i < Shape::corners ? Shape::corner(i) : Shape::middle(i - Shape::corners);
+}
+
+/// Each of the vertices in the first element that has it.
+std::vector<P2Source<3>> at_vertices(const P2Elements<3>& E, const std::vector<int>& vertices) {
+  std::vector<char> wanted(static_cast<std::size_t>(E.n_vertices), 0);
+  for (const int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
+  std::vector<P2Source<3>> out;
+  for (int e = 0; e < E.n_elements(); ++e)
+    for (int k = 0; k < Shape::corners; ++k) {
+      char& missing = wanted[static_cast<std::size_t>(E.node[static_cast<std::size_t>(e)][k])];
+      if (missing != 0) out.push_back({{{e, Shape::corner(k)}}, false, 0});
+      missing = 0;
+    }
+  return out;
+}
+
+/// The nodes of some elements with their distance to a surface.
+std::vector<P2Source<3>> around(const TetMesh& mesh, const P2Tets& P, const PolygonSoup& surface,
+                                const std::vector<int>& held) {
+  const PolygonSoup soup = triangulate(surface);
+  MatX3i faces(soup.n_faces(), 3);
+  for (int f = 0; f < soup.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) faces(f, k) = soup.face(f)[static_cast<std::size_t>(k)];
+  const TriangleBvh tree(soup.points, faces);
+  std::map<int, P2Source<3>> at_node;
+  for (const int t : held) {
+    const int e = P.element_of_tet[static_cast<std::size_t>(t)];
+    if (e < 0) continue;
+    for (int i = 0; i < Shape::nodes; ++i) {
+      const int node = P.elements.node[static_cast<std::size_t>(e)][static_cast<std::size_t>(i)];
+      if (at_node.count(node) != 0) continue;
+      const Shape::Point b = local_node(i);
+      Vec3 x = Vec3::Zero();
+      for (int k = 0; k < Shape::corners; ++k) x += b[k] * mesh.points.row(mesh.tets(t, k));
+      at_node[node] = {{{e, b}}, true, tree.closest_point(x).distance};
+    }
+  }
+  std::vector<P2Source<3>> out;
+  for (auto& [node, source] : at_node) out.push_back(std::move(source));
+  return out;
+}
+
+}  // namespace
+
+QuadraticOptions tet_quadratic_options(const OptionTexts& texts) {
+  const auto options = parse_options(find_method("quadratic"), quadratic_options(), texts);
+  if (options.is_signed || options.subdivide != 1)
+    throw UnsupportedError("options signed and subdivide work on surfaces, not on a tet mesh");
+  return options;
+}
+
+VecX quadratic_through_tets(const TetMesh& mesh, const TetOperators& ops,
+                            const std::vector<int>& vertices, const PolygonSoup& surface,
+                            const std::vector<int>& held, const QuadraticOptions& options,
+                            const Task& task, Report& report) {
+  if (vertices.empty() && surface.n_faces() == 0)
+    throw UnsupportedError(
+        "quadratic distance through tets is from vertices or a surface with faces, not from a "
+        "cloud");
+  const P2Tets P = p2_elements(mesh, ops);
+  const auto sources =
+      vertices.empty() ? around(mesh, P, surface, held) : at_vertices(P.elements, vertices);
+  if (sources.empty()) throw InputError("no source vertex belongs to a tet");
+  const Quadratic<3> method(std::make_shared<const P2Elements<3>>(P.elements));
+  return method.solve(sources, options, task, report).at_vertices();
+}
+
+}  // namespace littoral

@@ -19,6 +19,9 @@ namespace littoral {
 /// How the blend is summed.
 enum class ToriPrecision { full, single };
 
+/// What becomes of points that hardly any neighbour agrees with (sources/likely_outliers.h).
+enum class ToriOutliers { keep, drop };
+
 /// A cloud's tori and their blend; immutable, may be asked from several threads.
 class Tori final : public PointwiseDistance {
  public:
@@ -26,7 +29,7 @@ class Tori final : public PointwiseDistance {
   /// cancel the point is left out, with a warning. Throws InputError if a number is not finite
   /// (naming the point), a normal is zero, or nothing remains.
   Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-       ToriPrecision precision = ToriPrecision::full);
+       ToriPrecision precision = ToriPrecision::full, ToriOutliers outliers = ToriOutliers::keep);
 
   /// Tori fitted before, at their points (points x 3).
   Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision = ToriPrecision::full);

@@ -73,13 +73,15 @@ OrientedPoints damaged_cloud() {
 }
 
 TEST(ToriFast, SumsAsPlainSumsDo) {
-  for (const OrientedPoints& cloud : {torus_cloud(3000, 1), damaged_cloud()}) {
+  for (const bool damaged : {false, true}) {
+    const OrientedPoints cloud = damaged ? damaged_cloud() : torus_cloud(3000, 1);
+    const double rounding = damaged ? 1e-4 : 2e-6;  // more where tori contradict each other
     const Tori full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
     for (const double reach : {1.5, 1e3})
       for (const Vec3& x : places(3000, 2, reach)) {
         const double plain = full.value_by_plain_sums(x);
         ASSERT_NEAR(full.value(x), plain, 1e-13 * (1 + reach)) << x.transpose();
-        ASSERT_NEAR(single.value(x), plain, 2e-6 * (1 + reach)) << x.transpose();
+        ASSERT_NEAR(single.value(x), plain, rounding * (1 + reach)) << x.transpose();
       }
   }
 }
@@ -113,27 +115,26 @@ TEST(ToriFast, StableFarAwayAndInside) {
 
 TEST(ToriFast, GradientAndLaplacianAreDerivatives) {
   const Tori tori = fitted(torus_cloud(2000, 9));
-  int compared = 0;
-  const double step = 1e-4;
-  for (const Vec3& x : places(400, 10, 1.5)) {
+  int asked = 0, agree = 0;
+  const double step = 1e-7;
+  for (const Vec3& x : places(600, 10, 1.5)) {
     if (std::abs(on_torus(x)) > 0.3) continue;
     const Jet jet = tori.jet(x);
     EXPECT_NEAR(jet.value, tori.value(x), 1e-13);
-    double laplacian = 0, jump = 0;
+    double laplacian = 0;
     Vec3 gradient;
     for (int d = 0; d < 3; ++d) {
       const Vec3 e = step * Vec3::Unit(d);
       const Jet up = tori.jet(x + e), down = tori.jet(x - e);
       gradient[d] = (up.value - down.value) / (2 * step);
       laplacian += (up.gradient[d] - down.gradient[d]) / (2 * step);
-      jump = std::max(jump, (up.gradient - jet.gradient).norm());
     }
-    if (jump > 0.02) continue;  // neighbours change
-    EXPECT_NEAR((jet.gradient - gradient).norm(), 0, 1e-3);
-    EXPECT_NEAR(jet.laplacian, laplacian, 0.02 * (5 + std::abs(laplacian)));
-    ++compared;
+    ++asked;  // all but those next to a place where neighbours change
+    agree += (jet.gradient - gradient).norm() < 1e-6 &&
+             std::abs(jet.laplacian - laplacian) < 1e-5 * (5 + std::abs(laplacian));
   }
-  EXPECT_GT(compared, 50);
+  EXPECT_GT(asked, 100);
+  EXPECT_GT(agree, 0.98 * asked);
 }
 
 TEST(ToriFast, LaplacianOfASphereIsTwiceItsCurvature) {

@@ -43,7 +43,7 @@ class Tori final : public PointwiseDistance {
   /// Never more than the distance to the nearest point. Away from the points, where tori disagree
   /// on the side (as behind acute edges) or the winding number of the cloud is certain that they
   /// are wrong (as beyond a few flipped normals), the winding number decides. In single precision
-  /// tori are, and the blend is, precise to 1e-6 of the distance; half the memory.
+  /// it is precise to about 1e-6 of the distance where tori agree; half the memory.
   double value(const Vec3& x) const override;
 
   /// The same with its derivative, exact but where neighbours or side change.

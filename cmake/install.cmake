@@ -6,6 +6,7 @@ install(TARGETS littoral_cli RUNTIME)
 install(TARGETS littoral EXPORT littoral_targets)
 install(DIRECTORY src/littoral DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")
+install(FILES python/torus_fit.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/littoral)
 install(EXPORT littoral_targets NAMESPACE littoral:: DESTINATION ${littoral_config_dir})
 
 set(littoral_uses_blas ${BLAS_FOUND})

@@ -1,7 +1,7 @@
 """Trains the learned fit of tori: how much each neighbour of a point counts.
 
-usage: train_torus_fit.py OUT.txt [--minutes 10] [--clouds 400] [--seed 1]
-needs numpy, scipy and jax (PyPI; the processor alone will do), under 15 minutes on one core
+usage: train_torus_fit.py OUT.txt [--minutes 5] [--clouds 150] [--seed 1]
+needs numpy, scipy and jax (PyPI; the processor alone will do), six minutes of one core
 
 The fit stays the least squares of methods/torus_fit.cpp. A small network that sees what does not
 change under rotation (distances, heights, angles of normals) multiplies the weights of its
@@ -247,8 +247,8 @@ def write(net: Net, path: Path, note: str) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("out", type=Path)
-    parser.add_argument("--minutes", type=float, default=10)
-    parser.add_argument("--clouds", type=int, default=400)
+    parser.add_argument("--minutes", type=float, default=5)
+    parser.add_argument("--clouds", type=int, default=150)
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args()
     random = np.random.default_rng(asked.seed)

@@ -5,6 +5,7 @@
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
+#include "littoral/io/read.h"
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
 #include "littoral/methods/sharpen.h"
@@ -30,14 +31,39 @@ const OptionTable<ClosestPointOptions>& no_options() {
 
 struct ToriOptions {
   bool noisy = false;
+  int fit = 0;  // 0 closed, 1 learned
+  std::string weights;
+  bool drop_outliers = false;
+  bool single = false;
 };
 
 const OptionTable<ToriOptions>& tori_options() {
   static const OptionTable<ToriOptions> table =
-      OptionTable<ToriOptions>().toggle(&ToriOptions::noisy, "noisy",
-                                        "For noisy clouds: tori are fitted to more neighbours and "
-                                        "need not pass through their points.");
+      OptionTable<ToriOptions>()
+          .toggle(&ToriOptions::noisy, "noisy",
+                  "For noisy clouds: tori are fitted to more neighbours and need not pass through "
+                  "their points.")
+          .choice(&ToriOptions::fit, "fit", {"closed", "learned"},
+                  "Weights of the neighbours that a torus is fitted to: by distance, or by a small "
+                  "network that sees how they lie.")
+          .text(&ToriOptions::weights, "weights", "file",
+                "Weights of that network in place of those that come with the library.")
+          .toggle(&ToriOptions::drop_outliers, "drop-outliers",
+                  "Leaves out points that hardly any neighbour agrees with.")
+          .toggle(&ToriOptions::single, "single",
+                  "Sums in single precision, to a millionth of the distance; less memory.");
   return table;
+}
+
+TorusFit torus_fit(const ToriOptions& options) {
+  if (options.fit == 0) {
+    if (!options.weights.empty()) throw InputError("--weights goes with --fit learned");
+    return options.noisy ? TorusFit::noisy() : TorusFit::exact();
+  }
+  if (options.noisy) throw InputError("--noisy goes with --fit closed");
+  if (options.weights.empty()) return TorusFit::by(LearnedFit::built_in());
+  return TorusFit::by(std::make_shared<const LearnedFit>(
+      LearnedFit::parse(io::read_bytes(options.weights), options.weights)));
 }
 
 const OptionTable<KernelOptions>& kernel_options() {
@@ -155,11 +181,14 @@ std::vector<SpaceMethod> tori_methods() {
       tori_options(),
       [](const SpaceProblem& problem, const ToriOptions& options, const Task& task,
          Report& report) {
+        const TorusFit fit = torus_fit(options);
+        const auto precision = options.single ? ToriPrecision::single : ToriPrecision::full;
         if (!problem.tori.empty())
-          return std::make_unique<const Tori>(problem.surface.points, problem.tori);
+          return std::make_unique<const Tori>(problem.surface.points, problem.tori, precision);
         const Stopwatch watch(report, "fit");
         return std::make_unique<const Tori>(
-            problem.samples, options.noisy ? TorusFit::noisy() : TorusFit::exact(), task, report);
+            problem.samples, fit, task, report, precision,
+            options.drop_outliers ? ToriOutliers::drop : ToriOutliers::keep);
       })};
 }
 

@@ -7,6 +7,7 @@
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
 #include "littoral/sources/distinct_points.h"
+#include "littoral/sources/likely_outliers.h"
 
 namespace littoral {
 
@@ -180,8 +181,9 @@ void gather(const std::vector<TorusRecord<S>>& records, const Neighbour* found, 
 }
 
 Tori fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-            auto make) {
+            ToriOutliers outliers, auto make) {
   OrientedPoints used = distinct_points(cloud, report);
+  if (outliers == ToriOutliers::drop) used = without_outliers(used, task, report);
   task.checkpoint();
   PointTree tree(used.points);
   std::vector<Torus> tori = fit_tori(used, tree, fit, task);
@@ -191,10 +193,11 @@ Tori fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, 
 }  // namespace
 
 Tori::Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-           ToriPrecision precision)
-    : Tori(fitted(cloud, fit, task, report, [&](MatX3 p, std::vector<Torus> t, PointTree tree) {
-        return Tori(std::move(p), std::move(t), std::move(tree), precision);
-      })) {}
+           ToriPrecision precision, ToriOutliers outliers)
+    : Tori(fitted(cloud, fit, task, report, outliers,
+                  [&](MatX3 p, std::vector<Torus> t, PointTree tree) {
+                    return Tori(std::move(p), std::move(t), std::move(tree), precision);
+                  })) {}
 
 Tori::Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision)
     : Tori(points, std::move(tori), PointTree(points), precision) {}

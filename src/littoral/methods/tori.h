@@ -19,6 +19,9 @@ namespace littoral {
 /// How the blend is summed.
 enum class ToriPrecision { full, single };
 
+/// What becomes of points that hardly any neighbour agrees with (sources/likely_outliers.h).
+enum class ToriOutliers { keep, drop };
+
 /// A cloud's tori and their blend; immutable, may be asked from several threads.
 class Tori final : public PointwiseDistance {
  public:
@@ -26,7 +29,7 @@ class Tori final : public PointwiseDistance {
   /// cancel the point is left out, with a warning. Throws InputError if a number is not finite
   /// (naming the point), a normal is zero, or nothing remains.
   Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-       ToriPrecision precision = ToriPrecision::full);
+       ToriPrecision precision = ToriPrecision::full, ToriOutliers outliers = ToriOutliers::keep);
 
   /// Tori fitted before, at their points (points x 3).
   Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision = ToriPrecision::full);
@@ -40,7 +43,7 @@ class Tori final : public PointwiseDistance {
   /// Never more than the distance to the nearest point. Away from the points, where tori disagree
   /// on the side (as behind acute edges) or the winding number of the cloud is certain that they
   /// are wrong (as beyond a few flipped normals), the winding number decides. In single precision
-  /// tori are, and the blend is, precise to 1e-6 of the distance; half the memory.
+  /// it is precise to about 1e-6 of the distance where tori agree; half the memory.
   double value(const Vec3& x) const override;
 
   /// The same with its derivative, exact but where neighbours or side change.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <limits>
 
 #include "littoral/base/parallel.h"
@@ -14,6 +15,29 @@ void tangent_frame(const Vec3& n, Vec3& s, Vec3& t) {
   t = n.cross(s);
 }
 
+namespace {
+
+/// A neighbour in the frame of a point, lengths in units of the fit's scale.
+struct Seen {
+  double S, T, H;  // place along s, t and n
+  double A, B;     // its normal along s and t
+  double apart;    // distance, kept away from 0
+  double height_weight, normal_weight;
+};
+
+/// What the network sees of a neighbour (python/train_torus_fit.py: fit).
+Eigen::Matrix<float, LearnedFit::features, 1> features_of(const Seen& j, const Vec3& d,
+                                                          const Vec3& m, const Vec3& n) {
+  const double rises = j.H / j.apart, seen = d.dot(m) / j.apart;
+  const double inverse = 1 / std::sqrt(j.S * j.S + j.T * j.T + 1e-8);
+  Eigen::Matrix<double, LearnedFit::features, 1> out;
+  out << std::min(d.norm(), 4.0), rises, seen, m.dot(n), (j.A * j.S + j.B * j.T) * inverse,
+      std::abs(j.A * j.T - j.B * j.S) * inverse, std::abs(rises), std::abs(seen);
+  return out.cast<float>();
+}
+
+}  // namespace
+
 HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, int point,
                              std::span<const Neighbour> neighbours, double scale) {
   using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -21,11 +45,35 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   const Vec3 p = cloud.points.row(point), n = cloud.normals.row(point);
   Vec3 s, t;
   tangent_frame(n, s, t);
-  struct Row {
-    double S, T, A, B, weight;
-  };
-  std::vector<Row> rows;
-  rows.reserve(neighbours.size());
+  constexpr std::size_t most = 64;
+  std::array<Seen, most> rows;
+  const std::size_t count = std::min(neighbours.size(), most);
+  const bool learned = fit.learned && count == LearnedFit::neighbours;
+  LearnedFit::Features features;
+  for (std::size_t j = 0; j < count; ++j) {
+    const Vec3 d = (cloud.points.row(neighbours[j].point).transpose() - p) / scale;
+    const Vec3 m = cloud.normals.row(neighbours[j].point);
+    const double apart = std::max(d.norm(), 0.05);
+    const double weight = fit.weight_exponent == 2   ? 1 / (apart * apart)
+                          : fit.weight_exponent == 1 ? 1 / apart
+                                                     : std::pow(apart, -fit.weight_exponent);
+    rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), apart, weight, 0};
+    rows[j].normal_weight = weight * fit.normal_weight;
+    if (learned) features.col(static_cast<Eigen::Index>(j)) = features_of(rows[j], d, m, n);
+  }
+  double self_weight = fit.self_weight, log_weight = 0;
+  if (learned) {
+    const LearnedFit::Factors factors = (*fit.learned)(features);
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      // Those that the closed form does not look at begin with little weight.
+      const double base = static_cast<int>(j) < fit.neighbours ? 0 : -4;
+      rows[j].height_weight *= std::exp(base + factors.of_neighbours(0, column));
+      rows[j].normal_weight *= std::exp(base + factors.of_neighbours(1, column));
+    }
+    self_weight *= std::exp(factors.of_point);
+    log_weight = factors.of_torus;
+  }
   Mat6 M = Mat6::Zero();  // normal equations; unknowns a00, a01, a10, a11, a02, a20
   Vec6 r = Vec6::Zero();
   auto add = [&](const Vec6& g, double value, double weight) {
@@ -33,40 +81,31 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
     M.noalias() += weighted * g.transpose();
     r += value * weighted;
   };
-  for (const Neighbour& neighbour : neighbours) {
-    const Vec3 d = (cloud.points.row(neighbour.point).transpose() - p) / scale;
-    const Vec3 m = cloud.normals.row(neighbour.point);
-    const double S = d.dot(s), T = d.dot(t), A = m.dot(s), B = m.dot(t);
+  for (const Seen& j : std::span(rows).first(count)) {
     // Height over the plane, shortened so that points of a sphere lie exactly on a paraboloid with
     // its curvature: on it |d|^2 = -2 R H.
-    const double flat = S * S + T * T, H = d.dot(n);
-    const double height = flat > 0 ? H * flat / (flat + H * H) : 0.0;
-    const double apart = std::max(d.norm(), 0.05);
-    const double weight = fit.weight_exponent == 2   ? 1 / (apart * apart)
-                          : fit.weight_exponent == 1 ? 1 / apart
-                                                     : std::pow(apart, -fit.weight_exponent);
-    rows.push_back({S, T, A, B, weight});
-    add((Vec6() << 1, T, S, S * T, T * T, S * S).finished(), height, weight);
+    const double S = j.S, T = j.T, flat = S * S + T * T;
+    const double height = flat > 0 ? j.H * flat / (flat + j.H * j.H) : 0.0;
+    add((Vec6() << 1, T, S, S * T, T * T, S * S).finished(), height, j.height_weight);
     // Normals: the derivatives of the height are minus the normal's tangential components
     // (Weingarten's form: no division by the third, which may be small).
-    const double w = weight * fit.normal_weight;
-    add((Vec6() << 0, 0, 1, T, 0, 2 * S).finished(), -A, w);
-    add((Vec6() << 0, 1, 0, S, 2 * T, 0).finished(), -B, w);
+    add((Vec6() << 0, 0, 1, T, 0, 2 * S).finished(), -j.A, j.normal_weight);
+    add((Vec6() << 0, 1, 0, S, 2 * T, 0).finished(), -j.B, j.normal_weight);
   }
-  M(0, 0) += fit.self_weight;
+  M(0, 0) += self_weight;
   M.diagonal().tail<3>().array() += fit.ridge;
   M.diagonal().array() += 1e-9;
   const Vec6 a = M.ldlt().solve(r);
   HeightPolynomial out;
   if (!a.allFinite()) return out;
   double residual = 0, total = 0;
-  for (const Row& row : rows) {
-    const double da = a[2] + a[3] * row.T + 2 * a[5] * row.S + row.A;
-    const double db = a[1] + a[3] * row.S + 2 * a[4] * row.T + row.B;
-    residual += row.weight * (da * da + db * db);
-    total += row.weight;
+  for (const Seen& j : std::span(rows).first(count)) {
+    const double da = a[2] + a[3] * j.T + 2 * a[5] * j.S + j.A;
+    const double db = a[1] + a[3] * j.S + 2 * a[4] * j.T + j.B;
+    residual += j.normal_weight * (da * da + db * db);
+    total += j.normal_weight;
   }
-  out = {a[0] * scale, a[1], a[2], a[3] / scale, a[4] / scale, a[5] / scale, 0};
+  out = {a[0] * scale, a[1], a[2], a[3] / scale, a[4] / scale, a[5] / scale, 0, log_weight};
   out.normal_residual = total > 0 ? std::sqrt(residual / total) : 0;
   return out;
 }
@@ -103,7 +142,8 @@ Torus torus_of(const HeightPolynomial& a, const Vec3& p, const Vec3& n, double r
   const double limit = curvature_limit / rho;
   torus.k1 = std::clamp(torus.k1, -limit, limit);
   torus.k2 = std::clamp(torus.k2, -limit, limit);
-  torus.log_weight = std::max(-10.0, -20 * std::abs(a.a00) / rho - 4 * a.normal_residual);
+  torus.log_weight =
+      std::clamp(-20 * std::abs(a.a00) / rho - 4 * a.normal_residual + a.log_weight, -10.0, 0.0);
   return torus;
 }
 
@@ -112,7 +152,8 @@ std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, 
   constexpr int spacing_neighbour = 6;  // rho is the distance of this one
   const auto n = static_cast<std::size_t>(cloud.size());
   std::vector<Torus> tori(n);
-  const int wanted = std::max(fit.neighbours, spacing_neighbour) + 1;
+  const int seen = fit.learned ? LearnedFit::neighbours : fit.neighbours;
+  const int wanted = std::max(seen, spacing_neighbour) + 1;
   const std::vector<int> order = tree.order();  // what is near is fitted soon after
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
@@ -127,8 +168,9 @@ std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, 
         tori[i] = torus_of({}, p, normal, std::numeric_limits<double>::max(), 0);
         continue;
       }
-      const auto used = static_cast<std::size_t>(std::min(others, fit.neighbours));
-      const double scale = std::sqrt(found[used].squared_distance);
+      const int unit = std::min(others, fit.neighbours);  // lengths are in units of its distance
+      const auto used = static_cast<std::size_t>(others >= seen ? seen : unit);
+      const double scale = std::sqrt(found[static_cast<std::size_t>(unit)].squared_distance);
       const double rho = std::sqrt(
           found[static_cast<std::size_t>(std::min(others, spacing_neighbour))].squared_distance);
       const HeightPolynomial a =

@@ -1,10 +1,12 @@
 #pragma once
 // Tori from the neighbourhoods of oriented points (thesis, section 5.1.1).
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "littoral/base/task.h"
+#include "littoral/methods/learned_fit.h"
 #include "littoral/methods/torus.h"
 #include "littoral/sources/oriented_points.h"
 #include "littoral/spatial/point_tree.h"
@@ -19,17 +21,25 @@ struct TorusFit {
   double self_weight = 1.5;     // of passing through the point itself
   double ridge = 1e-3;          // on the three quadratic coefficients
   double curvature_limit = 3;   // |curvature| rho is at most this
+  // If not null it multiplies these weights, for points with as many neighbours as it looks at.
+  std::shared_ptr<const LearnedFit> learned = nullptr;
 
+  static TorusFit by(std::shared_ptr<const LearnedFit> learned) {
+    TorusFit fit;
+    fit.learned = std::move(learned);
+    return fit;
+  }
   /// For clouds as they are, and for noisy ones: more neighbours, of more equal weight, and less
   /// trust in the point itself.
   static TorusFit exact() { return {}; }
-  static TorusFit noisy() { return {16, 1, 0.25, 0.1, 1e-3, 2}; }
+  static TorusFit noisy() { return {16, 1, 0.25, 0.1, 1e-3, 2, nullptr}; }
 };
 
 /// Coefficients of the height over the tangent plane (eq. 5.2), in the frame of tangent_frame(n).
 struct HeightPolynomial {
   double a00 = 0, a01 = 0, a10 = 0, a11 = 0, a02 = 0, a20 = 0;
   double normal_residual = 0;  // root mean square difference to the neighbours' normals
+  double log_weight = 0;       // what the learned fit adds to that of the torus
 };
 
 /// Two unit vectors s, t with s x t = n.

@@ -89,6 +89,16 @@ TEST(GridPoisson, InvertsTheDifferencesAlongEdgesWithAnySpacing) {
   EXPECT_NEAR(x.mean(), 0, 1e-12);
 }
 
+TEST(GridPoisson, SinglePrecisionAgreesToItsDigits) {
+  const Grid grid = odd_grid();
+  VecX b = VecX::Random(static_cast<Eigen::Index>(grid.n_nodes()));
+  b.array() -= b.mean();
+  Eigen::VectorXf single = b.cast<float>();
+  GridPoisson(grid.n, grid.spacing).solve(b, Task());
+  GridPoisson<float>(grid.n, grid.spacing).solve(single, Task());
+  EXPECT_LT((single.cast<double>() - b).norm(), 3e-6 * b.norm());
+}
+
 TEST(GridOperators, DivergenceOfAConstantFieldIsThatOfALinearFunction) {
   // If Y is the gradient of a linear function, L phi = G^T Y has exactly that function as solution.
   const Grid grid = odd_grid();

@@ -10,6 +10,7 @@
 #include "cli/volume_input.h"
 #include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
+#include "littoral/api/tetgen_distance.h"
 #include "littoral/base/error.h"
 #include "littoral/contour/isosurface.h"
 #include "littoral/io/picture.h"
@@ -29,7 +30,10 @@ struct Arguments {
   std::string levels = "0";
   std::vector<std::string> out;
   double band = 0;
+  bool clip = false;
   std::string domain = "grid";
+  std::string tets = "lattice";
+  TetgenOptions tetgen;
 };
 
 bool is_among(const std::string& file, const std::vector<std::string>& extensions) {
@@ -37,9 +41,9 @@ bool is_among(const std::string& file, const std::vector<std::string>& extension
 }
 
 std::vector<Shell> shells_of(const VolumeField& volume, const TetField& tets,
-                             const std::vector<double>& levels, Session& session) {
+                             const std::vector<double>& levels, bool clip, Session& session) {
   if (tets.mesh.n_tets() == 0)
-    return level_shells(volume, levels, false, session.report, session.task());
+    return level_shells(volume, levels, clip, session.report, session.task());
   std::vector<Shell> shells;
   for (const double level : levels)
     shells.push_back(
@@ -57,7 +61,7 @@ void write_results(const Arguments& arguments, const VolumeField& volume, const 
     } else if (extension_of(file) == ".vtk" || extension_of(file) == ".vtu") {
       write_tet_field(file, tets.mesh, tets.values, "distance", session);
     } else if (is_among(file, surface_outputs)) {
-      write_shells({file}, shells_of(volume, tets, levels, session));
+      write_shells({file}, shells_of(volume, tets, levels, arguments.clip, session));
     } else {
       io::VolumeView view;
       view.level = levels.front();
@@ -78,6 +82,10 @@ void run(Arguments& arguments, Session& session) {
     if (arguments.domain != "tets" && (extension == ".vtk" || extension == ".vtu"))
       throw InputError(file + " holds tets: they are there with --domain tets");
   }
+  if (arguments.tets != "lattice" && arguments.domain != "tets")
+    throw InputError("option --tets goes with --domain tets");
+  if (arguments.clip && arguments.domain == "tets")
+    throw UnsupportedError("--clip is for grids: the cube of the tets is larger than the box");
   parse_numbers("--level", arguments.levels);
   use_space_options(arguments.space, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
@@ -85,7 +93,10 @@ void run(Arguments& arguments, Session& session) {
   volume.grid = grid_of(arguments.space, input);
   session.reading = false;
   TetField tets;
-  if (arguments.domain == "tets")
+  if (arguments.tets == "tetgen")
+    tets = tetgen_distance(input, volume.grid, arguments.space.request, arguments.tetgen,
+                           &volume.values, session.task(), session.report);
+  else if (arguments.domain == "tets")
     tets = tet_distance(input, volume.grid, arguments.space.request, &volume.values, session.task(),
                         session.report);
   else
@@ -121,9 +132,19 @@ void add_sdf(CLI::App& program, Session& session) {
                    "are sampled from these [default grid]")
       ->check(CLI::IsMember({"grid", "tets"}).description(""))
       ->type_name("WORD");
+  verb->add_option("--tets", arguments->tets,
+                   "of --domain tets: lattice, or tetgen, tets whose faces follow a mesh that does "
+                   "not cross itself, made by that program where it is installed [default lattice]")
+      ->check(CLI::IsMember({"lattice", "tetgen"}).description(""))
+      ->type_name("WORD");
+  verb->add_option("--tetgen-timeout", arguments->tetgen.timeout,
+                   "how long tetgen may take [seconds; default 600]")
+      ->check(CLI::Range(0.01, 1e6).description(""))
+      ->type_name("S");
   verb->add_option("--level", arguments->levels,
                    "levels of surfaces, separated by commas [length; default 0]")
       ->type_name("L[,L...]");
+  verb->add_flag("--clip", arguments->clip, "close surfaces along the box where they leave it");
   verb->add_option("--band", arguments->band,
                    "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
       ->check(CLI::Range(0.0, 1e6).description(""))

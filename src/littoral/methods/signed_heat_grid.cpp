@@ -59,8 +59,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
   const Stopwatch watch(report, "integrate");
   VecX phi = grid_divergence(grid, Y);
   Y.resize(0, 3);
-  const GridPoisson poisson(grid.n, grid.spacing);
-  poisson.solve(phi, solve_stage);
+  GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
   const GridRows rows = grid_rows(grid, source.points, source.areas);
   if (rows.A.rows() == 0) {
     report.warn("the box holds no sample of the input; distances are shifted by the box's centre");
@@ -78,8 +77,15 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
     softness = cell * h / (options.soft * rows.weight.array());
   }
   const HeldRows held{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
-  return solve_held([&](VecX& b) { poisson.solve(b, hold_stage); }, std::move(phi), held,
-                    hold_stage, report);
+  // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
+  // speed.
+  const GridPoisson<float> poisson(grid.n, grid.spacing);
+  const auto solve = [&](VecX& b) {
+    Eigen::VectorXf single = b.cast<float>();
+    poisson.solve(single, hold_stage);
+    b = single.cast<double>();
+  };
+  return solve_held(solve, std::move(phi), held, hold_stage, report);
 }
 
 }  // namespace littoral

@@ -11,40 +11,43 @@ namespace {
 
 constexpr Eigen::Index columns_at_once = 128;
 
-using Matrix = Eigen::MatrixXd;
-using Strided = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
+template <class S>
+using Matrix = typename CosineTransform<S>::Matrix;
+template <class S>
+using Strided = Eigen::Map<Matrix<S>, 0, Eigen::OuterStride<>>;
 
 /// Transforms the columns of V.
-void transform_columns(const Matrix& even, const Matrix& odd, bool forward, Strided V) {
-  const Eigen::Index m = even.rows(), o = odd.rows(), n = V.rows();
+template <class S>
+void transform_columns(const Matrix<S>& even, const Matrix<S>& odd, bool forward, Strided<S> V) {
+  const Eigen::Index m = even.rows(), o = odd.rows();
   if (forward) {
-    Matrix E(m, V.cols()), O(o, V.cols());
+    Matrix<S> E(m, V.cols()), O(o, V.cols());
     E.topRows(o) = V.topRows(o) + V.bottomRows(o).colwise().reverse();
     if (m > o) E.row(o) = V.row(o);
     O = V.topRows(o) - V.bottomRows(o).colwise().reverse();
     V.topRows(m).noalias() = even * E;
     V.bottomRows(o).noalias() = odd * O;
   } else {
-    const Matrix E = even.transpose() * V.topRows(m), O = odd.transpose() * V.bottomRows(o);
+    const Matrix<S> E = even.transpose() * V.topRows(m), O = odd.transpose() * V.bottomRows(o);
     V.topRows(o) = E.topRows(o) + O;
     if (m > o) V.row(o) = E.row(o);
     V.bottomRows(o) = (E.topRows(o) - O).colwise().reverse();
   }
-  (void)n;
 }
 
 /// Transforms the rows of V.
-void transform_rows(const Matrix& even, const Matrix& odd, bool forward, Strided V) {
+template <class S>
+void transform_rows(const Matrix<S>& even, const Matrix<S>& odd, bool forward, Strided<S> V) {
   const Eigen::Index m = even.rows(), o = odd.rows();
   if (forward) {
-    Matrix E(V.rows(), m), O(V.rows(), o);
+    Matrix<S> E(V.rows(), m), O(V.rows(), o);
     E.leftCols(o) = V.leftCols(o) + V.rightCols(o).rowwise().reverse();
     if (m > o) E.col(o) = V.col(o);
     O = V.leftCols(o) - V.rightCols(o).rowwise().reverse();
     V.leftCols(m).noalias() = E * even.transpose();
     V.rightCols(o).noalias() = O * odd.transpose();
   } else {
-    const Matrix E = V.leftCols(m) * even, O = V.rightCols(o) * odd;
+    const Matrix<S> E = V.leftCols(m) * even, O = V.rightCols(o) * odd;
     V.leftCols(o) = E.leftCols(o) + O;
     if (m > o) V.col(o) = E.col(o);
     V.rightCols(o) = (E.leftCols(o) - O).rowwise().reverse();
@@ -53,7 +56,8 @@ void transform_rows(const Matrix& even, const Matrix& odd, bool forward, Strided
 
 }  // namespace
 
-CosineTransform::CosineTransform(std::array<int, 3> n) {
+template <class S>
+CosineTransform<S>::CosineTransform(std::array<int, 3> n) {
   for (int a = 0; a < 3; ++a) {
     Axis& axis = axes_[static_cast<std::size_t>(a)];
     axis.n = n[static_cast<std::size_t>(a)];
@@ -61,8 +65,8 @@ CosineTransform::CosineTransform(std::array<int, 3> n) {
     const auto cosine = [&](int k, int j) {
       // The angle is reduced first: k (2 j + 1) may be large.
       const long long turn = static_cast<long long>(k) * (2 * j + 1) % (4LL * axis.n);
-      return std::sqrt((k == 0 ? 1.0 : 2.0) / axis.n) *
-             std::cos(M_PI * static_cast<double>(turn) / (2.0 * axis.n));
+      return static_cast<S>(std::sqrt((k == 0 ? 1.0 : 2.0) / axis.n) *
+                            std::cos(M_PI * static_cast<double>(turn) / (2.0 * axis.n)));
     };
     axis.even.resize(m, m);
     axis.odd.resize(o, o);
@@ -73,7 +77,8 @@ CosineTransform::CosineTransform(std::array<int, 3> n) {
   }
 }
 
-std::vector<int> CosineTransform::frequencies(int axis) const {
+template <class S>
+std::vector<int> CosineTransform<S>::frequencies(int axis) const {
   std::vector<int> out;
   const int n = axes_[static_cast<std::size_t>(axis)].n;
   for (int k = 0; k < n; k += 2) out.push_back(k);
@@ -81,7 +86,8 @@ std::vector<int> CosineTransform::frequencies(int axis) const {
   return out;
 }
 
-void CosineTransform::transform(VecX& v, int axis, bool forward, const Task& task) const {
+template <class S>
+void CosineTransform<S>::transform(Vector& v, int axis, bool forward, const Task& task) const {
   const auto& [n, even, odd] = axes_[static_cast<std::size_t>(axis)];
   if (n == 1) return;
   Eigen::Index stride = 1;
@@ -95,8 +101,8 @@ void CosineTransform::transform(VecX& v, int axis, bool forward, const Task& tas
       task.checkpoint();
       const Eigen::Index first = static_cast<Eigen::Index>(p) * columns_at_once;
       const Eigen::Index count = std::min(columns_at_once, lines - first);
-      transform_columns(even, odd, forward,
-                        Strided(v.data() + first * n, n, count, Eigen::OuterStride<>(n)));
+      transform_columns<S>(even, odd, forward,
+                           Strided<S>(v.data() + first * n, n, count, Eigen::OuterStride<>(n)));
     });
     return;
   }
@@ -108,44 +114,53 @@ void CosineTransform::transform(VecX& v, int axis, bool forward, const Task& tas
                  const Eigen::Index slab = static_cast<Eigen::Index>(p) / blocks;
                  const Eigen::Index first = static_cast<Eigen::Index>(p) % blocks * columns_at_once;
                  const Eigen::Index count = std::min(columns_at_once, stride - first);
-                 transform_rows(even, odd, forward,
-                                Strided(v.data() + slab * stride * n + first, count, n,
-                                        Eigen::OuterStride<>(stride)));
+                 transform_rows<S>(even, odd, forward,
+                                   Strided<S>(v.data() + slab * stride * n + first, count, n,
+                                              Eigen::OuterStride<>(stride)));
                });
 }
 
-void CosineTransform::forward(VecX& values, const Task& task) const {
+template <class S>
+void CosineTransform<S>::forward(Vector& values, const Task& task) const {
   for (int a = 0; a < 3; ++a) transform(values, a, true, task);
 }
 
-void CosineTransform::backward(VecX& coefficients, const Task& task) const {
+template <class S>
+void CosineTransform<S>::backward(Vector& coefficients, const Task& task) const {
   for (int a = 2; a >= 0; --a) transform(coefficients, a, false, task);
 }
 
-GridPoisson::GridPoisson(std::array<int, 3> n, const Vec3& spacing) : cosine_(n), n_(n) {
+template <class S>
+GridPoisson<S>::GridPoisson(std::array<int, 3> n, const Vec3& spacing) : cosine_(n), n_(n) {
   for (int a = 0; a < 3; ++a) {
     const auto s = static_cast<std::size_t>(a);
     eigenvalues_[s].resize(n[s]);
     const std::vector<int> frequencies = cosine_.frequencies(a);
     for (int i = 0; i < n[s]; ++i) {
       const double sine = std::sin(M_PI * frequencies[static_cast<std::size_t>(i)] / (2.0 * n[s]));
-      eigenvalues_[s][i] = 4 * sine * sine / (spacing[a] * spacing[a]);
+      eigenvalues_[s][i] = static_cast<S>(4 * sine * sine / (spacing[a] * spacing[a]));
     }
   }
 }
 
-void GridPoisson::solve(VecX& b, const Task& task) const {
+template <class S>
+void GridPoisson<S>::solve(Vector& b, const Task& task) const {
   cosine_.forward(b, task);
   const Eigen::Index nx = n_[0], ny = n_[1];
   parallel_for(static_cast<std::size_t>(n_[2]), 4, [&](std::size_t begin, std::size_t end) {
     for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k)
       for (Eigen::Index j = 0; j < ny; ++j) {
-        const double yz = eigenvalues_[1][j] + eigenvalues_[2][k];
+        const S yz = eigenvalues_[1][j] + eigenvalues_[2][k];
         b.segment((k * ny + j) * nx, nx).array() /= eigenvalues_[0].array() + yz;
       }
   });
   b[0] = 0;  // the constants
   cosine_.backward(b, task);
 }
+
+template class CosineTransform<double>;
+template class CosineTransform<float>;
+template class GridPoisson<double>;
+template class GridPoisson<float>;
 
 }  // namespace littoral

@@ -120,5 +120,21 @@ TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirections) {
   EXPECT_EQ(share_against(C, x, Y), 0);
 }
 
+TEST(TimeScale, OfCurvesIsLargerOnFinerMeshesUpToFourTimes) {
+  SourceTerms curves, points;
+  points.only_points = true;
+  const auto automatic = [](const SourceTerms& terms, int cells, bool at_nodes) {
+    Operators ops;
+    ops.scalar.A = VecX::Zero(cells);
+    ops.vector.at_nodes = at_nodes;
+    return automatic_time_scale(terms, ops);
+  };
+  EXPECT_EQ(automatic(curves, 50'000, false), 1);
+  EXPECT_EQ(automatic(curves, 100'000, false), 2);
+  EXPECT_EQ(automatic(curves, 1'000'000, false), 4);
+  EXPECT_EQ(automatic(curves, 1'000'000, true), 1);
+  EXPECT_EQ(automatic(points, 1'000'000, false), 16);
+}
+
 }  // namespace
 }  // namespace littoral

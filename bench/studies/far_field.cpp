@@ -1,12 +1,14 @@
 // Is signed heat as good far from the source as near it, on any size of mesh? Errors in fifths of
 // the distance: octaspheres against the sphere, subdivided meshes against exact polyhedral distance
 // on the mesh before it was subdivided, which is the same surface.
-// usage: littoral_far_field FIRST_LEVEL LAST_LEVEL [MESH SUBDIVISIONS]...   prints Markdown rows.
+// usage: littoral_far_field [--time-scale S] FIRST_LEVEL LAST_LEVEL [MESH SUBDIVISIONS]...
+// prints Markdown rows, at the automatic time scale where none is given.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -28,6 +30,7 @@ namespace littoral {
 namespace {
 
 constexpr int fifths = 5;
+double given_scale = 0;  // 0: automatic
 
 VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, double& scale,
                  Report& report) {
@@ -35,10 +38,11 @@ VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, double&
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
   const SourceTerms terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
   SignedHeatOptions options;
-  options.time_scale = automatic_time_scale(terms);
+  options.time_scale = given_scale > 0 ? given_scale : automatic_time_scale(terms, *ops);
   SignedHeat method(ops, options.time_scale, {}, needed_diffusions(terms, options),
                     Expect::one_solve);
   scale = options.time_scale;
+  if (given_scale > 0) return method.solve(terms, options, {}, report);
   return solve_raising(
       method, scale,
       [&](const SignedHeat& heat, const Task& task, Report& r) {
@@ -138,9 +142,15 @@ void real_mesh(const char* path, int times) {
 }  // namespace littoral
 
 int main(int argc, char** argv) {
+  if (argc > 2 && std::strcmp(argv[1], "--time-scale") == 0) {
+    littoral::given_scale = std::atof(argv[2]);
+    argc -= 2;
+    argv += 2;
+  }
   if (argc < 3 || argc % 2 == 0) {
     std::fprintf(stderr,
-                 "usage: littoral_far_field FIRST_LEVEL LAST_LEVEL [MESH SUBDIVISIONS]...\n");
+                 "usage: littoral_far_field [--time-scale S] FIRST_LEVEL LAST_LEVEL [MESH "
+                 "SUBDIVISIONS]...\n");
     return 2;
   }
   std::printf(

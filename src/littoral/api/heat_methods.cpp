@@ -79,30 +79,30 @@ Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate
                                Task& task, Report& report) {
   const PreparedSources prepared = prepared_sources(problem, task, report);
   task.checkpoint();
-  IntrinsicTriangulation triangulation = [&] {
+  const auto T = [&] {
     const Stopwatch watch(report, "triangulation");
-    return intrinsic_triangulation(problem.mesh, report);
+    return std::make_shared<const IntrinsicTriangulation>(
+        intrinsic_triangulation(problem.mesh, report));
   }();
   const Task stage = task.stage(0.03, "operators");
   stage.checkpoint();
   if (!retriangulate) {
     const Stopwatch watch(report, "operators");
-    auto ops = std::make_shared<const Operators>(triangle_operators(triangulation));
-    SourceTerms terms = source_terms(problem.mesh, triangulation, prepared);
-    return {std::move(ops), std::move(terms), std::move(triangulation), nullptr};
+    auto ops = std::make_shared<const Operators>(triangle_operators(T, stage));
+    SourceTerms terms = source_terms(problem.mesh, *T, prepared);
+    return {std::move(ops), std::move(terms), T, nullptr};
   }
   const Retriangulated fine = [&] {
     const Stopwatch watch(report, "retriangulation");
-    if (needs(prepared) == Diffused::vectors || !is_nonmanifold(triangulation))
-      return retriangulated(problem.mesh, triangulation, prepared, {}, report, stage);
-    const CoveringMesh cover = covering_mesh(problem.mesh, triangulation);
-    return retriangulated(cover.mesh, cover.T,
-                          covering_sources(problem.mesh, triangulation, cover, prepared), {},
-                          report, stage);
+    if (needs(prepared) == Diffused::vectors || !is_nonmanifold(*T))
+      return retriangulated(problem.mesh, *T, prepared, {}, report, stage);
+    const CoveringMesh cover = covering_mesh(problem.mesh, *T);
+    return retriangulated(cover.mesh, cover.T, covering_sources(problem.mesh, *T, cover, prepared),
+                          {}, report, stage);
   }();
   const Stopwatch watch(report, "operators");
   auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
-  return {std::move(ops), source_terms(fine.mesh, fine.T, fine.sources), std::nullopt, nullptr};
+  return {std::move(ops), source_terms(fine.mesh, fine.T, fine.sources), nullptr, nullptr};
 }
 
 /// The problem as operators and source terms: the first 10 % of a task.
@@ -154,7 +154,7 @@ SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& opti
   const auto [ops, terms, T, faces] =
       translate(problem, options.intrinsic_delaunay, needs, task, report);
   const bool automatic = options.time_scale == 0, may_rise = automatic && !ops->vector.at_nodes;
-  if (automatic) options.time_scale = automatic_time_scale(terms);
+  if (automatic) options.time_scale = automatic_time_scale(terms, *ops);
   auto method = [&, &operators = ops, &source = terms] {
     const Stopwatch watch(report, "factor");
     return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),

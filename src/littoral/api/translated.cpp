@@ -42,7 +42,7 @@ Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& re
       refined_sources(problem.mesh, *S.refined, S.face_offsets, problem.sources), task, report);
   const Stopwatch watch(report, "operators");
   return {std::make_shared<const Operators>(nodal_operators(S)), nodal_source_terms(S, prepared),
-          std::nullopt, problem.mesh.n_faces() ? nullptr : S.refined};
+          nullptr, problem.mesh.n_faces() ? nullptr : S.refined};
 }
 
 SurfaceResult at_input(const SurfaceProblem& problem, const SurfaceMesh* faces,

@@ -2,7 +2,6 @@
 // A problem on a surface as operators and source terms, for methods that see nothing else.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,8 @@ std::vector<std::string> surfaces_and_tets();
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;
-  std::optional<IntrinsicTriangulation> triangulation;  // of the input itself
-  std::shared_ptr<const SurfaceMesh> faces;             // of a cloud: something to look at
+  std::shared_ptr<const IntrinsicTriangulation> triangulation;  // of the input itself, or none
+  std::shared_ptr<const SurfaceMesh> faces;                     // of a cloud: something to look at
 };
 
 /// A polygon mesh, a point cloud or a voxel surface, with vectors at nodes: the first 5 % of a

@@ -1,6 +1,9 @@
 #include "littoral/base/memory.h"
 
 #include <sys/resource.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -25,6 +28,12 @@ double bytes_at(const char* file, const std::string& line, double otherwise) {
 }
 
 }  // namespace
+
+void return_freed_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
 
 double peak_memory() { return bytes_at("/proc/self/status", "VmHWM:", 0); }
 

@@ -12,6 +12,10 @@ double available_memory();
 /// The most memory this process has held so far [bytes]; 0 where the system does not say.
 double peak_memory();
 
+/// Gives memory that was freed back to the system where it would be kept for later; between stages
+/// that take much.
+void return_freed_memory();
+
 /// Throws IoError, with both numbers and the remedy, if `bytes` exceeds the available memory.
 /// what: "a grid of 999 x 999 x 999 nodes"; remedy: "use a smaller --resolution".
 void check_memory(double bytes, const std::string& what, const std::string& remedy);

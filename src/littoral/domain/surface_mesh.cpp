@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "littoral/base/error.h"
 
@@ -42,30 +43,29 @@ void check_faces(const PolygonSoup& soup) {
 /// For each side (by its first corner) the first one with the same two ends.
 std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   const std::size_t n_corners = soup.corners.size();
-  std::vector<int> tail(n_corners), head(n_corners);
+  std::vector<int> head(n_corners);
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto corners = soup.face(f);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::size_t c = static_cast<std::size_t>(soup.face_offsets[f]) + k;
-      tail[c] = corners[k];
-      head[c] = corners[(k + 1) % corners.size()];
-    }
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      head[static_cast<std::size_t>(soup.face_offsets[f]) + k] = corners[(k + 1) % corners.size()];
   }
+  const auto low = [&](std::size_t side) { return std::min(soup.corners[side], head[side]); };
+  const auto high = [&](int side) { return std::max(soup.corners[side], head[side]); };
   // Sides with the same smaller vertex are few: match them there.
-  std::vector<int> low(n_corners), all(n_corners), offsets, by_low;
-  std::iota(all.begin(), all.end(), 0);
-  for (std::size_t c = 0; c < n_corners; ++c) low[c] = std::min(tail[c], head[c]);
-  bucket(low, all, soup.n_vertices(), offsets, by_low);
+  std::vector<int> begin(static_cast<std::size_t>(soup.n_vertices()) + 1, 0), by_low(n_corners);
+  for (std::size_t c = 0; c < n_corners; ++c) ++begin[low(c)];
+  int sum = 0;
+  for (int& b : begin) sum += std::exchange(b, sum);
+  for (std::size_t c = 0; c < n_corners; ++c)  // begin becomes the end of each
+    by_low[static_cast<std::size_t>(begin[low(c)]++)] = static_cast<int>(c);
   std::vector<int> first_side(n_corners);
+  auto at = by_low.begin();
   for (int v = 0; v < soup.n_vertices(); ++v) {
-    const auto begin = by_low.begin() + offsets[v], end = by_low.begin() + offsets[v + 1];
-    std::stable_sort(begin, end, [&](int a, int b) {
-      return std::max(tail[a], head[a]) < std::max(tail[b], head[b]);
-    });
-    for (auto it = begin; it != end; ++it) {
-      const bool same = it != begin && std::max(tail[*it], head[*it]) ==
-                                           std::max(tail[*(it - 1)], head[*(it - 1)]);
-      first_side[*it] = same ? first_side[*(it - 1)] : *it;
+    const auto first = at, end = by_low.begin() + begin[v];
+    std::stable_sort(first, end, [&](int a, int b) { return high(a) < high(b); });
+    for (; at != end; ++at) {
+      const bool same = at != first && high(*at) == high(*(at - 1));
+      first_side[*at] = same ? first_side[*(at - 1)] : *at;
     }
   }
   return first_side;
@@ -100,7 +100,11 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
 
 void SurfaceMesh::connect(const std::vector<int>& first_side) {
   const std::size_t n_corners = soup_.corners.size();
-  std::vector<int> face_of(n_corners), first_ends;
+  const auto n_edges_found = static_cast<Eigen::Index>(std::count_if(
+      first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; }));
+  std::vector<int> face_of(n_corners);
+  edges_.resize(n_edges_found, 2);
+  int next = 0;
   side_edge_.resize(n_corners);
   for (int f = 0; f < n_faces(); ++f) {
     const auto corners = face(f);
@@ -112,13 +116,10 @@ void SurfaceMesh::connect(const std::vector<int>& first_side) {
         side_edge_[c] = side_edge_[first_side[c]];
         continue;
       }
-      side_edge_[c] = static_cast<int>(first_ends.size() / 2);
-      first_ends.push_back(corners[k]);
-      first_ends.push_back(corners[(k + 1) % corners.size()]);
+      side_edge_[c] = next;
+      edges_.row(next++) << corners[k], corners[(k + 1) % corners.size()];
     }
   }
-  edges_ = Eigen::Map<const Rows<int, 2>>(first_ends.data(),
-                                          static_cast<Eigen::Index>(first_ends.size() / 2), 2);
   bucket(side_edge_, face_of, n_edges(), edge_offsets_, edge_faces_);
   bucket(soup_.corners, face_of, n_vertices(), vertex_offsets_, vertex_faces_);
 }

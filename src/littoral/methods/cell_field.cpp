@@ -14,11 +14,11 @@ CellField no_field(Eigen::Index cells) {
 CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
   // A cell has carriers in one layer or in two that follow each other: what it has in the first
   // and, in its units, in the second.
-  constexpr double negligible = 1e-140;
+  constexpr double negligible = 1e-290;
   CellField out = no_field(map.rows / 2);
   const auto n_layers = static_cast<int>(field.scale.size());
   double log_scale = 0;
-  VecX y = n_layers > 0 ? map.apply(field.in_layer(0)) : VecX(), next;
+  VecX y = n_layers > 0 ? map.apply(n_layers == 1 ? field.x : field.in_layer(0)) : VecX(), next;
   for (int p = 0; p < n_layers; ++p, std::swap(y, next)) {
     log_scale += std::log(field.scale[p]);
     const bool last = p + 1 == n_layers;
@@ -51,6 +51,7 @@ void restore_units(LayeredField<double>& field, const VecX& b, const std::vector
   const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
   if (!(top > 0)) return;
   field.scale[0] *= top;
+  if (std::all_of(largest.begin(), largest.end(), [top](double m) { return m == top; })) return;
   for (std::size_t i = 0; i < piece.size(); ++i)
     if (piece[i] >= 0)  // bounded: fields of different pieces are never compared
       field.x.segment(static_cast<Eigen::Index>(i) * block, block) *=

@@ -27,7 +27,7 @@ enum class Sharpening { off, on, quadratic };
 enum class PointVectors { gradient, radial };
 
 struct SignedHeatOptions {
-  double time_scale = 0;  // t = time_scale h^2; 0: 1 where there are curves, 16 for points alone
+  double time_scale = 0;  // t = time_scale h^2; 0: automatic_time_scale
   int constraint = static_cast<int>(Constraint::zero_set);
   double soft = 0;  // > 0: penalty instead of the constraint, per mean edge length of source
   bool preserve_normals = false;  // diffused vectors equal the normals at the source itself

@@ -1,6 +1,9 @@
 #include "littoral/methods/time_scale.h"
 
+#include <algorithm>
 #include <cstdio>
+
+#include "littoral/methods/signed_heat.h"
 
 namespace littoral {
 
@@ -15,6 +18,13 @@ std::string in_short(double x) {
 }
 
 }  // namespace
+
+double automatic_time_scale(const SourceTerms& terms, const Operators& ops) {
+  const double scale = automatic_time_scale(terms);
+  if (terms.only_points || ops.vector.at_nodes) return scale;
+  constexpr double enough_cells = 50'000, largest = 4;
+  return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
+}
 
 double share_against(const Calculus& C, const VecX& phi, const VecX& Y) {
   const VecX g = C.G.apply(phi);

@@ -50,6 +50,7 @@ VectorHeat::VectorHeat(const VectorDiffusion& V, double t, Expect expect, const 
   Ordering order = V.at_nodes          ? nodes
                    : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)
                                        : Ordering();
+  task.checkpoint();
   if (V.complex_linear())
     complex_ = std::make_shared<const HeatSystem<Complex>>(
         heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), expect, task, std::move(order));

@@ -7,6 +7,7 @@
 
 #include "littoral/base/disjoint_sets.h"
 #include "littoral/base/parallel.h"
+#include "littoral/operators/sum_over_triangles.h"
 
 namespace littoral {
 
@@ -16,23 +17,19 @@ using Triangulation = std::shared_ptr<const IntrinsicTriangulation>;
 constexpr std::size_t face_grain = 8192;
 
 /// Cotan Laplacian (eq. 10), lower triangle.
-SpMat cotan_laplacian(const IntrinsicTriangulation& T) {
-  Triplets entries(static_cast<std::size_t>(T.n_faces()) * 9);
-  parallel_for(T.n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto cot = T.shape(static_cast<int>(f)).cot;
-      for (int k = 0; k < 3; ++k) {
-        const int i = T.faces(f, k), j = T.faces(f, (k + 1) % 3);
-        const double w = 0.5 * cot[(k + 2) % 3];
-        entries[9 * f + 3 * k] = {i, i, w};
-        entries[9 * f + 3 * k + 1] = {j, j, w};
-        entries[9 * f + 3 * k + 2] = {std::max(i, j), std::min(i, j), -w};
-      }
-    }
-  });
-  SpMat L(T.n_vertices, T.n_vertices);
-  L.setFromTriplets(entries.begin(), entries.end());
-  return L;
+SpMat cotan_laplacian(const IntrinsicTriangulation& T, const Task& task) {
+  return sum_over_triangles<double>(
+      T.n_vertices, T.faces,
+      [&](int f) {
+        const auto cot = T.shape(f).cot;
+        TriangleTerms<double> terms;
+        for (int k = 0; k < 3; ++k) {
+          terms.diagonal[k] = 0.5 * (cot[(k + 1) % 3] + cot[(k + 2) % 3]);
+          terms.beside[k] = -0.5 * cot[(k + 2) % 3];
+        }
+        return terms;
+      },
+      task);
 }
 
 /// Gradient of the hat function of corner k: the opposite side turned inward, over twice the area.
@@ -192,19 +189,23 @@ void connection_entries(const IntrinsicTriangulation& T, int f, const Put& put) 
   }
 }
 
-SpMatC connection_laplacian(const IntrinsicTriangulation& T) {
-  std::vector<Eigen::Triplet<Complex>> entries(static_cast<std::size_t>(T.n_faces()) * 9);
-  parallel_for(T.n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      std::size_t at = 9 * f;
-      connection_entries(T, static_cast<int>(f), [&](int row, int col, Complex r, bool, bool) {
-        entries[at++] = {row, col, r};
-      });
-    }
-  });
-  SpMatC L(T.n_edges(), T.n_edges());
-  L.setFromTriplets(entries.begin(), entries.end());
-  return L;
+SpMatC connection_laplacian(const IntrinsicTriangulation& T, const Task& task) {
+  return sum_over_triangles<Complex>(
+      T.n_edges(), T.side_edge,
+      [&](int f) {
+        TriangleTerms<Complex> terms{};
+        int n = 0;  // entries come in threes: both diagonals and what is beside them
+        connection_entries(T, f, [&](int, int, Complex r, bool, bool) {
+          const int k = n / 3;
+          const int part = n++ % 3;
+          if (part < 2)
+            terms.diagonal[(k + part) % 3] += r;
+          else
+            terms.beside[k] = r;
+        });
+        return terms;
+      },
+      task);
 }
 
 /// The same as 2 x 2 real blocks S_row R S_col with R the rotation-scaling of r and S = diag(1, -1)
@@ -298,9 +299,10 @@ VecX Calculus::divergence(const VecX& Y) const {
   return G.adjoint(AY);
 }
 
-Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T) {
+Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                           const Task& task) {
   Calculus C;
-  C.L = cotan_laplacian(*T);
+  C.L = cotan_laplacian(*T, task);
   C.G = gradient(T);
   C.A.resize(T->n_faces());
   C.M = VecX::Zero(T->n_vertices);
@@ -317,12 +319,16 @@ Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& 
   return C;
 }
 
-Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
-  const auto T = std::make_shared<const IntrinsicTriangulation>(triangulation);
+Operators triangle_operators(const IntrinsicTriangulation& T) {
+  return triangle_operators(std::make_shared<const IntrinsicTriangulation>(T));
+}
+
+Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                             const Task& task) {
   Operators ops;
   ops.domain = "triangle mesh";
   ops.unit = T->unit;
-  ops.scalar = triangle_calculus(T);
+  ops.scalar = triangle_calculus(T, task);
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
   V.ends = T->edges;
@@ -332,9 +338,10 @@ Operators triangle_operators(const IntrinsicTriangulation& triangulation) {
   if (T->has_seams)
     V.L_real = connection_laplacian_real(*T);
   else
-    V.L = connection_laplacian(*T);
+    V.L = connection_laplacian(*T, task);
   V.to_cells = edges_to_faces(T);
   V.h = T->mean_edge_length / 2;
+  task.checkpoint();
   find_pieces(*T, V);
   return ops;
 }

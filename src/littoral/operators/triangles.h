@@ -3,16 +3,20 @@
 
 #include <memory>
 
+#include "littoral/base/task.h"
 #include "littoral/domain/intrinsic_triangulation.h"
 #include "littoral/operators/calculus.h"
 
 namespace littoral {
 
 /// Linear functions on the vertices of a triangle mesh, which is shared.
-Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T);
+Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                           const Task& task = {});
 
 /// The operators of a triangle mesh (signed heat method, section 5). Carriers are edges, nodes are
-/// vertices, cells are faces. The triangulation is copied.
+/// vertices, cells are faces. The triangulation is shared, or copied.
+Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                             const Task& task = {});
 Operators triangle_operators(const IntrinsicTriangulation& T);
 
 /// A unit mass of outward radial unit vectors at a point of the mesh, restricted to the listed

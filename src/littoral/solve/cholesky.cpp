@@ -57,8 +57,8 @@ std::shared_ptr<Scalar[]> zeros(std::size_t n) {
 template <class Scalar>
 Cholesky<Scalar>::Cholesky(const Matrix& lower, const Task& task, const Ordering& order)
     : Cholesky(lower,
-               std::make_shared<const Elimination>(lower,
-                                                   order.empty() ? dissection(lower, task) : order),
+               std::make_shared<const Elimination>(
+                   lower, order.empty() ? dissection(lower, task) : order, task),
                task) {}
 
 template <class Scalar>
@@ -148,10 +148,14 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
   };
   Dense x(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    for (int i = 0; i < E.n; ++i) x(i, k) = b(E.old_of[i], k);
-  for (int s = 0; s < E.n_super; ++s)
-    for (int i = E.first[s]; i < E.first[s + 1] && !nonzero[s]; ++i)
-      if (!x.row(i).isZero(0)) mark_up(nonzero, s);
+    for (int s = 0; s < E.n_super; ++s) {
+      bool any = false;
+      for (int i = E.first[s]; i < E.first[s + 1]; ++i) {
+        x(i, k) = b(E.old_of[i], k);
+        any = any || x(i, k) != Scalar(0);
+      }
+      if (any) mark_up(nonzero, s);
+    }
   if (wanted.empty()) {
     needed.assign(needed.size(), 1);
   } else {
@@ -222,16 +226,21 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
     if (!active[s]) continue;
     const int columns = E.columns(s), below = E.below(s), height = columns + below;
     const Scalar* block = supernodes_[s].block.get();
-    if (y.rows() < below || y.cols() != n_rhs)
-      y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
+    if (y.rows() < height || y.cols() != n_rhs)
+      y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
     const int ldy = static_cast<int>(y.rows());
     const int* rows = E.rows.data() + E.rows_begin[s];
-    for (int k = 0; k < n_rhs; ++k)
-      for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
     if (n_rhs == 1 && columns <= narrow) {
-      dense::backward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+      Scalar* v = y.data();
+      Scalar* own = &x(E.first[s], 0);
+      std::copy(own, own + columns, v);
+      for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], 0);
+      dense::backward_narrow(columns, height, block, v);
+      std::copy(v, v + columns, own);
       continue;
     }
+    for (int k = 0; k < n_rhs; ++k)
+      for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
     dense::subtract_adjoint(below, columns, n_rhs, block + columns, height, y.data(), ldy,
                             &x(E.first[s], 0), E.n);
     dense::backward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "littoral/base/error.h"
 
@@ -63,8 +65,8 @@ std::vector<int> unknowns_of(const SpMat& R) {
 }
 
 DefiniteSystem::DefiniteSystem(const SpMat& lower, const Task& task)
-    : DefiniteSystem(lower, std::make_shared<const Elimination>(lower, dissection(lower, task)),
-                     task) {}
+    : DefiniteSystem(
+          lower, std::make_shared<const Elimination>(lower, dissection(lower, task), task), task) {}
 
 DefiniteSystem::DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure,
                                const Task& task, bool to_be_patched)
@@ -105,11 +107,30 @@ DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& chan
   return out;
 }
 
-DefiniteSystem DefiniteSystem::by_multigrid(SpMat lower, const std::vector<int>& stiff,
-                                            const Task& task) {
+struct DefiniteSystem::LazyMultigrid {
+  explicit LazyMultigrid(std::vector<int> stiff_unknowns) : stiff(std::move(stiff_unknowns)) {}
+
+  const BandedMultigrid& of(const SpMat& A, const Task& task) {
+    const std::lock_guard lock(mutex);
+    if (!multigrid) multigrid.emplace(A, stiff, task);
+    return *multigrid;
+  }
+
+  std::mutex mutex;
+  const std::vector<int> stiff;
+  std::optional<BandedMultigrid> multigrid;
+};
+
+double DefiniteSystem::nonzeros() const {
+  if (factor_) return factor_->nonzeros();
+  const std::lock_guard lock(multigrid_->mutex);
+  return multigrid_->multigrid ? multigrid_->multigrid->nonzeros() : 0;
+}
+
+DefiniteSystem DefiniteSystem::by_multigrid(SpMat lower, std::vector<int> stiff) {
   DefiniteSystem out;
   out.A_ = std::make_shared<const SpMat>(std::move(lower));
-  out.multigrid_ = std::make_shared<const BandedMultigrid>(*out.A_, stiff, task);
+  out.multigrid_ = std::make_shared<LazyMultigrid>(std::move(stiff));
   return out;
 }
 
@@ -118,7 +139,7 @@ MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
   MatX x(b.rows(), b.cols());
   Report each;
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    x.col(k) = multigrid_->solve(b.col(k), 1e-6, task, each);
+    x.col(k) = multigrid_->of(*A_, task).solve(b.col(k), 1e-6, task, each);
   return x;
 }
 
@@ -139,7 +160,7 @@ VecX DefiniteSystem::solve(const VecX& b) const {
 }
 
 VecX DefiniteSystem::solve(const VecX& b, const Task& task, Report& report) const {
-  if (multigrid_) return multigrid_->solve(b, 1e-11, task, report);
+  if (multigrid_) return multigrid_->of(*A_, task).solve(b, 1e-11, task, report);
   // One step of conjugate gradients is iterative refinement.
   constexpr int max_steps = 60;
   constexpr double enough = 1e-14;

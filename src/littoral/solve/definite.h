@@ -44,8 +44,9 @@ class DefiniteSystem {
   /// one has in common with its. This system must be one `to_be_patched`.
   DefiniteSystem patched(SpMat lower, const std::vector<int>& changed, const Task& task) const;
 
-  /// No factor: a Laplacian with penalties on few unknowns, `stiff`, by BandedMultigrid.
-  static DefiniteSystem by_multigrid(SpMat lower, const std::vector<int>& stiff, const Task& task);
+  /// No factor: a Laplacian with penalties on few unknowns, `stiff`, by BandedMultigrid, which the
+  /// first solve sets up: systems that others are made from are often not solved themselves.
+  static DefiniteSystem by_multigrid(SpMat lower, std::vector<int> stiff);
 
   VecX solve(const VecX& b) const;
   /// The same where it may take long.
@@ -59,7 +60,7 @@ class DefiniteSystem {
   /// One solve with the factor, or multigrid to a relative 1e-6.
   MatX approximate(const MatX& b, const Task& task) const;
   double relative_residual(const VecX& x, const VecX& b) const;
-  double nonzeros() const { return factor_ ? factor_->nonzeros() : multigrid_->nonzeros(); }
+  double nonzeros() const;  // of the factor, or of the multigrid levels there are so far
   const std::shared_ptr<const Elimination>& structure() const { return factor_->structure(); }
   bool can_be_patched() const { return patchable_; }
   bool iterates() const { return multigrid_ != nullptr; }
@@ -70,7 +71,8 @@ class DefiniteSystem {
 
   std::shared_ptr<const SpMat> A_;
   std::shared_ptr<const Cholesky<double>> factor_;  // one of the two
-  std::shared_ptr<const BandedMultigrid> multigrid_;
+  struct LazyMultigrid;
+  std::shared_ptr<LazyMultigrid> multigrid_;
   double lift_ = 0;
   bool patchable_ = false;
 };

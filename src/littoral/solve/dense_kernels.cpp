@@ -252,37 +252,6 @@ void subtract_adjoint(int m, int n, int k, const Scalar* A, int lda, const Scala
 #endif
 }
 
-template <class Scalar>
-void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
-  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  const int below = height - n;
-  Eigen::Map<Column> out(y, below);
-  if (n == 0) out.setZero();
-  for (int j = 0; j < n; ++j, block += height) {
-    const Scalar xj = x[j] /= block[j];
-    for (int i = j + 1; i < n; ++i) x[i] -= block[i] * xj;
-    const Eigen::Map<const Column> a(block + n, below);
-    if (j == 0)
-      out = a * xj;
-    else
-      out += a * xj;
-  }
-}
-
-template <class Scalar>
-void backward_narrow(int n, int height, const Scalar* block, Scalar* x, const Scalar* y) {
-  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  const int below = height - n;
-  const Eigen::Map<const Column> in(y, below);
-  block += static_cast<std::ptrdiff_t>(n) * height;
-  for (int j = n; j-- > 0;) {
-    block -= height;
-    Scalar sum = x[j] - Eigen::Map<const Column>(block + n, below).dot(in);
-    for (int i = j + 1; i < n; ++i) sum -= Eigen::numext::conj(block[i]) * x[i];
-    x[j] = sum / Eigen::numext::conj(block[j]);
-  }
-}
-
 #define LITTORAL_DENSE(S)                                                               \
   template bool cholesky(int, S*, int);                                                 \
   template void solve_right(int, int, const S*, int, S*, int);                          \
@@ -290,8 +259,6 @@ void backward_narrow(int n, int height, const Scalar* block, Scalar* x, const Sc
   template void subtract_product(int, int, int, const S*, int, const S*, int, S*, int); \
   template void forward(int, int, const S*, int, S*, int);                              \
   template void backward(int, int, const S*, int, S*, int);                             \
-  template void forward_narrow(int, int, const S*, S*, S*);                             \
-  template void backward_narrow(int, int, const S*, S*, const S*);                      \
   template void times(int, int, int, const S*, int, const S*, int, S*, int);            \
   template void subtract_adjoint(int, int, int, const S*, int, const S*, int, S*, int);
 LITTORAL_DENSE(double)

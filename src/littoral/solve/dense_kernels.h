@@ -30,12 +30,12 @@ template <class Scalar>
 void backward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
 
 /// One right-hand side on a narrow supernode, where calls would cost more than their work: L is the
-/// top of `block` (height x n), A what is below. x := L^-1 x, then y := A x; and x := L^-* (x - A^*
-/// y).
+/// top of `block` (height x n), A what is below. x := L^-1 x, then y := A x; and, of v = (x, y)
+/// (height), x := L^-* (x - A^* y).
 template <class Scalar>
 void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y);
 template <class Scalar>
-void backward_narrow(int n, int height, const Scalar* block, Scalar* x, const Scalar* y);
+void backward_narrow(int n, int height, const Scalar* block, Scalar* v);
 
 /// y := A x (A m x n, x n x k) and x := x - A^* y.
 template <class Scalar>

@@ -4,9 +4,20 @@
 #include <numeric>
 #include <utility>
 
+#include "littoral/base/error.h"
+
 namespace littoral {
 
 namespace {
+
+void stop_if_cancelled(const Task& task) {
+  if (task.cancelled()) throw Cancelled();
+}
+
+/// The same in step i of a loop of short steps.
+void stop_now_and_then(int i, const Task& task) {
+  if (i % 65536 == 0) stop_if_cancelled(task);
+}
 
 /// Strictly lower triangle of a renumbered symmetric matrix: rows of each column, and by rows.
 struct Pattern {
@@ -20,17 +31,20 @@ void sums_to_begins(std::vector<int>& counts) {
 }
 
 template <class Scalar>
-Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of) {
+Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of,
+                   const Task& task) {
   const auto n = new_of.size();
   Pattern p;
   p.begin.assign(n + 1, 0);
   p.row_begin.assign(n + 1, 0);
   auto for_edges = [&](const auto& put) {
-    for (int j = 0; j < lower.outerSize(); ++j)
+    for (int j = 0; j < lower.outerSize(); ++j) {
+      stop_now_and_then(j, task);
       for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it) {
         const int a = new_of[j], b = new_of[it.row()];
         if (a != b) put(std::min(a, b), std::max(a, b));
       }
+    }
   };
   for_edges([&](int c, int r) {
     ++p.begin[c];
@@ -48,16 +62,18 @@ Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<i
   return p;
 }
 
-std::vector<int> elimination_tree(const Pattern& p) {
+std::vector<int> elimination_tree(const Pattern& p, const Task& task) {
   const int n = static_cast<int>(p.begin.size()) - 1;
   std::vector<int> parent(n, -1), ancestor(n, -1);
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
+    stop_now_and_then(i, task);
     for (int e = p.row_begin[i]; e < p.row_begin[i + 1]; ++e)
       for (int j = p.row_from[e]; j != -1 && j != i;) {
         const int next = std::exchange(ancestor[j], i);
         if (next == -1) parent[j] = i;
         j = next;
       }
+  }
   return parent;
 }
 
@@ -87,7 +103,7 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 /// Entries of each column of the factor, the diagonal among them, for postordered unknowns: a row's
 /// entries are the paths of the tree from the columns of its leaves up to the row (Gilbert, Ng,
 /// Peyton 1994).
-std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent) {
+std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent, const Task& task) {
   const int n = static_cast<int>(parent.size());
   std::vector<int> first(n, -1), last_leaf(n, -1), reach(n, -1), set(n), count(n, 0);
   std::iota(set.begin(), set.end(), 0);
@@ -96,6 +112,7 @@ std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent)
     for (int i = j; i >= 0 && first[i] < 0; i = parent[i]) first[i] = j;
   }
   for (int j = 0; j < n; ++j) {
+    stop_now_and_then(j, task);
     if (parent[j] >= 0) --count[parent[j]];
     for (int e = p.begin[j]; e < p.begin[j + 1]; ++e) {
       const int i = p.to[e];
@@ -160,27 +177,30 @@ std::vector<int> supernodes(const std::vector<int>& parent, const std::vector<in
 }  // namespace
 
 template <class Scalar>
-Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order)
+Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order,
+                         const Task& task)
     : n(static_cast<int>(lower.cols())), old_of(order), new_of(order.size()) {
   auto invert = [&] {
     for (int k = 0; k < n; ++k) new_of[old_of[k]] = k;
   };
   invert();
   {
-    const auto post = postorder(elimination_tree(renumbered(lower, new_of)));
+    const auto post = postorder(elimination_tree(renumbered(lower, new_of, task), task));
+    stop_if_cancelled(task);
     for (int k = 0; k < n; ++k) old_of[k] = order[post[k]];
     invert();
   }
   {
-    const Pattern p = renumbered(lower, new_of);
-    const auto tree = elimination_tree(p);
-    first = supernodes(tree, column_counts(p, tree));
+    const Pattern p = renumbered(lower, new_of, task);
+    const auto tree = elimination_tree(p, task);
+    first = supernodes(tree, column_counts(p, tree, task));
+    stop_if_cancelled(task);
     if (n == 0) first.assign(1, 0);
     n_super = static_cast<int>(first.size()) - 1;
     super_of.resize(static_cast<std::size_t>(n));
     for (int s = 0; s < n_super; ++s)
       std::fill(super_of.begin() + first[s], super_of.begin() + first[s + 1], s);
-    find_rows(p.begin, p.to);
+    find_rows(p.begin, p.to, task);
   }
   entry_begin.assign(static_cast<std::size_t>(n) + 1, 0);
   for (int j = 0; j < n; ++j)
@@ -191,7 +211,8 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
   entry_row.resize(entry_from.size());
   std::vector<int> at = entry_begin;
   int e = 0;
-  for (int j = 0; j < n; ++j)
+  for (int j = 0; j < n; ++j) {
+    stop_now_and_then(j, task);
     for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e) {
       const int a = new_of[j], b = new_of[it.row()], c = std::min(a, b), r = std::max(a, b);
       const int s = super_of[c];
@@ -202,15 +223,19 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
           r < first[s + 1] ? r - first[s]
                            : columns(s) + static_cast<int>(std::lower_bound(begin, end, r) - begin);
     }
+  }
+  stop_if_cancelled(task);
   cut_into_tasks();
 }
 
-void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int>& to) {
+void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int>& to,
+                            const Task& task) {
   parent.assign(n_super, -1);
   rows_begin.assign(1, 0);
   values_begin.assign(1, 0);
   std::vector<int> seen(n, -1), last_child(n_super, -1), sibling(n_super, -1);
   for (int s = 0; s < n_super; ++s) {
+    stop_now_and_then(s, task);
     const int end = first[s + 1];
     const std::size_t start = rows.size();
     auto add = [&](int r) {
@@ -239,6 +264,7 @@ void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int
     if (parent[s] >= 0) children[at[parent[s]]++] = s;
   at_parent.resize(rows.size());
   for (int s = 0; s < n_super; ++s) {
+    stop_now_and_then(s, task);
     if (parent[s] < 0) continue;
     const int p = parent[s];
     std::size_t k = rows_begin[p];
@@ -302,7 +328,7 @@ void Elimination::cut_into_tasks() {
   for (int& t : task_parent) t = parent[t] < 0 ? -1 : task_of[parent[t]];
 }
 
-template Elimination::Elimination(const SpMat&, const Ordering&);
-template Elimination::Elimination(const SpMatC&, const Ordering&);
+template Elimination::Elimination(const SpMat&, const Ordering&, const Task&);
+template Elimination::Elimination(const SpMatC&, const Ordering&, const Task&);
 
 }  // namespace littoral

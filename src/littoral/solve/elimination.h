@@ -14,9 +14,10 @@ namespace littoral {
 /// columns first[s] .. first[s+1] and the `rows` below these. The rows of a supernode are among the
 /// columns and rows of its parent; a supernode comes after its children. Immutable.
 struct Elimination {
-  /// lower: the matrix's lower triangle; only its pattern is looked at.
+  /// lower: the matrix's lower triangle; only its pattern is looked at. Throws Cancelled.
   template <class Scalar>
-  Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order);
+  Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order,
+              const Task& task = {});
 
   int n = 0, n_super = 0;
   std::vector<int> old_of, new_of;         // unknowns: old_of[new number], new_of[old number]
@@ -49,11 +50,11 @@ struct Elimination {
   double flops() const;  // multiply-adds of the factorization
 
  private:
-  void find_rows(const std::vector<int>& begin, const std::vector<int>& to);
+  void find_rows(const std::vector<int>& begin, const std::vector<int>& to, const Task& task);
   void cut_into_tasks();
 };
 
-extern template Elimination::Elimination(const SpMat&, const Ordering&);
-extern template Elimination::Elimination(const SpMatC&, const Ordering&);
+extern template Elimination::Elimination(const SpMat&, const Ordering&, const Task&);
+extern template Elimination::Elimination(const SpMatC&, const Ordering&, const Task&);
 
 }  // namespace littoral

@@ -5,12 +5,13 @@
 #include <string>
 
 #include "littoral/base/error.h"
+#include "littoral/base/memory.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr double front = 1e-100;  // entries below this share of the largest: the next layer
+constexpr double front = 1e-250;  // entries below this share of the largest: the next layer
 constexpr std::size_t largest_factor = 4'000'000'000;  // bytes, for many solves
 // Orders beyond which the factor's size is not even asked for.
 constexpr Eigen::Index largest_order = 8'000'000, largest_order_for_one_solve = 1'500'000;
@@ -41,7 +42,7 @@ HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect
       windows_(A_, block, std::move(size), order_) {
   if (A_->rows() > (expect == Expect::one_solve ? largest_order_for_one_solve : largest_order))
     return;
-  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_));
+  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
   const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
 }
@@ -70,7 +71,9 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vecto
     reached[i] = piece[i];
   }
   if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
-  if (auto field = windows_.solve(r, reached, task, report)) return std::move(*field);
+  auto field = windows_.solve(r, reached, task, report);
+  return_freed_memory();
+  if (field) return std::move(*field);
   return solve_in_passes(factored(task), std::move(r), reached, task, report);
 }
 
@@ -135,7 +138,7 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>&
     double m = 0;
     for (Eigen::Index i = 0; i < r.size(); ++i) m = std::max(m, magnitude(r[i]));
     if (!(m > 0)) break;
-    r /= m;
+    r *= 1 / m;  // Eigen divides complex numbers by the square of m, which underflows
     field.scale.push_back(m);
   }
   report.iterations.emplace_back("heat passes", passes);

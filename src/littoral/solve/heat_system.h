@@ -37,7 +37,7 @@ class HeatSystem {
              Ordering order = {});
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
-  /// good to 1e-100 of its largest entry; the rest is solved again from the residual that
+  /// good to 1e-250 of its largest entry; the rest is solved again from the residual that
   /// truncating there leaves, which lives next to the front, scaled to 1; and so on. `piece` names
   /// the block's connected piece; each piece of b is scaled to largest entry 1 first, as pieces do
   /// not interact.

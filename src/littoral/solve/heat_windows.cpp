@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
 #include "littoral/solve/cholesky.h"
 
@@ -16,7 +17,7 @@ constexpr double window = 50;            // decay lengths kept of every window
 constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
                                          // arrives at what is kept exp(-2 * overlap) times smaller
 constexpr double longest_overlap = 120;
-constexpr double around_held = 24;  // what lies beyond does not change a source that holds values
+constexpr double around_held = 18;  // what lies beyond does not change a source that holds values
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The same with several layers made one where the range of numbers allows it.
@@ -75,8 +76,8 @@ HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block,
 }
 
 template <class Scalar>
-std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
-                                                   double limit) const {
+std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from, double limit,
+                                                   const Task& task) const {
   // Dijkstra's algorithm with buckets one decay length wide, settled in any order inside of one.
   std::vector<double> d(position_.size(), infinity);
   std::vector<std::vector<std::pair<double, int>>> buckets(1);
@@ -85,6 +86,7 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
     buckets[0].emplace_back(0, i);
   }
   for (std::size_t b = 0; b < buckets.size() && static_cast<double>(b) <= limit; ++b) {
+    if (task.cancelled()) throw Cancelled();
     for (std::size_t k = 0; k < buckets[b].size(); ++k) {  // grows meanwhile
       const auto [at, i] = buckets[b][k];
       if (at > d[i]) continue;
@@ -163,7 +165,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
     if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
-  const std::vector<double> d = distances(from, infinity);
+  const std::vector<double> d = distances(from, infinity, task);
   std::vector<int> order;
   for (int i = 0; i < n; ++i)
     if (d[i] < infinity) order.push_back(i);
@@ -176,7 +178,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   for (double overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
     auto field = solve(b, d, order, overlap, task);
     if (!field) break;
-    const double error = misfit(*field, b);
+    const double error = misfit(*field, b, task);
     if (best && !(error < 0.1 * least)) break;  // round-off
     if (!(error < least)) continue;
     best_windows = static_cast<int>(field->scale.size());
@@ -237,7 +239,8 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 }
 
 template <class Scalar>
-double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vector& b) const {
+double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vector& b,
+                                   const Task& task) const {
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
   Vector sum = Vector::Zero(field.x.size());
@@ -257,11 +260,13 @@ double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vect
     sum[i] += term;
     size[i] += magnitude(term);
   };
-  for (int j = 0; j < A_->outerSize(); ++j)
+  for (int j = 0; j < A_->outerSize(); ++j) {
+    if (j % 65536 == 0 && task.cancelled()) throw Cancelled();
     for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
       add(it.row(), j, it.value());
       if (it.row() != j) add(j, it.row(), Eigen::numext::conj(it.value()));
     }
+  }
   double worst = 0;
   for (Eigen::Index i = 0; i < sum.size(); ++i)
     if (front[i / block_] && size[i] > 0 && b[i] == Scalar(0))
@@ -281,7 +286,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, around_held);
+  const std::vector<double> d = distances(from, around_held, task);
   for (int i = 0; i < n; ++i)
     if (!known[i] && d[i] <= around_held) blocks.push_back(i);
   std::sort(blocks.begin(), blocks.end(),
@@ -293,9 +298,22 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
   for (std::size_t k = 0; k < blocks.size(); ++k)
     x.segment(Eigen::Index(blocks[k]) * block_, block_) =
         z.segment(static_cast<Eigen::Index>(k) * block_, block_);
-  Vector b = A_->template selfadjointView<Eigen::Lower>() * x;
-  for (int i = 0; i < n; ++i)
-    if (!known[i]) b.segment(Eigen::Index(i) * block_, block_).setZero();
+  // b = A x in the rows of held blocks, whose entries are in their own columns and their
+  // neighbours'.
+  std::vector<int> columns = from;
+  for (int i : from)
+    for (int e = begin_[i]; e < begin_[i + 1]; ++e)
+      if (!known[to_[e]]) columns.push_back(to_[e]);
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  Vector b = Vector::Zero(held.size());
+  for (int c : columns)
+    for (int j = c * block_; j < (c + 1) * block_; ++j)
+      for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+        const Eigen::Index i = it.row();
+        if (known[i / block_]) b[i] += it.value() * x[j];
+        if (i != j && known[c]) b[j] += Eigen::numext::conj(it.value()) * x[i];
+      }
   return b;
 }
 

@@ -41,13 +41,13 @@ class HeatWindows {
   Vector source_that_holds(const Vector& held, const Task& task) const;
 
  private:
-  std::vector<double> distances(const std::vector<int>& from, double limit) const;
+  std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
   std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
                                             const std::vector<int>& order, double overlap,
                                             const Task& task) const;
-  double misfit(const LayeredField<Scalar>& field, const Vector& b) const;
+  double misfit(const LayeredField<Scalar>& field, const Vector& b, const Task& task) const;
 
   std::shared_ptr<const Matrix> A_;
   int block_;

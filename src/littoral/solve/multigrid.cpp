@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "littoral/base/error.h"
+#include "littoral/base/memory.h"
 #include "littoral/base/parallel.h"
 #include "littoral/solve/aggregation.h"
 
@@ -52,6 +53,7 @@ Multigrid::Multigrid(const SpMat& lower, const Task& task) {
     strong /= 2;
   }
   coarsest_ = factor_for_preconditioning(lower_triangle(levels_.back().A), task);
+  return_freed_memory();
 }
 
 std::shared_ptr<const Cholesky<double>> factor_for_preconditioning(SpMat lower, const Task& task) {

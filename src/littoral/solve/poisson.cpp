@@ -35,8 +35,8 @@ SpMat with_diagonal(const SpMat& L) {
 
 std::shared_ptr<const Elimination> structure_of(const SpMat& L, const Ordering& order,
                                                 const Task& task) {
-  if (!order.empty()) return std::make_shared<const Elimination>(L, order);
-  return std::make_shared<const Elimination>(L, dissection(L, task));
+  if (!order.empty()) return std::make_shared<const Elimination>(L, order, task);
+  return std::make_shared<const Elimination>(L, dissection(L, task), task);
 }
 
 // Beyond, the factor costs too much memory, or more time than the iterations of one solve.
@@ -45,7 +45,7 @@ constexpr int largest_direct = 2'000'000, largest_for_one_solve = 400'000;
 DefiniteSystem solved_by(PoissonSolver solver, SpMat K, const Ordering& order, const Task& task) {
   const int largest = solver == PoissonSolver::automatic ? largest_direct : largest_for_one_solve;
   if (solver == PoissonSolver::multigrid || (solver != PoissonSolver::direct && K.rows() > largest))
-    return DefiniteSystem::by_multigrid(std::move(K), {}, task);
+    return DefiniteSystem::by_multigrid(std::move(K), {});
   auto structure = structure_of(K, order, task);
   return {std::move(K), std::move(structure), task, true};
 }
@@ -98,7 +98,7 @@ VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
 DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
                                      const std::vector<char>& held, const Task& task) const {
   if (free_.iterates())
-    return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A), task);
+    return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A));
   if (auto in_place = with_rows_in_place(K, A, weight)) {
     if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
     std::vector<int> changed = unknowns_of(A);
@@ -107,7 +107,8 @@ DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX&
     return free_.patched(std::move(*in_place), changed, task);
   }
   SpMat wider = with_rows(K, A, weight);
-  const auto structure = std::make_shared<const Elimination>(wider, free_.structure()->old_of);
+  const auto structure =
+      std::make_shared<const Elimination>(wider, free_.structure()->old_of, task);
   return {std::move(wider), structure, task};
 }
 
@@ -143,7 +144,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
 
   // Augmented Lagrangian: every step solves with the factor of K = L + w A^T A, and c by what is
   // left for it; dependent rows only make multipliers y that are not unique.
-  const double w = 1e5 * mean_diagonal_;
+  const double w = 1e7 * mean_diagonal_;
   const auto held = components_of(rows.A);
   const SpMat K0 = pinned(held);
   const DefiniteSystem system =
@@ -169,7 +170,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   for (; step < max_steps; ++step) {
     task.checkpoint();
     const VecX force = y + w * miss;
-    const VecX r = b - times_symmetric(K0, x) - At * force;
+    VecX r = b - At * force;
+    if (step > 0) r -= times_symmetric(K0, x);
     const VecX u = system.approximate(r, task);
     VecX dx = u;
     if (n_free > 0) {
@@ -187,7 +189,9 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     if (!std::isfinite(residual)) throw SolveError("the constrained Poisson solve broke down");
     const bool stalled = step > 0 && violation < 1e-9 && residual < 1e-8 &&
                          (violation > 0.2 * before || residual > 0.2 * residual_before);
-    if ((violation < 1e-12 && residual < 1e-9) || stalled) break;
+    // The next step is as much shorter than this one as this one is than the last.
+    const double next = step > 0 ? residual * (residual / residual_before) : residual;
+    if ((violation < 1e-12 && std::min(residual, next) < 1e-9) || stalled) break;
   }
   report.iterations.emplace_back("constraint steps", step + 1);
   report.residuals.emplace_back("constraints", violation);

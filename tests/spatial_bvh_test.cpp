@@ -111,6 +111,11 @@ TEST(SpatialBvh, PruningNeverChangesTheWinner) {
       EXPECT_EQ(hit.face, slow.face);
       EXPECT_EQ(hit.distance, slow.distance);
       EXPECT_EQ(hit.barycentric, slow.barycentric);
+      for (const int hint : {0, 77, 149, 150, 1000000}) {
+        const ClosestPoint hinted = bvh.closest_point(query, hint);
+        EXPECT_EQ(hinted.face, slow.face);
+        EXPECT_EQ(hinted.barycentric, slow.barycentric);
+      }
     }
   }
 }

@@ -1,9 +1,10 @@
 // Signed distance in space against closed forms.
-// usage: littoral_space_accuracy exact         error against spacing, with observed orders,
-// Markdown
+// usage: littoral_space_accuracy exact [WORD]... error against spacing, with observed orders, as
+//                                              Markdown; of the shapes and methods named only
 //        littoral_space_accuracy landscapes N  error of clouds under noise, outliers, flips and
 //                                              sparsity on N^3 nodes, .csv for space_landscapes.py
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -71,7 +72,7 @@ VecX distance(const PolygonSoup& input, const Grid& grid, const Way& way) {
   return values;
 }
 
-void exact() {
+void exact(const std::vector<std::string>& wanted) {
   const std::vector<Way> ways = {{"grid, soft", "signed-heat", {}},
                                  {"grid, zero-set", "signed-heat", {{"constraint", "zero-set"}}},
                                  {"grid, none", "signed-heat", {{"constraint", "none"}}},
@@ -81,9 +82,19 @@ void exact() {
                                  {"hopf-cole", "hopf-cole", {}},
                                  {"planar", "planar", {}}};
   const std::array<int, 3> sizes{17, 33, 65};
+  // Named, or none of the kind is.
+  const auto chosen = [&wanted](const std::string& name, const auto& all) {
+    const auto is_wanted = [&wanted](const std::string& word) {
+      return std::find(wanted.begin(), wanted.end(), word) != wanted.end();
+    };
+    return is_wanted(name) || std::none_of(all.begin(), all.end(), [&](const auto& other) {
+             return is_wanted(other.name);
+           });
+  };
   std::printf("| shape | method | 17^3 | 33^3 | 65^3 | order |\n|---|---|---|---|---|---|\n");
   for (const Shape& shape : shapes())
     for (const Way& way : ways) {
+      if (!chosen(shape.name, shapes()) || !chosen(way.name, ways)) continue;
       std::printf("| %s | %s |", shape.name.c_str(), way.name.c_str());
       std::array<double, 3> error{};
       for (std::size_t s = 0; s < sizes.size(); ++s) {
@@ -203,12 +214,12 @@ void landscapes(int nodes) {
 
 int main(int count, char** words) {
   const std::string verb = count > 1 ? words[1] : "";
-  if (count == 2 && verb == "exact") {
-    exact();
+  if (verb == "exact") {
+    exact({words + 2, words + count});
   } else if (count == 3 && verb == "landscapes" && std::atoi(words[2]) > 1) {
     landscapes(std::atoi(words[2]));
   } else {
-    std::fprintf(stderr, "usage: littoral_space_accuracy exact | landscapes N\n");
+    std::fprintf(stderr, "usage: littoral_space_accuracy exact [WORD]... | landscapes N\n");
     return 2;
   }
 }

@@ -9,6 +9,7 @@
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
 #include "littoral/methods/tori.h"
+#include "littoral/spatial/morton_order.h"
 #include "littoral/spatial/winding_number.h"
 
 namespace littoral {
@@ -107,8 +108,10 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
     parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
       rest.checkpoint(static_cast<double>(row) / rows);
       const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
+      int last = -1;
       for (int i = 0; i < grid.n[0]; ++i)
-        phi[static_cast<Eigen::Index>(grid.node(i, j, k))] = distance->value(local.point(i, j, k));
+        phi[static_cast<Eigen::Index>(grid.node(i, j, k))] =
+            distance->value_after(local.point(i, j, k), last);
     });
   }
   return phi * frame.unit;
@@ -155,12 +158,13 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
   const Task rest = task.stage(0.9, "winding number");
   const MatX3 local = frame.local(queries);
   VecX values(queries.rows());
-  parallel_for(
-      static_cast<std::size_t>(queries.rows()), 1024, [&](std::size_t begin, std::size_t end) {
-        rest.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
-        for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
-          values[i] = winding(local.row(i));
-      });
+  const std::vector<int> order = morton_order(local);
+  parallel_for(static_cast<std::size_t>(queries.rows()), 1024,
+               [&](std::size_t begin, std::size_t end) {
+                 rest.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
+                 for (std::size_t at = begin; at < end; ++at)
+                   values[order[at]] = winding(local.row(order[at]));
+               });
   return values;
 }
 

@@ -100,12 +100,21 @@ class ToTriangles : public PointwiseDistance {
   }
   DistanceSample at(const Vec3& x) const override {
     const ClosestPoint foot = bvh_.closest_point(x);
-    const bool inside =
-        winding_ ? (*winding_)(x, sign_accuracy) > 0.5 : normals_.at(foot).dot(x - foot.point) < 0;
-    return signed_sample(x, foot.point, foot.distance, inside, normals_.of_face(foot.face));
+    return signed_sample(x, foot.point, foot.distance, is_inside(x, foot),
+                         normals_.of_face(foot.face));
+  }
+  double value_after(const Vec3& x, int& last) const override {
+    const ClosestPoint foot = bvh_.closest_point(x, last);
+    last = foot.face;
+    return is_inside(x, foot) ? -foot.distance : foot.distance;
   }
 
  private:
+  bool is_inside(const Vec3& x, const ClosestPoint& foot) const {
+    return winding_ ? (*winding_)(x, sign_accuracy) > 0.5
+                    : normals_.at(foot).dot(x - foot.point) < 0;
+  }
+
   TriangleBvh bvh_;
   Pseudonormals normals_;
   std::unique_ptr<WindingNumber> winding_;  // null: pseudonormals

@@ -21,6 +21,9 @@ class PointwiseDistance {
   virtual DistanceSample at(const Vec3& x) const = 0;
   /// The value alone, for methods that have it for less.
   virtual double value(const Vec3& x) const { return at(x).value; }
+  /// The same for points that follow one another: `last` is -1 for the first, and whatever the
+  /// method found for the one before afterwards. It changes the time, not the value.
+  virtual double value_after(const Vec3& x, [[maybe_unused]] int& last) const { return value(x); }
 };
 
 /// Values (queries) and, unless null, gradients (queries x 3) at queries x 3 points.

@@ -13,10 +13,9 @@ namespace littoral {
 
 namespace {
 
-constexpr int leaf_size = 4;
 constexpr int bins = 12;
 constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
-constexpr int stack_size = 96;
+constexpr int stack_size = 8 * 80;
 constexpr int farthest_exponent = 200;  // squares of 2^200 are far from overflow
 
 Vec3 scaled(const Vec3& v, int exponent) {
@@ -54,31 +53,44 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
     throw InputError("closest points need a face with three finite corners; there is none among " +
                      std::to_string(faces.rows()));
   exponent_ = exponent_of(magnitude);
-  corners_.reserve(faces_.size());
+  std::vector<std::array<Vec3, 3>> corners;
+  corners.reserve(faces_.size());
   std::vector<Box> boxes;
   boxes.reserve(faces_.size());
   for (int f : faces_) {
     std::array<Vec3, 3> c;
     for (int k = 0; k < 3; ++k) c[k] = scaled(points.row(faces(f, k)), -exponent_);
-    corners_.push_back(c);
+    corners.push_back(c);
     boxes.push_back({c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
   }
-  build(std::move(boxes));
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::vector<Split> splits = split(boxes, order);
+  add_node(splits, 0);
+
+  std::vector<int> sorted(faces_.size());
+  corners_.resize(corners.size());
+  place_.assign(static_cast<std::size_t>(faces.rows()), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted[i] = faces_[order[i]];
+    corners_[i] = corners[order[i]];
+    place_[sorted[i]] = static_cast<int>(i);
+  }
+  faces_ = std::move(sorted);
 }
 
-void TriangleBvh::build(std::vector<Box> boxes) {
+std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes,
+                                                   std::vector<int>& order) {
   const int n = static_cast<int>(boxes.size());
   std::vector<Vec3> centre(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) centre[i] = 0.5 * (boxes[i].low + boxes[i].high);
-  std::vector<int> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-
+  std::vector<Split> splits;
   struct Job {
     int node, begin, end, depth;
   };
   std::vector<Job> jobs{{0, 0, n, 0}};
-  nodes_.reserve(boxes.size());
-  nodes_.resize(1);
+  splits.reserve(2 * boxes.size());
+  splits.resize(1);
   while (!jobs.empty()) {
     const Job job = jobs.back();
     jobs.pop_back();
@@ -90,13 +102,9 @@ void TriangleBvh::build(std::vector<Box> boxes) {
       centres.low = centres.low.cwiseMin(centre[order[i]]);
       centres.high = centres.high.cwiseMax(centre[order[i]]);
     }
-    nodes_[job.node].box = box;
     const int count = job.end - job.begin;
-    if (count <= leaf_size) {
-      nodes_[job.node].first = job.begin;
-      nodes_[job.node].count = count;
-      continue;
-    }
+    splits[job.node] = {box, job.begin, job.end, -1};
+    if (count == 1) continue;
 
     int axis = 0;
     const double extent = (centres.high - centres.low).maxCoeff(&axis);
@@ -157,38 +165,52 @@ void TriangleBvh::build(std::vector<Box> boxes) {
                          return x < y || (x == y && i < j);
                        });
     }
-    const int left = static_cast<int>(nodes_.size());
-    nodes_[job.node].first = left;
-    nodes_.resize(nodes_.size() + 2);
+    const int left = static_cast<int>(splits.size());
+    splits[job.node].child = left;
+    splits.resize(splits.size() + 2);
     jobs.push_back({left + 1, middle, job.end, job.depth + 1});
     jobs.push_back({left, job.begin, middle, job.depth + 1});
   }
 
-  std::vector<int> faces(faces_.size());
-  std::vector<std::array<Vec3, 3>> corners(corners_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    faces[i] = faces_[order[i]];
-    corners[i] = corners_[order[i]];
-  }
-  faces_ = std::move(faces);
-  corners_ = std::move(corners);
+  return splits;
 }
 
-double TriangleBvh::lower_bound(const Box& box, const Vec3& query) {
-  const Vec3 below = box.low - query, above = query - box.high;
-  // Computed feet may lie outside the box by rounding of the corners' offsets: stay below that, so
-  // that pruning never changes which of several equally near faces wins.
-  const double reach = std::max((-below).cwiseAbs().maxCoeff(), above.cwiseAbs().maxCoeff());
-  const double slack = 1e-14 * reach;
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double gap = std::max({below[k], above[k], 0.0}) - slack;
-    if (gap > 0) sum += gap * gap;
+int TriangleBvh::add_node(const std::vector<Split>& splits, int root) {
+  // The boxes of most triangles under the root are opened as long as there is room.
+  std::vector<int> members{root};
+  const auto size = [&](int at) {
+    const Split& s = splits[at];
+    return s.child < 0 ? 0 : s.end - s.begin;
+  };
+  while (members.size() < width) {
+    const auto largest = std::max_element(members.begin(), members.end(),
+                                          [&](int a, int b) { return size(a) < size(b); });
+    const int child = splits[*largest].child;
+    if (child < 0) break;
+    *largest = child;
+    members.push_back(child + 1);
   }
-  return sum;
+  const int at = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  Node node;
+  node.count = static_cast<int>(members.size());
+  for (int c = 0; c < width; ++c) {
+    const Split& s = splits[members[std::min(c, node.count - 1)]];
+    for (int k = 0; k < 3; ++k) {
+      node.low[k][c] = s.box.low[k];
+      node.high[k][c] = s.box.high[k];
+    }
+    if (c >= node.count) {
+      node.child[c] = 0;
+    } else {
+      node.child[c] = s.child < 0 ? -1 - s.begin : add_node(splits, members[c]);
+    }
+  }
+  nodes_[at] = node;
+  return at;
 }
 
-ClosestPoint TriangleBvh::closest_point(const Vec3& query) const {
+ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (!query.allFinite())
     throw InputError("the query point of a closest-point search is not finite");
   // `shift` is extra down-scaling for queries so far away that squares would overflow.
@@ -196,36 +218,62 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query) const {
   const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
   const Vec3 q = scaled(query, -exponent_ - shift);
 
-  struct Entry {
-    double bound;
-    int node;
-  };
-  std::array<Entry, stack_size> stack;
-  int top = 0;
-  stack[top++] = {0, 0};
   double best = std::numeric_limits<double>::infinity();
   TriangleFoot best_foot;
   int best_at = -1;
+  const auto look_at = [&](int i) {
+    const auto& c = corners_[i];
+    const TriangleFoot foot = closest_on_triangle(c[0] - q, c[1] - q, c[2] - q);
+    if (best_at < 0 || foot.squared < best ||
+        (foot.squared == best && faces_[i] < faces_[best_at])) {
+      best = foot.squared;
+      best_foot = foot;
+      best_at = i;
+    }
+  };
+  if (hint >= 0 && hint < static_cast<int>(place_.size()) && place_[hint] >= 0)
+    look_at(place_[hint]);
+
+  struct Entry {
+    double bound;
+    int child;
+  };
+  std::array<Entry, stack_size> stack;  // a node adds at most eight
+  int top = 0;
+  stack[top++] = {0, 0};
   while (top > 0) {
     const Entry entry = stack[--top];
     if (entry.bound > best) continue;
-    const Node& node = nodes_[entry.node];
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const auto& c = corners_[i];
-      const TriangleFoot foot = closest_on_triangle(c[0] - q, c[1] - q, c[2] - q);
-      if (best_at < 0 || foot.squared < best ||
-          (foot.squared == best && faces_[i] < faces_[best_at])) {
-        best = foot.squared;
-        best_foot = foot;
-        best_at = i;
-      }
+    if (entry.child < 0) {
+      look_at(-1 - entry.child);
+      continue;
     }
-    if (node.count > 0) continue;
-    Entry near{lower_bound(nodes_[node.first].box, q), node.first};
-    Entry far{lower_bound(nodes_[node.first + 1].box, q), node.first + 1};
-    if (far.bound < near.bound) std::swap(near, far);
-    if (far.bound <= best) stack[top++] = far;
-    if (near.bound <= best) stack[top++] = near;
+    const Node& node = nodes_[entry.child];
+    double bound[width];  // all at once, in wide arithmetic
+    for (int c = 0; c < width; ++c) {
+      // Computed feet may lie outside the box by rounding of the corners' offsets: stay below that,
+      // so that pruning never changes which of several equally near faces wins.
+      double sum = 0, reach = 0;
+      double gap[3];
+      for (int k = 0; k < 3; ++k) {
+        const double below = node.low[k][c] - q[k], above = q[k] - node.high[k][c];
+        gap[k] = std::max(below, above);
+        reach = std::max(reach, std::max(std::abs(below), std::abs(above)));
+      }
+      for (int k = 0; k < 3; ++k) {
+        const double clear = std::max(gap[k] - 1e-14 * reach, 0.0);
+        sum += clear * clear;
+      }
+      bound[c] = sum;
+    }
+    const int first = top;
+    for (int c = 0; c < node.count; ++c) {
+      if (!(bound[c] <= best)) continue;
+      int place = top++;
+      for (; place > first && stack[place - 1].bound < bound[c]; --place)
+        stack[place] = stack[place - 1];
+      stack[place] = {bound[c], node.child[c]};
+    }
   }
 
   ClosestPoint answer;

@@ -22,7 +22,8 @@ struct ClosestPoint {
 /// Triangles may be degenerate, repeated or unconnected; those with a non-finite corner are left
 /// out. Coordinates are scaled by a power of two inside, so any magnitude up to 1e300 works.
 /// Split by surface area (Wald, "On fast construction of SAH-based bounding volume hierarchies",
-/// 2007: binned), by count where that fails to divide.
+/// 2007: binned), by count where that fails to divide; then eight boxes to a node, down to single
+/// triangles.
 class TriangleBvh {
  public:
   /// points: n x 3; faces: m x 3, rows index points. Throws InputError if an index is out of range
@@ -30,26 +31,34 @@ class TriangleBvh {
   TriangleBvh(const MatX3& points, const MatX3i& faces);
 
   /// Nearest point over all faces, the lowest face where several are equally near. A query beyond
-  /// 1e60 times the size of the coordinates sees only the direction of the faces. Throws InputError
-  /// if the query is not finite.
-  ClosestPoint closest_point(const Vec3& query) const;
+  /// 1e60 times the size of the coordinates sees only the direction of the faces. `hint` is a face
+  /// that may be near, such as that of the query before, or -1: it changes the time, not the
+  /// answer. Throws InputError if the query is not finite.
+  ClosestPoint closest_point(const Vec3& query, int hint = -1) const;
 
  private:
   struct Box {
     Vec3 low, high;
   };
-  struct Node {
+  struct Split {
     Box box;
-    int first = 0;  // leaf: first triangle; otherwise left child, the right one follows it
-    int count = 0;  // triangles of a leaf, 0 otherwise
+    int begin = 0, end = 0;  // into `order`
+    int child = -1;          // the left one, the right one follows it; -1: one triangle
   };
-  void build(std::vector<Box> boxes);
-  static double lower_bound(const Box& box, const Vec3& query);
+  static constexpr int width = 8;
+  struct Node {
+    double low[3][width], high[3][width];  // boxes of the children
+    int child[width];                      // another node, or -1 - (stored triangle)
+    int count;                             // of children
+  };
+  static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
+  int add_node(const std::vector<Split>& splits, int root);
 
   int exponent_ = 0;  // stored coordinates = coordinates * 2^-exponent
   std::vector<Node> nodes_;
   std::vector<int> faces_;                    // original number of each stored triangle
-  std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the leaves
+  std::vector<int> place_;                    // where each original one is stored, or -1
+  std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the tree
 };
 
 }  // namespace littoral

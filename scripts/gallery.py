@@ -111,6 +111,11 @@ def main(program: str, shared: Path) -> None:
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
         sharp = "--time-scale", "400", "--sharpen"
         picture("sharpened", data / "spot.obj", data / "spot-jersey.txt", *sharp)
+        volume = str(work / "sharpened.nrrd")
+        around = [program, "sdf", str(data / "spot.obj"), "--sharpen", "--resolution", "28"]
+        subprocess.run([*around, "--quiet", "-o", volume], check=True)
+        draw = [program, "render", volume, "--axis", "x", *SIZE]
+        subprocess.run([*draw, "-o", str(out / "sharpened-grid.png")], check=True)
         (work / "snout.txt").write_text("unsigned_point\nv 306\n")
         (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
         smooth = "--method", "regularized", "--alpha", "0.1"
@@ -152,6 +157,17 @@ def main(program: str, shared: Path) -> None:
         picture("nonmanifold", data / "soups" / "beetle.obj", work / "door.txt", intrinsic)
         duck = curves / "ducky-star.pc"
         picture("ducky-star", duck, duck.with_suffix(".txt"))
+        hand, tets = data / "tets" / "hand.mesh", str(work / "tets.vtk")
+        for name, source in (
+            ("tets-point", ["--vertex", "2726", "--alpha", "0.02"]),
+            ("tets-boundary", ["--boundary", "--alpha", "0.02"]),
+            ("tets-smooth", ["--boundary", "--alpha", "0.15"]),
+        ):
+            solve = [program, "distance", str(hand), "--method", "regularized", *source]
+            subprocess.run([*solve, "--quiet", "-o", tets], check=True)
+            levels = ["--levels", "20" if "--vertex" in source else "7"]
+            shown = [program, "render", tets, "--axis", "z", "--slice", "0", *SIZE, *levels]
+            subprocess.run([*shown, "-o", str(out / f"{name}.png")], check=True)
         bunny, field, ring = shared / "data" / "volumes" / "bunny-64.vol", "field.ply", "ring.obj"
         for command in (
             ["distance", bunny, "--vertex", "0", "-o", work / field],

@@ -64,9 +64,10 @@ TEST(RegularizedInSpace, FromTheBoundaryTheMiddleOfACubeIsHalfWay) {
   boundary.boundary = true;
   Report report;
   const VecX u = through_tets(mesh, boundary, {}, report, "belyaev-fayolle");
+  // Next to a corner of the cube slope 1 allows h / sqrt(3), not h = 1/8.
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const Vec3 x = mesh.points.row(v);
-    EXPECT_NEAR(u[v], std::min(x.minCoeff(), 1 - x.maxCoeff()), 0.03) << v;
+    EXPECT_NEAR(u[v], std::min(x.minCoeff(), 1 - x.maxCoeff()), 0.055) << v;
   }
   const VecX smooth = through_tets(mesh, boundary, {{"alpha", "0.1"}}, report);
   EXPECT_LT(smooth.maxCoeff(), u.maxCoeff() - 0.05);

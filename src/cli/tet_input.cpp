@@ -2,10 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "cli/surface_input.h"
 #include "cli/volume_input.h"
@@ -95,20 +96,66 @@ PolygonSoup boundary_of(const io::TetFile& file) {
 
 namespace {
 
-/// The part of a triangle whose x is at most `position` along an axis, as corners with their value
-/// appended: a polygon of up to four corners.
-std::vector<Eigen::Vector4d> clipped(const std::array<Eigen::Vector4d, 3>& triangle, int axis,
-                                     double position) {
-  std::vector<Eigen::Vector4d> out;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector4d &a = triangle[static_cast<std::size_t>(k)],
-                          &b = triangle[static_cast<std::size_t>((k + 1) % 3)];
-    const double x = a[axis] - position, y = b[axis] - position;
-    if (x <= 0) out.push_back(a);
-    if ((x < 0 && y > 0) || (x > 0 && y < 0)) out.push_back(a + x / (x - y) * (b - a));
+/// The boundary of tets on one side of a plane across an axis, in a soup that shares its points.
+class CutBoundary {
+ public:
+  CutBoundary(const TetMesh& mesh, const VecX& values, int axis, double position)
+      : mesh_(mesh), values_(values), axis_(axis), position_(position) {
+    const MatX3i faces = boundary_faces(mesh);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) add_face(faces.row(f));
   }
-  return out;
-}
+
+  /// A point with its value appended; its number.
+  int add_point(const Eigen::Vector4d& point) {
+    points_.push_back(point);
+    return static_cast<int>(points_.size()) - 1;
+  }
+  void add_polygon(const std::vector<int>& corners) {
+    if (corners.size() >= 3) soup_.add_face(corners);
+  }
+  PolygonSoup soup(const std::string& field) {
+    soup_.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
+    VecX at(soup_.points.rows());
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      soup_.points.row(i) = points_[static_cast<std::size_t>(i)].head<3>();
+      at[i] = points_[static_cast<std::size_t>(i)][3];
+    }
+    if (!field.empty()) soup_.scalars[field] = at;
+    return std::move(soup_);
+  }
+
+ private:
+  Eigen::Vector4d with_value(int v) const {
+    return {mesh_.points(v, 0), mesh_.points(v, 1), mesh_.points(v, 2), values_[v]};
+  }
+  double beyond(int v) const { return mesh_.points(v, axis_) - position_; }
+
+  void add_face(const Eigen::RowVector3i& face) {
+    std::vector<int> corners;
+    for (int k = 0; k < 3; ++k) {
+      const int a = face[k], b = face[(k + 1) % 3];
+      const double x = beyond(a), y = beyond(b);
+      if (x <= 0) corners.push_back(number({a, a}, 0));
+      if ((x < 0 && y > 0) || (x > 0 && y < 0))
+        corners.push_back(a < b ? number({a, b}, x / (x - y)) : number({b, a}, y / (y - x)));
+    }
+    add_polygon(corners);
+  }
+  /// Of the point a share t of the way along an edge.
+  int number(const std::pair<int, int>& edge, double t) {
+    const auto [at, is_new] = number_of_.try_emplace(edge, static_cast<int>(points_.size()));
+    if (is_new) add_point((1 - t) * with_value(edge.first) + t * with_value(edge.second));
+    return at->second;
+  }
+
+  const TetMesh& mesh_;
+  const VecX& values_;
+  int axis_;
+  double position_;
+  std::map<std::pair<int, int>, int> number_of_;  // vertices (twice the same) and cut edges
+  std::vector<Eigen::Vector4d> points_;
+  PolygonSoup soup_;
+};
 
 }  // namespace
 
@@ -116,50 +163,31 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
   const TetMesh& mesh = file.mesh;
   const std::string field = file.scalars.empty() ? "" : file.scalars.begin()->first;
   const VecX values = field.empty() ? VecX::Zero(mesh.n_vertices()) : file.scalars.at(field);
-  std::vector<Eigen::Vector4d> points;
-  PolygonSoup out;
-  const auto add = [&](const std::vector<Eigen::Vector4d>& polygon) {
-    if (polygon.size() < 3) return;
-    for (const Eigen::Vector4d& p : polygon) {
-      out.corners.push_back(static_cast<int>(points.size()));
-      points.push_back(p);
-    }
-    out.face_offsets.push_back(static_cast<int>(out.corners.size()));
-  };
-  const MatX3i boundary = boundary_faces(mesh);
-  for (const auto& face : boundary.rowwise()) {
-    std::array<Eigen::Vector4d, 3> triangle;
-    for (int k = 0; k < 3; ++k)
-      triangle[static_cast<std::size_t>(k)] << mesh.points.row(face[k]).transpose(),
-          values[face[k]];
-    add(clipped(triangle, axis, position));
-  }
+  CutBoundary out(mesh, values, axis, position);
   // The section, with the value of the tet that holds each of its corners.
   Report unread;
   const VecX height = mesh.points.col(axis).array() - position;
   const PolygonSoup section = isosurface(mesh, height, 0, unread);
   if (section.n_faces() == 0) throw InputError("the plane of --slice misses the tets");
   const TetLocator locator(mesh);
+  std::vector<int> number;
+  for (int v = 0; v < section.n_vertices(); ++v) {
+    const TetPoint p = locator.locate(section.points.row(v));
+    double value = 0;
+    for (int k = 0; k < 4 && p.tet >= 0; ++k)
+      value += p.barycentric[static_cast<std::size_t>(k)] * values[mesh.tets(p.tet, k)];
+    number.push_back(p.tet < 0 ? -1
+                               : out.add_point({section.points(v, 0), section.points(v, 1),
+                                                section.points(v, 2), value}));
+  }
   for (int f = 0; f < section.n_faces(); ++f) {
-    std::vector<Eigen::Vector4d> polygon;
-    for (const int v : section.face(f)) {
-      const TetPoint p = locator.locate(section.points.row(v));
-      double value = 0;
-      for (int k = 0; k < 4 && p.tet >= 0; ++k)
-        value += p.barycentric[static_cast<std::size_t>(k)] * values[mesh.tets(p.tet, k)];
-      if (p.tet < 0) break;
-      polygon.emplace_back(section.points(v, 0), section.points(v, 1), section.points(v, 2), value);
-    }
-    add(polygon);
+    std::vector<int> corners;
+    for (const int v : section.face(f))
+      if (number[static_cast<std::size_t>(v)] >= 0)
+        corners.push_back(number[static_cast<std::size_t>(v)]);
+    out.add_polygon(corners);
   }
-  out.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  VecX at(out.points.rows());
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    out.points.row(i) = points[static_cast<std::size_t>(i)].head<3>();
-    at[i] = points[static_cast<std::size_t>(i)][3];
-  }
-  if (!field.empty()) out.scalars[field] = at;
-  return out;
+  return out.soup(field);
 }
 
 void write_tet_field(const std::string& file, const TetMesh& mesh, const VecX& values,

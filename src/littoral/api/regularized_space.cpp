@@ -47,9 +47,11 @@ VecX on_grid(const SpaceProblem& problem, const Grid& grid, const RegularizedOpt
                "use a smaller --resolution or another --method");
   const GridRows rows = grid_rows(grid, problem.samples.points, problem.samples.areas);
   if (rows.A.rows() == 0) throw InputError("the box holds no sample of the input");
-  const VecX u = regularized_in_space(grid_calculus(grid), rows.A, options,
-                                      task.stage(0.9, "distance"), report);
-  return u.cwiseProduct(winding_signs(problem, grid, task.stage(0.1, "signs")));
+  // An unsigned distance would have to vanish at all nodes of the cells that hold the surface: the
+  // rows are met by functions that pass through zero there.
+  const VecX sign = winding_signs(problem, grid, task.stage(0.1, "signs"));
+  return regularized_in_space(grid_calculus(grid), rows.A, options, task.stage(0.9, "distance"),
+                              report, &sign);
 }
 
 SpaceMethod grid_method(const std::string& name, const std::string& summary,
@@ -76,7 +78,7 @@ SpaceMethod grid_method(const std::string& name, const std::string& summary,
 }  // namespace
 
 VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
-                          const Task& task, Report& report) {
+                          const Task& task, Report& report, const VecX* sign) {
   if (options.alpha > 0 && static_cast<Regularizer>(options.regularizer) != Regularizer::dirichlet)
     throw UnsupportedError(
         "in space there is the regularizer dirichlet only; the others need a triangle mesh");
@@ -87,13 +89,14 @@ VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularize
   const Stopwatch watch(report, "solve");
   const Regularized method(ops, Regularizer::dirichlet, {}, task, HeldSystem::Rows::many);
   AdmmState state;
-  const AdmmResult result = method.minimize(rows, options, state, task);
+  const AdmmResult result = method.minimize(rows, options, state, task, sign);
   report_admm(result, report);
   std::vector<char> reached(static_cast<std::size_t>(C.n_components), 0);
   for (const int i : unknowns_of(rows))
     if (C.component[static_cast<std::size_t>(i)] >= 0)
       reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
-  VecX u = result.u.cwiseMax(0.0);
+  VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
+                : VecX(result.u.cwiseMax(0.0));
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const int c = C.component[static_cast<std::size_t>(i)];
     if (c < 0 || reached[static_cast<std::size_t>(c)] == 0)

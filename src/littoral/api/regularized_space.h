@@ -9,9 +9,10 @@
 namespace littoral {
 
 /// Distance to the rows (rows x nodes) at which it vanishes, at the nodes, not negative; +inf where
-/// no row is, and listed. Dirichlet energy only: throws UnsupportedError for other options.
+/// no row is, and listed. With `sign` (1 or -1 at the nodes) the same with that sign, which passes
+/// through zero between nodes. Dirichlet energy only: throws UnsupportedError for other options.
 VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
-                          const Task& task, Report& report);
+                          const Task& task, Report& report, const VecX* sign = nullptr);
 
 /// The options of `regularized` or, with alpha = 0, `belyaev-fayolle` by name; their values used go
 /// to the report.

@@ -130,7 +130,7 @@ Regularized::Regularized(std::shared_ptr<const Operators> ops, Regularizer regul
 }
 
 AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& options,
-                                 AdmmState& state, const Task& task) const {
+                                 AdmmState& state, const Task& task, const VecX* sign) const {
   const Calculus& C = ops_->scalar;
   std::vector<char> active(C.n_components, 0);
   for (int j = 0; j < rows.outerSize(); ++j)
@@ -144,6 +144,7 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
     if (c < 0 || !active[c]) problem.b[i] = 0;
     area += problem.b[i];
   }
+  if (sign) problem.b = problem.b.cwiseProduct(*sign);
   const int dim = static_cast<int>(C.G.rows / C.A.size());
   const double alpha = alpha_of(options, regularizer_, area, dim);
   const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);

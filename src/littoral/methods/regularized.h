@@ -68,8 +68,9 @@ class Regularized {
              Report& report, AdmmState* state = nullptr) const;
 
   /// The same for the rows (rows x nodes) at which u = 0, without units and without infinities.
+  /// `sign`: unless null, 1 or -1 at the nodes, where u is to be as large or as small as it can.
   AdmmResult minimize(const SpMat& rows, const RegularizedOptions& options, AdmmState& state,
-                      const Task& task) const;
+                      const Task& task, const VecX* sign = nullptr) const;
 
   const Operators& operators() const { return *ops_; }
 

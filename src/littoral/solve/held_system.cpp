@@ -58,8 +58,7 @@ HeldSystem::HeldSystem(SpMat K, std::vector<int> component, int n_components, co
     factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task);
 }
 
-/// Single unknowns by elimination, other rows by a penalty that leaves a millionth of what they
-/// would be otherwise.
+/// Single unknowns by elimination, other rows by a penalty.
 void HeldSystem::hold_many(const SpMat& A, Held& held, const Task& task) const {
   const RowMatrix rows = A;
   std::vector<char> fixed(static_cast<std::size_t>(n_components_), 0);

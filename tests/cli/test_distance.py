@@ -72,6 +72,18 @@ def test_quadratic_elements(run: Run, mesh: Path, tmp_path: Path) -> None:
     assert "Dirichlet" in result.stderr
 
 
+def test_quadratic_order_with_sign(run: Run, mesh: Path, tmp_path: Path) -> None:
+    exact = [0.5 - i / 10 for _ in range(11) for i in range(11)]
+    run(*CURVE, "--method", "quadratic", "--signed", "-o", "a.txt")
+    assert values(tmp_path / "a.txt") == pytest.approx(exact, abs=1e-3)
+    run(*CURVE, "--sharpen", "quadratic", "-o", "b.txt")
+    assert values(tmp_path / "b.txt") == pytest.approx(exact, abs=1e-3)
+    # Alone, and before a name that is no word of it.
+    run("distance", "--sharpen", *CURVE[1:], "-o", "c.txt")
+    assert values(tmp_path / "c.txt") == pytest.approx(exact, abs=2e-2)
+    run(*CURVE, "--sharpen=nonsense", status=2)
+
+
 def test_lines_of_the_mesh_are_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
     line = "l " + " ".join(str(6 + 11 * j) for j in range(11)) + "\n"
     (tmp_path / "lines.obj").write_text(mesh.read_text() + line)

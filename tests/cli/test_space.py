@@ -140,7 +140,7 @@ def test_tori_fitted_in_other_ways(run: Run, ball: Path, tmp_path: Path) -> None
     assert "w.txt: not the weights of a torus fit: 'nan' is no number" in failed.stderr
     run(*ask, "--weights", "w.txt", status=2)
     run(*ask, "--fit", "learned", "--noisy", status=2)
-    run(*ask, "--fit", "learned", "--weights", "missing.txt", status=2)
+    run(*ask, "--fit", "learned", "--weights", "missing.txt", status=1)
 
 
 def test_winding_numbers_in_space(run: Run, cube: Path, ball: Path, tmp_path: Path) -> None:

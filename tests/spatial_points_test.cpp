@@ -4,6 +4,7 @@
 #include <random>
 
 #include "littoral/spatial/point_tree.h"
+#include "littoral/spatial/z_order.h"
 
 namespace littoral {
 namespace {
@@ -71,6 +72,61 @@ TEST(PointTree, AHundredThousandCoincidentPoints) {
     EXPECT_EQ(found[i].point, i);
     EXPECT_EQ(found[i].squared_distance, 0.875 * 0.875);
   }
+}
+
+TEST(PointTree, DisksKeepWhatIsNearOnSlantedPlanes) {
+  // Points on a slanted plane, asked from far above: boxes hardly tell them apart.
+  MatX3 points = random_points(5000, 3, 0);
+  for (int i = 0; i < 5000; ++i) points(i, 2) = points(i, 0) + 0.5 * points(i, 1);
+  const PointTree tree(points);
+  for (const Vec3& q : {Vec3(-3, -1.5, 3), Vec3(-1e6, 0, 1e6), Vec3(0.1, 0.2, 0.2)}) {
+    std::vector<Neighbour> found(12);
+    tree.nearest(q, 12, found.data());
+    expect_same(
+        found,
+        [&] {
+          auto all = all_sorted(points, q);
+          all.resize(12);
+          return all;
+        }(),
+        12);
+  }
+}
+
+TEST(PointTree, NumberedAnewItFindsTheSamePoints) {
+  const MatX3 points = random_points(1000, 4, 0);
+  const PointTree tree(points);
+  PointTree again(points);
+  const std::vector<int> old = again.renumber();
+  std::vector<int> sorted = old;
+  std::sort(sorted.begin(), sorted.end());
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 q = points.row(i) * 1.1;
+    EXPECT_EQ(old[static_cast<std::size_t>(again.nearest(q).point)], tree.nearest(q).point);
+  }
+}
+
+TEST(ZOrder, HoldsEveryRowOnceAndKeepsNeighboursTogether) {
+  const MatX3 points = random_points(4000, 5, 0);
+  const std::vector<int> order = z_order(points);
+  std::vector<int> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  double along = 0, given = 0;
+  for (int i = 0; i < 4000; ++i) {
+    ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+    if (i == 0) continue;
+    const auto place = static_cast<std::size_t>(i);
+    along += (points.row(order[place]) - points.row(order[place - 1])).norm();
+    given += (points.row(i) - points.row(i - 1)).norm();
+  }
+  EXPECT_LT(along, 0.2 * given);
+  // By halves along x, then y, then z, the last first.
+  MatX3 corners(8, 3);
+  for (int i = 0; i < 8; ++i) corners.row(7 - i) << (i & 1), (i >> 1 & 1), (i >> 2 & 1);
+  EXPECT_EQ(z_order(corners), (std::vector<int>{7, 6, 5, 4, 3, 2, 1, 0}));
+  EXPECT_EQ(z_order(MatX3::Constant(3, 3, 2.0)), (std::vector<int>{0, 1, 2}));
+  EXPECT_TRUE(z_order(MatX3(0, 3)).empty());
 }
 
 }  // namespace

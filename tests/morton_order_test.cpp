@@ -39,9 +39,12 @@ TEST(MortonOrder, OfCornersOfACubeFollowsTheirBits) {
   for (int w = 0; w < 8; ++w) EXPECT_EQ(order[static_cast<std::size_t>(w)], 7 - w);
 }
 
-TEST(MortonOrder, TakesAnyFiniteNumbers) {
+TEST(MortonOrder, TakesAnyNumbers) {
   EXPECT_TRUE(morton_order(MatX3(0, 3)).empty());
   EXPECT_EQ(morton_order(MatX3::Constant(5, 3, 2.5)), all_numbers(5));
+  MatX3 wrong = test::random_points(5, 2);
+  wrong(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(morton_order(wrong), all_numbers(5));
   const double most = std::numeric_limits<double>::max();
   const double least = std::numeric_limits<double>::denorm_min();
   for (const double size : {most, least}) {

@@ -73,5 +73,38 @@ TEST(PointTree, AHundredThousandCoincidentPoints) {
   }
 }
 
+TEST(PointTree, DisksKeepWhatIsNearOnSlantedPlanes) {
+  // Points on a slanted plane, asked from far above: boxes hardly tell them apart.
+  MatX3 points = random_points(5000, 3, 0);
+  for (int i = 0; i < 5000; ++i) points(i, 2) = points(i, 0) + 0.5 * points(i, 1);
+  const PointTree tree(points);
+  for (const Vec3& q : {Vec3(-3, -1.5, 3), Vec3(-1e6, 0, 1e6), Vec3(0.1, 0.2, 0.2)}) {
+    std::vector<Neighbour> found(12);
+    tree.nearest(q, 12, found.data());
+    expect_same(
+        found,
+        [&] {
+          auto all = all_sorted(points, q);
+          all.resize(12);
+          return all;
+        }(),
+        12);
+  }
+}
+
+TEST(PointTree, NumberedAnewItFindsTheSamePoints) {
+  const MatX3 points = random_points(1000, 4, 0);
+  const PointTree tree(points);
+  PointTree again(points);
+  const std::vector<int> old = again.renumber();
+  std::vector<int> sorted = old;
+  std::sort(sorted.begin(), sorted.end());
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 q = points.row(i) * 1.1;
+    EXPECT_EQ(old[static_cast<std::size_t>(again.nearest(q).point)], tree.nearest(q).point);
+  }
+}
+
 }  // namespace
 }  // namespace littoral

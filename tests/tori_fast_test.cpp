@@ -181,7 +181,7 @@ TEST(LearnedFit, ComesWithTheLibraryAndFitsAsWell) {
   const TorusFit learned = TorusFit::by(LearnedFit::built_in());
   const double closed = mean_error(fitted(torus_cloud(1000, 14)));
   EXPECT_LT(mean_error(fitted(torus_cloud(1000, 14), learned)), 3 * closed + 1e-3);
-  // A third of what the closed form makes of a cloud with flipped normals.
+  // Better than the closed form on a cloud with flipped normals.
   OrientedPoints cloud = torus_cloud(1000, 15);
   for (int i = 0; i < 1000; i += 40) cloud.normals.row(i) *= -1;
   EXPECT_LT(mean_error(fitted(cloud, learned)), 0.7 * mean_error(fitted(cloud)));

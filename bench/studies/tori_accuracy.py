@@ -5,7 +5,8 @@ usage: tori_accuracy.py PROGRAM MESH... [--points 512 2048] [--methods NAME...] 
 needs numpy; screened Poisson needs open3d (PyPI) and is left out without it
 
 Shapes fill [-0.9, 0.9]^3. Clouds are drawn evenly by area (seed 5) with exact normals; the error is
-the mean absolute one on 64^3 nodes over [-1, 1]^3, times 1000. Meshes must be closed.
+the mean absolute one on 64^3 nodes over [-1, 1]^3, times 1000. Meshes must be closed. --outliers
+adds that share of points anywhere in [-1, 1]^3, with normals anyhow.
 """
 
 import argparse
@@ -22,6 +23,7 @@ NODES = 64
 METHODS = {
     "tori": ["--method", "tori"],
     "tori, learned": ["--method", "tori", "--fit", "learned"],
+    "tori, outliers dropped": ["--method", "tori", "--drop-outliers"],
     "winding, nearest point": ["--method", "winding"],
     "Poisson, open3d": [],
     "planar": ["--method", "planar"],
@@ -98,6 +100,14 @@ def mesh_cloud(mesh: Mesh, n: int, r: np.random.Generator) -> Mesh:
     return (1 - u) * a[f] + u * (1 - v) * b[f] + u * v * c[f], normals[f] / areas[f, None]
 
 
+def with_outliers(cloud: Mesh, share: float, r: np.random.Generator) -> Mesh:
+    extra = int(share * len(cloud[0]))
+    normals = r.normal(size=(extra, 3))
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    points = np.vstack([cloud[0], r.uniform(-1, 1, (extra, 3))])
+    return points, np.vstack([cloud[1], normals])
+
+
 def write_obj(path: Path, mesh: Mesh) -> None:
     lines = ["v {} {} {}".format(*p) for p in mesh[0]]
     lines += ["f {} {} {}".format(*(f + 1)) for f in mesh[1]]
@@ -170,7 +180,8 @@ def main() -> None:
     parser.add_argument("program", nargs="?")
     parser.add_argument("meshes", nargs="*", type=Path)
     parser.add_argument("--points", nargs="+", type=int, default=[512, 2048])
-    parser.add_argument("--methods", nargs="+", default=list(METHODS))
+    parser.add_argument("--methods", nargs="+", default=[m for m in METHODS if "dropped" not in m])
+    parser.add_argument("--outliers", type=float, default=0)
     parser.add_argument("--csv", type=Path)
     parser.add_argument("--plot", nargs=2, type=Path)
     asked = parser.parse_args()
@@ -191,6 +202,7 @@ def main() -> None:
             for n in asked.points:
                 mine = isinstance(shape, Path)
                 cloud = mesh_cloud(mesh, n, random) if mine else analytic_cloud(shape, n, random)
+                cloud = with_outliers(cloud, asked.outliers, random)
                 title = shape.stem if isinstance(shape, Path) else shape
                 cells = []
                 for method in asked.methods:

@@ -128,6 +128,21 @@ def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -
     run("fit-tori", "ball.xyz", "-o", "tori.obj", status=2)
 
 
+def test_tori_fitted_in_other_ways(run: Run, ball: Path, tmp_path: Path) -> None:
+    for options in (["--fit", "learned"], ["--single"], ["--drop-outliers"]):
+        run("query", "ball.xyz", "--points", "q.csv", *options, "-o", "a.csv")
+        middle, outside = rows(tmp_path / "a.csv")
+        assert middle[0] == pytest.approx(-1, abs=2e-3)
+        assert outside[0] == pytest.approx(2, abs=1e-2)
+    (tmp_path / "w.txt").write_text("littoral-torus-fit 1\n24 8\n0 0 nan")
+    ask = ["query", "ball.xyz", "--points", "q.csv", "-o", "a.csv"]
+    failed = run(*ask, "--fit", "learned", "--weights", "w.txt", status=2)
+    assert "w.txt: not the weights of a torus fit: 'nan' is no number" in failed.stderr
+    run(*ask, "--weights", "w.txt", status=2)
+    run(*ask, "--fit", "learned", "--noisy", status=2)
+    run(*ask, "--fit", "learned", "--weights", "missing.txt", status=1)
+
+
 def test_winding_numbers_in_space(run: Run, cube: Path, ball: Path, tmp_path: Path) -> None:
     for name, slack in (("cube.obj", 1e-9), ("ball.xyz", 1e-2)):
         run("winding", name, "--points", "q.csv", "-o", "w.csv")

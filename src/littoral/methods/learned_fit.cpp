@@ -40,7 +40,7 @@ class Numbers {
     float x = 0;
     const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), x);
     if (error != std::errc() || end != w.data() + w.size() || !(std::abs(x) <= largest))
-      fail("'" + std::string(w.substr(0, 40)) + "' is no number up to 1e4");
+      fail(std::string("'").append(w.substr(0, 40)).append("' is no number up to 1e4"));
     return x;
   }
   template <class Layer>

@@ -9,15 +9,11 @@
 
 namespace littoral::cli {
 
-namespace {
-
 double parse_number(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
   if (numbers.size() != 1) throw InputError("option " + option + " takes one number");
   return numbers.front();
 }
-
-}  // namespace
 
 void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts) {
   const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };

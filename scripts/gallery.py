@@ -81,6 +81,71 @@ def ring_around(points: list[list[float]], axis: int, height: float, turn: float
     return "".join(rows) + "l " + " ".join(str(k + 1) for k in range(201)) + "\n"
 
 
+def cloud_of(points: list[list[float]], normals: list[list[float]]) -> str:
+    """Points and normals as XYZ."""
+    rows = zip(points, normals, strict=True)
+    return "".join(" ".join(f"{x:.9g}" for x in (*p, *n)) + "\n" for p, n in rows)
+
+
+def ball_cloud(centre: tuple[float, float, float], radius: float, n: int) -> str:
+    """n points spread evenly over a sphere."""
+    normals = []
+    for i in range(n):
+        z = 1 - (2 * i + 1) / n
+        r, a = math.sqrt(1 - z * z), 2.399963 * i
+        normals.append([r * math.cos(a), r * math.sin(a), z])
+    return cloud_of(
+        [[c + radius * x for c, x in zip(centre, m, strict=True)] for m in normals], normals
+    )
+
+
+def ring_cloud(centre: tuple[float, float, float], radii: tuple[float, float], n: int) -> str:
+    """n points spread evenly over a torus about the y axis."""
+    big, small = radii
+    points, normals = [], []
+    for i in range(n):
+        u, wound = 2 * math.pi * (i + 0.5) / n, 2 * math.pi * (i * 0.6180339887498949 % 1)
+        v = wound
+        for _ in range(20):
+            v -= (big * (v - wound) + small * math.sin(v)) / (big + small * math.cos(v))
+        m = [math.cos(v) * math.cos(u), math.sin(v), math.cos(v) * math.sin(u)]
+        ring = [big * math.cos(u), 0.0, big * math.sin(u)]
+        points.append([c + a + small * b for c, a, b in zip(centre, ring, m, strict=True)])
+        normals.append(m)
+    return cloud_of(points, normals)
+
+
+def thinned(cloud: Path, least: float) -> str:
+    """A .pc cloud with ever fewer points towards large x: a share `least` of them at the end."""
+    rows = [line.split() for line in cloud.read_text().splitlines()]
+    points = [[float(x) for x in r[1:4]] for r in rows if r[:1] == ["v"]]
+    normals = [[float(x) for x in r[1:4]] for r in rows if r[:1] == ["vn"]]
+    low, high = min(p[0] for p in points), max(p[0] for p in points)
+    due, kept = 0.0, []
+    for i, p in enumerate(points):
+        due += least ** ((p[0] - low) / (high - low))
+        if due >= 1:
+            due -= 1
+            kept.append(i)
+    return cloud_of([points[i] for i in kept], [normals[i] for i in kept])
+
+
+def cloud_pictures(program: str, clouds: Path, work: Path, out: Path) -> None:
+    """Booleans and offsets of clouds, traced."""
+
+    def trace(name: str, cloud: Path, *options: str) -> None:
+        command = [program, "render", str(cloud), "--trace", *options, *SIZE, "--quiet"]
+        subprocess.run([*command, "-o", str(out / f"{name}.png")], check=True)
+
+    ball, ring, uneven = work / "ball.xyz", work / "ring.xyz", work / "uneven.xyz"
+    ball.write_text(ball_cloud((0.45, 0.05, 0.35), 0.42, 1500))
+    ring.write_text(ring_cloud((-0.35, 0.0, -0.05), (0.75, 0.09), 1500))
+    uneven.write_text(thinned(clouds / "knot.pc", 0.03))
+    pieces = "--unite", str(ring), "--subtract", str(ball), "--blend", "0.06"
+    trace("cloud-boolean", clouds / "bunny.pc", *pieces)
+    trace("cloud-offset", uneven, "--level", "3", "--axis", "z", "--slice", "0")
+
+
 def main(program: str, shared: Path) -> None:
     out = ROOT / "docs" / "gallery"
     with tempfile.TemporaryDirectory() as folder:
@@ -131,6 +196,7 @@ def main(program: str, shared: Path) -> None:
         solid("chair-offset", data / "soups" / "shm3d-chair.obj", "offset", "--dilate", "0.25")
         bottle = data / "clouds" / "SprayBottle.pc"
         solid("spray-bottle", bottle, "sdf", "--method", "tori", look=("--axis", "x"))
+        cloud_pictures(program, data / "clouds", work, out)
         bumpy = curves / "bumpy-sphere.obj"
         levels = "--constraint", "level-sets"
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)

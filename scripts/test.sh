@@ -65,10 +65,10 @@ stage_fuzz() {
 }
 
 stage_viewer() {
-  local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html"
+  local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
   configure_and_build release &&
-    LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
-    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" npm test)
+    LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
+    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
 }
 
 stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }

@@ -5,8 +5,10 @@
 
 #include "littoral/base/error.h"
 #include "littoral/io/read.h"
+#include "littoral/io/volume.h"
 #include "littoral/io/write.h"
 #include "littoral/io/write_table.h"
+#include "littoral/sources/level_points.h"
 
 namespace littoral::cli {
 
@@ -28,6 +30,30 @@ void add_space_method(CLI::App& verb, SpaceTexts& texts, const std::string& fall
                   names + " [default " + (fallback.empty() ? texts.request.method : fallback) + "]")
       ->type_name("NAME");
   add_method_options(verb, texts.options, infos);
+}
+
+void add_shape_options(CLI::App& verb, SpaceTexts& texts, bool with_offset) {
+  const auto group = [](CLI::Option* option) { return option->group("Several shapes"); };
+  const std::string kinds = ": mesh, soup, cloud, or volume of distance; may be repeated";
+  for (const auto& [name, files, what] :
+       {std::tuple("--unite", &texts.unite, "also this shape"),
+        {"--intersect", &texts.intersect, "only what lies within this shape"},
+        {"--subtract", &texts.subtract, "without this shape"}})
+    group(add_repeated_option(verb, name, *files, what + kinds))->type_name("FILE");
+  group(verb.add_option("--other-method", texts.other_method,
+                        "of the shapes after INPUT [default: as --method where that is given, "
+                        "otherwise tori for clouds, winding for all else]"))
+      ->type_name("NAME");
+  group(verb.add_option("--blend", texts.blend,
+                        "round corners where shapes meet, this far from them [length; default 0]"))
+      ->check(CLI::Range(0.0, 1e300).description(""))
+      ->type_name("R");
+  if (with_offset)
+    group(verb.add_option("--offset", texts.offset,
+                          "move the surface outward, or if negative inward [length; default 0]"))
+        ->type_name("D");
+  group(verb.add_flag("--redistance", texts.redistance,
+                      "INPUT is a volume of any values: distance to where they are zero"));
 }
 
 void add_grid_options(CLI::App& verb, SpaceTexts& texts) {
@@ -56,7 +82,72 @@ void use_space_options(SpaceTexts& texts, const Session& session) {
   check_request(texts.request);
 }
 
-Grid grid_of(const SpaceTexts& texts, const PolygonSoup& input) {
+namespace {
+
+Shape read_shape(const std::string& file, bool redistance, double level) {
+  Shape shape;
+  if (!io::is_volume(file)) {
+    if (redistance) throw InputError(file + " is no volume: --redistance is for .vti .nrrd .npy");
+    shape.surface = io::read_surface(file);
+    return shape;
+  }
+  VolumeField field = io::read_volume(file);
+  try {
+    if (redistance)
+      shape.surface = level_points(field, level, {});
+    else
+      shape.field = std::move(field);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+  return shape;
+}
+
+}  // namespace
+
+Shapes read_shapes(SpaceTexts& texts, const Session& session, const std::string& plain) {
+  Shapes shapes;
+  shapes.all.push_back(read_shape(texts.input, texts.redistance, texts.at_level));
+  for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
+                                   {Boolean::intersect, &texts.intersect},
+                                   {Boolean::subtract, &texts.subtract}}) {
+    for (const std::string& file : *files) {
+      shapes.all.push_back(read_shape(file, false, 0));
+      shapes.how.with.push_back(how);
+    }
+  }
+  shapes.how.blend = texts.blend;
+  shapes.how.offset = texts.offset;
+  const auto fitting = [](const Shape& shape) {
+    return std::string(shape.surface.n_faces() == 0 ? "tori" : "winding");
+  };
+  Shape& first = shapes.all.front();
+  const bool given = !texts.request.method.empty();
+  if (!given) texts.request.method = shapes.plain() && !texts.redistance ? plain : fitting(first);
+  if (texts.request.method.empty()) texts.request.method = fitting(first);
+  use_space_options(texts, session);
+  first.request = texts.request;
+  if (!texts.other_method.empty() && shapes.all.size() == 1)
+    throw InputError("option --other-method: there is no shape but INPUT");
+  for (std::size_t s = 1; s < shapes.all.size(); ++s) {
+    SpaceRequest& request = shapes.all[s].request;
+    request.method = !texts.other_method.empty() ? texts.other_method
+                     : given                     ? texts.request.method
+                                                 : fitting(shapes.all[s]);
+    request.flip = texts.request.flip;
+    request.estimate_normals =
+        texts.request.estimate_normals && shapes.all[s].surface.n_faces() == 0;
+    const MethodInfo& method = find_space_method(request.method).info;
+    for (const auto& option : texts.request.options)
+      for (const OptionInfo& known : method.options)
+        if (known.name == option.first) request.options.push_back(option);
+    check_request(request);
+  }
+  check_combination(shapes.how, shapes.all.size());
+  return shapes;
+}
+
+GridRequest grid_request(const SpaceTexts& texts) {
   GridRequest request;
   if (texts.resolution > 0) request.resolution = texts.resolution;
   if (texts.spacing > 0) request.spacing = texts.spacing;
@@ -67,7 +158,7 @@ Grid grid_of(const SpaceTexts& texts, const PolygonSoup& input) {
     request.bounds.emplace();
     std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
   }
-  return choose_grid(input, request);
+  return request;
 }
 
 void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out) {

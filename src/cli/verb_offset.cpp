@@ -15,7 +15,6 @@
 #include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
 #include "littoral/base/error.h"
-#include "littoral/io/read.h"
 #include "littoral/io/volume.h"
 
 namespace littoral::cli {
@@ -54,6 +53,7 @@ std::vector<double> all_distances(const Arguments& arguments) {
 void offset_curves(Arguments& arguments, const std::vector<double>& distances, Session& session) {
   check_level_outputs(arguments.out, distances.size(), {".obj", ".ply"}, "lines");
   arguments.request.flip = session.flip;
+  if (arguments.request.method.empty()) arguments.request.method = "signed-heat";
   use_method_options(arguments.options, arguments.request);
   const SurfaceMesh mesh = read_mesh(arguments.in);
   const SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
@@ -65,32 +65,31 @@ void offset_curves(Arguments& arguments, const std::vector<double>& distances, S
   write_lines(arguments.out, mesh, levels);
 }
 
-/// Signed distance around a mesh, soup or cloud, on a grid that holds all offsets of it.
+/// Signed distance around a shape or several, on a grid that holds all offsets of it.
 VolumeField distance_around(Arguments& arguments, const std::vector<double>& distances,
                             Session& session) {
-  const PolygonSoup input = io::read_surface(arguments.in);
   SpaceTexts& space = arguments.space;
+  space.input = arguments.in;
   space.request.method = arguments.request.method;
   space.options = arguments.options;
-  use_space_options(space, session);
+  const Shapes shapes = read_shapes(space, session, "signed-heat");
   double farthest = 0;
   for (const double d : distances) farthest = std::max(farthest, std::abs(d));
   const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
-  if (input.n_vertices() > 0 && input.points.allFinite()) {
-    const double extent =
-        (input.points.colwise().maxCoeff() - input.points.colwise().minCoeff()).maxCoeff();
-    if (extent > 0) space.padding += reach / extent;
-  }
+  GridRequest grid = grid_request(space);
+  grid.padding += reach / longest_side(shapes);
   VolumeField volume;
-  volume.grid = grid_of(space, input);
+  volume.grid = choose_grid(shapes, grid);
   session.reading = false;
-  volume.values = grid_distance(input, volume.grid, space.request, session.task(), session.report);
+  volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
   return volume;
 }
 
 void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
   check_level_outputs(arguments.out, distances.size(), surface_outputs, "a surface");
-  const VolumeField distance = io::is_volume(arguments.in)
+  const SpaceTexts& space = arguments.space;
+  const bool alone = space.unite.empty() && space.intersect.empty() && space.subtract.empty();
+  const VolumeField distance = alone && !space.redistance && io::is_volume(arguments.in)
                                    ? io::read_volume(arguments.in, arguments.field)
                                    : distance_around(arguments, distances, session);
   session.reading = false;
@@ -147,6 +146,7 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
   verb.add_flag("--estimate-normals", arguments.space.request.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   add_grid_options(verb, arguments.space);
+  add_shape_options(verb, arguments.space, false);
   std::vector<MethodInfo> methods = space_method_infos();
   methods.push_back(find_method("signed-heat"));
   add_method_options(verb, arguments.options, methods);
@@ -161,6 +161,7 @@ void add_offset(CLI::App& program, Session& session) {
   CLI::App* verb =
       program.add_subcommand("offset", "offset surfaces and curves; dilate, erode, open and close");
   auto arguments = std::make_shared<Arguments>();
+  arguments->request.method.clear();
   add_options(*verb, *arguments, session);
   verb->callback(
       [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });

@@ -6,7 +6,6 @@
 #include "cli/space_input.h"
 #include "cli/verbs.h"
 #include "littoral/api/report_json.h"
-#include "littoral/io/read.h"
 
 namespace littoral::cli {
 
@@ -22,16 +21,12 @@ struct Arguments {
 void run(Arguments& arguments, Session& session) {
   for (const std::string& file : arguments.out)
     check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
-  const PolygonSoup input = io::read_surface(arguments.space.input);
-  std::string& method = arguments.space.request.method;
-  if (method.empty()) method = input.n_faces() == 0 ? "tori" : "winding";
-  use_space_options(arguments.space, session);
+  const Shapes shapes = read_shapes(arguments.space, session, "");
   const MatX3 queries = read_queries(arguments.points);
   session.reading = false;
   MatX3 gradients;
-  const VecX values =
-      query_distance(input, queries, arguments.space.request,
-                     arguments.gradient ? &gradients : nullptr, session.task(), session.report);
+  const VecX values = query_distance(shapes, queries, arguments.gradient ? &gradients : nullptr,
+                                     session.task(), session.report);
   Table table{{"distance"}, values};
   if (arguments.gradient) {
     table.names.insert(table.names.end(), {"gradient_x", "gradient_y", "gradient_z"});
@@ -55,6 +50,7 @@ void add_query(CLI::App& program, Session& session) {
   add_query_files(*verb, arguments->points, arguments->out);
   verb->add_flag("--gradient", arguments->gradient, "also the gradient");
   add_space_method(*verb, arguments->space, "tori for point clouds, otherwise winding");
+  add_shape_options(*verb, arguments->space);
   add_json_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback(

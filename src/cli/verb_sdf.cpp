@@ -87,21 +87,23 @@ void run(Arguments& arguments, Session& session) {
   if (arguments.clip && arguments.domain == "tets")
     throw UnsupportedError("--clip is for grids: the cube of the tets is larger than the box");
   parse_numbers("--level", arguments.levels);
-  use_space_options(arguments.space, session);
-  const PolygonSoup input = io::read_surface(arguments.space.input);
+  const Shapes shapes = read_shapes(arguments.space, session, "signed-heat");
   VolumeField volume;
-  volume.grid = grid_of(arguments.space, input);
+  volume.grid = choose_grid(shapes, grid_request(arguments.space));
   session.reading = false;
   TetField tets;
-  if (arguments.tets == "tetgen")
-    tets = tetgen_distance(input, volume.grid, arguments.space.request, arguments.tetgen,
-                           &volume.values, session.task(), session.report);
-  else if (arguments.domain == "tets")
-    tets = tet_distance(input, volume.grid, arguments.space.request, &volume.values, session.task(),
-                        session.report);
-  else
-    volume.values =
-        grid_distance(input, volume.grid, arguments.space.request, session.task(), session.report);
+  if (arguments.domain == "tets") {
+    if (shapes.all.size() != 1 || shapes.all.front().field || shapes.how.offset != 0)
+      throw InputError("option --domain tets takes one mesh, soup or cloud");
+    const Shape& shape = shapes.all.front();
+    tets = arguments.tets == "tetgen"
+               ? tetgen_distance(shape.surface, volume.grid, shape.request, arguments.tetgen,
+                                 &volume.values, session.task(), session.report)
+               : tet_distance(shape.surface, volume.grid, shape.request, &volume.values,
+                              session.task(), session.report);
+  } else {
+    volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
+  }
   {
     const Stopwatch watch(session.report, "write");
     write_results(arguments, volume, tets, session);
@@ -117,6 +119,7 @@ void add_sdf(CLI::App& program, Session& session) {
   CLI::App* verb =
       program.add_subcommand("sdf", "signed distance in space around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
+  arguments->space.request.method.clear();
   add_space_input(*verb, arguments->space, session);
   verb->add_option(
           "-o,--output", arguments->out,
@@ -149,7 +152,8 @@ void add_sdf(CLI::App& program, Session& session) {
                    "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->type_name("W");
-  add_space_method(*verb, arguments->space);
+  add_space_method(*verb, arguments->space, "signed-heat; of several shapes as for query");
+  add_shape_options(*verb, arguments->space);
   add_json_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback(

@@ -8,6 +8,7 @@
 #include "cli/serve.h"
 #include "cli/surface_input.h"
 #include "cli/tet_input.h"
+#include "cli/trace_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/base/error.h"
@@ -26,6 +27,8 @@ struct Arguments {
   std::vector<std::string> sources;
   io::PictureOptions picture;
   VolumeViewTexts volume;
+  TraceTexts trace;
+  const CLI::App* verb = nullptr;
   int levels = 20;
 };
 
@@ -38,7 +41,13 @@ PolygonSoup read_shown(const Arguments& arguments) {
                                : cut_open(file, view.axis_number(), view.slice_at());
 }
 
-io::Scene read_scene_of(const Arguments& arguments, Session& session) {
+io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
+  if (arguments.trace.trace) {
+    if (!arguments.sources.empty() || !arguments.field.empty())
+      throw InputError("options --sources and --field do not go with --trace");
+    return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
+  }
+  check_no_trace_options(*arguments.verb);
   if (io::is_volume(arguments.in)) {
     if (!arguments.sources.empty())
       throw InputError("option --sources: sources are drawn on surfaces, " + arguments.in +
@@ -58,8 +67,8 @@ io::Scene read_scene_of(const Arguments& arguments, Session& session) {
   return scene;
 }
 
-io::Scene read_scene(const Arguments& arguments, Session& session) {
-  io::Scene scene = read_scene_of(arguments, session);
+io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
+  io::Scene scene = read_scene_of(arguments, for_page, session);
   scene.title = std::filesystem::path(arguments.in).stem().string();
   scene.isolines = arguments.levels;
   io::check_scene(scene);
@@ -86,9 +95,9 @@ std::string page_text(const io::Scene& scene) {
   return text;
 }
 
-void view(const Arguments& arguments, Session& session) {
+void view(Arguments& arguments, Session& session) {
   check_output(arguments.out.empty() ? "page.html" : arguments.out, {".html"}, "a page");
-  const io::Scene scene = read_scene(arguments, session);
+  const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
   if (arguments.out.empty())
     serve_page(page_text(scene), session.task());
@@ -96,13 +105,14 @@ void view(const Arguments& arguments, Session& session) {
     io::write_page(arguments.out, scene);
 }
 
-void render(const Arguments& arguments, Session& session) {
+void render(Arguments& arguments, Session& session) {
   check_output(arguments.out, {".png"}, "a picture");
-  const io::Scene scene = read_scene(arguments, session);
+  const io::Scene scene = read_scene(arguments, false, session);
+  session.print_warnings();
   io::write_picture(arguments.out, scene, arguments.picture);
 }
 
-using Job = void (*)(const Arguments&, Session&);
+using Job = void (*)(Arguments&, Session&);
 
 CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
                    Job job, const char* name, const char* help) {
@@ -124,6 +134,9 @@ CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Argument
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
   add_volume_view_options(*verb, arguments->volume);
+  arguments->trace.space.request.method.clear();
+  add_trace_options(*verb, arguments->trace, session);
+  arguments->verb = verb;
   add_index_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });

@@ -9,15 +9,11 @@
 
 namespace littoral::cli {
 
-namespace {
-
 double parse_number(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
   if (numbers.size() != 1) throw InputError("option " + option + " takes one number");
   return numbers.front();
 }
-
-}  // namespace
 
 double VolumeViewTexts::slice_at() const { return parse_number("--slice", position); }
 

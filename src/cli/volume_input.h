@@ -10,6 +10,9 @@
 
 namespace littoral::cli {
 
+/// One number; throws InputError naming the option.
+double parse_number(const std::string& option, const std::string& text);
+
 /// Options of `view` and `render` that are about volumes, as given.
 struct VolumeViewTexts {
   std::string axis = "z", position, level;

@@ -24,6 +24,7 @@ export function readScene() {
     const steps = new Uint16Array(bytes(scene.volume.values).buffer);
     scene.volume.values = Float32Array.from(steps, (x) => (x === 65535 ? Infinity : x / 65534));
   }
+  if (scene.trace) scene.trace.tori = floats(scene.trace.tori);
   scene.field.colours = bytes(scene.field.colours);
   for (const key of ["signed", "unsigned", "arrows", "points"]) {
     scene.sources[key] = floats(scene.sources[key]);

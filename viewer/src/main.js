@@ -4,6 +4,7 @@ import { numberText, readScene, valueOf } from "./data.js";
 import { drawLegend } from "./legend.js";
 import { makeSources } from "./sources.js";
 import { makeLook, makeSurface } from "./surface.js";
+import { makeTracer } from "./tracer.js";
 import { makeVolume } from "./volume.js";
 import { connectVolume } from "./volume-controls.js";
 
@@ -32,6 +33,7 @@ function showFacts(scene) {
   element("panel").hidden = false;
   element("view").setAttribute("aria-label",
     `${scene.title || "Surface"}: ` +
+    (scene.trace ? `${scene.trace.tori.length / 16} points, ` : "") +
     (scene.volume ? `volume of ${scene.volume.n.join(" x ")} nodes` : `${scene.triangles.length / 3} triangles`) +
     (scene.values || scene.volume ? `, ${scene.field.name} from ${numberText(scene.field.low)} to ${numberText(scene.field.high)}` : ""));
 }
@@ -48,7 +50,8 @@ function start() {
   const { field } = scene;
   const hasField = scene.values !== null || scene.volume !== undefined;
   const look = makeLook(scene);
-  const surface = scene.volume ? makeVolume(scene, look) : makeSurface(scene, look);
+  const tracer = scene.trace ? makeTracer(scene, renderer, look) : null;
+  const surface = scene.volume ? makeVolume(scene, look, tracer) : makeSurface(scene, look);
   const sources = makeSources(scene.sources);
   const world = new THREE.Scene();
   world.add(surface.mesh, sources);
@@ -72,8 +75,10 @@ function start() {
 
   const size = new THREE.Vector2();
   function draw() {
+    const more = tracer?.mesh.visible && tracer.prepare(camera);
     renderer.render(world, camera);
     ++frames;
+    if (more) ask();
     showValue();
   }
 
@@ -97,6 +102,8 @@ function start() {
     camera.setViewOffset(size.x * ratio, size.y * ratio, x * ratio - 0.5, y * ratio - 0.5, 1, 1);
     renderer.getClearColor(clear);
     const shown = [sources.visible, wires?.visible];
+    const traced = tracer?.mesh.visible;
+    if (traced) tracer.mesh.visible = false;
     sources.visible = false;
     if (wires) wires.visible = false;
     world.overrideMaterial = surface.pickMaterial;
@@ -111,6 +118,11 @@ function start() {
     sources.visible = shown[0];
     if (wires) wires.visible = shown[1];
     camera.clearViewOffset();
+    if (traced) {
+      tracer.mesh.visible = true;
+      const at = [(2 * x) / size.x - 1, 1 - (2 * y) / size.y], t = tracer.depthAt(camera, ...at);
+      if (t >= 0 && (pixel[3] === 0 || t < surface.sliceDepth(camera, ...at))) return valueOf(field, surface.state.level);
+    }
     if (pixel[3] === 0) return null;
     if (pixel[3] < 200) return Infinity;
     return valueOf(field, (65536 * pixel[0] + 256 * pixel[1] + pixel[2]) / 16777215);
@@ -242,6 +254,8 @@ function start() {
   // For tests: where a vertex is on the screen, and what the page shows there.
   window.littoral = {
     volume: scene.volume && surface,
+    tracer,
+    settled: () => !asked && (!tracer || tracer.settled()),
     frames: () => frames,
     pick,
     project(vertex) {

@@ -47,11 +47,12 @@ export function marchTets(n, values, level) {
   return { points, triangles };
 }
 
-export function makeVolume(scene, look) {
+/// With a tracer the surface is its, and not made of triangles.
+export function makeVolume(scene, look, tracer) {
   const { volume } = scene, { n, values, origin, spacing } = volume;
   const state = { axis: volume.axis, position: volume.position, level: volume.level, cut: true };
   const slice = new THREE.Mesh(new THREE.BufferGeometry(), look.material);
-  const shell = new THREE.Mesh(new THREE.BufferGeometry(), look.material);
+  const shell = tracer ? tracer.mesh : new THREE.Mesh(new THREE.BufferGeometry(), look.material);
   const mesh = new THREE.Group();
   mesh.add(shell, slice);
 
@@ -90,6 +91,7 @@ export function makeVolume(scene, look) {
 
   function cutAway() {
     const plane = look.uniforms.cut.value.set(0, 0, 0, 1);
+    tracer?.setCut(state.cut ? state.axis : null, origin[state.axis] + state.position * (n[state.axis] - 1) * spacing[state.axis]);
     if (!state.cut) return;
     // What lies behind the slice, seen from the first view, is hidden by it anyway.
     plane.setComponent(state.axis, -1);
@@ -97,6 +99,7 @@ export function makeVolume(scene, look) {
   }
 
   function moveLevel() {
+    if (tracer) return tracer.setLevel(state.level);
     const { points, triangles } = marchTets(n, values, state.level);
     const positions = Float32Array.from(points, (x, i) => origin[i % 3] + x * spacing[i % 3]);
     const count = points.length / 3;
@@ -107,9 +110,17 @@ export function makeVolume(scene, look) {
   moveLevel();
   return {
     ...look, mesh, state, shell,
+    /// How far along its ray the slice's plane is at a place of the screen in [-1, 1]^2; infinity beside it.
+    sliceDepth(camera, x, y) {
+      const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
+      const ray = new THREE.Vector3(x, y, 0.5).unproject(camera).sub(eye).normalize();
+      const at = origin[state.axis] + state.position * (n[state.axis] - 1) * spacing[state.axis];
+      const t = (at - eye.getComponent(state.axis)) / ray.getComponent(state.axis);
+      return t > 0 ? t : Infinity;
+    },
     setSlice(axis, position) { Object.assign(state, { axis, position }); moveSlice(); },
     setLevel(level) { state.level = level; moveLevel(); },
     setCut(cut) { state.cut = cut; cutAway(); },
-    triangleCount: () => shell.geometry.getIndex().count / 3,
+    triangleCount: () => tracer ? 0 : shell.geometry.getIndex().count / 3,
   };
 }

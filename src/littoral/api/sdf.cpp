@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "littoral/api/space_problem.h"
 #include "littoral/api/tori_cloud.h"
@@ -16,16 +17,34 @@ namespace littoral {
 
 namespace {
 
+/// How fine a mesh is sampled for queries that have no grid.
+constexpr double query_side = 0.01;
+
+/// A distance in a frame's units, asked in those of the input.
+class Placed final : public PointwiseDistance {
+ public:
+  Placed(std::unique_ptr<const PointwiseDistance> distance, const Frame& frame)
+      : distance_(std::move(distance)), frame_(frame) {}
+  DistanceSample at(const Vec3& x) const override {
+    const DistanceSample sample = distance_->at(frame_.local(x));
+    return {sample.value * frame_.unit, sample.gradient};
+  }
+  double value(const Vec3& x) const override {
+    return distance_->value(frame_.local(x)) * frame_.unit;
+  }
+
+ private:
+  std::unique_ptr<const PointwiseDistance> distance_;
+  Frame frame_;
+};
+
+}  // namespace
+
 void check_queries(const MatX3& queries) {
   for (Eigen::Index i = 0; i < queries.rows(); ++i)
     if (!queries.row(i).allFinite())
       throw InputError("query point " + std::to_string(i) + " has coordinates that are not finite");
 }
-
-/// How fine a mesh is sampled for queries that have no grid.
-constexpr double query_side = 0.01;
-
-}  // namespace
 
 void check_request(const SpaceRequest& request) {
   find_space_method(request.method).check(request.options);
@@ -117,8 +136,9 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
   return phi * frame.unit;
 }
 
-VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
-                    MatX3* gradients, Task task, Report& report) {
+std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,
+                                                            const SpaceRequest& request, Task task,
+                                                            Report& report) {
   const SpaceMethod& method = find_space_method(request.method);
   method.check(request.options);
   if (!method.pointwise) {
@@ -128,17 +148,21 @@ VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceR
     throw UnsupportedError("method " + request.method +
                            " cannot be asked at single points; these can: " + others);
   }
-  check_queries(queries);
   report.method = request.method;
-  report.domain = "points";
-  report.sizes.emplace_back("queries", static_cast<double>(queries.rows()));
   const Frame frame(bounding_box(input));
   const SpaceProblem problem = make_problem(input, request, frame, query_side, task, report);
-  const auto distance =
-      method.pointwise(problem, request.options, task.stage(0.3, "preparing"), report);
+  auto distance = method.pointwise(problem, request.options, task.stage(0.9, "preparing"), report);
+  return std::make_shared<const Placed>(std::move(distance), frame);
+}
+
+VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
+                    MatX3* gradients, Task task, Report& report) {
+  check_queries(queries);
+  const auto distance = pointwise_distance(input, request, task.stage(0.4, "preparing"), report);
+  report.domain = "points";
+  report.sizes.emplace_back("queries", static_cast<double>(queries.rows()));
   const Stopwatch watch(report, "evaluate");
-  return evaluate(*distance, frame.local(queries), gradients, task.stage(0.6, "distance")) *
-         frame.unit;
+  return evaluate(*distance, queries, gradients, task.stage(0.6, "distance"));
 }
 
 VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,

@@ -3,6 +3,7 @@
 // points.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -66,6 +67,15 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
 /// are not finite, otherwise as grid_distance.
 VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
                     MatX3* gradients, Task task, Report& report);
+
+/// A field for such queries, to be asked in the units of the input [length]; may be asked from
+/// several threads. Throws as query_distance.
+std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,
+                                                            const SpaceRequest& request, Task task,
+                                                            Report& report);
+
+/// Throws InputError naming the first query (queries x 3) that is not finite.
+void check_queries(const MatX3& queries);
 
 /// Generalized winding number (queries) at points (queries x 3): 1 inside, 0 outside of a closed
 /// surface. Of the request, only flip and estimate_normals count. Throws as query_distance.

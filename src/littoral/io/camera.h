@@ -23,6 +23,12 @@ struct Camera {
     const double w = distance - q[2];
     return {cx + focal * (q[0] - x0) / w, cy - focal * (q[1] - y0) / w, w};
   }
+  /// The place in space that falls on (x, y) at distance w along the line of sight.
+  Vec3 unproject(double x, double y, double w) const {
+    const Vec3 q(x0 + w * (x - cx) / focal, y0 - w * (y - cy) / focal, distance - w);
+    return centre + radius * (to_eye.transpose() * q);
+  }
+  Vec3 eye() const { return unproject(cx, cy, 0); }
 };
 
 /// A camera of 30 degrees opening that fits the scene into a rectangle (left, top, right, bottom,

@@ -151,6 +151,28 @@ json volume_json(const SceneVolume& volume, const SceneFrame& frame, const Field
           {"isosurface", volume.isosurface}};
 }
 
+// Tori in the page's units, and how the values of the volume become distances in them.
+json trace_json(const SceneTrace& trace, const SceneFrame& frame, const FieldStyle& style) {
+  std::vector<float> numbers;
+  numbers.reserve(static_cast<std::size_t>(trace.tori.size()));
+  for (Eigen::Index i = 0; i < trace.tori.rows(); ++i) {
+    for (int k = 0; k < 16; ++k) {
+      const double x = trace.tori(i, k);
+      const bool place = k < 3 || (k >= 4 && k < 7), curvature = k == 11 || k == 15;
+      const double scaled = place       ? (x - frame.centre[k % 4]) / frame.radius
+                            : curvature ? x * frame.radius
+                            : k == 3    ? x / frame.radius
+                                        : x;
+      constexpr double most = 1e30;  // a lone point's plane has an infinite patch
+      numbers.push_back(static_cast<float>(std::clamp(scaled, -most, most)));
+    }
+  }
+  return {{"tori", base64(numbers)},
+          {"steepness", trace.steepness},
+          {"low", style.low / frame.radius},
+          {"range", style.high / frame.radius - style.low / frame.radius}};
+}
+
 json scene_json(const Scene& all) {
   const FieldStyle style = field_style(all);
   const Scene box = all.volume ? box_of(all) : Scene{};
@@ -167,6 +189,8 @@ json scene_json(const Scene& all) {
   page["field"] = field_json(all, style);
   page["sources"] = sources_json(all, frame);
   if (all.volume) page["volume"] = volume_json(*all.volume, frame, style);
+  if (all.volume && all.trace && all.trace->tori.rows() > 0)
+    page["trace"] = trace_json(*all.trace, frame, style);
   page["plainColour"] = plain_colour;
   page["infiniteColour"] = infinite_colour;
 

@@ -8,6 +8,7 @@
 #include "littoral/io/camera.h"
 #include "littoral/io/raster.h"
 #include "littoral/io/stroke_text.h"
+#include "littoral/io/trace_raster.h"
 #include "littoral/io/write.h"
 
 namespace littoral::io {
@@ -119,6 +120,7 @@ Image draw_picture(const Scene& scene, const PictureOptions& options) {
   const Camera camera = fit_camera(scene, options, samples * window);
   const int rows = 16 * samples, height = options.height * samples;
   const SurfaceRaster surface(scene, camera, style, samples, height, rows);
+  const TraceRaster trace(scene, camera, style, samples);
   const MarkRaster marks(scene, camera, samples);
 
   Image image{options.width, options.height, {}};
@@ -136,6 +138,7 @@ Image draw_picture(const Scene& scene, const PictureOptions& options) {
       band.nearness.assign(size, 0);
       band.colour.assign(size, Eigen::Vector3f(paper[0], paper[1], paper[2]));
       surface.draw(static_cast<int>(b), band);
+      trace.draw(band);
       marks.draw(band);
       resolve(band, samples, image);
     }

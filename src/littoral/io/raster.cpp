@@ -66,6 +66,15 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
   return normals;
 }
 
+float brightness(const Camera& camera, const Vec3& normal, double x, double y) {
+  const Vec3 eye =
+      Vec3((camera.cx - x) / camera.focal, (y - camera.cy) / camera.focal, 1).normalized();
+  static const Vec3 lamp = Vec3(-0.25, 0.35, 1).normalized();
+  const double turn = normal.dot(eye) < 0 ? -1 : 1;
+  const double light = std::max(0.0, turn * normal.dot(lamp)) / lamp[2];
+  return static_cast<float>(std::min(1.06, 0.5 + 0.5 * light));
+}
+
 SurfaceRaster::SurfaceRaster(const Scene& scene, const Camera& camera, const FieldStyle& style,
                              double scale, int height, int rows)
     : scene_(scene), camera_(camera), style_(style), levels_(scene.levels), scale_(scale) {
@@ -192,15 +201,10 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
     smooth += b[k] / weight * (n.isZero() ? flat : n.dot(flat) < 0 ? Vec3(-n) : n);
   }
   const Vec3 normal = camera_.to_eye * smooth.normalized();
-  const Vec3 eye =
-      Vec3((camera_.cx - x) / camera_.focal, (y - camera_.cy) / camera_.focal, 1).normalized();
-  static const Vec3 lamp = Vec3(-0.25, 0.35, 1).normalized();
-  const double turn = normal.dot(eye) < 0 ? -1 : 1;
-  const double light = std::max(0.0, turn * normal.dot(lamp)) / lamp[2];
-  const auto brightness = static_cast<float>(std::min(1.06, 0.5 + 0.5 * light));
+  const float lit = brightness(camera_, normal, x, y);
 
   if (!style_.present) {
-    return as_colour(scene_.values.size() ? infinite_colour : plain_colour) * brightness;
+    return as_colour(scene_.values.size() ? infinite_colour : plain_colour) * lit;
   }
   // How much the corners count in the field; they count alike in a face without one that does.
   double counts[3] = {1, 1, 1}, total = 0;
@@ -214,7 +218,7 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   double value = 0;
   for (int k = 0; k < 3; ++k)
     if (counts[k] > 0) value += counts[k] * b[k] / total * scene_.values[v[k]];
-  if (!std::isfinite(value)) return as_colour(infinite_colour) * brightness;
+  if (!std::isfinite(value)) return as_colour(infinite_colour) * lit;
   Eigen::Vector3f colour = as_colour(colour_map(style_.diverging)[static_cast<std::size_t>(
       std::lround(255 * colour_position(style_, value)))]);
   // Slope of the value per sample: value = N / D with N = sum c b v, D = sum c b linear in the
@@ -230,7 +234,7 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   bool zero = false;
   const auto ink = static_cast<float>(line_strength(value, std::hypot(slope_x, slope_y), zero));
   const float luminance = colour.dot(Eigen::Vector3f(0.30f, 0.59f, 0.11f));
-  colour *= brightness;
+  colour *= lit;
   const Eigen::Vector3f line =
       zero || luminance > 90 ? Eigen::Vector3f(18, 20, 28) : Eigen::Vector3f(235, 238, 245);
   return colour + ink * (line - colour);

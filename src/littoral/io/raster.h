@@ -21,6 +21,10 @@ struct Band {
   }
 };
 
+/// How bright a surface looks at a place of the picture (samples): lit from the eye's upper left,
+/// alike from both sides. The normal is unit, in the eye's frame.
+float brightness(const Camera& camera, const Vec3& normal, double x, double y);
+
 /// The surface with its field and isolines, prepared for drawing.
 class SurfaceRaster {
  public:

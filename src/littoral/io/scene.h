@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,6 +35,22 @@ struct SceneVolume {
   bool isosurface = true;
 };
 
+/// A surface that is asked ray by ray instead of being made of triangles.
+struct SceneTrace {
+  /// Where a ray origin + t direction (unit) first meets it in [from, to], to a small part of a
+  /// pixel [length], and the unit normal there, either side; infinity if nowhere. Asked from
+  /// several threads.
+  std::function<double(const Vec3& origin, const Vec3& direction, double from, double to,
+                       double pixel, Vec3& normal)>
+      hit;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // nothing is outside of this box
+  double level = 0;                              // the field's value on the surface
+  /// What pages trace: point, spacing; touching point, log of weight; normal, curvature k1;
+  /// direction e1, curvature k2 (methods/torus.h). Without rows pages show the isosurface.
+  Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> tori;
+  double steepness = 1;  // of the field at most
+};
+
 /// Everything on show. All texts are plain UTF-8; pages escape them.
 struct Scene {
   MatX3 points{0, 3};      // vertices x 3; those of triangles must be finite
@@ -48,6 +65,7 @@ struct Scene {
   std::vector<double> levels;                 // isolines at these values; empty: evenly spaced ones
   int isolines = 20;                          // about how many evenly spaced ones; 0: none
   std::shared_ptr<const SceneVolume> volume;  // the triangles are then a slice and a surface
+  std::shared_ptr<const SceneTrace> trace;    // beside the triangles
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // shown as a table
 };

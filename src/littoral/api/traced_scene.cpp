@@ -1,0 +1,124 @@
+#include "littoral/api/traced_scene.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "littoral/api/tori_cloud.h"
+#include "littoral/base/error.h"
+#include "littoral/base/option_table.h"
+#include "littoral/base/parallel.h"
+#include "littoral/io/volume_scene.h"
+#include "littoral/methods/sphere_trace.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int most_tori = 200000;  // in a page
+constexpr double part_of_pixel = 0.1;
+
+VolumeField sample(const PointwiseDistance& field, const Grid& grid, const Task& task) {
+  VolumeField volume;
+  volume.grid = grid;
+  volume.values.resize(static_cast<Eigen::Index>(grid.n_nodes()));
+  const int rows = grid.n[1] * grid.n[2];
+  parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
+    task.checkpoint(static_cast<double>(row) / rows);
+    const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
+    for (int i = 0; i < grid.n[0]; ++i)
+      volume.values[static_cast<Eigen::Index>(grid.node(i, j, k))] =
+          field.value(grid.point(i, j, k));
+  });
+  return volume;
+}
+
+/// The tori of the one cloud that a page traces, also in its own shape so that they are fitted
+/// once.
+std::vector<Torus> tori_for_page(Shapes& shapes, Task task, Report& report) {
+  Shape& shape = shapes.all.front();
+  if (!shapes.plain() || shape.request.method != "tori" || shape.surface.n_faces() > 0)
+    throw UnsupportedError(
+        "pages trace one point cloud by its tori (method tori); `littoral render --trace` traces "
+        "all shapes, and `littoral sdf -o page.html` shows them on a grid");
+  shape.surface = fit_tori_cloud(shape.surface, shape.request, task, report);
+  shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
+  shape.request.options.clear();
+  if (shape.surface.n_vertices() > most_tori)
+    throw UnsupportedError("pages trace at most " + std::to_string(most_tori) +
+                           " points; this cloud has " + std::to_string(shape.surface.n_vertices()));
+  return tori_of_cloud(shape.surface);
+}
+
+void pack_tori(const MatX3& points, const std::vector<Torus>& tori, io::SceneTrace& trace) {
+  trace.tori.resize(points.rows(), 16);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Torus& t = tori[static_cast<std::size_t>(i)];
+    trace.tori.row(i) << points.row(i), t.rho, t.q.transpose(), t.log_weight, t.n.transpose(), t.k1,
+        t.e1.transpose(), t.k2;
+  }
+}
+
+/// Triangles from `first` on are not drawn, but still frame the picture.
+void hide_triangles(io::Scene& scene, Eigen::Index first) {
+  for (Eigen::Index t = first; t < scene.triangles.rows(); ++t)
+    scene.triangles(t, 1) = scene.triangles(t, 2) = scene.triangles(t, 0);
+}
+
+}  // namespace
+
+io::Scene traced_scene(const Shapes& shapes, const Grid& grid, const TracedView& view, Task task,
+                       Report& report) {
+  if (!std::isfinite(view.level)) throw InputError("the level must be a finite number");
+  Shapes used = shapes;
+  std::vector<Torus> tori;
+  if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
+  const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
+  const VolumeField volume = sample(*field, grid, task.stage(0.6, "sampling"));
+  if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
+    throw InputError("the distance does not pass level " + number_text(view.level) +
+                     " in the box: it is from " + number_text(volume.values.minCoeff()) + " to " +
+                     number_text(volume.values.maxCoeff()));
+
+  io::VolumeView shown;
+  shown.axis = view.axis;
+  shown.level = view.level;
+  shown.position = view.position.value_or(grid.origin[view.axis]);
+  io::Scene scene = io::make_volume_scene(volume, shown);
+  const Eigen::Index slice = 2 * (Eigen::Index{grid.n[(view.axis + 1) % 3]} - 1) *
+                             (Eigen::Index{grid.n[(view.axis + 2) % 3]} - 1);
+  const bool with_slice = view.position.has_value() || view.for_page;
+  hide_triangles(scene, slice);
+  if (!with_slice) {
+    scene.triangles = scene.triangles.bottomRows(scene.triangles.rows() - slice).eval();
+    scene.values.resize(0);
+    scene.volume.reset();
+  }
+
+  auto trace = std::make_shared<io::SceneTrace>();
+  trace->low = grid.origin;
+  trace->high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  if (with_slice) {
+    const int layer = scene.volume->slice;
+    trace->low[view.axis] = grid.origin[view.axis] + layer * grid.spacing[view.axis];
+  }
+  trace->level = view.level;
+  trace->steepness = trace_steepness(*field, trace->low, trace->high, view.level);
+  const double size = (trace->high - trace->low).norm();
+  trace->hit = [field, level = view.level, steepness = trace->steepness, size](
+                   const Vec3& origin, const Vec3& direction, double from, double to, double pixel,
+                   Vec3& normal) {
+    TraceOptions options;
+    options.level = level;
+    options.steepness = steepness;
+    options.tolerance = std::max(part_of_pixel * pixel, 1e-7 * size);
+    const TraceHit hit = sphere_trace(*field, origin, direction, from, to, options);
+    normal = hit.normal;
+    return hit.found ? hit.t : std::numeric_limits<double>::infinity();
+  };
+  if (view.for_page) pack_tori(used.all.front().surface.points, tori, *trace);
+  scene.trace = std::move(trace);
+  return scene;
+}
+
+}  // namespace littoral

@@ -1,0 +1,125 @@
+// Oriented points on level sets of sampled values: on the surface to third order, evenly spread.
+#include "littoral/sources/level_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "littoral/api/shapes.h"
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+
+namespace littoral {
+namespace {
+
+VolumeField sampled(int n, const std::function<double(const Vec3&)>& f, double half = 1.5) {
+  VolumeField field;
+  field.grid = {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
+  field.values.resize(static_cast<Eigen::Index>(field.grid.n_nodes()));
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        field.values[static_cast<Eigen::Index>(field.grid.node(i, j, k))] =
+            f(field.grid.point(i, j, k));
+  return field;
+}
+
+// An implicit function of a sphere of radius 1 that is far from a distance.
+double steep(const Vec3& x) { return std::exp(2 * x.squaredNorm()) - std::exp(2.0); }
+
+struct Errors {
+  double place = 0, normal = 0;
+  int points = 0;
+};
+
+Errors errors(int n) {
+  const PolygonSoup cloud = level_points(sampled(n, steep), 0, {});
+  Errors worst;
+  worst.points = cloud.n_vertices();
+  for (int v = 0; v < cloud.n_vertices(); ++v) {
+    const Vec3 p = cloud.points.row(v);
+    worst.place = std::max(worst.place, std::abs(p.norm() - 1));
+    worst.normal = std::max(worst.normal, (Vec3(cloud.normals.row(v)) - p.normalized()).norm());
+  }
+  return worst;
+}
+
+TEST(LevelPoints, LieOnTheLevelSetToThirdOrder) {
+  const Errors coarse = errors(24), fine = errors(47);
+  EXPECT_LT(fine.place, 2e-3);
+  EXPECT_LT(fine.place, coarse.place / 5);
+  EXPECT_LT(fine.normal, coarse.normal / 2.8);
+  EXPECT_LT(fine.normal, 0.05);
+}
+
+TEST(LevelPoints, AreAsManyAsTheSurfaceHasCellsAndNotClose) {
+  const VolumeField field = sampled(28, steep);
+  const PolygonSoup cloud = level_points(field, 0, {});
+  const double h = field.grid.spacing[0], cells = 4 * std::acos(-1.0) / (h * h);
+  EXPECT_GT(cloud.n_vertices(), cells);
+  EXPECT_LT(cloud.n_vertices(), 1.8 * cells);
+  for (int a = 0; a < cloud.n_vertices(); ++a)
+    for (int b = 0; b < a; ++b)
+      ASSERT_GE((cloud.points.row(a) - cloud.points.row(b)).norm(), 0.5 * h);
+}
+
+TEST(LevelPoints, SameForAnyUnitOfValuesSpacingAndThreads) {
+  const PolygonSoup cloud = level_points(sampled(24, steep), 0, {});
+  for (double unit : {1e-250, 1e250}) {
+    const PolygonSoup other =
+        level_points(sampled(24, [unit](const Vec3& x) { return unit * steep(x); }), 0, {});
+    ASSERT_EQ(other.n_vertices(), cloud.n_vertices());
+    EXPECT_LT((other.points - cloud.points).norm(), 1e-9);
+  }
+  set_thread_count(1);
+  const PolygonSoup one = level_points(sampled(24, steep), 0, {});
+  set_thread_count(0);
+  EXPECT_EQ(one.points, cloud.points);
+  EXPECT_EQ(one.normals, cloud.normals);
+}
+
+TEST(LevelPoints, NormalsOfStretchedGridsAreThoseOfTheFunction) {
+  VolumeField field = sampled(20, [](const Vec3& x) { return x[0] + x[1] - 0.1; });
+  field.grid.spacing[0] *= 3;  // now 1/3 x + y about the origin of x
+  const PolygonSoup cloud = level_points(field, 0, {});
+  const Vec3 n = Vec3(1.0 / 3, 1, 0).normalized();
+  for (int v = 0; v < cloud.n_vertices(); ++v)
+    EXPECT_NEAR((Vec3(cloud.normals.row(v)) - n).norm(), 0, 1e-9);
+}
+
+TEST(LevelPoints, BadVolumesAreNamedAndHolesArePassedOver) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  VolumeField field = sampled(24, steep);
+  EXPECT_THROW(level_points(field, 1e9, {}), InputError);
+  EXPECT_THROW(level_points(field, nan, {}), InputError);
+  for (Eigen::Index v = 0; v < field.values.size(); v += 7)
+    field.values[v] = v % 2 ? nan : std::numeric_limits<double>::infinity();
+  for (int k = 12; k < 24; ++k)
+    field.values.segment(k * 24 * 24, 24 * 24) =
+        sampled(24, steep).values.segment(k * 24 * 24, 24 * 24);
+  const PolygonSoup half = level_points(field, 0, {});
+  EXPECT_GT(half.n_vertices(), 200);
+  EXPECT_TRUE(half.points.allFinite());
+  field.values.setConstant(nan);
+  EXPECT_THROW(level_points(field, 0, {}), InputError);
+  field.values.setZero();
+  EXPECT_THROW(level_points(field, 0, {}), InputError);
+  field.values.conservativeResize(5);
+  EXPECT_THROW(level_points(field, 0, {}), InputError);
+}
+
+TEST(LevelPoints, MakeADistanceOfAnImplicitFunction) {
+  Shapes shapes;
+  shapes.all.resize(1);
+  shapes.all[0].surface = level_points(sampled(48, steep), 0, {});
+  shapes.all[0].request.method = "tori";
+  Report report;
+  const auto distance = pointwise_distance(shapes, {}, report);
+  for (const Vec3& x : {Vec3(0, 0, 0.4), Vec3(0.9, 0.9, 0.9), Vec3(-2, 0.3, 0), Vec3(0, 0.99, 0)})
+    EXPECT_NEAR(distance->value(x), x.norm() - 1, 3e-3) << x.transpose();
+}
+
+}  // namespace
+}  // namespace littoral

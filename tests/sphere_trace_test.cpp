@@ -1,0 +1,265 @@
+// Sphere tracing: known hits, fields that are steeper than they should be, jumps; pictures of it.
+#include "littoral/methods/sphere_trace.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "littoral/api/traced_scene.h"
+#include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
+#include "littoral/io/picture.h"
+
+namespace littoral {
+namespace {
+
+const double pi = std::acos(-1.0);
+
+class Formula final : public PointwiseDistance {
+ public:
+  explicit Formula(std::function<DistanceSample(const Vec3&)> ask) : ask_(std::move(ask)) {}
+  DistanceSample at(const Vec3& x) const override { return ask_(x); }
+
+ private:
+  std::function<DistanceSample(const Vec3&)> ask_;
+};
+
+Formula ball(double scale) {
+  return Formula([scale](const Vec3& x) {
+    return DistanceSample{scale * (x.norm() - 1), scale * x.normalized()};
+  });
+}
+
+TEST(SphereTrace, MeetsBallsWhereTheyAre) {
+  const Formula field = ball(1);
+  TraceOptions options;
+  options.tolerance = 1e-6;
+  for (double level : {-0.4, 0.0, 0.7}) {
+    options.level = level;
+    const double r = 1 + level;
+    for (double aside : {0.0, 0.3, 0.59}) {
+      const TraceHit hit = sphere_trace(field, {aside, 0, 5}, -Vec3::UnitZ(), 0, 10, options);
+      ASSERT_TRUE(hit.found);
+      const Vec3 x(aside, 0, 5 - hit.t);
+      EXPECT_NEAR(hit.t, 5 - std::sqrt(r * r - aside * aside), 1e-5);
+      EXPECT_NEAR((hit.normal - x.normalized()).norm(), 0, 1e-9);
+    }
+    EXPECT_FALSE(sphere_trace(field, {r + 1e-3, 0, 5}, -Vec3::UnitZ(), 0, 10, options).found);
+    EXPECT_FALSE(sphere_trace(field, {0, 0, 5}, -Vec3::UnitZ(), 0, 2, options).found);
+    EXPECT_FALSE(sphere_trace(field, {0, 0, 5}, -Vec3::UnitZ(), 3, 3, options).found);
+  }
+  options.level = 0;  // from inside the far wall is seen
+  EXPECT_NEAR(sphere_trace(field, {0, 0, 0.5}, -Vec3::UnitZ(), 0, 10, options).t, 1.5, 1e-5);
+}
+
+TEST(SphereTrace, SteepFieldsAreBracketed) {
+  TraceOptions options;
+  options.tolerance = 1e-6;  // the first step ends inside
+  const TraceHit hit = sphere_trace(ball(1.25), {0.2, 0, 5}, -Vec3::UnitZ(), 0, 10, options);
+  ASSERT_TRUE(hit.found);
+  EXPECT_NEAR(hit.t, 5 - std::sqrt(1 - 0.04), 1e-5);
+  EXPECT_NEAR(trace_steepness(ball(1.7), Vec3::Constant(-2), Vec3::Constant(2), 0), 1.785, 1e-9);
+  EXPECT_EQ(trace_steepness(ball(0.3), Vec3::Constant(-2), Vec3::Constant(2), 0), 1);
+}
+
+TEST(SphereTrace, JumpsAreNoSurface) {
+  // Changes sign on the plane z = 2 without being near 0, then reaches the plane z = 0.
+  const Formula jump([](const Vec3& x) {
+    return DistanceSample{x[2] > 2 ? 1.0 : -x[2], -Vec3::UnitZ()};
+  });
+  TraceOptions options;
+  options.tolerance = 1e-6;
+  const TraceHit hit = sphere_trace(jump, {0, 0, 5}, -Vec3::UnitZ(), 0, 10, options);
+  ASSERT_TRUE(hit.found);
+  EXPECT_NEAR(hit.t, 5, 1e-5);
+}
+
+TEST(SphereTrace, ValuesThatAreNoNumbersEndARay) {
+  const Formula bad([](const Vec3&) { return DistanceSample{std::nan(""), Vec3::Zero()}; });
+  TraceOptions options;
+  options.tolerance = 1e-6;
+  EXPECT_FALSE(sphere_trace(bad, {0, 0, 5}, -Vec3::UnitZ(), 0, 10, options).found);
+  EXPECT_EQ(trace_steepness(bad, Vec3::Zero(), Vec3::Ones(), 0), 1);
+}
+
+/// n points on the torus of radii 0.8 and 0.3 about z, evenly enough.
+PolygonSoup torus_cloud(int n) {
+  PolygonSoup cloud;
+  cloud.points.resize(n, 3);
+  cloud.normals.resize(n, 3);
+  for (int i = 0; i < n; ++i) {
+    const double u = 2 * pi * (i + 0.5) / n, wound = 2 * pi * std::fmod(i * 0.6180339887498949, 1);
+    // Equal areas: the angle round the tube whose area below it is the share `wound`.
+    double v = wound;
+    for (int k = 0; k < 20; ++k)
+      v -= (0.8 * v + 0.3 * std::sin(v) - 0.8 * wound) / (0.8 + 0.3 * std::cos(v));
+    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+    cloud.points.row(i) = Vec3(0.8 * std::cos(u), 0.8 * std::sin(u), 0) + 0.3 * normal;
+    cloud.normals.row(i) = normal;
+  }
+  return cloud;
+}
+
+Shapes shapes_of(PolygonSoup cloud) {
+  Shapes shapes;
+  shapes.all.resize(1);
+  shapes.all[0].surface = std::move(cloud);
+  shapes.all[0].request.method = "tori";
+  return shapes;
+}
+
+io::Scene scene_of(const Shapes& shapes, const TracedView& view, int resolution = 24) {
+  GridRequest request;
+  request.resolution = resolution;
+  request.padding = 0.15;
+  Report report;
+  return traced_scene(shapes, choose_grid(shapes, request), view, {}, report);
+}
+
+int inked(const io::Image& image) {
+  int count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) count += image.rgb[i] < 240;
+  return count;
+}
+
+TEST(TracedScene, RaysMeetTheTorus) {
+  const io::Scene scene = scene_of(shapes_of(torus_cloud(3000)), {});
+  ASSERT_NE(scene.trace, nullptr);
+  Vec3 normal;
+  for (double x : {0.55, 0.7, 0.8, 0.95, 1.05}) {
+    const double t = scene.trace->hit({x, 0, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal);
+    EXPECT_NEAR(3 - t, std::sqrt(0.09 - (x - 0.8) * (x - 0.8)), 3e-3) << x;
+    EXPECT_NEAR((normal - Vec3(x - 0.8, 0, 3 - t) / 0.3).norm(), 0, 0.03) << x;
+  }
+  for (double x : {0.0, 0.45, 1.15})
+    EXPECT_EQ(scene.trace->hit({x, 0, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal),
+              std::numeric_limits<double>::infinity());
+}
+
+TEST(TracedScene, PicturesShowTheSurfaceForAnyNumberOfThreads) {
+  const io::Scene scene = scene_of(shapes_of(torus_cloud(1500)), {});
+  io::PictureOptions options{.width = 96, .height = 96};
+  options.towards_eye = Vec3::UnitZ();
+  options.up = Vec3::UnitY();
+  const io::Image image = draw_picture(scene, options);
+  const auto red = [&](int x, int y) {
+    return image.rgb[static_cast<std::size_t>(3 * (x + 96 * y))];
+  };
+  EXPECT_GT(red(48, 48), 240);  // through the hole
+  EXPECT_LT(red(10, 48), 215);
+  EXPECT_LT(red(86, 48), 215);
+  EXPECT_GT(red(2, 2), 240);
+  set_thread_count(1);
+  const io::Image one = draw_picture(scene, options);
+  set_thread_count(0);
+  EXPECT_EQ(image.rgb, one.rgb);
+}
+
+TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
+  const io::PictureOptions options{.width = 80,
+                                   .height = 80,
+                                   .towards_eye = Vec3::UnitZ(),
+                                   .up = Vec3::UnitY(),
+                                   .supersampling = 1,
+                                   .colour_bar = false};
+  Shapes shapes = shapes_of(torus_cloud(1500));
+  const int whole = inked(draw_picture(scene_of(shapes, {}), options));
+  Shapes bitten = shapes;
+  bitten.all.push_back(shapes.all[0]);
+  bitten.all[1].surface.points.col(0).array() += 0.8;
+  bitten.how.with = {Boolean::subtract};
+  GridRequest request;
+  request.bounds = std::array<double, 6>{-1.2, -1.2, -0.4, 1.2, 1.2, 0.4};
+  request.resolution = 24;
+  Report report;
+  const Grid grid = choose_grid(shapes, request);
+  const int without = inked(draw_picture(traced_scene(bitten, grid, {}, {}, report), options));
+  EXPECT_LT(without, 0.95 * whole);
+  EXPECT_GT(without, 0.5 * whole);
+  // Half of it, and a slice through the middle.
+  TracedView cut;
+  cut.position = 0;
+  const io::Scene half = traced_scene(shapes, grid, cut, {}, report);
+  Vec3 normal;
+  EXPECT_TRUE(std::isfinite(half.trace->hit({0.8, 0, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal)));
+  EXPECT_GE(half.trace->low[2], -0.06);
+  EXPECT_EQ(half.values.size(), half.points.rows());
+  // An offset is larger by as much.
+  TracedView grown;
+  grown.level = 0.1;
+  const io::Scene fat = traced_scene(shapes, grid, grown, {}, report);
+  EXPECT_NEAR(fat.trace->hit({0.8, 0, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal), 2.6, 0.01);
+}
+
+TEST(TracedScene, BadRequestsAreNamed) {
+  const Shapes shapes = shapes_of(torus_cloud(500));
+  TracedView view;
+  view.level = 100;
+  EXPECT_THROW(scene_of(shapes, view), InputError);
+  view.level = std::nan("");
+  EXPECT_THROW(scene_of(shapes, view), InputError);
+  view.level = 0;
+  view.position = 99;
+  EXPECT_THROW(scene_of(shapes, view), InputError);
+  Shapes two = shapes;
+  two.all.push_back(shapes.all[0]);
+  two.how.with = {Boolean::unite};
+  TracedView page;
+  page.for_page = true;
+  EXPECT_THROW(scene_of(two, page), UnsupportedError);
+  Shapes planar = shapes;
+  planar.all[0].request.method = "planar";
+  EXPECT_THROW(scene_of(planar, page), UnsupportedError);
+  EXPECT_EQ(scene_of(shapes, page).trace->tori.rows(), 500);
+  EXPECT_THROW(scene_of(shapes_of({}), {}), InputError);
+}
+
+// A page for the browser's test (viewer/test/trace.test.mjs), and beside it, as JSON, what rays of
+// the library's own tracer meet, in the page's units.
+TEST(TracePageForBrowserTest, IsWritten) {
+  const char* path = std::getenv("LITTORAL_TRACE_PAGE_OUT");
+  if (!path) GTEST_SKIP() << "LITTORAL_TRACE_PAGE_OUT is not set";
+  TracedView view;
+  view.for_page = true;
+  io::Scene scene = scene_of(shapes_of(torus_cloud(2000)), view, 48);
+  scene.title = "torus";
+  io::write_page(path, scene);
+  const Grid& grid = scene.volume->thin.grid;
+  const Vec3 high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  const Vec3 centre = (grid.origin + high) / 2, eye(1.5, -1.2, 2.4);
+  const double radius = (high - grid.origin).norm() / 2;
+  const Vec3 ahead = -eye.normalized(), right = ahead.cross(Vec3::UnitZ()).normalized();
+  const double wide = 0.36;  // tangent of half the opening
+  const Vec3 up = right.cross(ahead);
+  constexpr int n = 64;
+  std::ofstream out(std::string(path) + ".json");
+  const auto triple = [&](const Vec3& v) {
+    out << "[" << v[0] << "," << v[1] << "," << v[2] << "],";
+  };
+  out.precision(12);
+  out << "{\"n\":" << n << ",\"radius\":" << radius << ",\"frame\":[";
+  triple(eye);
+  triple(wide * right);
+  triple(wide * up);
+  triple(ahead);
+  out << "0],\"t\":[";
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      const double u = (2 * x + 1.0) / n - 1, v = (2 * y + 1.0) / n - 1;
+      const Vec3 ray = (ahead + wide * (u * right + v * up)).normalized();
+      Vec3 normal;
+      const double t = scene.trace->hit(centre + radius * eye, ray, 0, 8 * radius, 1e-4, normal);
+      out << (x + y ? "," : "") << (std::isfinite(t) ? t / radius : -1);
+    }
+  }
+  out << "]}\n";
+  ASSERT_TRUE(out.good());
+}
+
+}  // namespace
+}  // namespace littoral

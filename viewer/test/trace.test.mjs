@@ -1,0 +1,125 @@
+// TRACE_PAGE=page.html npm test: a page of traced tori made by the library (littoral_tests writes a
+// suitable one to LITTORAL_TRACE_PAGE_OUT, and beside it what the library's own tracer sees): 2000
+// points on a torus of radii 0.8 and 0.3.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { existsSync, readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+import { resolve } from "node:path";
+import { changed, openPage } from "./browser.mjs";
+import { kth, makeTree } from "../src/tori-tree.js";
+
+assert.ok(process.env.TRACE_PAGE && existsSync(process.env.TRACE_PAGE), "set TRACE_PAGE to a page made by the library");
+const url = pathToFileURL(resolve(process.env.TRACE_PAGE)).href;
+const reference = JSON.parse(readFileSync(`${process.env.TRACE_PAGE}.json`, "utf8"));
+let shown, page;
+
+before(async () => {
+  shown = await openPage(url, { colorScheme: "light", viewport: { width: 320, height: 260 } });
+  page = shown.page;
+  await page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
+});
+after(() => shown?.close());
+
+const settled = () => page.waitForFunction(() => window.littoral.settled(), null, { timeout: 300000 });
+const drag = (id, value) => page.evaluate(([name, x]) => {
+  const slider = document.getElementById(name);
+  slider.value = String(x);
+  slider.dispatchEvent(new Event("input"));
+}, [id, value]);
+
+test("the k-th smallest is that", () => {
+  const numbers = Float32Array.from({ length: 101 }, (_, i) => (i * 37) % 101);
+  for (const k of [0, 1, 11, 50, 100]) assert.equal(kth(numbers, k), k);
+  assert.equal(kth(Float32Array.from([2, 2, 1, 2]), 2), 2);
+});
+
+test("leaves list the nearest points", () => {
+  const tori = new Float32Array(16 * 300);
+  for (let i = 0; i < 300; ++i) {
+    const a = 2.399963 * i, z = 1 - (2 * i + 1) / 300, r = Math.sqrt(1 - z * z);
+    tori.set([0.6 * r * Math.cos(a), 0.6 * r * Math.sin(a), 0.6 * z, 0.1], 16 * i);
+  }
+  const tree = makeTree(tori, [-1, -1, -1], [1, 1, 1]);
+  let checked = 0;
+  for (let q = 0; q < 200; ++q) {
+    const x = [0, 1, 2].map((a) => 0.62 * tori[16 * q + a] / 0.6);  // on and beside the surface
+    let node = 0, h = tree.half;
+    const c = [...tree.centre];
+    while (tree.nodes[2 * node + 1] < 0) {
+      let k = 0;
+      h /= 2;
+      for (let a = 0; a < 3; ++a) if (x[a] >= c[a]) { k |= 1 << a; c[a] += h; } else c[a] -= h;
+      node = tree.nodes[2 * node] + k;
+    }
+    const listed = tree.lists.subarray(tree.nodes[2 * node], tree.nodes[2 * node] + tree.nodes[2 * node + 1]);
+    const away = (i) => Math.hypot(...[0, 1, 2].map((a) => tori[16 * i + a] - x[a]));
+    const nearest = Array.from({ length: 300 }, (_, i) => i).sort((a, b) => away(a) - away(b)).slice(0, 12);
+    for (const i of nearest) assert.ok(listed.includes(i), `point ${i} near query ${q}`);
+    ++checked;
+  }
+  assert.equal(checked, 200);
+});
+
+test("rays meet what the library's rays meet", async () => {
+  const { n, frame, t } = reference;
+  const seen = await page.evaluate(([f, size]) => Array.from(littoral.tracer.look(...f.slice(0, 4), size)), [frame, n]);
+  let hits = 0, differ = 0, worst = 0, sum = 0;
+  for (let i = 0; i < n * n; ++i) {
+    const here = seen[4 * i];
+    if ((here < 0) !== (t[i] < 0)) { ++differ; continue; }
+    if (here < 0) continue;
+    ++hits;
+    const apart = Math.abs(here - t[i]);
+    worst = Math.max(worst, apart);
+    sum += apart;
+    assert.ok(Math.abs(Math.hypot(seen[4 * i + 1], seen[4 * i + 2], seen[4 * i + 3]) - 1) < 1e-3);
+  }
+  console.log(`${hits} hits of ${n * n} rays, ${differ} silhouettes differ, depth apart ${(sum / hits).toExponential(1)} on average, ${worst.toExponential(1)} at most`);
+  assert.ok(hits > 400 && hits < 1000, `${hits} hits`);
+  assert.ok(differ <= 0.005 * n * n, `${differ} rays see another silhouette`);
+  assert.ok(sum / hits < 1e-3, `mean ${sum / hits}`);
+  assert.ok(worst < 0.05, `worst ${worst}`);
+});
+
+test("at rest the whole picture is traced, with the hole", async () => {
+  await settled();
+  const counts = await page.evaluate(() => {
+    const bytes = littoral.pixels(), seen = { grey: 0, all: bytes.length / 4 };
+    for (let i = 0; i < bytes.length; i += 4)
+      if (Math.abs(bytes[i] - bytes[i + 2]) < 30 && bytes[i] < 238 && bytes[i] > 60) ++seen.grey;
+    return seen;
+  });
+  assert.ok(counts.grey > 0.05 * counts.all, `${counts.grey} of ${counts.all} pixels`);
+});
+
+test("offset and cut change the picture; it settles again", async () => {
+  const low = await page.evaluate(() => littoral.volume.state.level);
+  assert.ok(await changed(page, () => drag("level", Math.round(1000 * low + 60))) > 200);
+  await settled();
+  assert.ok(Number(await page.textContent("#level-text")) > 0.02);
+  assert.ok(await changed(page, () => drag("slice", 500)) > 200);
+  await settled();
+  const click = () => page.evaluate(() => document.getElementById("shell").click());
+  assert.ok(await changed(page, click) > 200);
+  await click();
+  await settled();
+});
+
+test("turning asks for fewer pixels first, then all", async () => {
+  await settled();
+  const frames = await page.evaluate(() => littoral.frames());
+  await page.focus("#view");
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction((f) => littoral.frames() > f, frames);
+  await settled();
+  const after = await page.evaluate(() => littoral.frames());
+  await page.waitForTimeout(400);
+  assert.equal(await page.evaluate(() => littoral.frames()), after);
+});
+
+test("labels, no errors, no requests", async () => {
+  assert.match(await page.getAttribute("#view", "aria-label"), /2000 points/);
+  assert.deepEqual(shown.errors, []);
+  assert.deepEqual(shown.requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")), [url]);
+});

@@ -40,7 +40,7 @@ io::Scene read_traced_scene(const std::string& file, TraceTexts& texts, const Vo
   TracedView traced;
   traced.axis = view.axis.front() - 'x';
   traced.for_page = for_page;
-  if (!view.position.empty()) traced.position = parse_number("--slice", view.position);
+  if (!view.position.empty()) traced.position = view.slice_at();
   if (!view.level.empty()) traced.level = parse_number("--level", view.level);
   GridRequest request = grid_request(texts.space);
   if (!request.resolution && !request.spacing)

@@ -206,7 +206,7 @@ VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
   } else {
     const SpMat matrix = eliminated(with_rows(C.L, held.R, w), gone);
     const bool large = dim == 3 && n > most_for_a_factor;
-    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(held.R), task)
+    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(held.R))
                                    : DefiniteSystem(matrix, task);
     VecX last = start;
     problem.solve = [&](const VecX& b, double rho) {

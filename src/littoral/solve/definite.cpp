@@ -146,7 +146,7 @@ MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
 VecX DefiniteSystem::improved(const VecX& x, const VecX& b, const Task& task) const {
   constexpr double left = 0.03;  // in the energy norm
   Report unread;
-  return x + multigrid_->solve(b - times_symmetric(*A_, x), left, task, unread);
+  return x + multigrid_->of(*A_, task).solve(b - times_symmetric(*A_, x), left, task, unread);
 }
 
 double DefiniteSystem::relative_residual(const VecX& x, const VecX& b) const {

@@ -111,6 +111,8 @@ def main(program: str, shared: Path) -> None:
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
         sharp = "--time-scale", "400", "--sharpen"
         picture("sharpened", data / "spot.obj", data / "spot-jersey.txt", *sharp)
+        quadratic = "--sharpen", "quadratic"
+        picture("quadratic-signed", data / "spot.obj", data / "spot-jersey.txt", *quadratic)
         (work / "snout.txt").write_text("unsigned_point\nv 306\n")
         (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
         smooth = "--method", "regularized", "--alpha", "0.1"

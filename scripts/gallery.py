@@ -181,6 +181,8 @@ def main(program: str, shared: Path) -> None:
         subprocess.run([*around, "--quiet", "-o", volume], check=True)
         draw = [program, "render", volume, "--axis", "x", *SIZE]
         subprocess.run([*draw, "-o", str(out / "sharpened-grid.png")], check=True)
+        quadratic = "--sharpen", "quadratic"
+        picture("quadratic-signed", data / "spot.obj", data / "spot-jersey.txt", *quadratic)
         (work / "snout.txt").write_text("unsigned_point\nv 306\n")
         (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
         smooth = "--method", "regularized", "--alpha", "0.1"

@@ -140,10 +140,10 @@ def cloud_pictures(program: str, clouds: Path, work: Path, out: Path) -> None:
     ball, ring, uneven = work / "ball.xyz", work / "ring.xyz", work / "uneven.xyz"
     ball.write_text(ball_cloud((0.45, 0.05, 0.35), 0.42, 1500))
     ring.write_text(ring_cloud((-0.35, 0.0, -0.05), (0.75, 0.09), 1500))
-    uneven.write_text(thinned(clouds / "knot.pc", 0.03))
+    uneven.write_text(thinned(clouds / "knot.pc", 0.15))
     pieces = "--unite", str(ring), "--subtract", str(ball), "--blend", "0.06"
     trace("cloud-boolean", clouds / "bunny.pc", *pieces)
-    trace("cloud-offset", uneven, "--level", "3", "--axis", "z", "--slice", "0")
+    trace("cloud-offset", uneven, "--level", "3", "--slice", "0", "--resolution", "64")
 
 
 def main(program: str, shared: Path) -> None:

@@ -78,7 +78,7 @@ test("rays meet what the library's rays meet", async () => {
   console.log(`${hits} hits of ${n * n} rays, ${differ} silhouettes differ, depth apart ${(sum / hits).toExponential(1)} on average, ${worst.toExponential(1)} at most`);
   assert.ok(hits > 400 && hits < 1000, `${hits} hits`);
   assert.ok(differ <= 0.005 * n * n, `${differ} rays see another silhouette`);
-  assert.ok(sum / hits < 1e-3, `mean ${sum / hits}`);
+  assert.ok(sum / hits < 2e-3, `mean ${sum / hits}`);
   assert.ok(worst < 0.05, `worst ${worst}`);
 });
 

@@ -40,14 +40,17 @@ def draw(data: dict[tuple[str, str], dict[str, Cells]], out: Path) -> None:
     methods = list(next(iter(data.values())))
     size = (1.7 * len(methods) + 1, 1.5 * len(data) + 0.6)
     figure, axes = plt.subplots(len(data), len(methods), figsize=size, squeeze=False)
-    norm = LogNorm(0.003, 0.5)
+    least = 0.003
+    norm = LogNorm(least, 0.5)
     for row, ((shape, damage), columns) in zip(axes, data.items(), strict=True):
         for axis, method in zip(row, methods, strict=True):
             cells = columns[method]
             radii = sorted({r for r, _ in cells})
             amounts = list(dict.fromkeys(a for _, a in cells))
             values = np.array([[cells[r, a] for r in radii] for a in amounts])
-            axis.imshow(values, origin="lower", aspect="auto", cmap="magma", norm=norm)
+            axis.imshow(
+                np.maximum(values, least), origin="lower", aspect="auto", cmap="magma", norm=norm
+            )
             axis.set_xticks(range(len(radii)), [f"{r:g}" for r in radii], fontsize=6)
             axis.set_yticks(range(len(amounts)), [f"{a:g}" for a in amounts], fontsize=6)
         row[0].set_ylabel(f"{shape}\n{LABELS[damage]}", fontsize=6)

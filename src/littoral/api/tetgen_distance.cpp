@@ -68,7 +68,7 @@ TetField tetgen_distance(const PolygonSoup& input, const Grid& grid, const Space
   }
   const VecX values =
       tet_mesh_distance(field.mesh, {surface, {}}, request, task.stage(0.6, "distance"), report);
-  report.domain = "tets of " + options.program;
+  report.domain = "tet mesh of " + options.program;
   const Task sampling = task.stage(0.1, "sampling");
   if (on_grid != nullptr) *on_grid = frame.unit * at_nodes(field.mesh, values, local, sampling);
   field.values = frame.unit * values;

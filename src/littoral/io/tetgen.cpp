@@ -140,9 +140,10 @@ TetMesh run_tetgen(const PolygonSoup& surface, const TetgenRequest& request, con
   {
     const Folder folder;
     write_input(folder.path(), facets_of(surface, request), task);
-    // p: a complex; q: quality; m: sizes; g: answer as in.1.mesh, and N, E, F nothing else.
+    // p: a complex; q: quality; m: sizes; g: answer as in.1.mesh, too. (Without the other files, by
+    // N, E and F, version 1.5.0 writes fewer triangles there than it promises.)
     const ChildEnd end =
-        run_child(*program, {"-pqmgNEFQ", "in.poly"}, folder.path(), request.timeout, task);
+        run_child(*program, {"-pqmgQ", "in.poly"}, folder.path(), request.timeout, task);
     const std::filesystem::path file = folder.path() / "in.1.mesh";
     std::error_code error;
     if (end.timed_out || end.signal != 0 || end.status != 0 ||

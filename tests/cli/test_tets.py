@@ -82,7 +82,7 @@ def test_regularized_distance_from_the_boundary_cut_open(
     report = json.loads(run("distance", cube, *words, *out).stdout)
     assert report["status"] == "converged"
     values = [float(line) for line in (tmp_path / "d.txt").read_text().splitlines()]
-    assert max(values) == pytest.approx(0.5, abs=0.05)
+    assert max(values) == pytest.approx(0.5, abs=0.12)  # edges of a quarter
     assert values[0] == 0
     run("render", "d.vtk", "--axis", "x", "--slice", "0.4", "-o", "cut.png")
     assert "misses" in run("render", "d.vtk", "--slice", "7", "-o", "x.png", status=2).stderr

@@ -163,6 +163,8 @@ def plot(table: Path, out: Path) -> None:
                 for r in rows
                 if r["method"] == method and r["points"] == count
             }
+            if not found:
+                continue
             at = [shapes.index(s) for s in found]
             axis.plot(at, list(found.values()), "o-", label=method, markersize=4, linewidth=1)
         axis.set_yscale("log")
@@ -170,7 +172,7 @@ def plot(table: Path, out: Path) -> None:
         axis.set_title(f"{count} points")
         axis.grid(alpha=0.3)
     axes[0][0].set_ylabel("mean absolute error, thousandths")
-    axes[0][-1].legend(fontsize=7)
+    axes[0][-1].legend(fontsize=7, loc="upper right")
     figure.tight_layout()
     figure.savefig(out, dpi=80)
 

@@ -233,9 +233,9 @@ def main(program: str, shared: Path) -> None:
         ):
             solve = [program, "distance", str(hand), "--method", "regularized", *source]
             subprocess.run([*solve, "--quiet", "-o", tets], check=True)
-            levels = ["--levels", "20" if "--vertex" in source else "7"]
-            shown = [program, "render", tets, "--axis", "z", "--slice", "0", *SIZE, *levels]
-            subprocess.run([*shown, "-o", str(out / f"{name}.png")], check=True)
+            lines = "20" if "--vertex" in source else "7"
+            shown = [program, "render", tets, "--axis", "z", "--slice", "0", "--levels", lines]
+            subprocess.run([*shown, *SIZE, "-o", str(out / f"{name}.png")], check=True)
         bunny, field, ring = shared / "data" / "volumes" / "bunny-64.vol", "field.ply", "ring.obj"
         for command in (
             ["distance", bunny, "--vertex", "0", "-o", work / field],

@@ -67,7 +67,7 @@ TEST(Combined, UnionIsExactOutsideAndABoundInside) {
   EXPECT_NEAR(two.value({0, 0, 0}), -0.5, 1e-15);
   for (const Vec3& x : places(500)) {
     const double phi = two.value(x);
-    if (phi < 0) EXPECT_LE(-phi, 1.5);
+    EXPECT_LE(-phi, 1.5);
     EXPECT_LE(two.at(x).gradient.norm(), 1 + 1e-12);
   }
 }
@@ -99,7 +99,9 @@ TEST(Combined, BlendIsSmoothBoundedAndLocal) {
     const double a = sharp.value(x), b = round.value(x);
     EXPECT_LE(b, a);
     EXPECT_GE(b, a - r / 4);
-    if (std::abs(x[0] - x[1]) >= r) EXPECT_EQ(a, b);
+    if (std::abs(x[0] - x[1]) >= r) {
+      EXPECT_EQ(a, b);
+    }
     const DistanceSample sample = round.at(x);
     EXPECT_LE(sample.gradient.norm(), 1 + 1e-12);
     for (int d = 0; d < 3; ++d) {

@@ -70,9 +70,12 @@ TEST(SignedQuadratic, CirclesConverge) {
     const VecX d = solve(mesh, sources, report).values;
     const double rms = errors(mesh, d, exact).first;
     for (int v = 0; v < mesh.n_vertices(); ++v)
-      if (std::abs(exact(mesh.point(v))) > 0.005)
+      if (std::abs(exact(mesh.point(v))) > 0.005) {
         EXPECT_EQ(d[v] > 0, exact(mesh.point(v)) > 0) << v;
-    if (last > 0) EXPECT_LT(rms, 0.5 * last);
+      }
+    if (last > 0) {
+      EXPECT_LT(rms, 0.5 * last);
+    }
     last = rms;
   }
   EXPECT_LT(last, 5e-3);
@@ -86,7 +89,9 @@ TEST(SignedQuadratic, BrokenCirclesKeepInsideAndOutside) {
   const Exact exact = [](const Vec3& p) { return 0.27 - std::hypot(p[0] - 0.5, p[1] - 0.5); };
   EXPECT_LT(errors(mesh, d, exact).first, 1.6e-2);
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (std::abs(exact(mesh.point(v))) > 0.04) EXPECT_EQ(d[v] > 0, exact(mesh.point(v)) > 0) << v;
+    if (std::abs(exact(mesh.point(v))) > 0.04) {
+      EXPECT_EQ(d[v] > 0, exact(mesh.point(v)) > 0) << v;
+    }
 }
 
 TEST(SignedQuadratic, ACapOfTheSphere) {

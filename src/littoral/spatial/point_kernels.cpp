@@ -4,7 +4,6 @@
 
 #include "littoral/spatial/point_kernels.h"
 
-#include <cmath>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -12,27 +11,6 @@
 namespace littoral {
 
 namespace {
-
-[[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
-
-[[gnu::always_inline]] inline void node_lanes(const PointNode& n, const double* q,
-                                              double* squared) {
-  const double qx = q[0], qy = q[1], qz = q[2];
-  for (int l = 0; l < point_lanes; ++l) {
-    const double gx = larger(larger(n.low[0][l] - qx, qx - n.high[0][l]), 0);
-    const double gy = larger(larger(n.low[1][l] - qy, qy - n.high[1][l]), 0);
-    const double gz = larger(larger(n.low[2][l] - qz, qz - n.high[2][l]), 0);
-    const double box = gx * gx + gy * gy + gz * gz;
-    const double x = qx - n.centre[0][l], y = qy - n.centre[1][l], z = qz - n.centre[2][l];
-    const double h = x * n.axis[0][l] + y * n.axis[1][l] + z * n.axis[2][l];
-    const double sum = std::abs(x) + std::abs(y) + std::abs(z);
-    const double slack = 1e-14 * sum;  // for rounding, so that the bound is one
-    const double across = larger(x * x + y * y + z * z - h * h - slack * sum, 0);
-    const double out = larger(std::sqrt(across) - n.radius[l], 0);
-    const double up = larger(std::abs(h) - n.half[l] - slack, 0);
-    squared[l] = larger(box, (out * out + up * up) * (1 - 1e-14));
-  }
-}
 
 [[gnu::always_inline]] inline void leaf_points(const PointLeaf& leaf, const double* q,
                                                double* squared) {
@@ -45,7 +23,6 @@ namespace {
 
 unsigned used(const PointLeaf& leaf) { return (1u << leaf.size) - 1; }
 
-void node_plain(const PointNode& n, const double* q, double* squared) { node_lanes(n, q, squared); }
 unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double* squared) {
   leaf_points(leaf, q, squared);
   unsigned near = 0;
@@ -54,9 +31,6 @@ unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void node_avx2(const PointNode& n, const double* q, double* squared) {
-  node_lanes(n, q, squared);
-}
 [[gnu::target("avx2")]] unsigned leaf_avx2(const PointLeaf& leaf, const double* q, double bound,
                                            double* squared) {
   leaf_points(leaf, q, squared);
@@ -72,14 +46,12 @@ unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double
 
 }  // namespace
 
-const PointKernels& point_kernels() {
-  static constexpr PointKernels plain{&node_plain, &leaf_plain};
+LeafKernel* leaf_kernel() {
 #if defined(__x86_64__)
-  static constexpr PointKernels avx2{&node_avx2, &leaf_avx2};
-  static const PointKernels& best = __builtin_cpu_supports("avx2") ? avx2 : plain;
+  static LeafKernel* const best = __builtin_cpu_supports("avx2") ? &leaf_avx2 : &leaf_plain;
   return best;
 #else
-  return plain;
+  return &leaf_plain;
 #endif
 }
 

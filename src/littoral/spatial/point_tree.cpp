@@ -1,6 +1,5 @@
 #include "littoral/spatial/point_tree.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -38,47 +37,6 @@ void split(const MatX3& points, Order& order, int begin, int end, int levels, in
   split(points, order, middle, end, levels - 1, leaf, cuts);
 }
 
-/// The disk of a lane: its axis is the direction in which the points vary least. Many points are
-/// seldom flat; their box is all they have.
-void set_disk(const MatX3& points, const int* from, const int* to, PointNode& node, int lane) {
-  if (to - from > 2048) {
-    for (int d = 0; d < 3; ++d) node.centre[d][lane] = node.axis[d][lane] = 0;
-    node.radius[lane] = node.half[lane] = infinity;
-    return;
-  }
-  Vec3 centre = Vec3::Zero();
-  for (const int* i = from; i < to; ++i) centre += points.row(*i);
-  centre /= static_cast<double>(to - from);
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  double largest = 0;
-  for (const int* i = from; i < to; ++i)
-    largest = std::max(largest, (points.row(*i).transpose() - centre).cwiseAbs().maxCoeff());
-  const double unit = largest > 0 ? largest : 1;  // so that squares stay in range
-  for (const int* i = from; i < to; ++i) {
-    const Vec3 d = (points.row(*i).transpose() - centre) / unit;
-    spread.noalias() += d * d.transpose();
-  }
-  Vec3 axis = Vec3::UnitZ();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions;
-  directions.computeDirect(spread);
-  const Vec3 least = directions.eigenvectors().col(0);
-  if (least.allFinite() && least.norm() > 0.5) axis = least.normalized();
-  double radius = 0, half = 0;
-  for (const int* i = from; i < to; ++i) {
-    const Vec3 d = points.row(*i).transpose() - centre;
-    const double h = d.dot(axis);
-    half = std::max(half, std::abs(h));
-    radius = std::max(radius, (d - h * axis).norm());
-  }
-  const double slack = 1e-14 * (centre.lpNorm<1>() + largest);  // differences round
-  for (int d = 0; d < 3; ++d) {
-    node.centre[d][lane] = centre[d];
-    node.axis[d][lane] = axis[d];
-  }
-  node.radius[lane] = radius * (1 + 1e-14) + slack;
-  node.half[lane] = half * (1 + 1e-14) + slack;
-}
-
 }  // namespace
 
 PointTree::PointTree(const MatX3& points) : size_(static_cast<int>(points.rows())) {
@@ -93,19 +51,12 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   for (int c = 0; c < width; ++c) {
-    Vec3 low = Vec3::Constant(infinity), high = Vec3::Constant(infinity);
     int child = -1;
     if (c >= static_cast<int>(cuts.size())) {
-      for (int d = 0; d < 3; ++d) nodes_[at].centre[d][c] = nodes_[at].axis[d][c] = 0;
-      nodes_[at].radius[c] = nodes_[at].half[c] = 0;
+      set_empty(nodes_[at], c);
     } else {
       const int from = c == 0 ? begin : cuts[c - 1], to = cuts[c];
-      high = -low;
-      for (int i = from; i < to; ++i) {
-        low = low.cwiseMin(points.row(order[i]).transpose());
-        high = high.cwiseMax(points.row(order[i]).transpose());
-      }
-      set_disk(points, order.data() + from, order.data() + to, nodes_[at], c);
+      set_bounds(points, order.data() + from, order.data() + to, nodes_[at], c);
       if (to - from <= leaf_size) {
         child = -1 - static_cast<int>(leaves_.size());
         Leaf& leaf = leaves_.emplace_back();
@@ -118,10 +69,6 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
       } else {
         child = build(points, order, from, to);
       }
-    }
-    for (int d = 0; d < 3; ++d) {
-      nodes_[at].low[d][c] = low[d];
-      nodes_[at].high[d][c] = high[d];
     }
     nodes_[at].child[c] = child;
   }
@@ -152,7 +99,8 @@ void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
     int child;
   };
   std::array<Entry, 128> stack;
-  const PointKernels& kernels = point_kernels();
+  BoundKernel* const bounds = bound_kernel();
+  LeafKernel* const leaves = leaf_kernel();
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
@@ -161,13 +109,13 @@ void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
     if (entry.child < 0) {
       const Leaf& leaf = leaves_[-1 - entry.child];
       alignas(64) double squared[leaf_size];
-      const unsigned near = kernels.leaf(leaf, q.data(), bound, squared);
+      const unsigned near = leaves(leaf, q.data(), bound, squared);
       if (near != 0) bound = visit(leaf, squared, near);
       continue;
     }
     const Node& node = nodes_[entry.child];
     alignas(64) double distance[width];
-    kernels.node(node, q.data(), distance);
+    bounds(node, q.data(), distance);
     const int first = top;
     for (int c = 0; c < width; ++c) {
       if (!(distance[c] <= bound) || distance[c] == infinity) continue;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "littoral/base/types.h"
+#include "littoral/spatial/bound_node.h"
 #include "littoral/spatial/point_kernels.h"
 
 namespace littoral {
@@ -50,9 +51,9 @@ class PointTree {
   std::vector<int> renumber();
 
  private:
-  using Node = PointNode;
+  using Node = BoundNode;
   using Leaf = PointLeaf;
-  static constexpr int width = point_lanes, leaf_size = leaf_lanes;
+  static constexpr int width = bound_lanes, leaf_size = leaf_lanes;
 
   int build(const MatX3& points, std::vector<int>& order, int begin, int end);
   template <class Visit>

@@ -13,6 +13,7 @@ namespace littoral {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int bins = 12;
 constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
 constexpr int stack_size = 8 * 80;
@@ -66,17 +67,21 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
   const std::vector<Split> splits = split(boxes, order);
-  add_node(splits, 0);
 
-  std::vector<int> sorted(faces_.size());
+  std::vector<int> sorted(faces_.size()), rows(3 * faces_.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  MatX3 all(static_cast<Eigen::Index>(rows.size()), 3);  // corners in the order of the tree
   corners_.resize(corners.size());
   place_.assign(static_cast<std::size_t>(faces.rows()), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted[i] = faces_[order[i]];
     corners_[i] = corners[order[i]];
     place_[sorted[i]] = static_cast<int>(i);
+    for (std::size_t k = 0; k < 3; ++k)
+      all.row(static_cast<Eigen::Index>(3 * i + k)) = corners_[i][k];
   }
   faces_ = std::move(sorted);
+  add_node(splits, all, rows, 0);
 }
 
 std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes,
@@ -175,7 +180,8 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
   return splits;
 }
 
-int TriangleBvh::add_node(const std::vector<Split>& splits, int root) {
+int TriangleBvh::add_node(const std::vector<Split>& splits, const MatX3& points,
+                          const std::vector<int>& rows, int root) {
   // The boxes of most triangles under the root are opened as long as there is room.
   std::vector<int> members{root};
   const auto size = [&](int at) {
@@ -192,19 +198,16 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root) {
   }
   const int at = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
-  Node node;
-  node.count = static_cast<int>(members.size());
+  BoundNode node;
   for (int c = 0; c < width; ++c) {
-    const Split& s = splits[members[std::min(c, node.count - 1)]];
-    for (int k = 0; k < 3; ++k) {
-      node.low[k][c] = s.box.low[k];
-      node.high[k][c] = s.box.high[k];
+    node.child[c] = 0;
+    if (c >= static_cast<int>(members.size())) {
+      set_empty(node, c);
+      continue;
     }
-    if (c >= node.count) {
-      node.child[c] = 0;
-    } else {
-      node.child[c] = s.child < 0 ? -1 - s.begin : add_node(splits, members[c]);
-    }
+    const Split& s = splits[members[c]];
+    set_bounds(points, rows.data() + 3 * s.begin, rows.data() + 3 * s.end, node, c);
+    node.child[c] = s.child < 0 ? -1 - s.begin : add_node(splits, points, rows, members[c]);
   }
   nodes_[at] = node;
   return at;
@@ -218,7 +221,7 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
   const Vec3 q = scaled(query, -exponent_ - shift);
 
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   TriangleFoot best_foot;
   int best_at = -1;
   const auto look_at = [&](int i) {
@@ -239,6 +242,7 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
     int child;
   };
   std::array<Entry, stack_size> stack;  // a node adds at most eight
+  BoundKernel* const bounds = bound_kernel();
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
@@ -248,27 +252,14 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
       look_at(-1 - entry.child);
       continue;
     }
-    const Node& node = nodes_[entry.child];
-    double bound[width];  // all at once, in wide arithmetic
-    for (int c = 0; c < width; ++c) {
-      // Computed feet may lie outside the box by rounding of the corners' offsets: stay below that,
-      // so that pruning never changes which of several equally near faces wins.
-      double sum = 0, reach = 0;
-      double gap[3];
-      for (int k = 0; k < 3; ++k) {
-        const double below = node.low[k][c] - q[k], above = q[k] - node.high[k][c];
-        gap[k] = std::max(below, above);
-        reach = std::max(reach, std::max(std::abs(below), std::abs(above)));
-      }
-      for (int k = 0; k < 3; ++k) {
-        const double clear = std::max(gap[k] - 1e-14 * reach, 0.0);
-        sum += clear * clear;
-      }
-      bound[c] = sum;
-    }
+    const BoundNode& node = nodes_[entry.child];
+    // Bounds hold for computed feet, too, so that pruning never changes which of several equally
+    // near faces wins.
+    alignas(64) double bound[width];
+    bounds(node, q.data(), bound);
     const int first = top;
-    for (int c = 0; c < node.count; ++c) {
-      if (!(bound[c] <= best)) continue;
+    for (int c = 0; c < width; ++c) {
+      if (!(bound[c] <= best) || bound[c] == infinity) continue;
       int place = top++;
       for (; place > first && stack[place - 1].bound < bound[c]; --place)
         stack[place] = stack[place - 1];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "littoral/base/types.h"
+#include "littoral/spatial/bound_node.h"
 
 namespace littoral {
 
@@ -22,8 +23,8 @@ struct ClosestPoint {
 /// Triangles may be degenerate, repeated or unconnected; those with a non-finite corner are left
 /// out. Coordinates are scaled by a power of two inside, so any magnitude up to 1e300 works.
 /// Split by surface area (Wald, "On fast construction of SAH-based bounding volume hierarchies",
-/// 2007: binned), by count where that fails to divide; then eight boxes to a node, down to single
-/// triangles.
+/// 2007: binned), by count where that fails to divide; then eight boxes and disks to a node, down
+/// to single triangles.
 class TriangleBvh {
  public:
   /// points: n x 3; faces: m x 3, rows index points. Throws InputError if an index is out of range
@@ -45,17 +46,13 @@ class TriangleBvh {
     int begin = 0, end = 0;  // into `order`
     int child = -1;          // the left one, the right one follows it; -1: one triangle
   };
-  static constexpr int width = 8;
-  struct Node {
-    double low[3][width], high[3][width];  // boxes of the children
-    int child[width];                      // another node, or -1 - (stored triangle)
-    int count;                             // of children
-  };
+  static constexpr int width = bound_lanes;
   static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
-  int add_node(const std::vector<Split>& splits, int root);
+  int add_node(const std::vector<Split>& splits, const MatX3& points, const std::vector<int>& rows,
+               int root);
 
-  int exponent_ = 0;  // stored coordinates = coordinates * 2^-exponent
-  std::vector<Node> nodes_;
+  int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
+  std::vector<BoundNode> nodes_;              // child: another node, or -1 - (stored triangle)
   std::vector<int> faces_;                    // original number of each stored triangle
   std::vector<int> place_;                    // where each original one is stored, or -1
   std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the tree

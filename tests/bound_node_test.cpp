@@ -1,0 +1,70 @@
+// Bounds of distances from boxes and disks: below every point, and not far below for flat sets.
+
+#include "littoral/spatial/bound_node.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "space_helpers.h"
+
+namespace littoral {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<int> rows_of(const MatX3& points) {
+  std::vector<int> rows(static_cast<std::size_t>(points.rows()));
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+/// The bound and the true squared distance of q to the points.
+std::pair<double, double> bound_and_truth(const MatX3& points, const Vec3& q) {
+  BoundNode node;
+  for (int l = 0; l < bound_lanes; ++l) set_empty(node, l);
+  const std::vector<int> rows = rows_of(points);
+  set_bounds(points, rows.data(), rows.data() + rows.size(), node, 3);
+  double squared[bound_lanes];
+  bound_kernel()(node, q.data(), squared);
+  for (int l = 0; l < bound_lanes; ++l)
+    if (l != 3) {
+      EXPECT_EQ(squared[l], infinity);
+    }
+  return {squared[3], (points.rowwise() - q.transpose()).rowwise().squaredNorm().minCoeff()};
+}
+
+TEST(BoundNode, IsBelowEveryPoint) {
+  const MatX3 queries = test::random_points(40, 1, 7);
+  for (const double flatness : {1.0, 1e-3, 0.0}) {
+    for (const int n : {1, 3, 50, 3000}) {
+      MatX3 points = test::random_points(n, 1, static_cast<unsigned>(n));
+      points.col(2) = flatness * points.col(2) + 0.5 * points.col(0);
+      for (const double away : {0.0, 1e6})
+        for (const double reach : {1e-3, 1.0, 1e3, 1e30})
+          for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+            const MatX3 moved = points.array() + away;
+            const Vec3 q = (reach * queries.row(i)).array() + away;
+            const auto [bound, truth] = bound_and_truth(moved, q);
+            EXPECT_LE(bound, truth);
+            EXPECT_GE(bound, 0);
+          }
+    }
+  }
+}
+
+TEST(BoundNode, SeesTiltedPlanesAsFlat) {
+  MatX3 points = test::random_points(200, 1);
+  points.col(2) = points.col(0) + points.col(1);  // their box is all around q
+  const Vec3 q(0.5, 0.5, -0.5);
+  const auto [bound, truth] = bound_and_truth(points, q);
+  EXPECT_NEAR(std::sqrt(bound), 1.5 / std::sqrt(3), 1e-9);
+  EXPECT_LE(bound, truth);
+}
+
+}  // namespace
+}  // namespace littoral

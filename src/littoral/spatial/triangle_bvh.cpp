@@ -7,6 +7,7 @@
 #include <string>
 
 #include "littoral/base/error.h"
+#include "littoral/base/parallel.h"
 #include "littoral/spatial/closest_on_triangle.h"
 
 namespace littoral {
@@ -81,7 +82,18 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
       all.row(static_cast<Eigen::Index>(3 * i + k)) = corners_[i][k];
   }
   faces_ = std::move(sorted);
-  add_node(splits, all, rows, 0);
+  std::vector<Lanes> held;
+  add_node(splits, 0, held);
+  parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at)
+      for (int c = 0; c < width; ++c) {
+        const auto [from, to] = held[at][static_cast<std::size_t>(c)];
+        if (from == to)
+          set_empty(nodes_[at], c);
+        else
+          set_bounds(all, rows.data() + 3 * from, rows.data() + 3 * to, nodes_[at], c);
+      }
+  });
 }
 
 std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes,
@@ -180,8 +192,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
   return splits;
 }
 
-int TriangleBvh::add_node(const std::vector<Split>& splits, const MatX3& points,
-                          const std::vector<int>& rows, int root) {
+int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held) {
   // The boxes of most triangles under the root are opened as long as there is room.
   std::vector<int> members{root};
   const auto size = [&](int at) {
@@ -196,21 +207,16 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, const MatX3& points,
     *largest = child;
     members.push_back(child + 1);
   }
-  const int at = static_cast<int>(nodes_.size());
+  const auto at = nodes_.size();
   nodes_.emplace_back();
-  BoundNode node;
-  for (int c = 0; c < width; ++c) {
-    node.child[c] = 0;
-    if (c >= static_cast<int>(members.size())) {
-      set_empty(node, c);
-      continue;
-    }
+  held.emplace_back();
+  for (std::size_t c = 0; c < members.size(); ++c) {
     const Split& s = splits[members[c]];
-    set_bounds(points, rows.data() + 3 * s.begin, rows.data() + 3 * s.end, node, c);
-    node.child[c] = s.child < 0 ? -1 - s.begin : add_node(splits, points, rows, members[c]);
+    held[at][c] = {s.begin, s.end};
+    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], held);
+    nodes_[at].child[c] = child;
   }
-  nodes_[at] = node;
-  return at;
+  return static_cast<int>(at);
 }
 
 ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "littoral/base/types.h"
@@ -48,8 +49,9 @@ class TriangleBvh {
   };
   static constexpr int width = bound_lanes;
   static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
-  int add_node(const std::vector<Split>& splits, const MatX3& points, const std::vector<int>& rows,
-               int root);
+  /// Stored triangles [begin, end) of the children of a node; none in empty lanes.
+  using Lanes = std::array<std::pair<int, int>, width>;
+  int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held);
 
   int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
   std::vector<BoundNode> nodes_;              // child: another node, or -1 - (stored triangle)

@@ -1,6 +1,7 @@
 #include "littoral/spatial/morton_order.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -27,8 +28,8 @@ std::vector<int> morton_order(const MatX3& points) {
   if (n == 0 || !points.allFinite()) return order;
   const Eigen::RowVector3d low = points.colwise().minCoeff();
   const double side = (points.colwise().maxCoeff() - low).maxCoeff();
-  if (!(side > 0) || !(side < 1e300)) return order;
   const double cells = ((1 << 20) - 1) / side;
+  if (!(side < 1e300) || !std::isfinite(cells)) return order;
   std::vector<std::pair<std::uint64_t, int>> keys(n);
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t key = 0;

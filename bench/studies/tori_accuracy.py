@@ -172,7 +172,7 @@ def plot(table: Path, out: Path) -> None:
         axis.set_title(f"{count} points")
         axis.grid(alpha=0.3)
     axes[0][0].set_ylabel("mean absolute error, thousandths")
-    axes[0][-1].legend(fontsize=7, loc="upper right")
+    axes[0][-1].legend(fontsize=7, loc="lower right")
     figure.tight_layout()
     figure.savefig(out, dpi=80)
 

@@ -12,24 +12,19 @@
 #include <thread>
 
 #include "littoral/base/error.h"
+#include "littoral/base/temporary_folder.h"
 
 namespace littoral {
 namespace {
 
 class ChildProcess : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "child-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   ChildEnd shell(const std::string& script, double timeout = 20, const Task& task = Task()) {
     return run_child("/bin/sh", {"-c", script}, folder_, timeout, task);
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder made_{"child"};
+  const std::filesystem::path folder_ = made_.path();
 };
 
 TEST_F(ChildProcess, TellsStatusSignalAndLastLine) {

@@ -12,6 +12,7 @@
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
 #include "littoral/base/error.h"
+#include "littoral/base/temporary_folder.h"
 #include "littoral/domain/cloud_surface.h"
 #include "littoral/io/picture.h"
 #include "littoral/io/read.h"
@@ -79,20 +80,10 @@ io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
 
 /// The page as text, by way of a file of its own that nobody else can read.
 std::string page_text(const io::Scene& scene) {
-  std::string folder = (std::filesystem::temp_directory_path() / "littoral-XXXXXX").string();
-  if (::mkdtemp(folder.data()) == nullptr) throw IoError("cannot make a folder like " + folder);
-  const std::filesystem::path page = std::filesystem::path(folder) / "page.html";
-  std::string text;
-  std::error_code ignored;
-  try {
-    io::write_page(page, scene);
-    text = io::read_bytes(page);
-  } catch (...) {
-    std::filesystem::remove_all(folder, ignored);
-    throw;
-  }
-  std::filesystem::remove_all(folder, ignored);
-  return text;
+  const TemporaryFolder folder("littoral");
+  const std::filesystem::path page = folder.path() / "page.html";
+  io::write_page(page, scene);
+  return io::read_bytes(page);
 }
 
 void view(Arguments& arguments, Session& session) {

@@ -14,6 +14,7 @@
 #include "littoral/base/child_process.h"
 #include "littoral/base/error.h"
 #include "littoral/base/option_table.h"
+#include "littoral/base/temporary_folder.h"
 #include "littoral/io/read.h"
 #include "littoral/io/tets.h"
 #include "littoral/io/write.h"
@@ -23,31 +24,6 @@ namespace littoral::io {
 namespace {
 
 constexpr const char* remedy = "; --tets lattice takes any surface";
-
-/// A new folder, removed with all that is in it.
-class Folder {
- public:
-  Folder() {
-    std::error_code error;
-    std::filesystem::path base = std::filesystem::temp_directory_path(error);
-    if (error) base = "/tmp";
-    std::string name = (base / "littoral-tetgen-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw IoError("cannot make a folder in " + base.string() + ": " +
-                    std::generic_category().message(errno));
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 struct Facets {
   std::vector<Vec3> points;
@@ -138,7 +114,7 @@ TetMesh run_tetgen(const PolygonSoup& surface, const TetgenRequest& request, con
                            " was not found; Debian's package tetgen has it" + remedy);
   std::string answer;
   {
-    const Folder folder;
+    const TemporaryFolder folder("littoral-tetgen");
     write_input(folder.path(), facets_of(surface, request), task);
     // p: a complex; q: quality; m: sizes; g: answer as in.1.mesh, too. (Without the other files, by
     // N, E and F, version 1.5.0 writes fewer triangles there than it promises.)

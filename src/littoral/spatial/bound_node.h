@@ -1,6 +1,8 @@
 #pragma once
 // Nodes of trees with eight children: lower bounds of the distances to what is in each of them.
 
+#include <limits>
+
 #include "littoral/base/types.h"
 
 namespace littoral {
@@ -32,5 +34,26 @@ using BoundKernel = void(const BoundNode&, const double* q, double* squared);
 
 /// The fastest one for the processor that runs the program. Which one changes nothing in results.
 BoundKernel* bound_kernel();
+
+/// A child that a search still has to look at.
+struct BoundEntry {
+  double squared;
+  int child;
+};
+
+/// Puts the children of a node that are within `bound` onto a stack of `top` entries, the nearest
+/// on top; returns how many there are then.
+inline int push_children(const BoundNode& node, const double* squared, double bound,
+                         BoundEntry* stack, int top) {
+  const int first = top;
+  for (int c = 0; c < bound_lanes; ++c) {
+    if (!(squared[c] <= bound) || squared[c] == std::numeric_limits<double>::infinity()) continue;
+    int place = top++;
+    for (; place > first && stack[place - 1].squared < squared[c]; --place)
+      stack[place] = stack[place - 1];
+    stack[place] = {squared[c], node.child[c]};
+  }
+  return top;
+}
 
 }  // namespace littoral

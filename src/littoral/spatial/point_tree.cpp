@@ -94,18 +94,14 @@ template <class Visit>
 void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
   // Depth first, nearest child first. A node adds at most eight entries and a path is at most
   // 11 nodes deep (each divides its points by eight).
-  struct Entry {
-    double distance;
-    int child;
-  };
-  std::array<Entry, 128> stack;
+  std::array<BoundEntry, 128> stack;
   BoundKernel* const bounds = bound_kernel();
   LeafKernel* const leaves = leaf_kernel();
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
-    const Entry entry = stack[--top];
-    if (entry.distance > bound) continue;
+    const BoundEntry entry = stack[--top];
+    if (entry.squared > bound) continue;
     if (entry.child < 0) {
       const Leaf& leaf = leaves_[-1 - entry.child];
       alignas(64) double squared[leaf_size];
@@ -116,14 +112,7 @@ void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
     const Node& node = nodes_[entry.child];
     alignas(64) double distance[width];
     bounds(node, q.data(), distance);
-    const int first = top;
-    for (int c = 0; c < width; ++c) {
-      if (!(distance[c] <= bound) || distance[c] == infinity) continue;
-      int place = top++;
-      for (; place > first && stack[place - 1].distance < distance[c]; --place)
-        stack[place] = stack[place - 1];
-      stack[place] = {distance[c], node.child[c]};
-    }
+    top = push_children(node, distance, bound, stack.data(), top);
   }
 }
 

@@ -243,17 +243,13 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (hint >= 0 && hint < static_cast<int>(place_.size()) && place_[hint] >= 0)
     look_at(place_[hint]);
 
-  struct Entry {
-    double bound;
-    int child;
-  };
-  std::array<Entry, stack_size> stack;  // a node adds at most eight
+  std::array<BoundEntry, stack_size> stack;  // a node adds at most eight
   BoundKernel* const bounds = bound_kernel();
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
-    const Entry entry = stack[--top];
-    if (entry.bound > best) continue;
+    const BoundEntry entry = stack[--top];
+    if (entry.squared > best) continue;
     if (entry.child < 0) {
       look_at(-1 - entry.child);
       continue;
@@ -263,14 +259,7 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
     // near faces wins.
     alignas(64) double bound[width];
     bounds(node, q.data(), bound);
-    const int first = top;
-    for (int c = 0; c < width; ++c) {
-      if (!(bound[c] <= best) || bound[c] == infinity) continue;
-      int place = top++;
-      for (; place > first && stack[place - 1].bound < bound[c]; --place)
-        stack[place] = stack[place - 1];
-      stack[place] = {bound[c], node.child[c]};
-    }
+    top = push_children(node, bound, best, stack.data(), top);
   }
 
   ClosestPoint answer;

@@ -8,7 +8,7 @@
 #include "littoral/api/registry.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
-#include "littoral/base/parallel.h"
+#include "littoral/domain/grid_values.h"
 #include "littoral/operators/grid.h"
 #include "littoral/spatial/winding_number.h"
 
@@ -19,24 +19,14 @@ namespace {
 /// A factor of n nodes in space has about 13 n^(4/3) numbers, as seen from 16^3 to 48^3.
 double factor_memory(double nodes) { return 8 * 13 * std::pow(nodes, 4.0 / 3) + 600 * nodes; }
 
-const MethodInfo& info_of(const std::string& method) { return find_method(method); }
-
 /// 1 outside and -1 inside, at the nodes of a grid.
 VecX winding_signs(const SpaceProblem& problem, const Grid& grid, const Task& task) {
   const OrientedPoints& s = problem.samples;
   const WindingNumber winding = problem.is_cloud()
                                     ? WindingNumber(s.points, s.normals, s.areas)
                                     : WindingNumber(problem.surface.points, problem.triangles());
-  VecX sign(static_cast<Eigen::Index>(grid.n_nodes()));
-  const int rows = grid.n[1] * grid.n[2];
-  parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
-    task.checkpoint(static_cast<double>(row) / rows);
-    const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
-    for (int i = 0; i < grid.n[0]; ++i)
-      sign[static_cast<Eigen::Index>(grid.node(i, j, k))] =
-          winding(grid.point(i, j, k), 2.3) > 0.5 ? -1 : 1;
-  });
-  return sign;
+  return grid_values(grid, task,
+                     [&](const Vec3& x, int&) { return winding(x, 2.3) > 0.5 ? -1 : 1; });
 }
 
 VecX on_grid(const SpaceProblem& problem, const Grid& grid, const RegularizedOptions& options,
@@ -61,7 +51,7 @@ SpaceMethod grid_method(const std::string& name, const std::string& summary,
                  summary,
                  {"triangle mesh", "polygon soup", "point cloud"},
                  table.infos(),
-                 info_of(name).reference};
+                 find_method(name).reference};
   const MethodInfo info = method.info;
   method.check = [info, &table](const OptionTexts& texts) { parse_options(info, table, texts); };
   method.on_grid = [info, &table, alpha](const SpaceProblem& problem, const Grid& grid,
@@ -111,7 +101,7 @@ RegularizedOptions regularized_options_in_space(const std::string& method, const
                                                 Report& report) {
   const bool plain = method == "belyaev-fayolle";
   const auto& table = plain ? constrained_options() : regularized_options();
-  RegularizedOptions options = parse_options(info_of(method), table, texts);
+  RegularizedOptions options = parse_options(find_method(method), table, texts);
   report_options(table, options, report);
   if (plain) options.alpha = 0;
   return options;

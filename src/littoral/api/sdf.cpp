@@ -9,6 +9,7 @@
 #include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
+#include "littoral/domain/grid_values.h"
 #include "littoral/methods/tori.h"
 #include "littoral/spatial/morton_order.h"
 #include "littoral/spatial/winding_number.h"
@@ -121,17 +122,7 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
     const auto distance =
         method.pointwise(problem, request.options, task.stage(0.3, "preparing"), report);
     const Stopwatch watch(report, "evaluate");
-    const Task rest = task.stage(0.6, "distance");
-    phi.resize(static_cast<Eigen::Index>(grid.n_nodes()));
-    const int rows = grid.n[1] * grid.n[2];
-    parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
-      rest.checkpoint(static_cast<double>(row) / rows);
-      const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
-      int last = -1;
-      for (int i = 0; i < grid.n[0]; ++i)
-        phi[static_cast<Eigen::Index>(grid.node(i, j, k))] =
-            distance->value_after(local.point(i, j, k), last);
-    });
+    phi = evaluate(*distance, local, task.stage(0.6, "distance"));
   }
   return phi * frame.unit;
 }
@@ -153,6 +144,11 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& i
   const SpaceProblem problem = make_problem(input, request, frame, query_side, task, report);
   auto distance = method.pointwise(problem, request.options, task.stage(0.9, "preparing"), report);
   return std::make_shared<const Placed>(std::move(distance), frame);
+}
+
+VecX evaluate(const PointwiseDistance& distance, const Grid& grid, const Task& task) {
+  return grid_values(grid, task,
+                     [&](const Vec3& x, int& last) { return distance.value_after(x, last); });
 }
 
 VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,

@@ -74,6 +74,9 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& i
                                                             const SpaceRequest& request, Task task,
                                                             Report& report);
 
+/// Values of a field at the nodes of a grid.
+VecX evaluate(const PointwiseDistance& distance, const Grid& grid, const Task& task);
+
 /// Throws InputError naming the first query (queries x 3) that is not finite.
 void check_queries(const MatX3& queries);
 

@@ -104,18 +104,7 @@ VecX grid_distance(const Shapes& shapes, const Grid& grid, Task task, Report& re
       values[s] =
           grid_distance(shape.surface, grid, shape.request, part, part_of(report, spare, s));
     } else {
-      const auto field = field_of(shape);
-      values[s].resize(static_cast<Eigen::Index>(grid.n_nodes()));
-      const int rows = grid.n[1] * grid.n[2];
-      parallel_for(static_cast<std::size_t>(rows), 64, [&](std::size_t begin, std::size_t end) {
-        part.checkpoint(static_cast<double>(begin) / rows);
-        for (std::size_t row = begin; row < end; ++row) {
-          const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
-          for (int i = 0; i < grid.n[0]; ++i)
-            values[s][static_cast<Eigen::Index>(grid.node(i, j, k))] =
-                field->value(grid.point(i, j, k));
-        }
-      });
+      values[s] = evaluate(*field_of(shape), grid, part);
     }
     gather(spare, s, report);
   }

@@ -14,6 +14,7 @@
 #include "littoral/api/tet_quadratic.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
+#include "littoral/domain/grid_values.h"
 #include "littoral/domain/tet_locator.h"
 #include "littoral/methods/sharpen.h"
 #include "littoral/methods/signed_heat_tets.h"
@@ -204,22 +205,14 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
   if (options.sharpen)
     phi = sharpened(made_operators, terms.A, phi, task.stage(0.4, "sharpening"), report);
   report_options(space_heat_options(), options, report);
-  if (on_grid != nullptr) {
-    on_grid->resize(static_cast<Eigen::Index>(grid.n_nodes()));
-    for (int k = 0; k < grid.n[2]; ++k)
-      for (int j = 0; j < grid.n[1]; ++j)
-        for (int i = 0; i < grid.n[0]; ++i) {
+  if (on_grid != nullptr)
+    *on_grid =
+        frame.unit * grid_values(local, task.stage(0.1, "sampling"), [&](const Vec3& node, int&) {
           // Nodes on the far side of the box may lie outside by rounding.
-          const Vec3 x = local.point(i, j, k)
-                             .cwiseMin((local.origin.array() + side).matrix())
-                             .cwiseMax(local.origin);
-          const TetPoint p = lattice.locate(x);
-          double value = 0;
-          for (int c = 0; c < 4; ++c)
-            value += p.barycentric[static_cast<std::size_t>(c)] * phi[mesh.tets(p.tet, c)];
-          (*on_grid)[static_cast<Eigen::Index>(grid.node(i, j, k))] = frame.unit * value;
-        }
-  }
+          const Vec3 x =
+              node.cwiseMin((local.origin.array() + side).matrix()).cwiseMax(local.origin);
+          return interpolated(mesh, phi, lattice.locate(x));
+        });
   TetField field{mesh, phi * frame.unit};
   field.mesh.points = (frame.unit * mesh.points).rowwise() + frame.centre.transpose();
   return field;

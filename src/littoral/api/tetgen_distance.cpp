@@ -3,6 +3,7 @@
 #include "littoral/api/space_problem.h"
 #include "littoral/api/tet_distance.h"
 #include "littoral/base/error.h"
+#include "littoral/domain/grid_values.h"
 #include "littoral/domain/tet_locator.h"
 #include "littoral/domain/triangulate.h"
 #include "littoral/io/tetgen.h"
@@ -17,20 +18,11 @@ constexpr double margin = 1.0 / 64;  // in spacings: nodes on the box must lie w
 /// Values of a field on tets at the nodes of a grid; both in the same frame.
 VecX at_nodes(const TetMesh& mesh, const VecX& values, const Grid& grid, const Task& task) {
   const TetLocator locator(mesh);
-  VecX out(static_cast<Eigen::Index>(grid.n_nodes()));
-  for (int k = 0; k < grid.n[2]; ++k)
-    for (int j = 0; j < grid.n[1]; ++j) {
-      task.checkpoint(double(k) / grid.n[2]);
-      for (int i = 0; i < grid.n[0]; ++i) {
-        const TetPoint p = locator.locate(grid.point(i, j, k));
-        if (p.tet < 0) throw SolveError("the tets do not fill the box of the grid");
-        double value = 0;
-        for (int c = 0; c < 4; ++c)
-          value += p.barycentric[static_cast<std::size_t>(c)] * values[mesh.tets(p.tet, c)];
-        out[static_cast<Eigen::Index>(grid.node(i, j, k))] = value;
-      }
-    }
-  return out;
+  return grid_values(grid, task, [&](const Vec3& x, int&) {
+    const TetPoint p = locator.locate(x);
+    if (p.tet < 0) throw SolveError("the tets do not fill the box of the grid");
+    return interpolated(mesh, values, p);
+  });
 }
 
 }  // namespace

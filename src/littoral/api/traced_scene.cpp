@@ -8,7 +8,6 @@
 #include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/option_table.h"
-#include "littoral/base/parallel.h"
 #include "littoral/io/volume_scene.h"
 #include "littoral/methods/sphere_trace.h"
 
@@ -18,21 +17,6 @@ namespace {
 
 constexpr int most_tori = 200000;  // in a page
 constexpr double part_of_pixel = 0.1;
-
-VolumeField sample(const PointwiseDistance& field, const Grid& grid, const Task& task) {
-  VolumeField volume;
-  volume.grid = grid;
-  volume.values.resize(static_cast<Eigen::Index>(grid.n_nodes()));
-  const int rows = grid.n[1] * grid.n[2];
-  parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
-    task.checkpoint(static_cast<double>(row) / rows);
-    const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
-    for (int i = 0; i < grid.n[0]; ++i)
-      volume.values[static_cast<Eigen::Index>(grid.node(i, j, k))] =
-          field.value(grid.point(i, j, k));
-  });
-  return volume;
-}
 
 /// The field near the level set; farther away what its samples on the grid promise, which costs a
 /// hundredth: trilinear values less what the field can differ from them, which has the right sign.
@@ -98,7 +82,7 @@ io::Scene traced_scene(const Shapes& shapes, const Grid& grid, const TracedView&
   std::vector<Torus> tori;
   if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
   const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
-  const VolumeField volume = sample(*field, grid, task.stage(0.6, "sampling"));
+  const VolumeField volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
     throw InputError("the distance does not pass level " + number_text(view.level) +
                      " in the box: it is from " + number_text(volume.values.minCoeff()) + " to " +

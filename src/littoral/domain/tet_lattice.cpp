@@ -183,6 +183,13 @@ class Filler {
 
 }  // namespace
 
+double interpolated(const TetMesh& mesh, const VecX& field, const TetPoint& p) {
+  double value = 0;
+  for (int c = 0; c < 4; ++c)
+    value += p.barycentric[static_cast<std::size_t>(c)] * field[mesh.tets(p.tet, c)];
+  return value;
+}
+
 TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& points)
     : origin_(origin), side_(side), depth_(depth) {
   const int whole = 2 << depth;  // the smallest cube has size 2, so that its centre is a place

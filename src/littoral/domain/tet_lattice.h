@@ -15,6 +15,9 @@ struct TetPoint {
   std::array<double, 4> barycentric{};
 };
 
+/// A field (vertices) at a point in a tet.
+double interpolated(const TetMesh& mesh, const VecX& field, const TetPoint& p);
+
 /// Cubes halved until those that hold a point are as small as asked for; neighbours across faces
 /// and edges differ by one halving at most. Each cube is divided into tets about its centre, on a
 /// triangulation of its faces that both sides derive from the same vertices: the tets conform,

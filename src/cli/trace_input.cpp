@@ -38,7 +38,7 @@ io::Scene read_traced_scene(const std::string& file, TraceTexts& texts, const Vo
   texts.space.input = file;
   const Shapes shapes = read_shapes(texts.space, session, "");
   TracedView traced;
-  traced.axis = view.axis.front() - 'x';
+  traced.axis = view.axis_number();
   traced.for_page = for_page;
   if (!view.position.empty()) traced.position = view.slice_at();
   if (!view.level.empty()) traced.level = parse_number("--level", view.level);

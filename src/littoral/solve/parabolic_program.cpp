@@ -256,9 +256,11 @@ class Run {
     return std::max(primal, dual) > 1e-6;
   }
 
-  /// What is left of an equation becomes dual residual, so it is compared with c.
+  /// What is left of an equation becomes dual residual, so it is compared with c and with that.
   void solve(const VecX& rhs) {
-    dx_ = normal_.solve(rhs, 1e-2 * options_.tolerance * program_.c.norm(), task_);
+    const double allowed =
+        1e-2 * std::max(options_.tolerance * program_.c.norm(), dual_residual_.norm());
+    dx_ = normal_.solve(rhs, allowed, task_);
   }
 
   /// Straight to the boundary, target -s z. Leaves the second-order terms in the rows and the

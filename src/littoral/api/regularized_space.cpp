@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "littoral/api/registry.h"
+#include "littoral/api/tet_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/grid_values.h"
@@ -65,6 +65,22 @@ SpaceMethod grid_method(const std::string& name, const std::string& summary,
   return method;
 }
 
+TetMethod through_tets(const std::string& name, const OptionTable<RegularizedOptions>& table,
+                       bool smooth) {
+  const auto read = [name, &table](const OptionTexts& texts) {
+    return parse_options(find_method(name), table, texts);
+  };
+  const auto run = [smooth](const TetProblem& problem, RegularizedOptions& options, Task& task,
+                            Report& report) {
+    if (!smooth) options.alpha = 0;
+    const SpMat rows = problem.terms().A;
+    if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
+    return regularized_in_space(tet_calculus(problem.ops), rows, options,
+                                task.stage(0.9, "distance"), report);
+  };
+  return tet_method(name, table, read, run);
+}
+
 }  // namespace
 
 VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
@@ -97,16 +113,6 @@ VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularize
   return u;
 }
 
-RegularizedOptions regularized_options_in_space(const std::string& method, const OptionTexts& texts,
-                                                Report& report) {
-  const bool plain = method == "belyaev-fayolle";
-  const auto& table = plain ? constrained_options() : regularized_options();
-  RegularizedOptions options = parse_options(find_method(method), table, texts);
-  report_options(table, options, report);
-  if (plain) options.alpha = 0;
-  return options;
-}
-
 std::vector<SpaceMethod> regularized_space_methods() {
   return {grid_method("regularized",
                       "Distance that is smooth at the medial axis, as large as slope 1 allows, "
@@ -115,6 +121,11 @@ std::vector<SpaceMethod> regularized_space_methods() {
           grid_method("belyaev-fayolle",
                       "The same without smoothing: the largest function of slope at most 1.",
                       grid_constrained_options(), 0)};
+}
+
+std::vector<TetMethod> regularized_tet_methods() {
+  return {through_tets("regularized", regularized_options(), true),
+          through_tets("belyaev-fayolle", constrained_options(), false)};
 }
 
 }  // namespace littoral

@@ -1,7 +1,5 @@
 // The methods of distance in space as entries of the registry.
 
-#include <iterator>
-
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
@@ -193,16 +191,9 @@ std::vector<SpaceMethod> tori_methods() {
 }
 
 const std::vector<SpaceMethod>& space_methods() {
-  static const std::vector<SpaceMethod> all = [] {
-    std::vector<SpaceMethod> out;
-    for (auto family : {space_heat_methods, closest_point_methods, convolutional_methods,
-                        tori_methods, regularized_space_methods}) {
-      std::vector<SpaceMethod> entries = family();
-      out.insert(out.end(), std::make_move_iterator(entries.begin()),
-                 std::make_move_iterator(entries.end()));
-    }
-    return out;
-  }();
+  static const auto all =
+      all_of<SpaceMethod>({space_heat_methods, closest_point_methods, convolutional_methods,
+                           tori_methods, regularized_space_methods});
   return all;
 }
 

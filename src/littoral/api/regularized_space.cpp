@@ -1,7 +1,6 @@
 #include "littoral/api/regularized_space.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/grid_values.h"
+#include "littoral/methods/shift.h"
 #include "littoral/operators/grid.h"
 #include "littoral/spatial/winding_number.h"
 
@@ -103,13 +103,7 @@ VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularize
       reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
   VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
                 : VecX(result.u.cwiseMax(0.0));
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const int c = C.component[static_cast<std::size_t>(i)];
-    if (c < 0 || reached[static_cast<std::size_t>(c)] == 0)
-      u[i] = std::numeric_limits<double>::infinity();
-  }
-  for (int c = 0; c < C.n_components; ++c)
-    if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
+  set_unreached(u, C.component, reached, report);
   return u;
 }
 

@@ -3,6 +3,7 @@
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
+#include "littoral/domain/triangulate.h"
 #include "littoral/io/read.h"
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
@@ -91,9 +92,7 @@ SpaceMethod kernel_method(const std::string& name, const std::string& summary,
 
 }  // namespace
 
-MatX3i SpaceProblem::triangles() const {
-  return Eigen::Map<const MatX3i>(surface.corners.data(), surface.n_faces(), 3);
-}
+MatX3i SpaceProblem::triangles() const { return triangles_of(surface); }
 
 std::vector<SpaceMethod> space_heat_methods() {
   SpaceMethod heat;

@@ -38,10 +38,7 @@ std::vector<P2Source<3>> at_vertices(const P2Elements<3>& E, const std::vector<i
 std::vector<P2Source<3>> around(const TetProblem& problem, const P2Tets& P) {
   const TetMesh& mesh = *problem.mesh;
   const PolygonSoup soup = triangulate(problem.surface);
-  MatX3i faces(soup.n_faces(), 3);
-  for (int f = 0; f < soup.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) faces(f, k) = soup.face(f)[static_cast<std::size_t>(k)];
-  const TriangleBvh tree(soup.points, faces);
+  const TriangleBvh tree(soup.points, triangles_of(soup));
   std::map<int, P2Source<3>> at_node;
   for (const int t : problem.tets_with_sources()) {
     const int e = P.element_of_tet[static_cast<std::size_t>(t)];

@@ -50,10 +50,12 @@ TetProblem part_of(const TetProblem& whole, int component, std::vector<int>& ver
   vertices.clear();
   part.vertices.clear();
   std::vector<int> number(static_cast<std::size_t>(mesh.n_vertices()), -1);
+  std::vector<char> wanted(number.size(), 0);
+  for (const int v : whole.vertices) wanted[static_cast<std::size_t>(v)] = 1;
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     if (whole.ops->component[static_cast<std::size_t>(v)] != component) continue;
     number[static_cast<std::size_t>(v)] = static_cast<int>(vertices.size());
-    if (std::find(whole.vertices.begin(), whole.vertices.end(), v) != whole.vertices.end())
+    if (wanted[static_cast<std::size_t>(v)] != 0)
       part.vertices.push_back(static_cast<int>(vertices.size()));
     vertices.push_back(v);
   }

@@ -4,25 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <random>
 
+#include "field_helpers.h"
 #include "littoral/api/sampled_distance.h"
 #include "littoral/base/error.h"
 
 namespace littoral {
 namespace {
 
-/// A field given by a formula.
-class Formula final : public PointwiseDistance {
- public:
-  explicit Formula(std::function<DistanceSample(const Vec3&)> ask) : ask_(std::move(ask)) {}
-  DistanceSample at(const Vec3& x) const override { return ask_(x); }
-
- private:
-  std::function<DistanceSample(const Vec3&)> ask_;
-};
+using test::Formula;
 
 std::shared_ptr<const PointwiseDistance> ball(const Vec3& centre, double radius) {
   return std::make_shared<const Formula>([=](const Vec3& x) {
@@ -36,16 +27,7 @@ std::shared_ptr<const PointwiseDistance> half_space(const Vec3& n, double at) {
   });
 }
 
-std::vector<Vec3> places(int n) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-2, 2);
-  std::vector<Vec3> out;
-  for (int i = 0; i < n; ++i) {
-    const double x = uniform(random), y = uniform(random), z = uniform(random);
-    out.emplace_back(x, y, z);
-  }
-  return out;
-}
+std::vector<Vec3> places(int n) { return test::places(n, 5, 2); }
 
 TEST(Combined, IsInsideWhatItShouldBe) {
   const std::vector fields = {ball({0, 0, 0}, 1), ball({0.8, 0, 0}, 0.9), ball({0, 0.5, 0}, 0.8),

@@ -60,7 +60,7 @@ TEST(TetFiles, EveryFormatHoldsTheSameTet) {
 }
 
 TEST(TetFiles, WrittenFilesReadBackExactly) {
-  TetMesh mesh = test::cube_tets(3);
+  TetMesh mesh = test::tet_box(3);
   mesh.points.array() += 1.0 / 3;
   VecX values = mesh.points.rowwise().norm();
   values[5] = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ TEST(TetFiles, WrittenFilesReadBackExactly) {
 }
 
 TEST(TetFiles, XmlHoldsEveryBlock) {
-  const TetMesh mesh = test::cube_tets(2);
+  const TetMesh mesh = test::tet_box(2);
   const auto path = std::filesystem::path(testing::TempDir()) / "littoral_tets.vtu";
   io::write_tets(path, mesh, VecX::Ones(mesh.n_vertices()));
   const std::string bytes = io::read_bytes(path);

@@ -80,12 +80,8 @@ TEST(QuadraticTets, FromAVertexAndFromAPlaneThroughTheFrontDoor) {
 }
 
 TEST(QuadraticTets, ComponentsWithoutASourceAreInfiniteAndCloudsRefused) {
-  TetMesh mesh = test::tet_box(1);
-  const int n = mesh.n_vertices(), t = mesh.n_tets();
-  mesh.points.conservativeResize(2 * n, 3);
-  mesh.points.bottomRows(n) = mesh.points.topRows(n).array() + 3;
-  mesh.tets.conservativeResize(2 * t, 4);
-  mesh.tets.bottomRows(t) = mesh.tets.topRows(t).array() + n;
+  const TetMesh mesh = test::copies(test::tet_box(1), 2, {3, 3, 3});
+  const int n = mesh.n_vertices() / 2;
   TetSources sources;
   sources.vertices = {0};
   Report report;

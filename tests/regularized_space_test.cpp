@@ -30,7 +30,7 @@ double from_one_end(double x, double alpha) {
 
 TEST(RegularizedInSpace, IntervalFromVerticesAndFromASurfaceBetweenThem) {
   const int n = 8;
-  const TetMesh mesh = test::cube_tets(n);
+  const TetMesh mesh = test::tet_box(n);
   TetSources side, square;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.points(v, 0) == 0) side.vertices.push_back(v);
@@ -49,7 +49,7 @@ TEST(RegularizedInSpace, IntervalFromVerticesAndFromASurfaceBetweenThem) {
 }
 
 TEST(RegularizedInSpace, SameWhateverTheUnitThoughAlphaIsALength) {
-  TetMesh mesh = test::cube_tets(4), larger = mesh;
+  TetMesh mesh = test::tet_box(4), larger = mesh;
   larger.points *= 1000;
   const TetSources corner{{}, {0}};
   Report report;
@@ -59,7 +59,7 @@ TEST(RegularizedInSpace, SameWhateverTheUnitThoughAlphaIsALength) {
 }
 
 TEST(RegularizedInSpace, FromTheBoundaryTheMiddleOfACubeIsHalfWay) {
-  const TetMesh mesh = test::cube_tets(8);
+  const TetMesh mesh = test::tet_box(8);
   TetSources boundary;
   boundary.boundary = true;
   Report report;
@@ -74,12 +74,8 @@ TEST(RegularizedInSpace, FromTheBoundaryTheMiddleOfACubeIsHalfWay) {
 }
 
 TEST(RegularizedInSpace, ComponentsWithoutASourceAreInfiniteAndOptionsAreChecked) {
-  TetMesh mesh = test::cube_tets(2);
-  const int n = mesh.n_vertices(), m = mesh.n_tets();
-  mesh.points.conservativeResize(2 * n, 3);
-  mesh.points.bottomRows(n) = mesh.points.topRows(n).array() + 5;
-  mesh.tets.conservativeResize(2 * m, 4);
-  mesh.tets.bottomRows(m) = mesh.tets.topRows(m).array() + n;
+  const TetMesh mesh = test::copies(test::tet_box(2), 2, {5, 5, 5});
+  const int n = mesh.n_vertices() / 2;
   Report report;
   const VecX u = through_tets(mesh, {{}, {3}}, {}, report);
   EXPECT_TRUE(u.head(n).allFinite());

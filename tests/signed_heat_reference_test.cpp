@@ -21,6 +21,33 @@ VecX read_values(const std::filesystem::path& path) {
   return Eigen::Map<VecX>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+std::filesystem::path folder_of(const std::string& name) {
+  return std::filesystem::path("reference/shm_surface") / name;
+}
+
+/// What was put into the authors' program, and where its outputs lie.
+struct Example {
+  std::filesystem::path folder;
+  SurfaceMesh mesh;
+  SurfaceSources sources;
+
+  explicit Example(const std::string& name)
+      : folder(test::shared() / folder_of(name)), mesh(io::read_surface(folder / "mesh.obj")) {
+    Report unread;
+    sources = io::read_sources(folder / "input_source.txt", mesh, std::nullopt, unread);
+  }
+};
+
+/// Compares a difference, in shares of the range, with what a case allows.
+template <class Case>
+void expect_small(const VecX& difference, const Case& c) {
+  const double largest = difference.cwiseAbs().maxCoeff(), mean = difference.cwiseAbs().mean();
+  testing::Test::RecordProperty("largest", std::to_string(largest));
+  testing::Test::RecordProperty("mean", std::to_string(mean));
+  EXPECT_LE(largest, c.tolerance);
+  EXPECT_LE(mean, c.mean_tolerance);
+}
+
 struct Case {
   const char* name;
   const char* output;
@@ -40,26 +67,18 @@ class SignedHeatReference : public testing::TestWithParam<Case> {};
 
 TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
   const Case& c = GetParam();
-  const std::filesystem::path relative = std::filesystem::path("reference/shm_surface") / c.name;
-  LITTORAL_NEEDS_SHARED(relative);
-  const auto folder = test::shared() / relative;
-  const SurfaceMesh mesh(io::read_surface(folder / "mesh.obj"));
+  LITTORAL_NEEDS_SHARED(folder_of(c.name));
+  const Example example(c.name);
   Report report;
-  const SurfaceSources sources =
-      io::read_sources(folder / "input_source.txt", mesh, std::nullopt, report);
   SignedHeatOptions options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
   options.points = static_cast<int>(PointVectors::radial);  // as theirs
-  const VecX phi = test::signed_heat(mesh, sources, options, report);
-  VecX theirs = read_values(folder / c.output);
+  const VecX phi = test::signed_heat(example.mesh, example.sources, options, report);
+  VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());
   ASSERT_TRUE(phi.allFinite());
   const double range = theirs.maxCoeff() - theirs.minCoeff();
   if (c.up_to_shift) theirs.array() += (phi - theirs).mean();
-  const VecX difference = (phi - theirs).cwiseAbs() / range;
-  RecordProperty("largest", std::to_string(difference.maxCoeff()));
-  RecordProperty("mean", std::to_string(difference.mean()));
-  EXPECT_LE(difference.maxCoeff(), c.tolerance);
-  EXPECT_LE(difference.mean(), c.mean_tolerance);
+  expect_small((phi - theirs) / range, c);
 }
 
 /// Polygon meshes: another discretization than the authors', so only alike.
@@ -78,26 +97,18 @@ class OtherDomainReference : public testing::TestWithParam<OtherDomain> {};
 
 TEST_P(OtherDomainReference, IsCloseToTheAuthorsProgram) {
   const OtherDomain& c = GetParam();
-  const std::filesystem::path relative = std::filesystem::path("reference/shm_surface") / c.name;
-  LITTORAL_NEEDS_SHARED(relative);
-  const auto folder = test::shared() / relative;
-  const SurfaceMesh mesh(io::read_surface(folder / "mesh.obj"));
+  LITTORAL_NEEDS_SHARED(folder_of(c.name));
+  const Example example(c.name);
   Report report;
-  const SurfaceSources sources =
-      io::read_sources(folder / "input_source.txt", mesh, std::nullopt, report);
-  VecX phi = surface_distance(mesh, sources,
+  VecX phi = surface_distance(example.mesh, example.sources,
                               {"signed-heat", {{"constraint", c.constraint}, {"time-scale", "1"}}},
                               {}, report);
-  const VecX theirs = read_values(folder / c.output);
+  const VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());
   ASSERT_TRUE(phi.allFinite());
   // Their vertex-based discretizations turn curve normals the other way than their edge-based one.
   if (phi.dot(theirs) < 0) phi = -phi;
-  const VecX difference = (phi - theirs).cwiseAbs() / (theirs.maxCoeff() - theirs.minCoeff());
-  RecordProperty("largest", std::to_string(difference.maxCoeff()));
-  RecordProperty("mean", std::to_string(difference.mean()));
-  EXPECT_LE(difference.maxCoeff(), c.tolerance);
-  EXPECT_LE(difference.mean(), c.mean_tolerance);
+  expect_small((phi - theirs) / (theirs.maxCoeff() - theirs.minCoeff()), c);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -11,10 +11,6 @@
 
 namespace littoral::test {
 
-inline MatX3i triangles_of(const PolygonSoup& soup) {
-  return Eigen::Map<const MatX3i>(soup.corners.data(), soup.n_faces(), 3);
-}
-
 inline MatX3 random_points(int n, double reach, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(-reach, reach);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "littoral/domain/triangulate.h"
 #include "littoral/spatial/winding_number.h"
 #include "space_helpers.h"
 #include "test_meshes.h"
@@ -14,7 +15,6 @@ namespace littoral {
 namespace {
 
 using test::random_points;
-using test::triangles_of;
 
 TEST(WindingNumber, ExactSumsAgreeWithBruteForceAlsoOnBrokenSurfaces) {
   PolygonSoup soup = test::octasphere_soup(3);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "littoral/base/error.h"
+#include "littoral/domain/triangulate.h"
 #include "littoral/spatial/brute_force.h"
 #include "littoral/spatial/triangle_bvh.h"
 #include "test_meshes.h"
@@ -41,13 +42,6 @@ Soup random_soup(std::mt19937& random, Kind kind, int n) {
   }
   if (kind == Kind::lattice) soup.points = (soup.points * 4).array().round() / 4;  // many ties
   return soup;
-}
-
-MatX3i triangles(const PolygonSoup& soup) {
-  MatX3i faces(soup.n_faces(), 3);
-  for (int f = 0; f < soup.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) faces(f, k) = soup.face(f)[k];
-  return faces;
 }
 
 void expect_consistent(const Soup& soup, const ClosestPoint& hit, const Vec3& query) {
@@ -139,7 +133,7 @@ TEST(SpatialBvh, PropertyDistanceMatchesOracleAtAnyScaleAndOffset) {
 
 TEST(SpatialBvh, LowestFaceAmongEquals) {
   const PolygonSoup sphere = test::octasphere_soup(2);
-  const MatX3i faces = triangles(sphere);
+  const MatX3i faces = triangles_of(sphere);
   const TriangleBvh bvh(sphere.points, faces);
   for (int v = 0; v < sphere.n_vertices(); ++v) {  // out along a vertex: all its faces tie
     const Vec3 query = 3 * sphere.points.row(v).transpose();
@@ -178,7 +172,7 @@ TEST(SpatialBvh, ExtremeMagnitudes) {
   for (double scale : {1e-300, 1e-200, 1e-30, 1e30, 1e200, 1e300}) {
     const PolygonSoup sphere = test::octasphere_soup(2);
     const MatX3 points = sphere.points * scale;
-    const TriangleBvh bvh(points, triangles(sphere));
+    const TriangleBvh bvh(points, triangles_of(sphere));
     const ClosestPoint hit = bvh.closest_point(Vec3(3, 0, 0) * scale);
     EXPECT_NEAR(hit.distance / scale, 2, 1e-14);
     EXPECT_NEAR(hit.point[0] / scale, 1, 1e-14);

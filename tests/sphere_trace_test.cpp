@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <limits>
 
+#include "field_helpers.h"
 #include "littoral/api/traced_scene.h"
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
@@ -20,14 +20,7 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-class Formula final : public PointwiseDistance {
- public:
-  explicit Formula(std::function<DistanceSample(const Vec3&)> ask) : ask_(std::move(ask)) {}
-  DistanceSample at(const Vec3& x) const override { return ask_(x); }
-
- private:
-  std::function<DistanceSample(const Vec3&)> ask_;
-};
+using test::Formula;
 
 Formula ball(double scale) {
   return Formula([scale](const Vec3& x) {

@@ -28,7 +28,7 @@ VecX distance(const TetMesh& mesh, const TetSources& sources, const OptionTexts&
 }
 
 TEST(TetLocator, FindsTheTetAndItsCoordinates) {
-  const TetMesh mesh = test::cube_tets(4);
+  const TetMesh mesh = test::tet_box(4);
   const TetLocator locator(mesh);
   const MatX3 queries = test::random_points(400, 0.7);
   int inside = 0;
@@ -51,7 +51,7 @@ TEST(TetLocator, FindsTheTetAndItsCoordinates) {
 }
 
 TEST(TetLocator, TheBoundaryOfACubeFacesOutward) {
-  TetMesh mesh = test::cube_tets(3);
+  TetMesh mesh = test::tet_box(3);
   for (int t = 0; t < mesh.n_tets(); t += 2) std::swap(mesh.tets(t, 0), mesh.tets(t, 1));
   const MatX3i faces = boundary_faces(mesh);
   EXPECT_EQ(faces.rows(), 6 * 9 * 2);
@@ -67,14 +67,14 @@ TEST(TetLocator, TheBoundaryOfACubeFacesOutward) {
 // exact, whatever the tets.
 TEST(TetMeshDistance, IsExactFromAPlaneOfFaces) {
   const int n = 6;
-  TetMesh mesh = test::cube_tets(n);
+  TetMesh mesh = test::tet_box(n);
   const VecX phi = distance(mesh, {test::square_at(0.5, n), {}});
   EXPECT_LT((phi - (mesh.points.col(0).array() - 0.5).matrix()).cwiseAbs().maxCoeff(), 1e-3);
 }
 
 TEST(TetMeshDistance, IsExactFromAPlaneBetweenFaces) {
   const int n = 6;
-  TetMesh mesh = test::cube_tets(n);
+  TetMesh mesh = test::tet_box(n);
   // Inner vertices anywhere: the plane crosses tets of every shape.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-0.03, 0.03);
@@ -90,7 +90,7 @@ TEST(TetMeshDistance, IsExactFromAPlaneBetweenFaces) {
 
 TEST(TetMeshDistance, IsZeroAtTheVerticesOfFacesThatAreSources) {
   const int n = 6;
-  const TetMesh mesh = test::cube_tets(n);
+  const TetMesh mesh = test::tet_box(n);
   // Two planes that meet at a right angle.
   PolygonSoup corner;
   std::vector<int> used;
@@ -128,7 +128,7 @@ TEST(TetMeshDistance, IsZeroAtTheVerticesOfFacesThatAreSources) {
 TEST(TetMeshDistance, FromAVertexGrowsByOne) {
   double last = infinity;
   for (const int n : {8, 16}) {
-    const TetMesh mesh = test::cube_tets(n);
+    const TetMesh mesh = test::tet_box(n);
     const int middle = n / 2 * (1 + (n + 1) * (1 + (n + 1)));
     const VecX phi = distance(mesh, {{}, {middle}});
     const VecX exact = (mesh.points.rowwise() - mesh.points.row(middle)).rowwise().norm();
@@ -142,15 +142,10 @@ TEST(TetMeshDistance, FromAVertexGrowsByOne) {
 
 TEST(TetMeshDistance, ComponentsAreSolvedApart) {
   const int n = 4;
-  const TetMesh one = test::cube_tets(n);
-  TetMesh three = one;
-  const int nv = one.n_vertices(), nt = one.n_tets();
+  const TetMesh one = test::tet_box(n);
+  TetMesh three = test::copies(one, 3, {0, 2, 0});
+  const int nv = one.n_vertices();
   three.points.conservativeResize(3 * nv + 1, 3);
-  three.tets.conservativeResize(3 * nt, 4);
-  for (int c = 1; c < 3; ++c) {
-    three.points.middleRows(c * nv, nv) = one.points.rowwise() + Eigen::RowVector3d(0, 2 * c, 0);
-    three.tets.middleRows(c * nt, nt) = one.tets.array() + c * nv;
-  }
   three.points.row(3 * nv) << 9, 9, 9;  // in no tet
   PolygonSoup source = test::square_at(0.5, n);
   PolygonSoup second = test::square_at(0.25, n);
@@ -173,7 +168,7 @@ TEST(TetMeshDistance, ComponentsAreSolvedApart) {
 
 TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
   const int n = 5;
-  const TetMesh mesh = test::cube_tets(n);
+  const TetMesh mesh = test::tet_box(n);
   PolygonSoup ball = test::octasphere_soup(2);
   ball.points = (0.3 * ball.points).rowwise() + Eigen::RowVector3d(0.5, 0.45, 0.55);
   const VecX phi = distance(mesh, {ball, {}});
@@ -208,7 +203,7 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
 }
 
 TEST(TetMeshDistance, SaysWhatIsWrong) {
-  const TetMesh mesh = test::cube_tets(2);
+  const TetMesh mesh = test::tet_box(2);
   const PolygonSoup square = test::square_at(0.5, 2);
   PolygonSoup far = square;
   far.points.array() += 5;

@@ -7,42 +7,23 @@
 #include <limits>
 #include <random>
 
+#include "field_helpers.h"
 #include "littoral/base/error.h"
 #include "littoral/methods/tori.h"
 #include "littoral/sources/likely_outliers.h"
+#include "torus_helpers.h"
 
 namespace littoral {
 namespace {
 
-constexpr double tube = 0.4;
+using test::places;
+using test::tube;
 
 double on_torus(const Vec3& x) { return std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) - tube; }
 
 OrientedPoints torus_cloud(int n, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  OrientedPoints cloud;
-  cloud.points.resize(n, 3);
-  cloud.normals.resize(n, 3);
-  for (int i = 0; i < n;) {
-    const double u = 2 * M_PI * uniform(random), v = 2 * M_PI * uniform(random);
-    if (uniform(random) > (1 + tube * std::cos(v)) / (1 + tube)) continue;
-    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
-    cloud.normals.row(i) = normal;
-    cloud.points.row(i++) = Vec3(std::cos(u), std::sin(u), 0) + tube * normal;
-  }
-  return cloud;
-}
-
-std::vector<Vec3> places(int n, unsigned seed, double reach) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  std::vector<Vec3> out;
-  for (int i = 0; i < n; ++i) {
-    const double x = uniform(random), y = uniform(random);
-    out.emplace_back(x, y, uniform(random));
-  }
-  return out;
+  return test::torus_cloud(n, random);
 }
 
 Tori fitted(const OrientedPoints& cloud, const TorusFit& fit = {},

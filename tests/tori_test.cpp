@@ -12,6 +12,7 @@
 #include "littoral/api/tori_cloud.h"
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
+#include "torus_helpers.h"
 
 namespace littoral {
 namespace {
@@ -120,22 +121,11 @@ TEST(Tori, FitIsExactOnSpheres) {
 
 /// Mean error over queries near a torus of radii 1 and 0.4, sampled by n points at random.
 double mean_error_on_torus(int n) {
-  OrientedPoints cloud;
-  cloud.points.resize(n, 3);
-  cloud.normals.resize(n, 3);
   std::mt19937 random(11);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  for (int i = 0; i < n;) {
-    const double u = 2 * pi * uniform(random), v = 2 * pi * uniform(random);
-    if (uniform(random) > (1 + 0.4 * std::cos(v)) / 1.4) continue;
-    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
-    cloud.normals.row(i) = normal;
-    cloud.points.row(i++) = Vec3(std::cos(u), std::sin(u), 0) + 0.4 * normal;
-  }
-  const Tori tori = fitted(cloud);
+  const Tori tori = fitted(test::torus_cloud(n, random));
   double error = 0;
   const auto at = queries(2000, 12);
-  for (const Vec3& x : at) error += std::abs(tori.value(x) - torus_exact(x, 1, 0.4));
+  for (const Vec3& x : at) error += std::abs(tori.value(x) - torus_exact(x, 1, test::tube));
   return error / static_cast<double>(at.size());
 }
 

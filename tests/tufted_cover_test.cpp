@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "littoral/domain/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -34,13 +35,6 @@ double area(const TuftedCover& cover) {
     sum += std::sqrt(s * (s - f.length[0]) * (s - f.length[1]) * (s - f.length[2]));
   }
   return sum;
-}
-
-MatX3i triangles_of(const PolygonSoup& soup) {
-  MatX3i F(soup.n_faces(), 3);
-  for (int f = 0; f < soup.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) F(f, k) = soup.face(f)[k];
-  return F;
 }
 
 TEST(TuftedCover, SidesOfAManifoldAreSheets) {

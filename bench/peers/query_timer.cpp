@@ -41,7 +41,7 @@ int main(int count, char** words) {
   }
   set_thread_count(std::atoi(words[3]));
   const PolygonSoup soup = triangulate(io::read_surface(words[1]));
-  const MatX3i faces = Eigen::Map<const MatX3i>(soup.corners.data(), soup.n_faces(), 3);
+  const MatX3i faces = triangles_of(soup);
   const std::string bytes = io::read_bytes(words[2]);
   const auto n = static_cast<Eigen::Index>(bytes.size() / sizeof(double) / 3);
   MatX3 queries(n, 3);

@@ -17,34 +17,19 @@
 
 #include "littoral/base/parallel.h"
 #include "littoral/methods/tori.h"
+#include "torus_helpers.h"
 
 namespace littoral {
 namespace {
 
 const double pi = std::acos(-1.0);
-constexpr double tube = 0.4;
+using test::tube;
 
 /// Microseconds of processor time a call, for `count` calls in one.
 double microseconds(int count, const std::function<void()>& calls) {
   const std::clock_t start = std::clock();
   calls();
   return 1e6 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count;
-}
-
-OrientedPoints torus_points(int n, std::mt19937& random) {
-  std::uniform_real_distribution<double> uniform(0, 1);
-  OrientedPoints cloud;
-  cloud.points.resize(n, 3);
-  cloud.normals.resize(n, 3);
-  for (int i = 0; i < n;) {
-    const double u = 2 * pi * uniform(random), v = 2 * pi * uniform(random);
-    const double r = 1 + tube * std::cos(v);
-    if (uniform(random) * (1 + tube) > r) continue;  // evenly by area
-    cloud.points.row(i) << r * std::cos(u), r * std::sin(u), tube * std::sin(v);
-    cloud.normals.row(i) << std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v);
-    ++i;
-  }
-  return cloud;
 }
 
 /// Memory of the process [bytes].
@@ -60,7 +45,7 @@ void row(int n) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1.5, 1.5);
   std::normal_distribution<double> normal;
-  const OrientedPoints cloud = torus_points(n, random);
+  const OrientedPoints cloud = test::torus_cloud(n, random);
   const double spacing = std::sqrt(4 * pi * pi * tube / n);
   const PointTree tree(cloud.points);
   std::vector<Torus> fitted;

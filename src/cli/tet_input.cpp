@@ -3,14 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "cli/surface_input.h"
 #include "cli/volume_input.h"
-#include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
 #include "littoral/base/error.h"
 #include "littoral/contour/isosurface.h"
@@ -232,9 +230,7 @@ void distance_through_tets(const TetArguments& arguments, Session& session) {
       write_tet_field(out, file.mesh, values, "distance", session);
     }
   }
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 std::vector<InfoEntry> tet_info(const io::TetFile& file) {

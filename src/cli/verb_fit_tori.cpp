@@ -1,11 +1,9 @@
 // littoral fit-tori: the tori of a point cloud, to be asked later.
 
-#include <iostream>
 #include <memory>
 
 #include "cli/space_input.h"
 #include "cli/verbs.h"
-#include "littoral/api/report_json.h"
 #include "littoral/io/read.h"
 #include "littoral/io/write.h"
 
@@ -26,9 +24,7 @@ void run(Arguments& arguments, Session& session) {
   const PolygonSoup tori =
       fit_tori_cloud(input, arguments.space.request, session.task(), session.report);
   io::write_surface(arguments.out, tori);
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 
 #include "cli/method_options.h"
@@ -12,7 +11,6 @@
 #include "cli/volume_input.h"
 #include "littoral/api/level_lines.h"
 #include "littoral/api/registry.h"
-#include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
 #include "littoral/base/error.h"
 #include "littoral/io/volume.h"
@@ -106,9 +104,7 @@ void run(Arguments& arguments, Session& session) {
     offset_shape(arguments, distances, session);
   else
     offset_curves(arguments, distances, session);
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 void add_options(CLI::App& verb, Arguments& arguments, Session& session) {

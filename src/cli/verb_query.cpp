@@ -1,11 +1,9 @@
 // littoral query: signed distance at given points.
 
-#include <iostream>
 #include <memory>
 
 #include "cli/space_input.h"
 #include "cli/verbs.h"
-#include "littoral/api/report_json.h"
 
 namespace littoral::cli {
 
@@ -34,9 +32,7 @@ void run(Arguments& arguments, Session& session) {
     table.columns.rightCols(3) = gradients;
   }
   write_query_table(arguments.out, queries, table);
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 }  // namespace

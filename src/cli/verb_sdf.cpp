@@ -1,14 +1,12 @@
 // littoral sdf: signed distance in space around a mesh, soup or point cloud.
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
 
 #include "cli/space_input.h"
 #include "cli/tet_input.h"
 #include "cli/verbs.h"
 #include "cli/volume_input.h"
-#include "littoral/api/report_json.h"
 #include "littoral/api/shells.h"
 #include "littoral/api/tetgen_distance.h"
 #include "littoral/base/error.h"
@@ -108,9 +106,7 @@ void run(Arguments& arguments, Session& session) {
     const Stopwatch watch(session.report, "write");
     write_results(arguments, volume, tets, session);
   }
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 }  // namespace

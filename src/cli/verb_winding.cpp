@@ -1,6 +1,5 @@
 // littoral winding: which regions curves bound on a surface, and which curves bound nothing.
 
-#include <iostream>
 #include <map>
 #include <memory>
 
@@ -8,7 +7,6 @@
 #include "cli/space_input.h"
 #include "cli/surface_input.h"
 #include "cli/verbs.h"
-#include "littoral/api/report_json.h"
 #include "littoral/api/winding.h"
 #include "littoral/base/error.h"
 #include "littoral/io/picture.h"
@@ -78,9 +76,7 @@ void run_at_points(const Arguments& arguments, Session& session) {
   session.reading = false;
   const VecX values = query_winding(input, queries, request, session.task(), session.report);
   write_query_table(arguments.out, queries, {{"winding"}, values});
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 void run(const Arguments& arguments, Session& session) {
@@ -105,9 +101,7 @@ void run(const Arguments& arguments, Session& session) {
   const WindingAnswer answer =
       surface_winding(mesh, sources, request, session.task(), session.report);
   write_results(arguments, answer, session);
-  session.print_warnings();
-  session.print_details();
-  if (session.json) std::cout << report_json(session.report) << "\n";
+  session.print_report();
 }
 
 }  // namespace

@@ -40,7 +40,15 @@ uniform vec4 cut;  // nothing is drawn where cut.xyz . place > cut.w
 float fieldValue() { return vTimes / max(vWeight, 1e-6); }
 `;
 
-const fragmentShader = `${fragmentHead}
+/// How bright a surface is whose normal, towards the eye, is n.
+export const lightFunction = `
+float light(vec3 n) {
+  vec3 lamp = normalize(vec3(-0.25, 0.35, 1.0));
+  return min(1.06, 0.5 + 0.5 * max(0.0, dot(n, lamp)) / lamp.z);
+}
+`;
+
+const fragmentShader = `${fragmentHead}${lightFunction}
 precision highp sampler2D;
 uniform bool hasField;
 uniform bool showLines;
@@ -67,8 +75,6 @@ void main() {
   smoothNormal = normalize(smoothNormal + (1.0 - vSmooth + 1e-6) * flatNormal);
   vec3 n = normalize(mix(flatNormal, smoothNormal, smoothstep(0.3, 0.5, dot(smoothNormal, flatNormal))));
   if (dot(n, vPosition) > 0.0) n = -n;
-  vec3 lamp = normalize(vec3(-0.25, 0.35, 1.0));
-  float light = min(1.06, 0.5 + 0.5 * max(0.0, dot(n, lamp)) / lamp.z);
   float vT = fieldValue();
   float slope = length(vec2(dFdx(vT), dFdy(vT)));
 
@@ -105,7 +111,7 @@ void main() {
       }
     }
   }
-  colour *= light;
+  colour *= light(n);
   result = vec4(mix(colour, dark ? vec3(0.92, 0.93, 0.96) : vec3(0.07, 0.08, 0.11), strength), 1.0);
 }`;
 

@@ -1,7 +1,9 @@
 // Sphere tracing of blended tori, as in the library: methods/torus.h, methods/tori.cpp (eq. 5.1 with
 // shifted exponents) and methods/sphere_trace.cpp, in single precision.
+import { lightFunction } from "./surface.js";
 
-export const traceVertex = `
+/// Of both passes: a rectangle over the whole picture.
+export const screenVertex = `
 out vec2 place;
 void main() {
   place = position.xy;
@@ -167,15 +169,9 @@ void main() {
   result = vec4(t, n / max(1e-20, length(n)));
 }`;
 
-export const showVertex = `
-out vec2 place;
-void main() {
-  place = position.xy;
-  gl_Position = vec4(position.xy, 0.0, 1.0);
-}`;
-
 export const showFragment = `
 precision highp float;
+${lightFunction}
 precision highp sampler2D;
 in vec2 place;
 out vec4 result;
@@ -193,10 +189,8 @@ void main() {
   vec3 x = eye + hit.x * normalize(rays[0] * place.x + rays[1] * place.y + rays[2]);
   vec3 seen = (view * vec4(x, 1.0)).xyz, n = mat3(view) * hit.yzw;
   if (dot(n, seen) > 0.0) n = -n;
-  vec3 lamp = normalize(vec3(-0.25, 0.35, 1.0));
-  float light = min(1.06, 0.5 + 0.5 * max(0.0, dot(n, lamp)) / lamp.z);
   vec3 colour = colourAt < 0.0 ? plainColour : texture(colours, vec2((255.0 * colourAt + 0.5) / 256.0, 0.5)).rgb;
-  result = vec4(colour * light, 1.0);
+  result = vec4(colour * light(n), 1.0);
   vec4 screen = toScreen * vec4(seen, 1.0);
   gl_FragDepth = clamp(0.5 * screen.z / screen.w + 0.5, 0.0, 1.0);
 }`;

@@ -2,7 +2,7 @@
 // moves, it is traced at as few pixels as the machine can do at once; at rest, strip by strip at all.
 import * as THREE from "three";
 import { makeTree, width } from "./tori-tree.js";
-import { showFragment, showVertex, traceFragment, traceVertex } from "./trace-shader.js";
+import { screenVertex, showFragment, traceFragment } from "./trace-shader.js";
 
 const quick = 25, strip = 30, rest = 150;  // milliseconds
 
@@ -57,10 +57,10 @@ export function makeTracer(scene, renderer, look) {
     colours: look.uniforms.colours, plainColour: look.uniforms.plainColour, colourAt: { value: -1 },
     view: { value: new THREE.Matrix4() }, toScreen: { value: new THREE.Matrix4() },
   };
-  const options = { glslVersion: THREE.GLSL3, depthTest: false, depthWrite: false };
-  const tracing = new THREE.ShaderMaterial({ ...options, vertexShader: traceVertex, fragmentShader: traceFragment, uniforms });
+  const options = { glslVersion: THREE.GLSL3, vertexShader: screenVertex, depthTest: false, depthWrite: false };
+  const tracing = new THREE.ShaderMaterial({ ...options, fragmentShader: traceFragment, uniforms });
   const showing = new THREE.ShaderMaterial({
-    ...options, depthTest: true, depthWrite: true, vertexShader: showVertex, fragmentShader: showFragment, uniforms: showUniforms,
+    ...options, depthTest: true, depthWrite: true, fragmentShader: showFragment, uniforms: showUniforms,
   });
   const quad = (material) => {
     const mesh = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material);

@@ -1,8 +1,10 @@
 // Starts the installed Chromium on a page from disk and gathers what it complains about.
+import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
 function executable() {
@@ -47,6 +49,29 @@ export async function openPage(url, { extraFlags = [], ...options } = {}) {
     },
   };
 }
+
+/// Opens the page that an environment variable names and waits until it has been drawn.
+export async function openResult(variable, options, timeout = 30000) {
+  const file = process.env[variable];
+  assert.ok(file && existsSync(file), `set ${variable} to a page made by the library`);
+  const url = pathToFileURL(resolve(file)).href;
+  const shown = await openPage(url, { colorScheme: "light", ...options });
+  await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout });
+  return { ...shown, url };
+}
+
+/// The page has complained about nothing and asked for nothing but itself.
+export function assertAlone({ errors, requests, url }) {
+  assert.deepEqual(errors, []);
+  assert.deepEqual(requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")), [url]);
+}
+
+/// Moves the slider of that name.
+export const drag = (page, id, value) => page.evaluate(([name, x]) => {
+  const slider = document.getElementById(name);
+  slider.value = String(x);
+  slider.dispatchEvent(new Event("input"));
+}, [id, value]);
 
 /// Counts the pixels that an action changes.
 export async function changed(page, act) {

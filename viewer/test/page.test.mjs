@@ -2,22 +2,12 @@
 // LITTORAL_PAGE_OUT) in a real browser. Its field is the x coordinate, with facts "vertex" (a number)
 // and "value" (the field there); its title tries to smuggle in a script.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { existsSync } from "node:fs";
-import { pathToFileURL } from "node:url";
-import { resolve } from "node:path";
-import { changed as changedPixels, openPage } from "./browser.mjs";
+import { after, test } from "node:test";
+import { assertAlone, changed as changedPixels, openPage, openResult } from "./browser.mjs";
 
-assert.ok(process.env.PAGE && existsSync(process.env.PAGE), "set PAGE to a page made by the library");
-const url = pathToFileURL(resolve(process.env.PAGE)).href;
-let shown, page;
-
-before(async () => {
-  shown = await openPage(url, { colorScheme: "light" });
-  page = shown.page;
-  await page.waitForFunction(() => window.littoral?.frames() > 0);
-});
-after(() => shown?.close());
+const shown = await openResult("PAGE");
+const { page } = shown;
+after(() => shown.close());
 
 const changed = (act) => changedPixels(page, act);
 const fact = (name) =>
@@ -119,12 +109,11 @@ test("dark scheme darkens the page", async () => {
 });
 
 test("no errors, and no request but the page itself", () => {
-  assert.deepEqual(shown.errors, []);
-  assert.deepEqual(shown.requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")), [url]);
+  assertAlone(shown);
 });
 
 test("without WebGL the page says so", async () => {
-  const bare = await openPage(url, { extraFlags: ["--disable-webgl", "--disable-3d-apis"] });
+  const bare = await openPage(shown.url, { extraFlags: ["--disable-webgl", "--disable-3d-apis"] });
   try {
     assert.match(await bare.page.textContent("#message"), /WebGL/);
     assert.ok(await bare.page.isVisible("#message"));

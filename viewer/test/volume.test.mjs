@@ -1,28 +1,14 @@
 // VOLUME_PAGE=page.html npm test: a page of a volume made by the library (littoral_tests writes a
 // suitable one to LITTORAL_VOLUME_PAGE_OUT): the distance from a sphere of radius 0.6 in [-1, 1]^3.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { existsSync } from "node:fs";
-import { pathToFileURL } from "node:url";
-import { resolve } from "node:path";
-import { changed, openPage } from "./browser.mjs";
+import { after, test } from "node:test";
+import { assertAlone, changed, drag as dragOn, openResult } from "./browser.mjs";
 
-assert.ok(process.env.VOLUME_PAGE && existsSync(process.env.VOLUME_PAGE), "set VOLUME_PAGE to a page made by the library");
-const url = pathToFileURL(resolve(process.env.VOLUME_PAGE)).href;
-let shown, page;
+const shown = await openResult("VOLUME_PAGE");
+const { page } = shown;
+after(() => shown.close());
 
-before(async () => {
-  shown = await openPage(url, { colorScheme: "light" });
-  page = shown.page;
-  await page.waitForFunction(() => window.littoral?.frames() > 0);
-});
-after(() => shown?.close());
-
-const drag = (id, value) => page.evaluate(([name, x]) => {
-  const slider = document.getElementById(name);
-  slider.value = String(x);
-  slider.dispatchEvent(new Event("input"));
-}, [id, value]);
+const drag = (id, value) => dragOn(page, id, value);
 
 // Least and greatest distance of the surface's points from the origin, in the volume's unit.
 const radii = () => page.evaluate(() => {
@@ -72,6 +58,5 @@ test("the read-out gives the distance on the slice", async () => {
 
 test("labels, no errors, no requests", async () => {
   assert.match(await page.getAttribute("#view", "aria-label"), /volume of .* nodes, distance from/);
-  assert.deepEqual(shown.errors, []);
-  assert.deepEqual(shown.requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")), [url]);
+  assertAlone(shown);
 });

@@ -214,7 +214,7 @@ std::vector<SurfaceMethod> heat_methods() {
               {"signed-heat",
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
-               surfaces_and_tets(),
+               all_surfaces(),
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),

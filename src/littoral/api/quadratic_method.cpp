@@ -75,7 +75,7 @@ std::vector<SurfaceMethod> quadratic_methods() {
   return {surface_method({"quadratic",
                           "Distance to points anywhere and curves, signed on request, of quadratic "
                           "order: the most accurate on coarse and badly shaped meshes.",
-                          {"triangle mesh", "tet mesh"},
+                          {"triangle mesh"},
                           {},
                           "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
                          quadratic_options(), quadratic)};

@@ -1,10 +1,9 @@
 #include "littoral/api/registry.h"
 
-#include <iterator>
-
 #include "littoral/api/pairs.h"
 #include "littoral/api/space_method.h"
 #include "littoral/api/surface_method.h"
+#include "littoral/api/tet_method.h"
 #include "littoral/api/winding.h"
 #include "littoral/base/error.h"
 
@@ -12,12 +11,11 @@ namespace littoral {
 
 const std::vector<SurfaceMethod>& surface_methods() {
   static const std::vector<SurfaceMethod> all = [] {
-    std::vector<SurfaceMethod> out;
-    for (auto family : {heat_methods, geodesic_methods, quadratic_methods, regularized_methods}) {
-      std::vector<SurfaceMethod> entries = family();
-      out.insert(out.end(), std::make_move_iterator(entries.begin()),
-                 std::make_move_iterator(entries.end()));
-    }
+    auto out = all_of<SurfaceMethod>(
+        {heat_methods, geodesic_methods, quadratic_methods, regularized_methods});
+    for (SurfaceMethod& method : out)
+      for (const TetMethod& on_tets : tet_methods())
+        if (on_tets.name == method.info.name) method.info.domains.push_back("tet mesh");
     return out;
   }();
   return all;

@@ -1,6 +1,9 @@
 #pragma once
 // Which methods there are, on which domains they run, and which options they have.
 
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,17 @@ struct MethodInfo {
   std::vector<OptionInfo> options;
   std::string reference;  // the paper
 };
+
+/// The entries of families of methods, one after the other.
+template <class Method>
+std::vector<Method> all_of(std::initializer_list<std::vector<Method> (*)()> families) {
+  std::vector<Method> out;
+  for (const auto family : families) {
+    std::vector<Method> entries = family();
+    std::move(entries.begin(), entries.end(), std::back_inserter(out));
+  }
+  return out;
+}
 
 /// All methods of distance on surfaces, the default first.
 const std::vector<MethodInfo>& methods();

@@ -199,14 +199,14 @@ std::vector<SurfaceMethod> regularized_methods() {
           {"regularized",
            "Unsigned distance that is smooth at the cut locus, aligned to directions, or "
            "unaffected by boundaries.",
-           surfaces_and_tets(),
+           all_surfaces(),
            {},
            "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
            "Geodesic Distances (2023)"},
           regularized_options(), regularized),
       surface_method({"belyaev-fayolle",
                       "Unsigned distance as the largest function of slope at most 1.",
-                      surfaces_and_tets(),
+                      all_surfaces(),
                       {},
                       "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation "
                       "(2020)"},

@@ -1,14 +1,14 @@
 #include "littoral/api/regularized_space.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 
-#include "littoral/api/registry.h"
+#include "littoral/api/tet_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
 #include "littoral/domain/grid_values.h"
+#include "littoral/methods/shift.h"
 #include "littoral/operators/grid.h"
 #include "littoral/spatial/winding_number.h"
 
@@ -65,6 +65,22 @@ SpaceMethod grid_method(const std::string& name, const std::string& summary,
   return method;
 }
 
+TetMethod through_tets(const std::string& name, const OptionTable<RegularizedOptions>& table,
+                       bool smooth) {
+  const auto read = [name, &table](const OptionTexts& texts) {
+    return parse_options(find_method(name), table, texts);
+  };
+  const auto run = [smooth](const TetProblem& problem, RegularizedOptions& options, Task& task,
+                            Report& report) {
+    if (!smooth) options.alpha = 0;
+    const SpMat rows = problem.terms().A;
+    if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
+    return regularized_in_space(tet_calculus(problem.ops), rows, options,
+                                task.stage(0.9, "distance"), report);
+  };
+  return tet_method(name, table, read, run);
+}
+
 }  // namespace
 
 VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
@@ -87,24 +103,8 @@ VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularize
       reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
   VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
                 : VecX(result.u.cwiseMax(0.0));
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const int c = C.component[static_cast<std::size_t>(i)];
-    if (c < 0 || reached[static_cast<std::size_t>(c)] == 0)
-      u[i] = std::numeric_limits<double>::infinity();
-  }
-  for (int c = 0; c < C.n_components; ++c)
-    if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
+  set_unreached(u, C.component, reached, report);
   return u;
-}
-
-RegularizedOptions regularized_options_in_space(const std::string& method, const OptionTexts& texts,
-                                                Report& report) {
-  const bool plain = method == "belyaev-fayolle";
-  const auto& table = plain ? constrained_options() : regularized_options();
-  RegularizedOptions options = parse_options(find_method(method), table, texts);
-  report_options(table, options, report);
-  if (plain) options.alpha = 0;
-  return options;
 }
 
 std::vector<SpaceMethod> regularized_space_methods() {
@@ -115,6 +115,11 @@ std::vector<SpaceMethod> regularized_space_methods() {
           grid_method("belyaev-fayolle",
                       "The same without smoothing: the largest function of slope at most 1.",
                       grid_constrained_options(), 0)};
+}
+
+std::vector<TetMethod> regularized_tet_methods() {
+  return {through_tets("regularized", regularized_options(), true),
+          through_tets("belyaev-fayolle", constrained_options(), false)};
 }
 
 }  // namespace littoral

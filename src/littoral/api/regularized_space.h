@@ -14,12 +14,7 @@ namespace littoral {
 VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
                           const Task& task, Report& report, const VecX* sign = nullptr);
 
-/// The options of `regularized` or, with alpha = 0, `belyaev-fayolle` by name; their values used go
-/// to the report.
-RegularizedOptions regularized_options_in_space(const std::string& method, const OptionTexts& texts,
-                                                Report& report);
-
-/// Those two as methods on grids, with the sign of the winding number.
+/// `regularized` and `belyaev-fayolle` as methods on grids, with the sign of the winding number.
 std::vector<SpaceMethod> regularized_space_methods();
 
 }  // namespace littoral

@@ -1,10 +1,9 @@
 // The methods of distance in space as entries of the registry.
 
-#include <iterator>
-
 #include "littoral/api/space_method.h"
 #include "littoral/base/error.h"
 #include "littoral/base/memory.h"
+#include "littoral/domain/triangulate.h"
 #include "littoral/io/read.h"
 #include "littoral/methods/closest_point.h"
 #include "littoral/methods/convolutional_distance.h"
@@ -93,9 +92,7 @@ SpaceMethod kernel_method(const std::string& name, const std::string& summary,
 
 }  // namespace
 
-MatX3i SpaceProblem::triangles() const {
-  return Eigen::Map<const MatX3i>(surface.corners.data(), surface.n_faces(), 3);
-}
+MatX3i SpaceProblem::triangles() const { return triangles_of(surface); }
 
 std::vector<SpaceMethod> space_heat_methods() {
   SpaceMethod heat;
@@ -193,16 +190,9 @@ std::vector<SpaceMethod> tori_methods() {
 }
 
 const std::vector<SpaceMethod>& space_methods() {
-  static const std::vector<SpaceMethod> all = [] {
-    std::vector<SpaceMethod> out;
-    for (auto family : {space_heat_methods, closest_point_methods, convolutional_methods,
-                        tori_methods, regularized_space_methods}) {
-      std::vector<SpaceMethod> entries = family();
-      out.insert(out.end(), std::make_move_iterator(entries.begin()),
-                 std::make_move_iterator(entries.end()));
-    }
-    return out;
-  }();
+  static const auto all =
+      all_of<SpaceMethod>({space_heat_methods, closest_point_methods, convolutional_methods,
+                           tori_methods, regularized_space_methods});
   return all;
 }
 

@@ -1,11 +1,12 @@
-#include "littoral/api/tet_quadratic.h"
+// Quadratic-order distance through tets, as an entry of the registry.
 
-#include <cmath>
 #include <map>
 #include <memory>
 
+#include "littoral/api/tet_method.h"
 #include "littoral/base/error.h"
 #include "littoral/domain/triangulate.h"
+#include "littoral/methods/quadratic.h"
 #include "littoral/operators/p2_tets.h"
 #include "littoral/spatial/triangle_bvh.h"
 
@@ -33,18 +34,14 @@ std::vector<P2Source<3>> at_vertices(const P2Elements<3>& E, const std::vector<i
   return out;
 }
 
-/// The nodes of some elements with their distance to a surface.
-std::vector<P2Source<3>> around(const TetMesh& mesh, const P2Tets& P, const PolygonSoup& surface,
-                                const std::vector<int>& held) {
-  const PolygonSoup soup = triangulate(surface);
-  MatX3i faces(soup.n_faces(), 3);
-  for (int f = 0; f < soup.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) faces(f, k) = soup.face(f)[static_cast<std::size_t>(k)];
-  const TriangleBvh tree(soup.points, faces);
+/// The nodes of the elements that hold the surface, with their distance to it.
+std::vector<P2Source<3>> around(const TetProblem& problem, const P2Tets& P) {
+  const TetMesh& mesh = *problem.mesh;
+  const PolygonSoup soup = triangulate(problem.surface);
+  const TriangleBvh tree(soup.points, triangles_of(soup));
   std::map<int, P2Source<3>> at_node;
-  for (const int t : held) {
+  for (const int t : problem.tets_with_sources()) {
     const int e = P.element_of_tet[static_cast<std::size_t>(t)];
-    if (e < 0) continue;
     for (int i = 0; i < Shape::nodes; ++i) {
       const int node = P.elements.node[static_cast<std::size_t>(e)][static_cast<std::size_t>(i)];
       if (at_node.count(node) != 0) continue;
@@ -59,29 +56,33 @@ std::vector<P2Source<3>> around(const TetMesh& mesh, const P2Tets& P, const Poly
   return out;
 }
 
-}  // namespace
-
-QuadraticOptions tet_quadratic_options(const OptionTexts& texts) {
+/// Checked for what tets have.
+QuadraticOptions options_of(const OptionTexts& texts) {
   const auto options = parse_options(find_method("quadratic"), quadratic_options(), texts);
   if (options.is_signed || options.subdivide != 1)
     throw UnsupportedError("options signed and subdivide work on surfaces, not on a tet mesh");
   return options;
 }
 
-VecX quadratic_through_tets(const TetMesh& mesh, const TetOperators& ops,
-                            const std::vector<int>& vertices, const PolygonSoup& surface,
-                            const std::vector<int>& held, const QuadraticOptions& options,
-                            const Task& task, Report& report) {
-  if (vertices.empty() && surface.n_faces() == 0)
+VecX quadratic(const TetProblem& problem, const QuadraticOptions& options, Task& task,
+               Report& report) {
+  const bool from_vertices = !problem.vertices.empty();
+  if (!from_vertices && problem.surface.n_faces() == 0)
     throw UnsupportedError(
         "quadratic distance through tets is from vertices or a surface with faces, not from a "
         "cloud");
-  const P2Tets P = p2_elements(mesh, ops);
+  const P2Tets P = p2_elements(*problem.mesh, *problem.ops);
   const auto sources =
-      vertices.empty() ? around(mesh, P, surface, held) : at_vertices(P.elements, vertices);
+      from_vertices ? at_vertices(P.elements, problem.vertices) : around(problem, P);
   if (sources.empty()) throw InputError("no source vertex belongs to a tet");
   const Quadratic<3> method(std::make_shared<const P2Elements<3>>(P.elements));
-  return method.solve(sources, options, task, report).at_vertices();
+  return method.solve(sources, options, task.stage(0.9, "distance"), report).at_vertices();
+}
+
+}  // namespace
+
+std::vector<TetMethod> quadratic_tet_methods() {
+  return {tet_method("quadratic", quadratic_options(), options_of, quadratic)};
 }
 
 }  // namespace littoral

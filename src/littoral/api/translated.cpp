@@ -25,12 +25,6 @@ const std::vector<std::string>& all_surfaces() {
   return names;
 }
 
-std::vector<std::string> surfaces_and_tets() {
-  std::vector<std::string> domains = all_surfaces();
-  domains.push_back("tet mesh");
-  return domains;
-}
-
 Translated translate_nodes(const SurfaceProblem& problem, Task& task, Report& report) {
   const NodalSurface S = [&] {
     const Stopwatch watch(report, "triangulation");

@@ -15,9 +15,6 @@ namespace littoral {
 /// The domains that `translate_nodes` knows, and triangle meshes.
 const std::vector<std::string>& all_surfaces();
 
-/// Those, and tet meshes, through which distance is a function of its own: api/tet_distance.h.
-std::vector<std::string> surfaces_and_tets();
-
 struct Translated {
   std::shared_ptr<const Operators> ops;
   SourceTerms terms;

@@ -5,6 +5,7 @@
 
 #include "littoral/base/error.h"
 #include "littoral/base/parallel.h"
+#include "littoral/domain/triangulate.h"
 #include "littoral/spatial/triangle_bvh.h"
 
 namespace littoral {
@@ -16,11 +17,8 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
                      std::to_string(grid.n_nodes()) + " nodes");
   VecX distance = (values.array() > level).select(VecX::Constant(values.size(), reach), -reach);
   if (surface.n_faces() == 0) return distance;
-  MatX3i faces(surface.n_faces(), 3);
-  for (int f = 0; f < surface.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) faces(f, k) = surface.face(f)[static_cast<std::size_t>(k)];
   task.checkpoint();
-  const TriangleBvh bvh(surface.points, faces);
+  const TriangleBvh bvh(surface.points, triangles_of(surface));
   task.checkpoint();
 
   // Blocks of nodes; one query says whether a whole block is out of reach.

@@ -93,4 +93,8 @@ PolygonSoup triangulate(const PolygonSoup& soup) {
   return out;
 }
 
+MatX3i triangles_of(const PolygonSoup& soup) {
+  return Eigen::Map<const MatX3i>(soup.corners.data(), soup.n_faces(), 3);
+}
+
 }  // namespace littoral

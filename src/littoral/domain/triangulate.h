@@ -13,4 +13,7 @@ namespace littoral {
 /// seconds, the rest becomes a fan. Faces of fewer than three corners are dropped. Never fails.
 PolygonSoup triangulate(const PolygonSoup& soup);
 
+/// The corners of a soup of triangles alone: faces x 3.
+MatX3i triangles_of(const PolygonSoup& soup);
+
 }  // namespace littoral

@@ -1,5 +1,6 @@
 #include "littoral/methods/shift.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -28,6 +29,17 @@ void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi) 
   }
 }
 
+void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
+                   Report& report) {
+  for (Eigen::Index i = 0; i < phi.size(); ++i) {
+    const int c = component[static_cast<std::size_t>(i)];
+    if (c < 0 || !reached[static_cast<std::size_t>(c)])
+      phi[i] = std::numeric_limits<double>::infinity();
+  }
+  for (std::size_t c = 0; c < reached.size(); ++c)
+    if (!reached[c]) report.unreachable_components.push_back(static_cast<int>(c));
+}
+
 VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& phi, Report& report) {
   return finish_field(ops.scalar.component, ops.scalar.n_components, ops.unit, terms.reached, phi,
                       report);
@@ -36,19 +48,13 @@ VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& ph
 VecX finish_field(const std::vector<int>& component, int n_components, double unit,
                   const std::vector<char>& reached, const VecX& phi, Report& report) {
   VecX out = phi * unit;
-  int isolated = 0;
-  for (Eigen::Index i = 0; i < out.size(); ++i) {
-    const int c = component[i];
-    if (c < 0) ++isolated;
-    if (c < 0 || !reached[c]) out[i] = std::numeric_limits<double>::infinity();
-  }
-  for (int c = 0; c < n_components; ++c)
-    if (!reached[c]) report.unreachable_components.push_back(c);
+  set_unreached(out, component, reached, report);
   if (!report.unreachable_components.empty())
     report.warn(std::to_string(report.unreachable_components.size()) + " of " +
                 std::to_string(n_components) +
                 " components hold no source; their distance is infinite");
-  if (isolated)
+  const auto isolated = std::count(component.begin(), component.begin() + out.size(), -1);
+  if (isolated > 0)
     report.warn(std::to_string(isolated) +
                 " vertices belong to no face; their distance is infinite");
   return out;

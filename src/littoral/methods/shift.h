@@ -15,7 +15,13 @@ void set_near(const Calculus& C, const SourceTerms& terms, VecX& Y);
 /// Shifts phi (nodes) on each component to mean zero along the component's sources (Alg. 13).
 void shift_to_mean_zero(const Calculus& C, const SourceTerms& terms, VecX& phi);
 
-/// phi in units of the input, +inf on components and nodes that no source reaches; lists them.
+/// phi is +inf where no source reaches: on components that `reached` is 0 for, which are listed,
+/// and at nodes of none (component -1).
+void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
+                   Report& report);
+
+/// phi in units of the input, +inf on components and nodes that no source reaches; lists them
+/// and warns of them.
 VecX finish_field(const Operators& ops, const SourceTerms& terms, const VecX& phi, Report& report);
 
 /// The same for methods that have no operators: the component of each node (-1: in no cell), the

@@ -1,11 +1,11 @@
 #include "littoral/methods/signed_heat_tets.h"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 
 #include "littoral/base/parallel.h"
+#include "littoral/methods/shift.h"
 #include "littoral/solve/cholesky.h"
 #include "littoral/solve/held_poisson.h"
 #include "littoral/solve/poisson.h"
@@ -57,13 +57,7 @@ VecX integrate(const TetOperators& ops, const TetSourceTerms& terms, const MatX3
   } else if (terms.A.rows() > 0) {
     phi.array() -= terms.weight.dot(terms.A * phi) / terms.weight.sum();
   }
-  for (Eigen::Index v = 0; v < phi.size(); ++v) {
-    const int c = ops.component[static_cast<std::size_t>(v)];
-    if (c < 0 || reached[static_cast<std::size_t>(c)] == 0)
-      phi[v] = std::numeric_limits<double>::infinity();
-  }
-  for (int c = 0; c < ops.n_components; ++c)
-    if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
+  set_unreached(phi, ops.component, reached, report);
   return phi;
 }
 

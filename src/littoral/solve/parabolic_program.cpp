@@ -292,7 +292,8 @@ class Run {
     second_ = matrix_.sum(local_);
     centre_ = matrix_.sum(local_scaled_);
     const double left = (gap_ + p * steps.ds_z + d * steps.s_dz + p * d * steps.ds_dz) / gap_;
-    return std::clamp(std::pow(std::max(left, 0.0), 3), 1e-8, 1.0);
+    // Less than 1, or the residuals would stay where they are the larger part of what is left.
+    return std::clamp(std::pow(std::max(left, 0.0), 3), 1e-8, 0.8);
   }
 
   /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.

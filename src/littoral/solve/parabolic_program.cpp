@@ -142,7 +142,7 @@ class Run {
     anchor_mu_ = mu_;
     for (Row& r : rows_.row) r.anchor_s = r.s, r.anchor_z = r.z;
   }
-  /// Adds rows, and moves back towards the anchor as far as they ask for.
+  /// Adds rows, and moves back towards the anchor as far as they ask for, within measure.
   void insert_rows(const std::vector<typename Program::Inserted>& inserted) {
     double back = 0.02;
     std::vector<Row> grown;
@@ -158,14 +158,14 @@ class Run {
         const double here = at(r, matrix_.gather(x_, e)).g;
         r.anchor_s = std::max(there, 1e-4 * r.size);
         r.anchor_z = 0.1 * anchor_mu_ * weight_[e] / r.anchor_s;
-        if (here < 0) back = there > 0 ? std::max(back, -1.5 * here / (there - here)) : 1;
+        if (here < 0)
+          back = std::max(back, std::min(0.3, there > 0 ? -1.5 * here / (there - here) : 1));
         total_weight_ += weight_[e];
         grown.push_back(r);
       }
     }
     rows_.row = std::move(grown);
     rows_.index(matrix_.n_elements());
-    back = std::min(back, 1.0);
     x_ += back * (anchor_x_ - x_);
     for (Row& r : rows_.row) {
       const double g = at(r, matrix_.gather(x_, r.element)).g;

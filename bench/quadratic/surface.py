@@ -10,6 +10,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -46,6 +48,7 @@ def load(path: Path) -> tuple[Floats, Ints]:
             [PROGRAM, "convert", str(path), "--triangulate", "-o", str(copy), "--quiet"], check=True
         )
         points, faces = read_obj(copy)
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(1)]  # repeated vertices are no triangles
     used = np.unique(faces)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -93,6 +96,50 @@ def mean_edge(points: Floats, faces: Ints) -> float:
     return float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
 
 
+def part_of(faces: Ints, vertex: int) -> NDArray[np.bool_]:
+    """Vertices connected with one of them."""
+    n = int(faces.max()) + 1
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+    graph = csr_matrix((np.ones(len(sides)), (sides[:, 0], sides[:, 1])), (n, n))
+    label = connected_components(graph, directed=False)[1]
+    return np.asarray(label == label[vertex])
+
+
+def corner_angles(points: Floats, faces: Ints) -> Floats:
+    """Angles of the triangles, in degrees."""  # faces x 3
+    sides = [points[faces[:, (k + 1) % 3]] - points[faces[:, k]] for k in range(3)]
+    corners = []
+    for k in range(3):
+        area = np.linalg.norm(np.cross(sides[k], sides[k - 1]), axis=1)
+        corners.append(np.degrees(np.arctan2(area, -(sides[k] * sides[k - 1]).sum(1))))
+    return np.stack(corners, 1)
+
+
+class Kind:
+    """What a mesh is like: `angles` the smallest one and the first percentile of the triangles'
+    smallest ones in degrees, `words` on its topology, `manifold` or not."""
+
+    def __init__(self, points: Floats, faces: Ints) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = Path(folder) / "mesh.obj"
+            write_obj(mesh, points, faces)
+            command = [PROGRAM, "info", "--json", str(mesh)]
+            done = subprocess.run(command, check=True, capture_output=True, text=True)
+        info = json.loads(done.stdout)
+        least = corner_angles(points, faces).min(1)
+        self.angles = f"{least.min():.2g}, {np.percentile(least, 1):.2g}"
+        self.manifold = info["nonmanifold_edges"] + info["nonmanifold_vertices"] == 0
+        words = [f"{info['components']} parts"] if info["components"] > 1 else []
+        if info["boundary_edges"]:
+            words.append("open")
+        if not self.manifold:
+            words.append("nonmanifold")
+        genus = info["components"] - info["euler_characteristic"] / 2
+        if self.manifold and not info["boundary_edges"] and genus > 0:
+            words.append(f"genus {genus:g}")
+        self.words = ", ".join(words)
+
+
 class Run:
     """One call of `littoral distance`: values, report and processor seconds; with `--subdivide`
     also the mesh the values belong to."""
@@ -104,6 +151,7 @@ class Run:
         source: int | tuple[int, Floats],  # a vertex, or a face and barycentrics
         method: str,
         extra: Sequence[str] = (),
+        limit: float | None = None,  # seconds by the clock
     ) -> None:
         with tempfile.TemporaryDirectory() as folder:
             mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
@@ -130,6 +178,7 @@ class Run:
                 check=True,
                 capture_output=True,
                 text=True,
+                timeout=limit,
             )
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             self.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

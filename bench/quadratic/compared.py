@@ -9,6 +9,7 @@ end, on meshes they cannot take.
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -72,10 +73,12 @@ def linear(name: str, points: Floats, faces: Ints, vertex: int) -> Floats | None
         return None
 
 
-def quadratic(points: Floats, faces: Ints, source: int, levels: int) -> Floats | None:
+def quadratic(
+    points: Floats, faces: Ints, source: int, levels: int, options: Sequence[str] = ()
+) -> Floats | None:
     """The quadratic method's distance at the vertices of `levels` subdivisions."""
     try:
-        extra = ["--subdivide", str(2**levels)]
+        extra = [*options, "--subdivide", str(2**levels)]
         run = Run(points, faces, source, "quadratic", extra, limit=LIMIT)
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as error:
         print(f"quadratic: {type(error).__name__}", file=sys.stderr)

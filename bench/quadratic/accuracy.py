@@ -17,11 +17,12 @@ import argparse
 import os
 import resource
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import draw
 import numpy as np
-from compared import LABELS, OF_PAPER, linear, quadratic, subdivided
+from compared import LABELS, OF_PAPER, linear, quadratic
 from surface import (
     Floats,
     Ints,
@@ -33,19 +34,24 @@ from surface import (
     load,
     mean_edge,
     part_of,
+    subdivided,
 )
 
 Pair = tuple[float, float]  # RMSE and largest error
 
 
-def exact(points: Floats, faces: Ints, vertex: int) -> Floats:
-    """Exact polyhedral distance at the vertices; infinite where the source does not reach."""
+def exact(points: Floats, faces: Ints, vertex: int, own: set[str] | None = None) -> Floats:
+    """Exact polyhedral distance at the vertices; infinite where the source does not reach. By
+    littoral, which says so in `own`, where pygeodesic cannot: it ends at nonmanifold edges, its
+    paths do not pass nonmanifold vertices, and on slivers it may not end."""
     reached = part_of(faces, vertex)
     number = np.cumsum(reached) - 1
-    own = number[faces[reached[faces[:, 0]]]]
-    # pygeodesic's paths do not pass nonmanifold vertices, and it ends at nonmanifold edges.
-    name = "pygeodesic" if Kind(points[reached], own).manifold else "exact"
-    found = linear(name, points[reached], own, int(number[vertex]))
+    p, f, v = points[reached], number[faces[reached[faces[:, 0]]]], int(number[vertex])
+    found = linear("pygeodesic", p, f, v) if Kind(p, f).manifold else None
+    if found is None:
+        found = linear("exact", p, f, v)
+        if own is not None:
+            own.add("littoral")
     if found is None:
         raise RuntimeError("no exact distance")
     distance = np.full(len(points), np.inf)
@@ -115,19 +121,23 @@ def table(paths: list[Path], vertex: int, plot: Path | None) -> None:
     rows: list[tuple[str, dict[str, Pair | None]]] = []
     for path, points, faces in sorted(loaded, key=lambda row: len(row[2])):
         levels = 2 if len(faces) <= 8000 else 1
-        found = compare(points, faces, vertex, levels, lambda p, f: exact(p, f, vertex))
+        own: set[str] = set()
+        truth = partial(exact, vertex=vertex, own=own)
+        found = compare(points, faces, vertex, levels, truth)
         rows.append((path.stem, found))
         kind = Kind(points, faces)
-        first = f"| {path.stem} | {len(faces)} | {kind.angles} | {kind.words} | "
+        first = (
+            f"| {path.stem}{'*' if own else ''} | {len(faces)} | {kind.angles} | {kind.words} | "
+        )
         print(first + " | ".join(cell(found[n]) for n in LABELS) + " |", flush=True)
     good = [row for _, row in rows if all(row.values())]
-    blank = " | ".join(["", "", ""])
     for what, middle in (("mean", np.mean), ("median", np.median)):
         cells = []
         for n in LABELS:
             pairs = np.array([row[n] for row in good], dtype=np.float64)
             cells.append(cell((float(middle(pairs[:, 0])), float(middle(pairs[:, 1])))))
-        print(f"| **{what} of {len(good)}** |{blank} | " + " | ".join(cells) + " |")
+        print(f"| **{what} of {len(good)}** | | | | " + " | ".join(cells) + " |")
+    print("\n\\* reference: littoral's own exact distance, as pygeodesic cannot", end="")
     for n in list(LABELS)[:-1]:
         both = [(row[n], row["quadratic"]) for _, row in rows if row[n] and row["quadratic"]]
         less = [sum(q[k] < o[k] for o, q in both if o and q) for k in range(2)]
@@ -201,7 +211,7 @@ def convergence(paths: list[Path], vertex: int, plot: Path | None) -> None:
         title, least = path.stem, corner_angles(points, faces)
         results = []
         for level in range(3):
-            found = compare(points, faces, vertex, 3 - level, lambda p, f: exact(p, f, vertex))
+            found = compare(points, faces, vertex, 3 - level, partial(exact, vertex=vertex))
             results.append((mean_edge(points, faces), found))
             points, faces = subdivided(points, faces, 1)
         show(results, title)

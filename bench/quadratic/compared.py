@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
-from surface import Floats, Ints, Run, Subdivision
+from surface import Floats, Ints, Run, subdivided
 
-LIMIT = 150  # seconds by the clock for one run of one method
+LIMIT = 60  # seconds by the clock for one run of one method
 
 # Label of each method; those of others begin with their package's name.
 LABELS = {
@@ -94,14 +94,6 @@ def quadratic(
     values = np.empty(len(fine))
     values[f.ravel()] = run.values[run.faces.ravel()[at]]
     return values
-
-
-def subdivided(points: Floats, faces: Ints, levels: int) -> tuple[Floats, Ints]:
-    """Every triangle in four, some times."""
-    for _ in range(levels):
-        s = Subdivision(points, faces)
-        points, faces = s.points, s.faces
-    return points, faces
 
 
 if __name__ == "__main__":

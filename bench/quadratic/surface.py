@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,6 +141,30 @@ class Kind:
         self.words = ", ".join(words)
 
 
+def timed(arguments: Sequence[str], limit: float | None = None) -> tuple[dict[str, Any], float]:
+    """Report and processor seconds of one call of the program, which may take so many seconds by
+    the clock."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [PROGRAM, *arguments, "--json", "--quiet"],
+        check=True,
+        capture_output=True,
+        text=True,
+        timeout=limit,
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads(done.stdout), seconds
+
+
+def subdivided(points: Floats, faces: Ints, levels: int) -> tuple[Floats, Ints]:
+    """Every triangle in four, some times."""
+    for _ in range(levels):
+        s = Subdivision(points, faces)
+        points, faces = s.points, s.faces
+    return points, faces
+
+
 class Run:
     """One call of `littoral distance`: values, report and processor seconds; with `--subdivide`
     also the mesh the values belong to."""
@@ -163,33 +188,8 @@ class Run:
                 text = f"unsigned_point\nf {source[0]} {a:.17g} {b:.17g} {c:.17g}\n"
                 (Path(folder) / "source.txt").write_text(text)
                 where = ["--sources", str(Path(folder) / "source.txt")]
-            files = ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra]
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            done = subprocess.run(
-                [
-                    PROGRAM,
-                    "distance",
-                    str(mesh),
-                    *where,
-                    "--method",
-                    method,
-                    *files,
-                ],
-                check=True,
-                capture_output=True,
-                text=True,
-                timeout=limit,
-            )
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            self.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-            self.report = json.loads(done.stdout)
+            files = ["-o", f"{out}.obj", "-o", f"{out}.npy"]
+            command = ["distance", str(mesh), *where, "--method", method, *files, *extra]
+            self.report, self.seconds = timed(command, limit)
             self.values: Floats = np.load(f"{out}.npy").ravel()
             self.points, self.faces = read_obj(Path(f"{out}.obj"))
-
-
-def known_methods() -> list[str]:
-    """Names of the methods the program has."""
-    done = subprocess.run(
-        [PROGRAM, "methods", "--json"], check=True, capture_output=True, text=True
-    )
-    return [method["name"] for method in json.loads(done.stdout)]

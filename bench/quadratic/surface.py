@@ -5,7 +5,7 @@ import os
 import resource
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -141,16 +141,20 @@ class Kind:
         self.words = ", ".join(words)
 
 
-def timed(arguments: Sequence[str], limit: float | None = None) -> tuple[dict[str, Any], float]:
-    """Report and processor seconds of one call of the program, which may take so many seconds by
-    the clock."""
+def limited(seconds: int) -> Callable[[], None]:
+    """For subprocesses: ends them after so many processor seconds."""
+    return lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
+
+def timed(arguments: Sequence[str], limit: int = 3600) -> tuple[dict[str, Any], float]:
+    """Report and processor seconds of one call of the program, which may take `limit` of them."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
         [PROGRAM, *arguments, "--json", "--quiet"],
         check=True,
         capture_output=True,
         text=True,
-        timeout=limit,
+        preexec_fn=limited(limit),
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -176,7 +180,7 @@ class Run:
         source: int | tuple[int, Floats],  # a vertex, or a face and barycentrics
         method: str,
         extra: Sequence[str] = (),
-        limit: float | None = None,  # seconds by the clock
+        limit: int = 3600,  # processor seconds
     ) -> None:
         with tempfile.TemporaryDirectory() as folder:
             mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"

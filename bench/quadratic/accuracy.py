@@ -7,7 +7,7 @@ Prints Markdown, and draws with `--plot FILE.png` what the paper's figures 3, 6,
 
 The protocol is that of section 6.2: lengths in units of the bounding box's diagonal; the quadratic
 method runs on the mesh, all others on the mesh subdivided once, as that has as many nodes; all are
-compared on the mesh subdivided twice (once above 8,000 faces) with the exact polyhedral distance
+compared on the mesh subdivided twice (once above 20,000 faces) with the exact polyhedral distance
 there (PyPI pygeodesic, or littoral's own where the mesh is nonmanifold; on the sphere, great
 circles), linear methods interpolated linearly, the quadratic one evaluated. RMSE is
 sqrt(e^T M1 e / 1^T M1 1), over the parts that the source reaches.
@@ -120,7 +120,7 @@ def table(paths: list[Path], vertex: int, plot: Path | None) -> None:
     loaded = [(path, *load(path)) for path in paths]
     rows: list[tuple[str, dict[str, Pair | None]]] = []
     for path, points, faces in sorted(loaded, key=lambda row: len(row[2])):
-        levels = 2 if len(faces) <= 8000 else 1
+        levels = 2 if len(faces) <= 20000 else 1
         own: set[str] = set()
         truth = partial(exact, vertex=vertex, own=own)
         found = compare(points, faces, vertex, levels, truth)

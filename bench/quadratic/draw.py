@@ -59,9 +59,9 @@ def meshes(rows: list[tuple[str, dict[str, Pair | None]]], plot: Path) -> None:
         axis.axhline(1, color="#cc0077", lw=1)
         axis.set_ylabel(f"{WHAT[which]}, quadratic over other", fontsize=8)
         axis.grid(True, which="major", alpha=0.3)
-    axes[0].legend(fontsize=7, ncols=3)
     axes[1].set_xticks(at, [name for name, _ in rows], rotation=90, fontsize=7)
-    save(figure, plot)
+    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=7, ncols=6, loc="lower center")
+    save(figure, plot, below=0.3)
 
 
 def convergence(drawn: Mapping[str, tuple[Results, Floats | None]], plot: Path) -> None:
@@ -97,8 +97,8 @@ def convergence(drawn: Mapping[str, tuple[Results, Floats | None]], plot: Path) 
             axes[2].set_title("angles, degrees" if k == 0 else "", fontsize=8)
         for axis in axes[:2] if len(drawn) == 1 else axes[1:2]:
             axis.set_xlabel("mean edge length h", fontsize=7)
-    handles, labels = grid[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, fontsize=7, ncols=4, loc="lower center")
+    labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(*labels, fontsize=7, ncols=4, loc="lower center")
     save(figure, plot, below=0.45)
 
 

@@ -16,7 +16,6 @@ from surface import PROGRAM, Floats, Ints, Run
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
-from matplotlib.ticker import NullFormatter
 from matplotlib.tri import Triangulation
 
 Pair = tuple[float, float]
@@ -85,8 +84,8 @@ def convergence(drawn: Mapping[str, tuple[Results, Floats | None]], plot: Path) 
                     color=COLOURS[n],
                     label=LABELS[n],
                 )
-            axes[which].xaxis.set_minor_formatter(NullFormatter())
-            axes[which].yaxis.set_minor_formatter(NullFormatter())
+            axes[which].minorticks_off()
+            axes[which].set_xticks([h for h, _ in results], [f"{h:.2g}" for h, _ in results])
             axes[which].tick_params(labelsize=6)
             axes[which].set_title(f"{title}: {WHAT[which]}" if k == 0 else title, fontsize=8)
             axes[which].grid(True, which="both", alpha=0.3)

@@ -170,7 +170,7 @@ def noise(
         axis.grid(True, which="both", alpha=0.3)
         if which == 0:
             axis.legend(fontsize=6)
-    save(figure, plot, 100, 128)
+    save(figure, plot, 100, 255)
 
 
 def moving(

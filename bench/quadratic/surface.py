@@ -135,8 +135,10 @@ class Kind:
             words.append("open")
         if not self.manifold:
             words.append("nonmanifold")
+        if not info["orientable"]:
+            words.append("not orientable")
         genus = info["components"] - info["euler_characteristic"] / 2
-        if self.manifold and not info["boundary_edges"] and genus > 0:
+        if self.manifold and info["orientable"] and not info["boundary_edges"] and genus > 0:
             words.append(f"genus {genus:g}")
         self.words = ", ".join(words)
 

@@ -111,7 +111,9 @@ QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
     const QuadraticProgram<D> program(E, part, of_part[c], options.source_radius * E.h);
     typename Part::Solver::Inserter insert;
     if (options.insert_samples)
-      insert = [&](const VecX& u) { return program.violated(u, 100 * options.tolerance); };
+      insert = [&](const VecX& u, double share) {
+        return program.violated(u, share * 100 * options.tolerance);
+      };
     const ParabolicResult result =
         solver->solve(program.program(), program.start(),
                       {options.tolerance, static_cast<int>(options.max_iterations)}, insert,

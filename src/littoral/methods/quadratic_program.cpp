@@ -108,6 +108,14 @@ std::vector<typename P2Shape<D>::Point> quarter_points() {
   return points;
 }
 
+/// Value and slopes on the element whose corners are 0 and the unit vectors.
+template <int D>
+typename QuadraticProgram<D>::Program::Point reference_rows(const typename P2Shape<D>::Point& b) {
+  typename P2Shape<D>::Gradients grad;
+  grad << -Eigen::Matrix<double, D, 1>::Ones(), Eigen::Matrix<double, D, D>::Identity();
+  return {P2Shape<D>::values(b), P2Shape<D>::slopes(b, grad)};
+}
+
 }  // namespace
 
 template <int D>
@@ -209,39 +217,35 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
 
   // Samples: the nodes and the centre of each element (section 5), and a source that is alone in
   // its elements: without a sample there, its elements are not exact in the plane.
+  std::vector<typename Shape::Point> points;
+  for (int i = 0; i < Shape::corners; ++i) points.push_back(Shape::corner(i));
+  for (int k = 0; k < Shape::edges; ++k) points.push_back(Shape::middle(k));
+  points.push_back(Shape::centre());
+  for (const auto& b : points) program_.points.push_back(reference_rows<D>(b));
   for (std::size_t e = 0; e < part.elements.size(); ++e) {
-    const int element = static_cast<int>(e);
-    for (int i = 0; i < Shape::corners; ++i)
-      program_.samples.push_back(sample(element, Shape::corner(i)));
-    for (int k = 0; k < Shape::edges; ++k)
-      program_.samples.push_back(sample(element, Shape::middle(k)));
-    program_.samples.push_back(sample(element, Shape::centre()));
+    program_.transform.push_back(E.grad[part.elements[e]].template rightCols<D>() * part.scale);
+    program_.weight.push_back(E.measure[part.elements[e]]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int element = static_cast<int>(e);
+      program_.samples.push_back({element, static_cast<int>(i), size(element, points[i])});
+    }
   }
   for (const P2Source<D>& source : sources) {
     if (source.on_curve) continue;
     for (const P2Point<D>& point : source.where) {
       const int e = local(point.element);
-      if (e >= 0 && holds[e] == 1 && point.b.maxCoeff() < 1)
-        program_.samples.push_back(sample(e, point.b));
+      if (e < 0 || holds[e] != 1 || point.b.maxCoeff() >= 1) continue;
+      program_.samples.push_back({e, static_cast<int>(program_.points.size()), size(e, point.b)});
+      program_.points.push_back(reference_rows<D>(point.b));
     }
   }
 }
 
 template <int D>
-typename QuadraticProgram<D>::Program::Sample QuadraticProgram<D>::sample(
-    int local, const typename P2Shape<D>::Point& b) const {
-  using Shape = P2Shape<D>;
-  const int element = part_.elements[local];
-  typename Program::Sample s;
-  s.element = local;
-  s.q = Shape::values(b);
-  s.g = Shape::slopes(b, E_.grad[element] * part_.scale);
-  double d = 0.5 * E_.h / part_.scale;
-  double here = 0;
-  for (int i = 0; i < Shape::corners; ++i) here += b[i] * d_[part_.local_node[local][i]];
-  d = std::max(d, here);
-  s.tau = d * d;
-  return s;
+double QuadraticProgram<D>::size(int local, const typename P2Shape<D>::Point& b) const {
+  double d = 0;
+  for (int i = 0; i < P2Shape<D>::corners; ++i) d += b[i] * d_[part_.local_node[local][i]];
+  return std::pow(std::max(d, 0.5 * E_.h / part_.scale), 2);
 }
 
 template <int D>
@@ -250,10 +254,14 @@ VecX QuadraticProgram<D>::start() const {
 }
 
 template <int D>
-std::vector<typename QuadraticProgram<D>::Program::Sample> QuadraticProgram<D>::violated(
+std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>::violated(
     const VecX& u, double allowed) const {
   using Shape = P2Shape<D>;
-  std::vector<typename Program::Sample> found;
+  std::vector<typename Program::Inserted> found;
+  const auto insert = [&](std::size_t e, const typename Shape::Point& b) {
+    const int element = static_cast<int>(e);
+    found.push_back({element, reference_rows<D>(b), size(element, b)});
+  };
   const double h2 = std::pow(E_.h / part_.scale, 2);
   for (std::size_t e = 0; e < part_.elements.size(); ++e) {
     if (curve_inside_[e]) continue;
@@ -272,9 +280,8 @@ std::vector<typename QuadraticProgram<D>::Program::Sample> QuadraticProgram<D>::
     // Next to a lone source, where u is small, a dip of v moves the source by sqrt(v).
     const double least_u = (alone_ ? 1e-3 : 1) * h2;
     if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + least_u)) continue;
-    found.push_back(sample(static_cast<int>(e), b));
-    for (const auto& point : quarter_points<D>())
-      found.push_back(sample(static_cast<int>(e), point));
+    insert(e, b);
+    for (const auto& point : quarter_points<D>()) insert(e, point);
   }
   return found;
 }

@@ -44,10 +44,11 @@ class QuadraticProgram {
   /// Samples where u - |grad u|^2 / 4, which is quadratic on each element, dips below zero between
   /// the given ones by more than `allowed` times u: the lowest point and a lattice. Elements that
   /// hold a source on a curve are left out: there u may cross zero.
-  std::vector<typename Program::Sample> violated(const VecX& u, double allowed) const;
+  std::vector<typename Program::Inserted> violated(const VecX& u, double allowed) const;
 
  private:
-  typename Program::Sample sample(int local, const typename P2Shape<D>::Point& b) const;
+  /// The size of u expected at a point of a local element.
+  double size(int local, const typename P2Shape<D>::Point& b) const;
 
   const P2Elements<D>& E_;
   const QuadraticPart<D>& part_;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <tuple>
 
-#include "littoral/base/error.h"
-#include "littoral/solve/cholesky.h"
-#include "littoral/solve/parabolic_blocks.h"
+#include "littoral/base/parallel.h"
+#include "littoral/solve/parabolic_rows.h"
+#include "littoral/solve/refined_cholesky.h"
 
 namespace littoral {
 
@@ -16,13 +15,20 @@ namespace {
 using namespace parabolic;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t grain = 1024;  // elements per piece of a parallel loop
+constexpr std::size_t grain = 256;  // elements per piece of a parallel loop
 
 /// One run of the interior-point method.
 ///
-/// s = A x + b in the cones, and z with c + A^T z = 0; s^T z is then the duality gap. Newton's
-/// equations, with the fraction `keep` of the residuals to be removed:
-///   A dx - ds = keep r_p,  A^T dz = -keep r_d,  lambda o (W dz + W^{-1} ds) = target.
+/// s = g(x) > 0 and z > 0 with c + sum_p z_p a_p = 0, where a_p is the gradient of g_p at x; s^T z
+/// is then the duality gap, for c^T x + z^T g(x) is concave in x and so nowhere larger. On the way
+/// to s_p z_p = 0, the products follow mu w_p with the weights w of large elements. Newton's
+/// equations, with the fraction `keep` of the residuals r = s - g(x), r_d = c + sum z a removed:
+///   ds = a^T dx - keep r - bend,   z ds + s dz = target - s z,
+///   sum a dz - 1/2 sum z (T G)^T (T G) dx = -keep r_d + curve,
+/// where bend, curve and a part of the target are the second-order terms of the predictor. Hence
+///   K dx = keep r_d + sum a (target - s z + z (keep r + bend)) / s - curve,
+///   K = sum (z / s) a a^T + 1/2 z (T G)^T (T G),
+/// positive definite on the fixed stencil of the elements.
 template <int K, int D>
 class Run {
  public:
@@ -30,199 +36,195 @@ class Run {
   using Matrix = ElementMatrix<K>;
   using Local = typename Matrix::Local;
   using Inserter = typename ParabolicSolver<K, D>::Inserter;
+  using At = RowAt<K, D>;
 
   Run(const Matrix& matrix, const Program& program, const VecX& x0, const ParabolicOptions& options,
       const Task& task)
       : matrix_(matrix),
-        c_(program.c),
+        program_(program),
         options_(options),
         task_(task),
+        weight_(program.weight),
+        rows_(program, 1e-3 * x0.cwiseAbs().maxCoeff()),
         x_(x0),
-        local_(matrix.n_elements()),
-        local_normal_(matrix.n_elements()) {
-    const double size = x0.cwiseAbs().maxCoeff();
-    // A large first mu: 30 times the mean of s^T z that the objective, about `size`, suggests.
-    mu_ = 30 * size * std::max(c_.sum(), 1e-300) /
-          static_cast<double>(program.samples.size() + program.caps.size());
-    for (const auto& sample : program.samples) samples_.block.emplace_back(sample);
-    for (const auto& cap : program.caps)
-      caps_.block.push_back({cap, std::max(cap.bound, 1e-3 * size)});
-    start(samples_);
-    start(caps_);
+        local_(program.transform.size()),
+        local_scaled_(program.transform.size()),
+        local_normal_(program.transform.size()) {
+    double mean = 0;
+    for (const Row& r : rows_.row) mean += weight_[r.element];
+    mean /= static_cast<double>(rows_.row.size());
+    for (double& w : weight_) w = std::max(w / mean, 1.0);
+    for (const Row& r : rows_.row) total_weight_ += weight_[r.element];
+    // A large first mu: 300 times the mean of s z that the objective, about `size`, suggests.
+    mu_ = 300 * x0.cwiseAbs().maxCoeff() * std::max(program.c.sum(), 1e-300) / total_weight_;
+    for (Row& r : rows_.row) {
+      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      r.s = std::max(g, 0.1 * r.size);
+      r.z = mu_ * weight_[r.element] / r.s;
+      r.exact = r.s == g;
+    }
   }
 
   ParabolicResult run(const Inserter& insert) {
     ParabolicResult best;
-    double best_merit = infinity, insert_below = 0.01;
+    double best_merit = infinity;
     int rounds = 0;
-    bool inside = true;
     for (int iteration = 0;; ++iteration) {
-      inside = inside && refresh();
+      if (!refresh()) break;
       ParabolicResult now = measure();
       now.iterations = iteration;
       const double merit = std::max(now.gap, now.primal_residual);
       // Gaps fall by about a constant factor per iteration, from 1e2 on.
       task_.checkpoint(std::log(1e2 / merit) / std::log(1e2 / options_.tolerance));
       // Round-off leaves a dual residual of some 1e-6 where the solution is not unique.
-      const bool done = inside && gap_ < options_.tolerance * std::abs(now.objective) &&
-                        now.primal_residual < options_.tolerance &&
-                        now.gap < 10 * options_.tolerance;
-      if (inside && (merit < best_merit || done))
-        std::tie(best, best_merit) = std::pair(now, merit);
-      if (insert && inside && rounds < 8 && (merit < insert_below || done)) {
-        insert_below = insert_below > 1e-3 ? 1e-4 : 0;
+      now.converged = gap_ < options_.tolerance * std::abs(now.objective) &&
+                      now.primal_residual < options_.tolerance && now.gap < 10 * options_.tolerance;
+      const bool done = now.converged;
+      if (merit < best_merit || done) std::tie(best, best_merit) = std::pair(now, merit);
+      // Dips show early; what is missing in the end is put in where there was still room for it.
+      const bool early = rounds == 0 && now.gap < 1e-2;
+      if (insert && rounds < 8 && (early || done)) {
+        auto found = insert(x_, early ? 0.1 : 1);
+        if (!early && !found.empty()) found = insert(x_, 0.1);
         ++rounds;
-        if (insert_samples(insert(x_))) {
+        if (early) set_anchor();
+        if (!found.empty()) {
+          insert_rows(found);
           best_merit = infinity;
+          best.converged = false;
           --iteration;
           continue;
         }
       }
-      best.converged = done;
-      if (done || !inside || iteration >= options_.max_iterations || merit > 1e6 * best_merit)
-        break;
+      if (done || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
       if (!step()) break;
     }
-    best.samples = samples_.block.size();
+    best.samples = rows_.row.size() - program_.caps.size();
     return best;
   }
 
  private:
-  static constexpr int correctors = 2;  // at most, beyond Mehrotra's
-  static constexpr double to_boundary = 0.99;
+  static constexpr int correctors = 2;  // of Gondzio's, at most, where steps are short
+
+  At at(const Row& r, const Local& x) const {
+    return At(r, rows_.points[r.point], program_.transform[r.element], x);
+  }
 
   // ---- loops over elements; contributions are kept per element and added up in order
 
-  /// Calls f(element, blocks, i, partial) for each block, where F may change the block's state,
-  /// with a partial result per piece, combined in order.
+  /// Calls f(element, partial) with a partial result per piece, combined in order.
   template <class Partial, class F, class Combine>
-  Partial for_blocks(const Partial& zero, F&& f, Combine&& combine) {
-    std::vector<Partial> partial((local_.size() + grain - 1) / grain, zero);
+  Partial for_elements(F&& f, Combine&& combine) {
+    std::vector<Partial> partial((local_.size() + grain - 1) / grain);
     parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      Partial& p = partial[begin / grain];
-      for (std::size_t e = begin; e < end; ++e) {
-        for (int i = samples_.first[e]; i < samples_.first[e + 1]; ++i)
-          f(e, samples_.block[i], samples_.state[i], p);
-        for (int i = caps_.first[e]; i < caps_.first[e + 1]; ++i)
-          f(e, caps_.block[i], caps_.state[i], p);
-      }
+      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e), partial[begin / grain]);
     });
-    Partial total = zero;
+    Partial total{};
     for (const Partial& p : partial) combine(total, p);
     return total;
   }
-  void gather(const VecX& x) {
-    parallel_for(local_.size(), 4 * grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) local_[e] = matrix_.gather(x, static_cast<int>(e));
+  template <class F>
+  void each_element(F&& f) {
+    parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e));
     });
   }
-
-  template <class B>
-  void start(Blocks<B>& blocks) {
-    std::stable_sort(blocks.block.begin(), blocks.block.end(),
-                     [](const B& a, const B& b) { return a.element() < b.element(); });
-    blocks.state.resize(blocks.block.size());
-    blocks.index(matrix_.n_elements());
-    for (std::size_t i = 0; i < blocks.block.size(); ++i)
-      centre(blocks.block[i], blocks.state[i], blocks.block[i].size());
-  }
-  /// s = A x + b pushed inside the cone, z = mu s^{-1}.
-  template <class B, class State>
-  void centre(const B& b, State& state, double least) {
-    const Vec<B::N> value = b.apply(matrix_.gather(x_, b.element())) + b.offset();
-    state.s = pushed_inside<B::N>(value, least);
-    state.z = b.rank() * mu_ * lorentz::inverse<B::N>(state.s);
+  template <class F>
+  void for_rows(int element, F&& f) {
+    for (int i = rows_.first[element]; i < rows_.first[element + 1]; ++i) f(rows_.row[i]);
   }
 
-  /// Adds samples. Where x violates them, (1 - theta) x does not: that adds theta |G x|^2 / 4 to
-  /// all slacks, to first order. So x shrinks by the least theta that will do and a bit, slacks are
-  /// taken there, and multipliers that have become too small for them grow.
-  bool insert_samples(const std::vector<typename Program::Sample>& inserted) {
-    if (inserted.empty()) return false;
-    double theta = 0;
-    Blocks<SampleBlock<K, D>> grown;
+  // ---- samples inserted on the way
+
+  /// Remembers this point, which is well inside, for rows to be inserted.
+  void set_anchor() {
+    anchor_x_ = x_;
+    anchor_mu_ = mu_;
+    for (Row& r : rows_.row) r.anchor_s = r.s, r.anchor_z = r.z;
+  }
+  /// Adds rows, and moves back towards the anchor as far as they ask for.
+  void insert_rows(const std::vector<typename Program::Inserted>& inserted) {
+    double back = 0.02;
+    std::vector<Row> grown;
     std::size_t next = 0;
     for (int e = 0; e < matrix_.n_elements(); ++e) {
-      for (int i = samples_.first[e]; i < samples_.first[e + 1]; ++i) {
-        grown.block.push_back(samples_.block[i]);
-        grown.state.push_back(samples_.state[i]);
-      }
+      for_rows(e, [&](const Row& r) { grown.push_back(r); });
       for (; next < inserted.size() && inserted[next].element == e; ++next) {
-        const auto& sample = inserted[next];
-        const Local x = matrix_.gather(x_, e);
-        double gained = 0;
-        for (const Local& g : sample.g) gained += 0.25 * std::pow(g.dot(x), 2);
-        theta = std::max(theta, 1.5 * (gained - sample.q.dot(x)) / gained);
-        grown.block.emplace_back(sample);
-        grown.state.emplace_back();
-        grown.state.back().z.setZero();
+        Row r;
+        r.element = e;
+        r.point = rows_.add_point(inserted[next].point);
+        r.size = inserted[next].tau;
+        const double there = at(r, matrix_.gather(anchor_x_, e)).g;
+        const double here = at(r, matrix_.gather(x_, e)).g;
+        r.anchor_s = std::max(there, 1e-4 * r.size);
+        r.anchor_z = 0.1 * anchor_mu_ * weight_[e] / r.anchor_s;
+        if (here < 0) back = there > 0 ? std::max(back, -1.5 * here / (there - here)) : 1;
+        total_weight_ += weight_[e];
+        grown.push_back(r);
       }
     }
-    grown.index(matrix_.n_elements());
-    samples_ = std::move(grown);
-    shrink(std::clamp(theta, 0.0, 0.01));
-    return true;
-  }
-  void shrink(double theta) {
-    x_ *= 1 - theta;
-    const auto slack = [this](std::size_t e, const auto& b) {
-      return (b.apply(matrix_.gather(x_, static_cast<int>(e))) + b.offset()).eval();
-    };
-    double gap = 0;
-    const auto each = [&](auto& blocks, auto&& visit) {
-      for (std::size_t i = 0; i < blocks.block.size(); ++i) visit(blocks.block[i], blocks.state[i]);
-    };
-    const auto take = [&](const auto& b, auto& state) {
-      constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      state.s =
-          pushed_inside<N>(slack(static_cast<std::size_t>(b.element()), b), 0.1 * theta * b.size());
-      gap += state.s.dot(state.z);
-    };
-    each(samples_, take);
-    each(caps_, take);
-    mu_ = gap / (samples_.rank() + caps_.rank());
-    const auto raise = [&](const auto& b, auto& state) {
-      constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      if (state.s.dot(state.z) < 0.1 * b.rank() * mu_)
-        state.z = 0.1 * b.rank() * mu_ * lorentz::inverse<N>(state.s);
-    };
-    each(samples_, raise);
-    each(caps_, raise);
+    rows_.row = std::move(grown);
+    rows_.index(matrix_.n_elements());
+    back = std::min(back, 1.0);
+    x_ += back * (anchor_x_ - x_);
+    for (Row& r : rows_.row) {
+      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      const double s = r.s + back * (r.anchor_s - r.s);
+      r.exact = g >= 0.5 * s;
+      r.s = r.exact ? g : s;
+      r.z += back * (r.anchor_z - r.z);
+    }
   }
 
   // ---- one iteration
 
-  /// Residuals, scalings and the normal matrix at the current point; false if it left the cones.
+  /// Residuals, the normal matrix and the predictor's right-hand side; false if outside.
   bool refresh() {
-    const VecX& x = x_;
-    using Sums = std::array<double, 3>;  // s^T z, largest primal residual, 1 if outside
-    std::fill(local_.begin(), local_.end(), Local::Zero());
-    std::fill(local_normal_.begin(), local_normal_.end(), Matrix::Block::Zero());
-    const Sums sums = for_blocks(
-        Sums{0, 0, 0},
-        [&](std::size_t e, const auto& b, auto& state, Sums& p) {
-          state.residual = state.s - b.apply(matrix_.gather(x, static_cast<int>(e))) - b.offset();
-          p[0] += state.s.dot(state.z);
-          p[1] = std::max(p[1], state.residual.cwiseAbs().maxCoeff() / b.size());
-          b.add_adjoint(state.z, local_[e]);
-          if (state.W.set(state.s, state.z, state.lambda))
-            b.add_normal(state.W, local_normal_[e]);
-          else
-            p[2] = 1;
+    struct Sums {
+      double gap = 0, primal = 0;
+      bool outside = false;
+    };
+    const Sums sums = for_elements<Sums>(
+        [&](int e, Sums& sum) {
+          const Local x = matrix_.gather(x_, e);
+          Eigen::Matrix<double, K, K> N = Eigen::Matrix<double, K, K>::Zero();
+          Local dual = Local::Zero(), right = Local::Zero();
+          for_rows(e, [&](const Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g;
+            sum.gap += r.s * r.z;
+            sum.primal = std::max(sum.primal, std::abs(residual) / r.size);
+            sum.outside = sum.outside || !(r.s > 0 && r.z > 0);
+            dual += r.z * p.a;
+            right += (r.z * residual / r.s) * p.a;
+            N.noalias() += (r.z / r.s * p.a) * p.a.transpose();
+            for (int d = 0; d < D; ++d) {
+              const Local G = p.adjoint(Eigen::Matrix<double, D, 1>::Unit(d));
+              N.noalias() += (0.5 * r.z * G) * G.transpose();
+            }
+          });
+          local_[e] = dual;
+          local_scaled_[e] = right;
+          int k = 0;
+          for (int i = 0; i < K; ++i)
+            for (int j = i; j < K; ++j) local_normal_[e][k++] = N(i, j);
         },
         [](Sums& total, const Sums& p) {
-          total = {total[0] + p[0], std::max(total[1], p[1]), std::max(total[2], p[2])};
+          total.gap += p.gap;
+          total.primal = std::max(total.primal, p.primal);
+          total.outside = total.outside || p.outside;
         });
-    dual_residual_ = c_ + matrix_.sum(local_);
-    gap_ = sums[0];
-    mu_ = gap_ / (samples_.rank() + caps_.rank());
-    primal_residual_ = sums[1];
-    return sums[2] == 0 && std::isfinite(gap_);
+    dual_residual_ = program_.c + matrix_.sum(local_);
+    predictor_ = program_.c + matrix_.sum(local_scaled_);
+    gap_ = sums.gap;
+    mu_ = gap_ / total_weight_;
+    primal_residual_ = sums.primal;
+    return !sums.outside && std::isfinite(gap_) && dual_residual_.allFinite();
   }
   ParabolicResult measure() const {
     ParabolicResult now;
     now.x = x_;
-    now.objective = c_.dot(x_);
+    now.objective = program_.c.dot(x_);
     now.gap = std::max(gap_, std::abs(dual_residual_.dot(x_))) /
               std::max(std::abs(now.objective), 1e-300);
     now.primal_residual = primal_residual_;
@@ -231,152 +233,142 @@ class Run {
 
   /// False if no further progress is possible.
   bool step() {
-    if (!factorize()) return false;
-    // Predictor: straight to the boundary.
-    direction(1, [](const auto& state, const auto&, auto& next) { next.sum = -state.lambda.x; });
-    auto [primal, dual] = accept();
-    const auto& g = affine_;
-    const double p = std::min(1.0, new_steps_[0]), d = std::min(1.0, new_steps_[1]);
-    const double affine = (g[0] + p * g[1] + d * g[2] + p * d * g[3]) / gap_;
-    const double sigma = std::clamp(std::pow(std::max(affine, 0.0), 3), 1e-8, 1.0);
-    const double aim = sigma * mu_, keep = 1 - sigma;
-    // Mehrotra's corrector.
-    direction(keep, [aim](const auto& state, const auto& last, auto& next) {
-      constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      next.target = -lorentz::product<N>(state.lambda.x, state.lambda.x) -
-                    lorentz::product<N>(last.ds, last.dz);
-      next.target[0] += aim;
-      next.sum = state.lambda.divide(next.target);
-    });
-    std::tie(primal, dual) = accept();
-    for (int k = 0; k < correctors && std::min(primal, dual) < 0.95; ++k)
-      if (!gondzio(keep, std::max(aim, 1e-4 * mu_), primal, dual)) break;
+    if (!normal_.factor(matrix_.sum(local_normal_), matrix_.structure(), task_)) return false;
+    double sigma = predict();
+    Steps steps = correct(sigma, 1);
+    if (steps.least() < 0.1) {
+      sigma = std::max(sigma, 0.5);
+      steps = correct(sigma, 0);
+    }
+    for (int k = 0; k < correctors && steps.least() < 0.5; ++k)
+      if (!recentre(sigma, steps)) break;
+    const double primal = steps.primal(), dual = steps.dual();
     x_ += primal * dx_;
-    for_blocks(
-        0,
-        [a = primal, b = dual, k = taken_](std::size_t, const auto&, auto& state, int&) {
-          state.s += a * state.W.apply(state.direction[k].ds);
-          state.z += b * state.W.apply_inverse(state.direction[k].dz);
-        },
-        [](int&, int) {});
+    each_element([&, a = primal, b = dual](int e) {
+      const Local x = matrix_.gather(x_, e);
+      for_rows(e, [&](Row& r) {
+        const double g = at(r, x).g, s = r.s + a * r.ds;
+        r.exact = g > (r.exact ? 1e-3 * r.s : 0.1 * s);
+        r.s = r.exact ? g : std::max(s, 1e-3 * r.s);
+        r.z += b * r.dz;
+      });
+    });
     return std::max(primal, dual) > 1e-6;
   }
 
-  bool factorize() {
-    auto normal = std::make_shared<SpMat>(matrix_.sum(local_normal_));
-    double lift = 0;
-    for (int attempt = 0; attempt < 4; ++attempt) {
-      try {
-        factor_.emplace(*normal, matrix_.structure(), task_);
-        normal_ = normal;
-        return true;
-      } catch (const SolveError&) {  // not positive definite to working precision
-      }
-      const double next = lift == 0 ? 1e-13 : 100 * lift;
-      normal = std::make_shared<SpMat>(*normal);
-      for (int j = 0; j < normal->cols(); ++j)
-        normal->valuePtr()[normal->outerIndexPtr()[j]] *= (1 + next) / (1 + lift);
-      lift = next;
+  /// What is left of an equation becomes dual residual, so it is compared with c.
+  void solve(const VecX& rhs) {
+    dx_ = normal_.solve(rhs, 1e-2 * options_.tolerance * program_.c.norm(), task_);
+  }
+
+  /// Straight to the boundary, target -s z. Leaves the second-order terms in the rows and the
+  /// corrector's right-hand side, which is affine in sigma, in `local_` and `local_scaled_`.
+  double predict() {
+    solve(predictor_);
+    const Steps steps = for_elements<Steps>(
+        [&](int e, Steps& limits) {
+          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          Local second = Local::Zero(), centre = Local::Zero();
+          for_rows(e, [&](Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
+            const auto y = p.slopes(dx);
+            r.bend = 0.25 * y.squaredNorm();
+            r.ds = b - residual;
+            r.dz = -r.z - r.z * r.ds / r.s;
+            limits.add(r, b, r.bend);
+            r.cross = r.ds * r.dz;
+            r.cross = std::clamp(r.cross, -10 * r.s * r.z, 10 * r.s * r.z);
+            second += ((r.z * r.bend - r.cross) / r.s) * p.a - (0.5 * r.dz) * p.adjoint(y);
+            centre += ((mu_ * weight_[e] - r.z * residual) / r.s) * p.a;
+          });
+          local_[e] = second;
+          local_scaled_[e] = centre;
+        },
+        Steps::combine);
+    const double p = std::min(1.0, steps.to_primal), d = std::min(1.0, steps.to_dual);
+    second_ = matrix_.sum(local_);
+    centre_ = matrix_.sum(local_scaled_);
+    const double left = (gap_ + p * steps.ds_z + d * steps.s_dz + p * d * steps.ds_dz) / gap_;
+    return std::clamp(std::pow(std::max(left, 0.0), 3), 1e-8, 1.0);
+  }
+
+  /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.
+  Steps correct(double sigma, double second) {
+    each_element([&](int e) {
+      for_rows(e, [&](Row& r) {
+        r.target = sigma * mu_ * weight_[e] - second * r.cross;
+        r.bend *= second;
+      });
+    });
+    right_ = predictor_ + second * second_ + sigma * (centre_ - dual_residual_);
+    solve(right_);
+    return direction(1 - sigma);
+  }
+  /// The rows' directions that go with dx.
+  Steps direction(double keep) {
+    return for_elements<Steps>(
+        [&](int e, Steps& limits) {
+          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          for_rows(e, [&](Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
+            r.ds = b - keep * residual - r.bend;
+            r.dz = (r.target - r.z * r.ds) / r.s - r.z;
+            limits.add(r, b, 0.25 * p.slopes(dx).squaredNorm());
+          });
+        },
+        Steps::combine);
+  }
+  /// Gondzio's corrector: products that longer steps would lead away from the aim are brought back
+  /// into [0.1, 10] times it. False, changing nothing, if the steps do not grow.
+  bool recentre(double sigma, Steps& steps) {
+    const double p = std::min(1.0, 1.2 * steps.primal() + 0.1);
+    const double d = std::min(1.0, 1.2 * steps.dual() + 0.1);
+    const double aim = std::max(sigma, 1e-4) * mu_;
+    each_element([&](int e) {
+      const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+      const double low = 0.1 * aim * weight_[e], high = 10 * aim * weight_[e];
+      Local right = Local::Zero();
+      for_rows(e, [&](Row& r) {
+        const At at_x = at(r, x);
+        const double bend = r.exact ? 0.25 * at_x.slopes(dx).squaredNorm() : 0;
+        const double ds = r.exact ? at_x.a.dot(dx) - p * bend : r.ds;
+        const double v = (r.s + p * ds) * (r.z + d * r.dz);
+        r.change = v < low ? low - v : v > high ? std::max(high - v, -high) : 0;
+        r.target += r.change;
+        right += (r.change / r.s) * at_x.a;
+      });
+      local_[e] = right;
+    });
+    const VecX before = dx_;
+    VecX right = right_ + matrix_.sum(local_);
+    solve(right);
+    const Steps now = direction(1 - sigma);
+    if (now.sum() > steps.sum() + 0.02) {
+      right_.swap(right);
+      steps = now;
+      return true;
     }
+    dx_ = before;
+    for (Row& r : rows_.row) r.target -= r.change;
+    direction(1 - sigma);
     return false;
   }
 
-  /// Solves for the direction with ds + dz = sum: K dx = keep r_d + A^T W^{-1} (sum + keep W^{-1}
-  /// r_p). q(state, direction taken, next) sets next.sum. The direction is on trial: in new_dx_ and
-  /// in each block's other direction, the steps it allows in new_steps_.
-  template <class Q>
-  void direction(double keep, Q&& q) {
-    std::fill(local_.begin(), local_.end(), Local::Zero());
-    for_blocks(
-        0,
-        [&](std::size_t e, const auto& b, auto& state, int&) {
-          auto& next = state.direction[1 - taken_];
-          q(state, state.direction[taken_], next);
-          b.add_adjoint(
-              state.W.apply_inverse(next.sum + state.W.apply_inverse(keep * state.residual)),
-              local_[e]);
-        },
-        [](int&, int) {});
-    solve(keep * dual_residual_ + matrix_.sum(local_));
-    using Sums = std::array<double, 6>;
-    gather(new_dx_);
-    const Sums sums = for_blocks(
-        Sums{},
-        [&](std::size_t e, const auto& b, auto& state, Sums& p) {
-          auto& next = state.direction[1 - taken_];
-          next.dz = next.sum + state.W.apply_inverse(keep * state.residual - b.apply(local_[e]));
-          next.ds = next.sum - next.dz;
-          p[0] = std::max(p[0], state.lambda.inverse_step(next.ds));
-          p[1] = std::max(p[1], state.lambda.inverse_step(next.dz));
-          p[2] += state.lambda.x.squaredNorm();
-          p[3] += state.lambda.x.dot(next.ds);
-          p[4] += state.lambda.x.dot(next.dz);
-          p[5] += next.ds.dot(next.dz);
-        },
-        [](Sums& total, const Sums& p) {
-          for (int k = 0; k < 2; ++k) total[k] = std::max(total[k], p[k]);
-          for (int k = 2; k < 6; ++k) total[k] += p[k];
-        });
-    new_steps_ = {1 / sums[0], 1 / sums[1]};
-    affine_ = {sums[2], sums[3], sums[4], sums[5]};
-  }
-  void solve(const VecX& rhs) {
-    // What is left of this equation becomes dual residual, so it is compared with c.
-    new_dx_ = factor_->solve(rhs);
-    double last = infinity;
-    for (int k = 0; k < 5; ++k) {
-      task_.checkpoint();
-      const VecX residual = rhs - normal_->selfadjointView<Eigen::Lower>() * new_dx_;
-      const double size = residual.norm();
-      if (size <= 1e-2 * options_.tolerance * c_.norm() || size > 0.5 * last) break;
-      last = size;
-      new_dx_ += factor_->solve(residual);
-    }
-  }
-  std::pair<double, double> trial_steps() const {
-    return {std::min(1.0, to_boundary * new_steps_[0]), std::min(1.0, to_boundary * new_steps_[1])};
-  }
-  std::pair<double, double> accept() {
-    taken_ = 1 - taken_;
-    dx_.swap(new_dx_);
-    return trial_steps();
-  }
-
-  /// Gondzio's corrector: longer steps, outlying products of the point they lead to moved back into
-  /// [0.1, 10] times the aim. False, changing nothing, if the steps do not grow.
-  bool gondzio(double keep, double aim, double& primal, double& dual) {
-    const double p = std::min(1.0, 1.2 * primal + 0.1), d = std::min(1.0, 1.2 * dual + 0.1);
-    const double low = 0.1 * aim, high = 10 * aim;
-    const auto missing = [low, high](double v) {
-      return std::max(v < low ? low - v : v > high ? high - v : 0.0, -high);
-    };
-    direction(keep, [&](const auto& state, const auto& last, auto& next) {
-      constexpr int N = std::decay_t<decltype(state.s)>::RowsAtCompileTime;
-      const Vec<N> v =
-          lorentz::product<N>(state.lambda.x + p * last.ds, state.lambda.x + d * last.dz);
-      next.target = last.target + lorentz::spectral<N>(v, missing);
-      next.sum = state.lambda.divide(next.target);
-    });
-    const auto [new_primal, new_dual] = trial_steps();
-    if (new_primal + new_dual < primal + dual + 0.02) return false;
-    std::tie(primal, dual) = accept();
-    return true;
-  }
-
   const Matrix& matrix_;
-  const VecX c_;
+  const Program& program_;
   const ParabolicOptions options_;
   const Task& task_;
-  std::optional<Cholesky<double>> factor_;
-  std::shared_ptr<const SpMat> normal_;
-  VecX x_, dx_, new_dx_, dual_residual_;
-  std::array<double, 2> new_steps_{};
-  std::array<double, 4> affine_{};  // (lambda + p ds).(lambda + d dz) = g0 + p g1 + d g2 + p d g3
-  int taken_ = 0;                   // which of the blocks' directions is not on trial
+  std::vector<double> weight_;  // elements; of mean 1 over the rows
+  double total_weight_ = 0;     // rows
+  ParabolicRows<K, D> rows_;
+  RefinedCholesky normal_;
+  VecX x_, dx_, dual_residual_, predictor_, second_, centre_, right_;
   double mu_ = 0, gap_ = 0, primal_residual_ = 0;
-  Blocks<SampleBlock<K, D>> samples_;
-  Blocks<CapBlock<K, D>> caps_;
-  std::vector<Local> local_;
+  VecX anchor_x_;
+  double anchor_mu_ = 0;
+  std::vector<Local> local_, local_scaled_;
   std::vector<typename Matrix::Block> local_normal_;
 };
 

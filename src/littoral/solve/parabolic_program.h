@@ -1,10 +1,10 @@
 #pragma once
-// Conic programs whose constraints are paraboloids over elements:
+// Concave programs whose constraints are paraboloids over elements:
 //
-//   maximise c^T x   subject to   q_p^T x >= |G_p x|^2 / 4  for each sample p,
-//                                 q_b^T x <= bound_b        for each cap b,
+//   maximise c^T x   subject to   g_p(x) = q_p^T x - |T_e G_p x|^2 / 4 >= 0  for each sample p,
+//                                 bound_b - q_b^T x >= 0                     for each cap b,
 //
-// each row touching only the unknowns of one element.
+// each row touching only the unknowns of one element e.
 
 #include <functional>
 #include <memory>
@@ -21,22 +21,36 @@ namespace littoral {
 template <int K, int D>
 struct ParabolicProgram {
   using Row = Eigen::Matrix<double, K, 1>;
+  using Transform = Eigen::Matrix<double, D, D>;
 
-  struct Sample {
-    int element = 0;
-    double tau = 1;  // size of x expected here, > 0; only conditioning depends on it
+  /// The rows of a sample on the reference element, shared by many elements.
+  struct Point {
     Row q;
     std::array<Row, D> g;
+  };
+  struct Sample {
+    int element = 0;
+    int point = 0;   // of points
+    double tau = 1;  // size of x expected here, > 0; only conditioning depends on it
   };
   struct Cap {
     int element = 0;
     double bound = 0;
     Row q;
   };
+  /// A sample with a point of its own.
+  struct Inserted {
+    int element = 0;
+    Point point;
+    double tau = 1;
+  };
 
-  VecX c;                       // unknowns
+  VecX c;                            // unknowns
+  std::vector<Transform> transform;  // elements; from reference to actual gradients
+  std::vector<double> weight;        // elements, > 0; share in the objective, of any scale
+  std::vector<Point> points;
   std::vector<Sample> samples;  // ascending elements
-  std::vector<Cap> caps;        // ascending elements
+  std::vector<Cap> caps;
 };
 
 struct ParabolicOptions {
@@ -50,19 +64,21 @@ struct ParabolicResult {
   int iterations = 0;
   double objective = 0;  // c^T x
   double gap = 0;        // (s^T z + |r^T x|) / objective, r the residual of the dual constraints
-  double primal_residual = 0;  // largest violation of a constraint's equation, relative to tau
+  double primal_residual = 0;  // largest |s - g(x)|, relative to tau
   std::size_t samples = 0;     // in the end, with those that were inserted
 };
 
-/// Mehrotra's predictor-corrector method with Nesterov-Todd scaling and Gondzio's correctors. One
-/// symbolic factorization serves every program on the same elements; immutable, `solve` may be
-/// called from several threads. Deterministic for any number of threads.
+/// Primal-dual interior-point method with Mehrotra's predictor and corrector. One symbolic
+/// factorization serves every program on the same elements; immutable, `solve` may be called from
+/// several threads. Deterministic for any number of threads.
 template <int K, int D>
 class ParabolicSolver {
  public:
   using Program = ParabolicProgram<K, D>;
-  /// Samples to insert (ascending elements) where x violates the constraints between samples.
-  using Inserter = std::function<std::vector<typename Program::Sample>(const VecX& x)>;
+  /// Samples to insert (ascending elements) where x violates the constraints between samples by
+  /// more than a share of what is allowed.
+  using Inserter =
+      std::function<std::vector<typename Program::Inserted>(const VecX& x, double share)>;
 
   ParabolicSolver(int n, std::vector<std::array<int, K>> elements, const Task& task);
 

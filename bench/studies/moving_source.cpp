@@ -89,7 +89,8 @@ void run(int steps, const std::string& path, double tolerance) {
       const VecX start = last && before > 0 ? VecX(before * *last) : program.start();
       const ParabolicResult result = kept->solve(
           program.program(), start, {tolerance, 100},
-          [&](const VecX& u) { return program.violated(u, 100 * tolerance); }, Task());
+          [&](const VecX& u, double share) { return program.violated(u, share * 100 * tolerance); },
+          Task());
       spent += seconds();
       if (last) {  // the first has nothing to start from
         total.seconds += spent;

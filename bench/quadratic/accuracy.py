@@ -1,46 +1,73 @@
-"""Accuracy of quadratic-order geodesics beside the program's other unsigned methods.
+"""Accuracy of quadratic-order geodesics beside other unsigned methods.
 
 usage: accuracy.py table MESH... | sphere | convergence MESH... | noise MESH | moving MESH
 
-Prints Markdown; `convergence`, `sphere` and `noise` also write a plot with `--plot FILE.png`. The
-protocol is that of section 6.2: lengths in units of the bounding box's diagonal; the quadratic
+Prints Markdown, and draws with `--plot FILE.png` what the paper's figures 3, 6, 5, 8 and 12 show.
+`--list FILE` adds the meshes named in a file, a path a line, from the folder $LITTORAL_SHARED/data.
+
+The protocol is that of section 6.2: lengths in units of the bounding box's diagonal; the quadratic
 method runs on the mesh, all others on the mesh subdivided once, as that has as many nodes; all are
-compared on the mesh subdivided twice with the exact polyhedral distance there (PyPI pygeodesic; on
-the sphere, with great circles), linear methods interpolated linearly, the quadratic one evaluated.
-RMSE is sqrt(e^T M1 e / 1^T M1 1).
+compared on the mesh subdivided twice (once above 20,000 faces) with the exact polyhedral distance
+there (PyPI pygeodesic, or littoral's own where the mesh is nonmanifold; on the sphere, great
+circles), linear methods interpolated linearly, the quadratic one evaluated. RMSE is
+sqrt(e^T M1 e / 1^T M1 1), over the parts that the source reaches.
 """
 
 import argparse
-from collections.abc import Callable
+import os
+import resource
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
+import draw
 import numpy as np
-import pygeodesic.geodesic as geodesic
-from scipy.spatial import cKDTree
-from surface import Floats, Ints, Run, Subdivision, errors, known_methods, load, mean_edge
+from compared import LABELS, OF_PAPER, linear, quadratic
+from surface import (
+    Floats,
+    Ints,
+    Kind,
+    Run,
+    Subdivision,
+    corner_angles,
+    errors,
+    load,
+    mean_edge,
+    part_of,
+    subdivided,
+)
 
-LINEAR = ("unsigned-heat", "fast-marching", "regularized", "exact")
-OPTIONS = {"regularized": ["--alpha", "0"]}
-LABELS = {
-    "unsigned-heat": "heat",
-    "fast-marching": "fast marching",
-    "regularized": "Belyaev-Fayolle",
-    "exact": "exact polyhedral",
-    "quadratic": "quadratic",
-}
-
-
-def methods() -> list[str]:
-    """Those to compare, of what this build has; quadratic last."""
-    known = known_methods()
-    return [name for name in LINEAR if name in known] + ["quadratic"]
+Pair = tuple[float, float]  # RMSE and largest error
 
 
-def exact(points: Floats, faces: Ints, vertex: int) -> Floats:
-    """Exact polyhedral distance at the vertices."""
-    solver = geodesic.PyGeodesicAlgorithmExact(points, faces.astype(np.int32))
-    distance, _ = solver.geodesicDistances(np.array([vertex], dtype=np.int32), None)
-    return np.asarray(distance)
+def exact(points: Floats, faces: Ints, vertex: int, own: set[str] | None = None) -> Floats:
+    """Exact polyhedral distance at the vertices; infinite where the source does not reach. By
+    littoral, which says so in `own`, where pygeodesic cannot: it ends at nonmanifold edges, its
+    paths do not pass nonmanifold vertices, and on slivers it may not end."""
+    reached = part_of(faces, vertex)
+    number = np.cumsum(reached) - 1
+    p, f, v = points[reached], number[faces[reached[faces[:, 0]]]], int(number[vertex])
+    found = linear("pygeodesic", p, f, v) if Kind(p, f).manifold else None
+    if found is None:
+        found = linear("exact", p, f, v)
+        if own is not None:
+            own.add("littoral")
+    if found is None:
+        raise RuntimeError("no exact distance")
+    distance = np.full(len(points), np.inf)
+    distance[reached] = found
+    return distance
+
+
+def reached_errors(
+    points: Floats, faces: Ints, values: Floats | None, truth: Floats
+) -> Pair | None:
+    """RMSE and largest error where the truth is finite; none without values there."""
+    inside = np.isfinite(truth)
+    if values is None or not np.isfinite(values[inside]).all():
+        return None
+    error = np.where(inside, values - np.where(inside, truth, 0), 0)
+    return errors(points, faces[inside[faces[:, 0]]], error)
 
 
 Project = Callable[[Floats], Floats]
@@ -53,8 +80,8 @@ def compare(
     levels: int,
     truth: Callable[[Floats, Ints], Floats],
     project: Project = lambda x: x,
-) -> tuple[dict[str, tuple[float, float]], dict[str, float]]:
-    """RMSE and largest error, and processor seconds, of each method, all evaluated on the mesh
+) -> dict[str, Pair | None]:
+    """RMSE and largest error of each method, none where it fails, all evaluated on the mesh
     subdivided `levels` times. `project` moves the vertices of every subdivision (onto a sphere)."""
     fine = []
     p, f = points, faces
@@ -63,40 +90,62 @@ def compare(
         p, f = project(s.points), s.faces
         fine.append((s, p, f))
     reference = truth(p, f)
-    found, seconds = {}, {}
-    for name in methods():
+    found = {}
+    for name in LABELS:
+        values: Floats | None
         if name == "quadratic":
-            run = Run(points, faces, vertex, name, ["--subdivide", str(2**levels)])
-            flat, g = points, faces  # the same places on the unprojected mesh
-            for _ in range(levels):
-                s = Subdivision(flat, g)
-                flat, g = s.points, s.faces
-            _, at = cKDTree(run.points).query(flat)
-            values = run.values[at]
+            values = quadratic(points, faces, vertex, levels)
         else:
-            run = Run(fine[0][1], fine[0][2], vertex, name, OPTIONS.get(name, []))
-            values = run.values
+            values = linear(name, fine[0][1], fine[0][2], vertex)
             for s, _, _ in fine[1:]:
-                values = s.refine(values)
-        found[name] = errors(p, f, values - reference)
-        seconds[name] = run.seconds
-    return found, seconds
+                values = None if values is None else s.refine(values)
+        found[name] = reached_errors(p, f, values, reference)
+    return found
 
 
-def table(paths: list[Path], vertex: int) -> None:
-    """Table 1 of the paper over some meshes, and its means."""
-    names = methods()
-    print("| mesh | faces | " + " | ".join(f"{LABELS[n]}: RMSE / max" for n in names) + " |")
-    print("|---" * (2 + len(names)) + "|")
-    rows = []
-    for path in paths:
-        points, faces = load(path)
-        found, _ = compare(points, faces, vertex, 2, lambda p, f: exact(p, f, vertex))
-        rows.append([found[n] for n in names])
-        cells = " | ".join(f"{found[n][0]:.2e} / {found[n][1]:.2e}" for n in names)
-        print(f"| {path.stem} | {len(faces)} | {cells} |", flush=True)
-    mean = np.array(rows).mean(0)
-    print("| **mean** | | " + " | ".join(f"{a:.2e} / {b:.2e}" for a, b in mean) + " |")
+def cell(pair: Pair | None) -> str:
+    """RMSE and largest error in a table."""
+    return "fails" if pair is None else f"{pair[0]:.2e} / {pair[1]:.2e}"
+
+
+def header(first: Sequence[str]) -> str:
+    """Titles of a table's columns."""
+    titles = [*first, *LABELS.values()]
+    return "| " + " | ".join(titles) + " |\n" + "|---" * len(titles) + "|"
+
+
+def table(paths: list[Path], vertex: int, plot: Path | None) -> None:
+    """Table 1 of the paper over some meshes, and its means; figure 3."""
+    print("RMSE / largest error\n\n" + header(["mesh", "faces", "angles", "kind"]))
+    loaded = [(path, *load(path)) for path in paths]
+    rows: list[tuple[str, dict[str, Pair | None]]] = []
+    for path, points, faces in sorted(loaded, key=lambda row: len(row[2])):
+        levels = 2 if len(faces) <= 20000 else 1
+        own: set[str] = set()
+        truth = partial(exact, vertex=vertex, own=own)
+        found = compare(points, faces, vertex, levels, truth)
+        rows.append((path.stem, found))
+        kind = Kind(points, faces)
+        first = (
+            f"| {path.stem}{'*' if own else ''} | {len(faces)} | {kind.angles} | {kind.words} | "
+        )
+        print(first + " | ".join(cell(found[n]) for n in LABELS) + " |", flush=True)
+    good = [row for _, row in rows if all(row.values())]
+    for what, middle in (("mean", np.mean), ("median", np.median)):
+        cells = []
+        for n in LABELS:
+            pairs = np.array([row[n] for row in good], dtype=np.float64)
+            cells.append(cell((float(middle(pairs[:, 0])), float(middle(pairs[:, 1])))))
+        print(f"| **{what} of {len(good)}** | | | | " + " | ".join(cells) + " |")
+    print("\n\\* reference: littoral's own exact distance, as pygeodesic cannot", end="")
+    for n in list(LABELS)[:-1]:
+        both = [(row[n], row["quadratic"]) for _, row in rows if row[n] and row["quadratic"]]
+        less = [sum(q[k] < o[k] for o, q in both if o and q) for k in range(2)]
+        print(f"\nquadratic below {LABELS[n]}: {less[0]} and {less[1]} of {len(both)}", end="")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"\n\n{used.ru_utime + used.ru_stime:.0f} processor seconds")
+    if plot:
+        draw.meshes(rows, plot)
 
 
 def icosphere(level: int) -> tuple[Floats, Ints]:
@@ -121,11 +170,10 @@ def icosphere(level: int) -> tuple[Floats, Ints]:
 
 def sphere(plot: Path | None) -> None:
     """Figure 6: error against great circles, from the pole; order between levels."""
-    names = methods()
-    results: list[tuple[float, dict[str, tuple[float, float]]]] = []
+    results: list[tuple[float, dict[str, Pair | None]]] = []
     for level in range(1, 5):
         points, faces = icosphere(level)
-        found, _ = compare(
+        found = compare(
             points,
             faces,
             0,
@@ -134,139 +182,101 @@ def sphere(plot: Path | None) -> None:
             lambda p: p / np.linalg.norm(p, axis=1, keepdims=True),
         )
         results.append((mean_edge(points, faces), found))
-    show(results, names, "sphere", plot)
+    show(results, "sphere")
+    if plot:
+        draw.convergence({"sphere": (results, None)}, plot)
 
 
-def show(
-    results: list[tuple[float, dict[str, tuple[float, float]]]],
-    names: list[str],
-    title: str,
-    plot: Path | None,
-) -> None:
-    """A table of errors against h with the order between rows, and a plot of both."""
-    print(
-        f"\n{title}\n\n| h | "
-        + " | ".join(f"{LABELS[n]}: RMSE (order) / max" for n in names)
-        + " |"
-    )
-    print("|---" * (1 + len(names)) + "|")
+def show(results: list[tuple[float, dict[str, Pair | None]]], title: str) -> None:
+    """A table of errors against h with the order between rows."""
+    print(f"\n{title}: RMSE (order) / largest error\n\n" + header(["h"]))
     for k, (h, found) in enumerate(results):
         cells = []
-        for n in names:
-            order = ""
-            if k > 0:
-                before, last = results[k - 1]
-                order = f" ({np.log(last[n][0] / found[n][0]) / np.log(before / h):.1f})"
-            cells.append(f"{found[n][0]:.2e}{order} / {found[n][1]:.2e}")
+        for n in LABELS:
+            now, before = found[n], results[k - 1][1][n] if k else None
+            text = cell(now)
+            if now and before and now[0] > 1e-12:
+                order = np.log(before[0] / now[0]) / np.log(results[k - 1][0] / h)
+                text = text.replace(" /", f" ({order:.1f}) /")
+            # On the reference's own mesh the exact distance has no error.
+            cells.append("the reference itself" if now and now[0] < 1e-12 else text)
         print(f"| {h:.3f} | " + " | ".join(cells) + " |", flush=True)
-    if plot:
-        draw(results, names, title, plot, "mean edge length h")
-
-
-def draw(
-    results: list[tuple[float, dict[str, tuple[float, float]]]],
-    names: list[str],
-    title: str,
-    plot: Path,
-    label: str,
-) -> None:
-    """RMSE and largest error, logarithmic."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    from matplotlib.ticker import NullFormatter
-
-    figure, axes = pyplot.subplots(1, 2, figsize=(8, 3.4))
-    for axis, which, what in ((axes[0], 0, "RMSE"), (axes[1], 1, "largest error")):
-        for n in names:
-            # On the reference's own mesh the exact distance has no error to draw.
-            values = [e[n][which] if e[n][which] > 1e-12 else np.nan for _, e in results]
-            axis.loglog([h for h, _ in results], values, "o-", label=LABELS[n])
-        axis.xaxis.set_minor_formatter(NullFormatter())
-        axis.set_xlabel(label)
-        axis.set_title(f"{title}: {what}", fontsize=9)
-        axis.grid(True, which="both", alpha=0.3)
-    axes[0].legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(plot, dpi=90)
 
 
 def convergence(paths: list[Path], vertex: int, plot: Path | None) -> None:
     """Figure 5: errors under subdivision against the exact distance on the third subdivision."""
-    names = methods()
+    drawn = {}
     for path in paths:
         points, faces = load(path)
+        title, least = path.stem, corner_angles(points, faces)
         results = []
         for level in range(3):
-            found, _ = compare(points, faces, vertex, 3 - level, lambda p, f: exact(p, f, vertex))
+            found = compare(points, faces, vertex, 3 - level, partial(exact, vertex=vertex))
             results.append((mean_edge(points, faces), found))
-            s = Subdivision(points, faces)
-            points, faces = s.points, s.faces
-        out = plot.with_stem(f"{plot.stem}-{path.stem}") if plot else None
-        show(results, names, path.stem, out)
+            points, faces = subdivided(points, faces, 1)
+        show(results, title)
+        drawn[title] = (results, least)
+    if plot:
+        draw.convergence(drawn, plot)
 
 
-def noise(path: Path, vertex: int) -> None:
+def noise(path: Path, vertex: int, plot: Path | None) -> None:
     """Figure 8: Gaussian noise on the vertices (fixed seeds), errors against the clean surface."""
     clean, faces = load(path)
-    p, f = clean, faces
-    for _ in range(2):
-        s = Subdivision(p, f)
-        p, f = s.points, s.faces
-    reference = exact(p, f, vertex)
-    names = methods()
-    print("| noise | " + " | ".join(f"{LABELS[n]}: RMSE / max" for n in names) + " |")
-    print("|---" * (1 + len(names)) + "|")
+    once = Subdivision(clean, faces)  # linear methods: subdivided first, then noised
+    twice = Subdivision(once.points, once.faces)
+    reference = exact(twice.points, twice.faces, vertex)
+    print(f"{path.stem}: RMSE / largest error\n\n" + header(["noise"]))
+    results, shown = [], []
     for sigma in (0.0, 0.004, 0.008):
-        moved = clean + np.random.default_rng(1).normal(0, sigma, clean.shape)
-        once = Subdivision(clean, faces)  # linear methods: subdivided first, then noised
-        once_moved = once.points + np.random.default_rng(1).normal(0, sigma, once.points.shape)
-        twice = Subdivision(once.points, once.faces)
-        cells = []
-        for n in names:
+        moved, once_moved = (
+            x + np.random.default_rng(1).normal(0, sigma, x.shape) for x in (clean, once.points)
+        )
+        found: dict[str, Pair | None] = {}
+        for n in LABELS:
             if n == "quadratic":
-                run = Run(moved, faces, vertex, n, ["--subdivide", "4"])
-                s1 = Subdivision(moved, faces)
-                s2 = Subdivision(s1.points, s1.faces)
-                _, at = cKDTree(run.points).query(s2.points)
-                values = run.values[at]
+                values = quadratic(moved, faces, vertex, 2)
+                surface = subdivided(moved, faces, 2)
             else:
-                run = Run(once_moved, once.faces, vertex, n, OPTIONS.get(n, []))
-                values = twice.refine(run.values)
-            rmse, largest = errors(p, f, values - reference)
-            cells.append(f"{rmse:.2e} / {largest:.2e}")
-        print(f"| {sigma} | " + " | ".join(cells) + " |", flush=True)
+                coarse = linear(n, once_moved, once.faces, vertex)
+                values = None if coarse is None else twice.refine(coarse)
+                surface = (twice.refine(once_moved), twice.faces)
+            found[n] = reached_errors(twice.points, twice.faces, values, reference)
+            if n in OF_PAPER and values is not None:
+                shown.append((sigma, n, *surface, values))
+        results.append((sigma, found))
+        print(f"| {sigma} | " + " | ".join(cell(found[n]) for n in LABELS) + " |", flush=True)
+    if plot:
+        draw.noise(results, shown, plot)
 
 
-def moving(path: Path, steps: int = 8) -> None:
+def moving(path: Path, first: int, plot: Path | None, steps: int = 8) -> None:
     """Figure 12: a source moves straight from one face's centre over an edge to the next one's.
     Distances may change by no more than the source moves."""
     points, faces = load(path)
-    first = 0
     shared = set(faces[first, :2])
     second = next(f for f in range(len(faces)) if f != first and len(shared & set(faces[f])) == 2)
-    middle = points[faces[first, :2]].mean(0)
-    before: Floats | None = None
-    last = np.zeros(3)
-    print("| step | face | source moves | largest change | mean change | iterations |")
+    runs: list[Run] = []
+    places = np.empty((steps + 1, 3))
+    changes = np.zeros(steps + 1)
+    print("| step | face | source moves | largest change | mean change | steps of the solver |")
     print("|---|---|---|---|---|---|")
     for k in range(steps + 1):
         t = 2 * k / steps - 1
         face = first if t < 0 else second
         b = np.full(3, abs(t) / 3) + (1 - abs(t)) * 0.5 * np.isin(faces[face], faces[first, :2])
-        place = b @ points[faces[face]]
-        run = Run(points, faces, (face, b), "quadratic")
-        change = np.abs(run.values - before) if before is not None else np.zeros(1)
-        step = float(np.linalg.norm(place - last)) if before is not None else 0.0
-        iterations = run.report["iterations"]["interior point"]
+        places[k] = b @ points[faces[face]]
+        runs.append(Run(points, faces, (face, b), "quadratic", ["--subdivide", "8"]))
+        change = np.abs(runs[-1].values - runs[-2].values) if k else np.zeros(1)
+        changes[k] = change.max()
+        step = float(np.linalg.norm(places[k] - places[k - 1])) if k else 0.0
         print(
-            f"| {k} | {face} | {step:.2e} | {change.max():.2e} | {change.mean():.2e} "
-            f"| {iterations:.0f} |",
+            f"| {k} | {face} | {step:.2e} | {changes[k]:.2e} | {change.mean():.2e} "
+            f"| {runs[-1].report['iterations']['interior point']:.0f} |",
             flush=True,
         )
-        before, last = run.values, place
-    print(f"\nThe edge's midpoint is at {np.round(middle, 3)}.")
+    if plot:
+        draw.moving(points, faces, runs, places, changes[1:], plot)
 
 
 def main() -> None:
@@ -274,19 +284,25 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("study", choices=["table", "sphere", "convergence", "noise", "moving"])
     parser.add_argument("meshes", nargs="*", type=Path)
+    parser.add_argument("--list", type=Path)
     parser.add_argument("--vertex", type=int, default=0)
+    parser.add_argument("--face", type=int, default=0, help="where the moving source starts")
     parser.add_argument("--plot", type=Path)
     arguments = parser.parse_args()
+    meshes, vertex, plot = arguments.meshes, arguments.vertex, arguments.plot
+    if arguments.list:
+        folder = Path(os.environ["LITTORAL_SHARED"]) / "data"
+        meshes += [folder / line for line in arguments.list.read_text().split()]
     if arguments.study == "table":
-        table(arguments.meshes, arguments.vertex)
+        table(meshes, vertex, plot)
     elif arguments.study == "sphere":
-        sphere(arguments.plot)
+        sphere(plot)
     elif arguments.study == "convergence":
-        convergence(arguments.meshes, arguments.vertex, arguments.plot)
+        convergence(meshes, vertex, plot)
     elif arguments.study == "noise":
-        noise(arguments.meshes[0], arguments.vertex)
+        noise(meshes[0], vertex, plot)
     else:
-        moving(arguments.meshes[0])
+        moving(meshes[0], arguments.face, plot)
 
 
 if __name__ == "__main__":

@@ -5,11 +5,14 @@ import os
 import resource
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -46,6 +49,7 @@ def load(path: Path) -> tuple[Floats, Ints]:
             [PROGRAM, "convert", str(path), "--triangulate", "-o", str(copy), "--quiet"], check=True
         )
         points, faces = read_obj(copy)
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(1)]  # repeated vertices are no triangles
     used = np.unique(faces)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -93,6 +97,80 @@ def mean_edge(points: Floats, faces: Ints) -> float:
     return float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
 
 
+def part_of(faces: Ints, vertex: int) -> NDArray[np.bool_]:
+    """Vertices connected with one of them."""
+    n = int(faces.max()) + 1
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+    graph = csr_matrix((np.ones(len(sides)), (sides[:, 0], sides[:, 1])), (n, n))
+    label = connected_components(graph, directed=False)[1]
+    return np.asarray(label == label[vertex])
+
+
+def corner_angles(points: Floats, faces: Ints) -> Floats:
+    """Angles of the triangles, in degrees."""  # faces x 3
+    sides = [points[faces[:, (k + 1) % 3]] - points[faces[:, k]] for k in range(3)]
+    corners = []
+    for k in range(3):
+        area = np.linalg.norm(np.cross(sides[k], sides[k - 1]), axis=1)
+        corners.append(np.degrees(np.arctan2(area, -(sides[k] * sides[k - 1]).sum(1))))
+    return np.stack(corners, 1)
+
+
+class Kind:
+    """What a mesh is like: `angles` the smallest one and the first percentile of the triangles'
+    smallest ones in degrees, `words` on its topology, `manifold` or not."""
+
+    def __init__(self, points: Floats, faces: Ints) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = Path(folder) / "mesh.obj"
+            write_obj(mesh, points, faces)
+            command = [PROGRAM, "info", "--json", str(mesh)]
+            done = subprocess.run(command, check=True, capture_output=True, text=True)
+        info = json.loads(done.stdout)
+        least = corner_angles(points, faces).min(1)
+        self.angles = f"{least.min():.2g}, {np.percentile(least, 1):.2g}"
+        self.manifold = info["nonmanifold_edges"] + info["nonmanifold_vertices"] == 0
+        words = [f"{info['components']} parts"] if info["components"] > 1 else []
+        if info["boundary_edges"]:
+            words.append("open")
+        if not self.manifold:
+            words.append("nonmanifold")
+        if not info["orientable"]:
+            words.append("not orientable")
+        genus = info["components"] - info["euler_characteristic"] / 2
+        if self.manifold and info["orientable"] and not info["boundary_edges"] and genus > 0:
+            words.append(f"genus {genus:g}")
+        self.words = ", ".join(words)
+
+
+def limited(seconds: int) -> Callable[[], None]:
+    """For subprocesses: ends them after so many processor seconds."""
+    return lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
+
+def timed(arguments: Sequence[str], limit: int = 3600) -> tuple[dict[str, Any], float]:
+    """Report and processor seconds of one call of the program, which may take `limit` of them."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [PROGRAM, *arguments, "--json", "--quiet"],
+        check=True,
+        capture_output=True,
+        text=True,
+        preexec_fn=limited(limit),
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads(done.stdout), seconds
+
+
+def subdivided(points: Floats, faces: Ints, levels: int) -> tuple[Floats, Ints]:
+    """Every triangle in four, some times."""
+    for _ in range(levels):
+        s = Subdivision(points, faces)
+        points, faces = s.points, s.faces
+    return points, faces
+
+
 class Run:
     """One call of `littoral distance`: values, report and processor seconds; with `--subdivide`
     also the mesh the values belong to."""
@@ -104,6 +182,7 @@ class Run:
         source: int | tuple[int, Floats],  # a vertex, or a face and barycentrics
         method: str,
         extra: Sequence[str] = (),
+        limit: int = 3600,  # processor seconds
     ) -> None:
         with tempfile.TemporaryDirectory() as folder:
             mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
@@ -115,32 +194,8 @@ class Run:
                 text = f"unsigned_point\nf {source[0]} {a:.17g} {b:.17g} {c:.17g}\n"
                 (Path(folder) / "source.txt").write_text(text)
                 where = ["--sources", str(Path(folder) / "source.txt")]
-            files = ["-o", f"{out}.obj", "-o", f"{out}.npy", "--json", "--quiet", *extra]
-            before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            done = subprocess.run(
-                [
-                    PROGRAM,
-                    "distance",
-                    str(mesh),
-                    *where,
-                    "--method",
-                    method,
-                    *files,
-                ],
-                check=True,
-                capture_output=True,
-                text=True,
-            )
-            after = resource.getrusage(resource.RUSAGE_CHILDREN)
-            self.seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-            self.report = json.loads(done.stdout)
+            files = ["-o", f"{out}.obj", "-o", f"{out}.npy"]
+            command = ["distance", str(mesh), *where, "--method", method, *files, *extra]
+            self.report, self.seconds = timed(command, limit)
             self.values: Floats = np.load(f"{out}.npy").ravel()
             self.points, self.faces = read_obj(Path(f"{out}.obj"))
-
-
-def known_methods() -> list[str]:
-    """Names of the methods the program has."""
-    done = subprocess.run(
-        [PROGRAM, "methods", "--json"], check=True, capture_output=True, text=True
-    )
-    return [method["name"] for method in json.loads(done.stdout)]

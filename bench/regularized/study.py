@@ -12,19 +12,15 @@ Seconds are processor time of the program.
 """
 
 import argparse
-import json
-import resource
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 sys.path.append(str(Path(__file__).parent.parent / "quadratic"))
-from surface import PROGRAM, Floats, Ints, Run, Subdivision, load, write_obj
+from surface import Floats, Ints, Run, load, subdivided, timed, write_obj
 
 
 def facts(run: Run) -> tuple[int, float, str]:
@@ -51,10 +47,7 @@ def sizes(meshes: list[str]) -> None:
     print("|---" * 7 + "|")
     for name in meshes:
         path, _, times = name.partition(":")
-        points, faces = load(Path(path))
-        for _ in range(int(times or 0)):
-            finer = Subdivision(points, faces)
-            points, faces = finer.points, finer.faces
+        points, faces = subdivided(*load(Path(path)), int(times or 0))
         with tempfile.TemporaryDirectory() as folder:
             mesh = Path(folder) / "mesh.obj"
             write_obj(mesh, points, faces)
@@ -70,17 +63,6 @@ def sizes(meshes: list[str]) -> None:
             f"| {report['peak_memory_mb']:.0f} | {longest:.1e} |",
             flush=True,
         )
-
-
-def timed(arguments: list[str]) -> tuple[dict[str, Any], float]:
-    """Report and processor seconds of one call of the program."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(
-        [PROGRAM, *arguments, "--json", "--quiet"], check=True, capture_output=True, text=True
-    )
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return json.loads(done.stdout), seconds
 
 
 COLUMNS: list[tuple[str, str, list[str]]] = [

@@ -263,8 +263,8 @@ class Run {
     dx_ = normal_.solve(rhs, allowed, task_);
   }
 
-  /// Straight to the boundary, target -s z. Leaves the second-order terms in the rows and the
-  /// corrector's right-hand side, which is affine in sigma, in `local_` and `local_scaled_`.
+  /// Straight to the boundary, target 0. Leaves the second-order terms in the rows, and in
+  /// `second_` and `centre_` what they and centring add to a right-hand side; sigma.
   double predict() {
     solve(predictor_);
     const Steps steps = for_elements<Steps>(
@@ -282,7 +282,7 @@ class Run {
             r.cross = r.ds * r.dz;
             r.cross = std::clamp(r.cross, -10 * r.s * r.z, 10 * r.s * r.z);
             second += ((r.z * r.bend - r.cross) / r.s) * p.a - (0.5 * r.dz) * p.adjoint(y);
-            centre += ((mu_ * weight_[e] - r.z * residual) / r.s) * p.a;
+            centre += (mu_ * weight_[e] / r.s) * p.a;
           });
           local_[e] = second;
           local_scaled_[e] = centre;
@@ -292,9 +292,12 @@ class Run {
     second_ = matrix_.sum(local_);
     centre_ = matrix_.sum(local_scaled_);
     const double left = (gap_ + p * steps.ds_z + d * steps.s_dz + p * d * steps.ds_dz) / gap_;
-    // Less than 1, or the residuals would stay where they are the larger part of what is left.
     return std::clamp(std::pow(std::max(left, 0.0), 3), 1e-8, 0.8);
   }
+
+  /// Residuals go faster than the gap, or steps get short while they are the larger part of what is
+  /// left.
+  static double removed(double sigma) { return std::max(1 - sigma, 0.8); }
 
   /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.
   Steps correct(double sigma, double second) {
@@ -304,9 +307,10 @@ class Run {
         r.bend *= second;
       });
     });
-    right_ = predictor_ + second * second_ + sigma * (centre_ - dual_residual_);
+    right_ = predictor_ + second * second_ + sigma * centre_ -
+             (1 - removed(sigma)) * (dual_residual_ + predictor_ - program_.c);
     solve(right_);
-    return direction(1 - sigma);
+    return direction(removed(sigma));
   }
   /// The rows' directions that go with dx.
   Steps direction(double keep) {
@@ -347,7 +351,7 @@ class Run {
     const VecX before = dx_;
     VecX right = right_ + matrix_.sum(local_);
     solve(right);
-    const Steps now = direction(1 - sigma);
+    const Steps now = direction(removed(sigma));
     if (now.sum() > steps.sum() + 0.02) {
       right_.swap(right);
       steps = now;
@@ -355,7 +359,7 @@ class Run {
     }
     dx_ = before;
     for (Row& r : rows_.row) r.target -= r.change;
-    direction(1 - sigma);
+    direction(removed(sigma));
     return false;
   }
 

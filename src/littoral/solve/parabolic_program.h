@@ -63,7 +63,7 @@ struct ParabolicResult {
   bool converged = false;
   int iterations = 0;
   double objective = 0;  // c^T x
-  double gap = 0;        // (s^T z + |r^T x|) / objective, r the residual of the dual constraints
+  double gap = 0;        // max(s^T z, |r^T x|) / objective, r the residual of the dual constraints
   double primal_residual = 0;  // largest |s - g(x)|, relative to tau
   std::size_t samples = 0;     // in the end, with those that were inserted
 };

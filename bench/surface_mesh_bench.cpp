@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "littoral/domain/surface_mesh.h"
+#include "domain/mesh/surface_mesh.h"
 #include "test_meshes.h"
 
 namespace {

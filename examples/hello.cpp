@@ -1,6 +1,6 @@
 // Signed distance to a broken line on a square made in code.
 
-#include <littoral/api/distance.h>
+#include <api/surface/distance.h>
 
 #include <array>
 #include <iostream>

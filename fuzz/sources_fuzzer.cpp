@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "littoral/base/error.h"
-#include "littoral/domain/surface_mesh.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "domain/mesh/surface_mesh.h"
+#include "io/read.h"
 
 namespace {
 

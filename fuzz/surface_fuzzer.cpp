@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "littoral/base/error.h"
-#include "littoral/domain/surface_mesh.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "domain/mesh/surface_mesh.h"
+#include "io/read.h"
 
 namespace {
 

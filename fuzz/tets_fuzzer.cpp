@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "littoral/base/error.h"
-#include "littoral/io/tets.h"
+#include "base/error.h"
+#include "io/tet/tets.h"
 
 namespace {
 

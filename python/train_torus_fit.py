@@ -3,7 +3,7 @@
 usage: train_torus_fit.py OUT.txt [--minutes 5] [--clouds 150] [--seed 1]
 needs numpy, scipy and jax (PyPI; the processor alone will do), six minutes of one core
 
-The fit stays the least squares of methods/torus_fit.cpp. A small network that sees what does not
+The fit stays the least squares of methods/tori/torus_fit.cpp. A small network that sees what does not
 change under rotation (distances, heights, angles of normals) multiplies the weights of its
 equations; untrained it multiplies by one. Minimised is the error of the blended field, relative to
 that of the closed form on the same cloud.
@@ -168,7 +168,7 @@ def patch(t: Tori, rows: Array, x: Array) -> Array:
 
 
 def blend(t: Tori, x: Array, rows: Array, d: Array) -> tuple[Array, Array]:
-    """Eq. 5.1 as in methods/tori.cpp, and the same kept near the distance to the points."""
+    """Eq. 5.1 as in methods/tori/tori.cpp, and the same kept near the distance to the points."""
     near = (1 - d / d[:, -1:]) ** 2 + 1e-9
     rho = (near * t["rho"][rows]).sum(1, keepdims=True) / near.sum(1, keepdims=True)
     decay = jnp.exp(-SHARPNESS * (d - d[:, :1]) / rho)

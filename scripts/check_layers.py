@@ -28,7 +28,7 @@ BELOW: dict[str, set[str]] = {
 WITHOUT_DOMAIN = "methods"
 NEEDS_DOMAIN = ("fast_marching", "exact_polyhedral", "cutting")
 SUFFIXES = {".h", ".cpp"}
-INCLUDE = re.compile(r'^\s*#\s*include\s*["<](littoral|cli)/([^">]+)[">]')
+INCLUDE = re.compile(rf'^\s*#\s*include\s*"({"|".join(BELOW)})/')
 
 
 def reachable(layer: str) -> set[str]:
@@ -45,9 +45,8 @@ def allowed(layer: str, stem: str) -> set[str]:
 
 
 def layer_of(path: Path, src: Path) -> str:
-    """src/cli/x.cpp -> cli, src/littoral/io/obj.cpp -> io."""
-    parts = path.relative_to(src).parts
-    return parts[0] if parts[0] != "littoral" else parts[1]
+    """src/io/surface/read_obj.cpp -> io."""
+    return path.relative_to(src).parts[0]
 
 
 def violations(root: Path) -> list[str]:
@@ -63,8 +62,7 @@ def violations(root: Path) -> list[str]:
         may = allowed(layer, path.stem)
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             if match := INCLUDE.match(line):
-                target = "cli" if match[1] == "cli" else match[2].split("/")[0]
-                if target not in may:
+                if (target := match[1]) not in may:
                     names = ", ".join(name for name in BELOW if name in may)
                     found.append(f"{where}:{number}: {layer} may not include {target} ({names})")
     return found

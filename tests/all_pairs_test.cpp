@@ -1,6 +1,6 @@
 // Distances between all pairs of vertices: the symmetric problem, and every source by itself.
 
-#include "littoral/methods/all_pairs.h"
+#include "methods/regularized/all_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <fstream>
 #include <numbers>
 
+#include "api/surface/distance.h"
+#include "api/surface/pairs.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "geodesic_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/api/pairs.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

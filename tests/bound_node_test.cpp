@@ -1,6 +1,6 @@
 // Bounds of distances from boxes and disks: below every point, and not far below for flat sets.
 
-#include "littoral/spatial/bound_node.h"
+#include "spatial/bound_node.h"
 
 #include <gtest/gtest.h>
 

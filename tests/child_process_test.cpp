@@ -1,6 +1,6 @@
 // Programs run beside this one: every way to end.
 
-#include "littoral/base/child_process.h"
+#include "base/platform/child_process.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 #include <fstream>
 #include <thread>
 
-#include "littoral/base/error.h"
-#include "littoral/base/temporary_folder.h"
+#include "base/error.h"
+#include "base/platform/temporary_folder.h"
 
 namespace littoral {
 namespace {

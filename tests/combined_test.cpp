@@ -1,14 +1,14 @@
 // Combined fields: known answers of spheres and boxes, bounds, symmetry, gradients.
-#include "littoral/methods/combined.h"
+#include "methods/implicit/combined.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "api/space/sampled_distance.h"
+#include "base/error.h"
 #include "field_helpers.h"
-#include "littoral/api/sampled_distance.h"
-#include "littoral/base/error.h"
 
 namespace littoral {
 namespace {

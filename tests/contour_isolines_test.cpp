@@ -6,8 +6,8 @@
 #include <map>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/contour/isolines.h"
+#include "base/error.h"
+#include "contour/isolines.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <random>
 
-#include "littoral/api/mesh_info.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/contour/isosurface.h"
+#include "api/surface/mesh_info.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "contour/isosurface.h"
 #include "test_meshes.h"
 #include "volume_helpers.h"
 

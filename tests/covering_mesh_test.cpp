@@ -1,20 +1,20 @@
 // Intrinsic Delaunay on what is not a manifold: fixed edges, the tufted cover, polygons, and every
 // small file at hand.
 
-#include "littoral/domain/covering_mesh.h"
+#include "domain/mesh/covering_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "api/surface/distance.h"
+#include "base/error.h"
+#include "domain/mesh/triangulate.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/base/error.h"
-#include "littoral/domain/triangulate.h"
-#include "littoral/io/read.h"
-#include "littoral/sources/carried_sources.h"
+#include "io/read.h"
 #include "shared_data.h"
+#include "sources/carried_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "littoral/api/distance.h"
-#include "littoral/base/error.h"
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/discontinuous.h"
+#include "api/surface/distance.h"
+#include "base/error.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/heat/discontinuous.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "littoral/base/error.h"
+#include "base/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -6,9 +6,9 @@
 
 #include <numeric>
 
+#include "base/parallel.h"
 #include "domain_shapes.h"
 #include "heat_helpers.h"
-#include "littoral/base/parallel.h"
 
 namespace littoral {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "littoral/api/distance.h"
-#include "littoral/domain/triangulate.h"
-#include "littoral/domain/voxels.h"
+#include "api/surface/distance.h"
+#include "domain/mesh/triangulate.h"
+#include "domain/volume/voxels.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

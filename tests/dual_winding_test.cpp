@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "littoral/api/winding.h"
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
-#include "littoral/io/source_nodes.h"
+#include "api/surface/winding.h"
+#include "base/error.h"
+#include "io/read.h"
+#include "io/sources/source_nodes.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

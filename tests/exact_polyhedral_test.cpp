@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "base/error.h"
 #include "geodesic_helpers.h"
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
+#include "io/read.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "geodesic_helpers.h"
-#include "littoral/base/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

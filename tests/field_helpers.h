@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "littoral/methods/pointwise.h"
+#include "methods/implicit/pointwise.h"
 
 namespace littoral::test {
 

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <limits>
 
+#include "domain/mesh/edge_sides.h"
 #include "heat_helpers.h"
-#include "littoral/domain/edge_sides.h"
-#include "littoral/methods/exact_polyhedral.h"
-#include "littoral/methods/fast_marching.h"
+#include "methods/geodesic/exact_polyhedral.h"
+#include "methods/geodesic/fast_marching.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

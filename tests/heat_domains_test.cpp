@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
-#include "littoral/io/read.h"
+#include "io/read.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <memory>
 
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/signed_heat.h"
-#include "littoral/methods/unsigned_heat.h"
-#include "littoral/operators/triangles.h"
-#include "littoral/sources/pieces.h"
-#include "littoral/sources/triangle_source_terms.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/heat/signed_heat.h"
+#include "methods/heat/unsigned_heat.h"
+#include "operators/triangles.h"
+#include "sources/pieces.h"
+#include "sources/triangle_source_terms.h"
 
 namespace littoral::test {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "heat_helpers.h"
-#include "littoral/base/parallel.h"
 #include "test_meshes.h"
 
 namespace littoral {

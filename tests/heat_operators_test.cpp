@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "domain/cloud/cloud_surface.h"
+#include "domain/mesh/polygon_surface.h"
 #include "domain_shapes.h"
 #include "heat_helpers.h"
-#include "littoral/domain/cloud_surface.h"
-#include "littoral/domain/polygon_surface.h"
-#include "littoral/operators/nodal.h"
+#include "operators/nodal.h"
 #include "test_meshes.h"
 
 namespace littoral {

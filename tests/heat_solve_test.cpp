@@ -8,8 +8,8 @@
 #include <chrono>
 #include <thread>
 
+#include "base/parallel.h"
 #include "heat_helpers.h"
-#include "littoral/base/parallel.h"
 #include "test_meshes.h"
 
 namespace littoral {

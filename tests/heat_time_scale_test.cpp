@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "api/surface/distance.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/methods/exact_polyhedral.h"
-#include "littoral/methods/time_scale.h"
-#include "littoral/sources/triangle_sources.h"
+#include "methods/geodesic/exact_polyhedral.h"
+#include "methods/heat/time_scale.h"
+#include "sources/triangle_sources.h"
 #include "subdivided_meshes.h"
 
 namespace littoral {

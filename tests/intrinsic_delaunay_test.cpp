@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "api/surface/distance.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/sources/carried_sources.h"
+#include "sources/carried_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -6,9 +6,9 @@
 #include <bit>
 #include <sstream>
 
-#include "littoral/base/error.h"
-#include "littoral/io/binary.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/read.h"
 #include "surface_bytes.h"
 
 namespace littoral::io {

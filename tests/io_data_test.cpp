@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "io/read.h"
 #include "shared_data.h"
 
 namespace littoral::io {

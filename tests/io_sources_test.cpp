@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
-#include "littoral/io/source_nodes.h"
+#include "base/error.h"
+#include "io/read.h"
+#include "io/sources/source_nodes.h"
 
 namespace littoral::io {
 namespace {

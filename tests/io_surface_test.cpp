@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "io/read.h"
 #include "surface_bytes.h"
 
 namespace littoral::io {

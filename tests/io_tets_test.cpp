@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
-#include "littoral/io/tets.h"
+#include "base/error.h"
+#include "io/read.h"
+#include "io/tet/tets.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"

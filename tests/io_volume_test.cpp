@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/io/binary.h"
-#include "littoral/io/read.h"
-#include "littoral/io/volume.h"
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/read.h"
+#include "io/volume/volume.h"
 #include "volume_helpers.h"
 
 namespace littoral {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <limits>
 
-#include "littoral/base/error.h"
-#include "littoral/io/binary.h"
-#include "littoral/io/read.h"
-#include "littoral/io/write.h"
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/read.h"
+#include "io/write.h"
 
 namespace littoral::io {
 namespace {

@@ -1,13 +1,13 @@
 // L1 integration: closed forms, certificates, both algorithms, bounds and invariances.
 
-#include "littoral/solve/l1_integration.h"
+#include "solve/network/l1_integration.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "littoral/base/error.h"
+#include "base/error.h"
 
 namespace littoral {
 namespace {

@@ -1,5 +1,5 @@
 // Oriented points on level sets of sampled values: on the surface to third order, evenly spread.
-#include "littoral/sources/level_points.h"
+#include "sources/level_points.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
-#include "littoral/api/shapes.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
+#include "api/space/shapes.h"
+#include "base/error.h"
+#include "base/parallel.h"
 
 namespace littoral {
 namespace {

@@ -1,6 +1,6 @@
 // The order of points along a Morton curve.
 
-#include "littoral/spatial/morton_order.h"
+#include "spatial/morton_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Minimum-cost flows against an independent implementation, certificates and bad input.
 
-#include "littoral/solve/network_simplex.h"
+#include "solve/network/network_simplex.h"
 
 #include <gtest/gtest.h>
 #include <lemon/network_simplex.h>
@@ -8,8 +8,8 @@
 
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/solve/spanning_tree.h"
+#include "base/error.h"
+#include "solve/network/spanning_tree.h"
 
 namespace littoral {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "littoral/api/mesh_info.h"
-#include "littoral/api/shells.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/contour/isosurface.h"
-#include "littoral/contour/redistance.h"
+#include "api/space/shells.h"
+#include "api/surface/mesh_info.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "contour/isosurface.h"
+#include "contour/redistance.h"
 #include "volume_helpers.h"
 
 namespace littoral {

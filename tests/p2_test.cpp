@@ -1,11 +1,11 @@
 // Quadratic elements: exact on quadratics, exact integrals, one calculus with the linear ones.
 
-#include "littoral/operators/p2.h"
+#include "operators/p2.h"
 
 #include <gtest/gtest.h>
 
-#include "littoral/base/error.h"
-#include "littoral/methods/quadratic_program.h"
+#include "base/error.h"
+#include "methods/quadratic/quadratic_program.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -1,6 +1,6 @@
 // Interior-point method for paraboloids over elements: programs whose optimum is known.
 
-#include "littoral/solve/parabolic_program.h"
+#include "solve/optimization/parabolic_program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "littoral/io/picture.h"
+#include "io/render/picture.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -8,9 +8,9 @@
 #include <limits>
 #include <sstream>
 
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/io/scene_style.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "io/render/scene_style.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/quadratic.h"
-#include "littoral/sources/p2_sources.h"
-#include "littoral/sources/pieces.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/quadratic/quadratic.h"
+#include "sources/p2_sources.h"
+#include "sources/pieces.h"
 
 namespace littoral::test {
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "quadratic_helpers.h"
 #include "test_meshes.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "littoral/api/tet_distance.h"
-#include "littoral/base/error.h"
-#include "littoral/methods/quadratic.h"
-#include "littoral/operators/p2_tets.h"
+#include "api/tet/tet_distance.h"
+#include "base/error.h"
+#include "methods/quadratic/quadratic.h"
+#include "operators/p2_tets.h"
 #include "test_meshes.h"
 #include "tet_helpers.h"
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "littoral/api/distance.h"
-#include "littoral/api/pairs.h"
-#include "littoral/base/error.h"
-#include "littoral/domain/voxels.h"
-#include "littoral/operators/tet_operators.h"
-#include "littoral/sources/boundary_curves.h"
+#include "api/surface/distance.h"
+#include "api/surface/pairs.h"
+#include "base/error.h"
+#include "domain/volume/voxels.h"
+#include "operators/tet_operators.h"
 #include "regularized_helpers.h"
+#include "sources/boundary_curves.h"
 #include "test_meshes.h"
 
 namespace littoral {

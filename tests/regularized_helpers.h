@@ -2,9 +2,9 @@
 // Regularized distance in one call.
 
 #include "geodesic_helpers.h"
-#include "littoral/methods/regularized.h"
-#include "littoral/operators/curved_hessian.h"
-#include "littoral/operators/line_field.h"
+#include "methods/regularized/regularized.h"
+#include "operators/curved_hessian.h"
+#include "operators/line_field.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "littoral/api/tet_distance.h"
-#include "littoral/base/error.h"
+#include "api/tet/tet_distance.h"
+#include "base/error.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
 

@@ -1,15 +1,15 @@
 // Regularized geodesic distance against closed forms and the authors' answers.
 
-#include "littoral/methods/regularized.h"
+#include "methods/regularized/regularized.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "littoral/api/distance.h"
-#include "littoral/base/error.h"
-#include "littoral/operators/curved_hessian.h"
-#include "littoral/operators/line_field.h"
+#include "api/surface/distance.h"
+#include "base/error.h"
+#include "operators/curved_hessian.h"
+#include "operators/line_field.h"
 #include "regularized_helpers.h"
 #include "test_meshes.h"
 

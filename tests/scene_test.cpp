@@ -1,4 +1,4 @@
-#include "littoral/io/scene.h"
+#include "io/render/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "littoral/base/error.h"
-#include "littoral/io/scene_style.h"
+#include "base/error.h"
+#include "io/render/scene_style.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -1,18 +1,18 @@
 // Sharpened signed distance: slope 1, the signs it had, nearer to exact.
 
-#include "littoral/methods/sharpen.h"
+#include "methods/heat/sharpen.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "api/space/sdf.h"
+#include "api/surface/distance.h"
+#include "base/error.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/api/sdf.h"
-#include "littoral/base/error.h"
-#include "littoral/operators/grid.h"
-#include "littoral/operators/tet_operators.h"
+#include "operators/grid.h"
+#include "operators/tet_operators.h"
 #include "space_helpers.h"
 #include "test_meshes.h"
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "api/surface/distance.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/io/read.h"
+#include "io/read.h"
 #include "shared_data.h"
 
 namespace littoral {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "api/surface/distance.h"
+#include "base/error.h"
 #include "heat_helpers.h"
-#include "littoral/api/distance.h"
-#include "littoral/base/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

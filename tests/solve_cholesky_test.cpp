@@ -11,11 +11,11 @@
 #include <random>
 #include <thread>
 
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/parallel_forest.h"
 #include "heat_helpers.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/base/parallel_forest.h"
-#include "littoral/solve/poisson.h"
+#include "solve/poisson/poisson.h"
 #include "test_meshes.h"
 
 namespace littoral {

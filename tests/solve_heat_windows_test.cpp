@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "heat_helpers.h"
-#include "littoral/solve/heat_system.h"
+#include "solve/heat/heat_system.h"
 #include "test_meshes.h"
 
 namespace littoral {

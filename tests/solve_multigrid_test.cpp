@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "base/error.h"
+#include "base/parallel.h"
 #include "heat_helpers.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/solve/banded_multigrid.h"
-#include "littoral/solve/poisson.h"
+#include "solve/multigrid/banded_multigrid.h"
+#include "solve/poisson/poisson.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "littoral/api/sdf.h"
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
+#include "api/space/sdf.h"
+#include "base/error.h"
+#include "io/read.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 

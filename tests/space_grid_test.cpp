@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/methods/convolve.h"
-#include "littoral/methods/signed_heat_grid.h"
-#include "littoral/solve/cosine_transform.h"
-#include "littoral/solve/held_poisson.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "methods/heat/convolve.h"
+#include "methods/heat/signed_heat_grid.h"
+#include "solve/multigrid/cosine_transform.h"
+#include "solve/poisson/held_poisson.h"
 #include "space_helpers.h"
 
 namespace littoral {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/domain/grid.h"
-#include "littoral/sources/oriented_points.h"
+#include "base/error.h"
+#include "domain/volume/grid.h"
+#include "sources/oriented_points.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "littoral/base/error.h"
-#include "littoral/domain/cloud_normals.h"
+#include "base/error.h"
+#include "domain/cloud/cloud_normals.h"
 #include "space_helpers.h"
 
 namespace littoral {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "littoral/api/sdf.h"
-#include "littoral/base/error.h"
-#include "littoral/domain/tet_lattice.h"
-#include "littoral/operators/tet_operators.h"
+#include "api/space/sdf.h"
+#include "base/error.h"
+#include "domain/tet/tet_lattice.h"
+#include "operators/tet_operators.h"
 #include "space_helpers.h"
 
 namespace littoral {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "littoral/domain/triangulate.h"
-#include "littoral/spatial/winding_number.h"
+#include "domain/mesh/triangulate.h"
 #include "space_helpers.h"
+#include "spatial/winding_number.h"
 #include "test_meshes.h"
 
 namespace littoral {

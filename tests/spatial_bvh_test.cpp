@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/domain/triangulate.h"
-#include "littoral/spatial/brute_force.h"
-#include "littoral/spatial/triangle_bvh.h"
+#include "base/error.h"
+#include "domain/mesh/triangulate.h"
+#include "spatial/brute_force.h"
+#include "spatial/triangle_bvh.h"
 #include "test_meshes.h"
 
 namespace littoral {

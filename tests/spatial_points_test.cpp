@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "littoral/spatial/point_tree.h"
+#include "spatial/point_tree.h"
 
 namespace littoral {
 namespace {

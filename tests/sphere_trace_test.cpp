@@ -1,5 +1,5 @@
 // Sphere tracing: known hits, fields that are steeper than they should be, jumps; pictures of it.
-#include "littoral/methods/sphere_trace.h"
+#include "methods/implicit/sphere_trace.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <fstream>
 #include <limits>
 
+#include "api/space/traced_scene.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "field_helpers.h"
-#include "littoral/api/traced_scene.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/io/picture.h"
+#include "io/render/picture.h"
 
 namespace littoral {
 namespace {

@@ -1,11 +1,11 @@
 // Sixteen right-hand sides at once give what one at a time gives.
 
-#include "littoral/solve/strips.h"
+#include "solve/direct/strips.h"
 
 #include <gtest/gtest.h>
 
-#include "littoral/base/error.h"
-#include "littoral/solve/cholesky.h"
+#include "base/error.h"
+#include "solve/direct/cholesky.h"
 
 namespace littoral {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "littoral/base/types.h"
-#include "littoral/domain/polygon_soup.h"
+#include "base/types.h"
+#include "domain/mesh/polygon_soup.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -1,12 +1,12 @@
 // Sparse sums over triangles against dense ones.
 
-#include "littoral/operators/sum_over_triangles.h"
+#include "operators/sum_over_triangles.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "littoral/base/parallel.h"
+#include "base/parallel.h"
 
 namespace littoral {
 namespace {

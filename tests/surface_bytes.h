@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
+#include "base/error.h"
+#include "io/read.h"
 
 namespace littoral::test {
 

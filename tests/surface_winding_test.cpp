@@ -8,10 +8,10 @@
 #include <numeric>
 #include <random>
 
-#include "littoral/api/winding.h"
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
-#include "littoral/operators/jump_calculus.h"
+#include "api/surface/winding.h"
+#include "base/error.h"
+#include "io/read.h"
+#include "operators/jump_calculus.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <random>
 
-#include "littoral/domain/surface_mesh.h"
-#include "littoral/domain/tet_mesh.h"
+#include "domain/mesh/surface_mesh.h"
+#include "domain/tet/tet_mesh.h"
 
 namespace littoral::test {
 

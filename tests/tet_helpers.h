@@ -1,8 +1,8 @@
 #pragma once
 // Tet meshes with known distances.
 
-#include "littoral/domain/polygon_soup.h"
-#include "littoral/domain/tet_mesh.h"
+#include "domain/mesh/polygon_soup.h"
+#include "domain/tet/tet_mesh.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "littoral/api/tet_distance.h"
-#include "littoral/domain/tet_locator.h"
-#include "littoral/io/tets.h"
+#include "api/tet/tet_distance.h"
+#include "domain/tet/tet_locator.h"
+#include "io/tet/tets.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"

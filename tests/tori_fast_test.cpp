@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
+#include "base/error.h"
 #include "field_helpers.h"
-#include "littoral/base/error.h"
-#include "littoral/methods/tori.h"
-#include "littoral/sources/likely_outliers.h"
+#include "methods/tori/tori.h"
+#include "sources/likely_outliers.h"
 #include "torus_helpers.h"
 
 namespace littoral {

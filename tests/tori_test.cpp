@@ -1,6 +1,6 @@
 // Points as tori: the torus itself, fits on surfaces they can represent, and the blended field.
 
-#include "littoral/methods/tori.h"
+#include "methods/tori/tori.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "littoral/api/tori_cloud.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
+#include "api/space/tori_cloud.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "torus_helpers.h"
 
 namespace littoral {

@@ -5,11 +5,11 @@
 #include <map>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/io/read.h"
-#include "littoral/sources/carry.h"
-#include "littoral/sources/pieces.h"
+#include "base/error.h"
+#include "io/read.h"
 #include "shared_data.h"
+#include "sources/carry.h"
+#include "sources/pieces.h"
 #include "test_meshes.h"
 
 namespace littoral {

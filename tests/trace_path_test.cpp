@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/sources/trace.h"
+#include "base/error.h"
+#include "sources/trace.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "littoral/base/error.h"
-#include "littoral/sources/pieces.h"
-#include "littoral/sources/surface_points.h"
+#include "base/error.h"
+#include "sources/pieces.h"
+#include "sources/surface_points.h"
 #include "test_meshes.h"
 
 namespace littoral {

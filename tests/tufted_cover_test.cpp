@@ -1,13 +1,13 @@
 // The tufted cover: gluing, flips, and what they keep.
 
-#include "littoral/domain/tufted_cover.h"
+#include "domain/intrinsic/tufted_cover.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "littoral/domain/triangulate.h"
+#include "domain/mesh/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral {

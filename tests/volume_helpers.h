@@ -1,7 +1,7 @@
 #pragma once
 // Functions in space, sampled on grids.
 
-#include "littoral/domain/volume_field.h"
+#include "domain/volume/volume_field.h"
 
 namespace littoral::test {
 

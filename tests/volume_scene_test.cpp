@@ -1,4 +1,4 @@
-#include "littoral/io/volume_scene.h"
+#include "io/render/volume_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "littoral/base/error.h"
-#include "littoral/io/picture.h"
-#include "littoral/io/scene_style.h"
+#include "base/error.h"
+#include "io/render/picture.h"
+#include "io/render/scene_style.h"
 #include "volume_helpers.h"
 
 namespace littoral {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/error.h"
 #include "domain_shapes.h"
-#include "littoral/base/error.h"
-#include "littoral/io/read_voxels.h"
-#include "littoral/io/volume.h"
+#include "io/volume/read_voxels.h"
+#include "io/volume/volume.h"
 
 namespace littoral {
 namespace {

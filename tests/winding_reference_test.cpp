@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/surface_winding.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "io/read.h"
+#include "methods/winding/surface_winding.h"
 #include "shared_data.h"
 
 namespace littoral {

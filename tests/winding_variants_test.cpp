@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "littoral/api/winding.h"
-#include "littoral/base/error.h"
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/residual_paths.h"
+#include "api/surface/winding.h"
+#include "base/error.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/winding/residual_paths.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -48,7 +48,7 @@ mkdirSync(out, { recursive: true });
 writeFileSync(join(out, "page.html"), page);
 writeFileSync(
   join(out, "page_template.cpp"),
-  `#include "littoral/io/page_template.h"
+  `#include "io/page/page_template.h"
 
 namespace littoral::io {
 

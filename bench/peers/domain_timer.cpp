@@ -15,13 +15,13 @@
 #include <memory>
 #include <vector>
 
-#include "littoral/domain/cloud_surface.h"
-#include "littoral/domain/polygon_surface.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/signed_heat.h"
-#include "littoral/operators/nodal.h"
-#include "littoral/sources/nodal_source_terms.h"
-#include "littoral/sources/refined_sources.h"
+#include "domain/cloud/cloud_surface.h"
+#include "domain/mesh/polygon_surface.h"
+#include "io/read.h"
+#include "methods/heat/signed_heat.h"
+#include "operators/nodal.h"
+#include "sources/nodal_source_terms.h"
+#include "sources/refined_sources.h"
 
 namespace littoral {
 namespace {

@@ -12,10 +12,10 @@
 #include <numbers>
 #include <random>
 
-#include "littoral/base/parallel.h"
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/jump_laplace.h"
-#include "littoral/methods/residual.h"
+#include "base/parallel.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/winding/jump_laplace.h"
+#include "methods/winding/residual.h"
 #include "test_meshes.h"
 
 namespace {

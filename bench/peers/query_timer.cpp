@@ -12,12 +12,12 @@
 #include <fstream>
 #include <memory>
 
-#include "littoral/base/parallel.h"
-#include "littoral/domain/triangulate.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/closest_point.h"
-#include "littoral/spatial/morton_order.h"
-#include "littoral/spatial/winding_number.h"
+#include "base/parallel.h"
+#include "domain/mesh/triangulate.h"
+#include "io/read.h"
+#include "methods/implicit/closest_point.h"
+#include "spatial/morton_order.h"
+#include "spatial/winding_number.h"
 
 namespace {
 

@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "littoral/base/memory.h"
-#include "littoral/base/parallel.h"
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/signed_heat.h"
-#include "littoral/operators/triangles.h"
-#include "littoral/sources/pieces.h"
-#include "littoral/sources/triangle_source_terms.h"
+#include "base/parallel.h"
+#include "base/platform/memory.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "io/read.h"
+#include "methods/heat/signed_heat.h"
+#include "operators/triangles.h"
+#include "sources/pieces.h"
+#include "sources/triangle_source_terms.h"
 
 namespace littoral {
 namespace {

@@ -15,10 +15,10 @@
 #include <string>
 #include <thread>
 
-#include "littoral/api/distance.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/io/read.h"
+#include "api/surface/distance.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "io/read.h"
 #include "subdivided_meshes.h"
 
 namespace littoral {

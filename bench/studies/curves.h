@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
-#include "littoral/contour/isolines.h"
-#include "littoral/operators/calculus.h"
-#include "littoral/solve/poisson.h"
-#include "littoral/sources/surface_sources.h"
+#include "contour/isolines.h"
+#include "operators/calculus.h"
+#include "solve/poisson/poisson.h"
+#include "sources/surface_sources.h"
 
 namespace littoral {
 

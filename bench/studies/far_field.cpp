@@ -14,15 +14,15 @@
 #include <string>
 #include <vector>
 
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/exact_polyhedral.h"
-#include "littoral/methods/signed_heat.h"
-#include "littoral/methods/time_scale.h"
-#include "littoral/operators/triangles.h"
-#include "littoral/sources/pieces.h"
-#include "littoral/sources/triangle_source_terms.h"
-#include "littoral/sources/triangle_sources.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "io/read.h"
+#include "methods/geodesic/exact_polyhedral.h"
+#include "methods/heat/signed_heat.h"
+#include "methods/heat/time_scale.h"
+#include "operators/triangles.h"
+#include "sources/pieces.h"
+#include "sources/triangle_source_terms.h"
+#include "sources/triangle_sources.h"
 #include "subdivided_meshes.h"
 #include "test_meshes.h"
 

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/io/read.h"
-#include "littoral/methods/quadratic_program.h"
-#include "littoral/sources/pieces.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "io/read.h"
+#include "methods/quadratic/quadratic_program.h"
+#include "sources/pieces.h"
 
 namespace littoral {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "littoral/api/sdf.h"
+#include "api/space/sdf.h"
 #include "space_helpers.h"
 
 namespace {

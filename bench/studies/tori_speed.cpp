@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "littoral/base/parallel.h"
-#include "littoral/methods/tori.h"
+#include "base/parallel.h"
+#include "methods/tori/tori.h"
 #include "torus_helpers.h"
 
 namespace littoral {

@@ -14,8 +14,8 @@
 #include <random>
 #include <set>
 
-#include "littoral/domain/intrinsic_triangulation.h"
-#include "littoral/methods/surface_winding.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/winding/surface_winding.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "littoral/io/write.h"
+#include "io/write.h"
 
 namespace littoral::cli {
 

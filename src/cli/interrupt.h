@@ -1,7 +1,7 @@
 #pragma once
 // Ctrl-C: stops within 0.2 s, whatever the program is doing, and leaves no half-written file.
 
-#include "littoral/base/task.h"
+#include "base/task.h"
 
 namespace littoral::cli {
 

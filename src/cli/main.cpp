@@ -6,12 +6,12 @@
 #include <iostream>
 #include <new>
 
+#include "base/error.h"
+#include "base/parallel.h"
+#include "cli/input/method_options.h"
 #include "cli/interrupt.h"
-#include "cli/method_options.h"
 #include "cli/session.h"
-#include "cli/verbs.h"
-#include "littoral/base/error.h"
-#include "littoral/base/parallel.h"
+#include "cli/verbs/verbs.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "littoral/base/error.h"
+#include "base/error.h"
 
 namespace littoral::cli {
 

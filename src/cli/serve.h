@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "littoral/base/task.h"
+#include "base/task.h"
 
 namespace littoral::cli {
 

@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <iostream>
 
-#include "littoral/api/report_json.h"
-#include "littoral/base/error.h"
-#include "littoral/base/option_table.h"
-#include "littoral/io/scene.h"
+#include "api/report_json.h"
+#include "base/error.h"
+#include "base/option_table.h"
+#include "io/render/scene.h"
 
 namespace littoral::cli {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "littoral/base/report.h"
-#include "littoral/base/task.h"
+#include "base/report.h"
+#include "base/task.h"
 
 namespace littoral::cli {
 

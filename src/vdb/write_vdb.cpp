@@ -7,7 +7,7 @@
 #include <cmath>
 #include <exception>
 
-#include "littoral/io/vdb_module.h"
+#include "io/volume/vdb_module.h"
 
 namespace {
 

@@ -15,22 +15,22 @@ def write(root: Path, name: str, *includes: str) -> None:
 @pytest.mark.parametrize(
     ("name", "include"),
     [
-        ("littoral/base/a.h", "littoral/spatial/b.h"),
-        ("littoral/spatial/a.h", "littoral/solve/b.h"),
-        ("littoral/solve/a.cpp", "littoral/spatial/b.h"),
-        ("littoral/solve/a.cpp", "littoral/domain/b.h"),
-        ("littoral/domain/a.h", "littoral/operators/b.h"),
-        ("littoral/operators/a.h", "littoral/sources/b.h"),
-        ("littoral/contour/a.cpp", "littoral/operators/b.h"),
-        ("littoral/sources/a.h", "littoral/methods/b.h"),
-        ("littoral/methods/signed_heat.cpp", "littoral/domain/surface_mesh.h"),
-        ("littoral/methods/a.h", "littoral/io/b.h"),
-        ("littoral/io/a.h", "littoral/methods/b.h"),
-        ("littoral/api/a.h", "cli/b.h"),
+        ("base/a.h", "spatial/b.h"),
+        ("spatial/a.h", "solve/b.h"),
+        ("solve/a.cpp", "spatial/b.h"),
+        ("solve/a.cpp", "domain/b.h"),
+        ("domain/a.h", "operators/b.h"),
+        ("operators/a.h", "sources/b.h"),
+        ("contour/a.cpp", "operators/b.h"),
+        ("sources/a.h", "methods/b.h"),
+        ("methods/heat/signed_heat.cpp", "domain/mesh/surface_mesh.h"),
+        ("methods/a.h", "io/b.h"),
+        ("io/a.h", "methods/b.h"),
+        ("api/a.h", "cli/b.h"),
     ],
 )
 def test_an_include_pointing_up_is_a_violation(tmp_path: Path, name: str, include: str) -> None:
-    write(tmp_path, name, "littoral/base/types.h", include)
+    write(tmp_path, name, "base/types.h", include)
     (found,) = check_layers.violations(tmp_path)
     assert found.startswith(f"src/{name}:2: ")
     assert check_layers.main([str(tmp_path)]) == 1
@@ -39,17 +39,17 @@ def test_an_include_pointing_up_is_a_violation(tmp_path: Path, name: str, includ
 @pytest.mark.parametrize(
     ("name", "include"),
     [
-        ("littoral/spatial/a.h", "littoral/base/b.h"),
-        ("littoral/domain/a.h", "littoral/spatial/b.h"),
-        ("littoral/operators/a.h", "littoral/base/b.h"),
-        ("littoral/sources/a.h", "littoral/domain/b.h"),
-        ("littoral/methods/signed_heat.cpp", "littoral/solve/poisson.h"),
-        ("littoral/methods/fast_marching.cpp", "littoral/domain/surface_mesh.h"),
-        ("littoral/methods/exact_polyhedral.h", "littoral/domain/surface_mesh.h"),
-        ("littoral/methods/cutting.cpp", "littoral/domain/surface_mesh.h"),
-        ("littoral/io/a.cpp", "littoral/domain/b.h"),
-        ("littoral/api/a.h", "littoral/contour/b.h"),
-        ("cli/main.cpp", "littoral/api/b.h"),
+        ("spatial/a.h", "base/b.h"),
+        ("domain/a.h", "spatial/b.h"),
+        ("operators/a.h", "base/b.h"),
+        ("sources/a.h", "domain/b.h"),
+        ("methods/heat/signed_heat.cpp", "solve/poisson/poisson.h"),
+        ("methods/geodesic/fast_marching.cpp", "domain/mesh/surface_mesh.h"),
+        ("methods/geodesic/exact_polyhedral.h", "domain/mesh/surface_mesh.h"),
+        ("methods/cutting.cpp", "domain/mesh/surface_mesh.h"),
+        ("io/a.cpp", "domain/b.h"),
+        ("api/a.h", "contour/b.h"),
+        ("cli/main.cpp", "api/b.h"),
         ("cli/main.cpp", "cli/b.h"),
     ],
 )
@@ -60,6 +60,6 @@ def test_an_include_pointing_down_is_none(tmp_path: Path, name: str, include: st
 
 
 def test_a_folder_that_is_no_layer_is_a_violation(tmp_path: Path) -> None:
-    write(tmp_path, "littoral/helpers/a.h")
+    write(tmp_path, "helpers/a.h")
     (found,) = check_layers.violations(tmp_path)
     assert "'helpers' is not a layer" in found

@@ -1,5 +1,5 @@
-// Sphere tracing of blended tori, as in the library: methods/torus.h, methods/tori.cpp (eq. 5.1 with
-// shifted exponents) and methods/sphere_trace.cpp, in single precision.
+// Sphere tracing of blended tori, as in the library: methods/tori/torus.h, methods/tori/tori.cpp (eq. 5.1 with
+// shifted exponents) and methods/implicit/sphere_trace.cpp, in single precision.
 import { lightFunction } from "./surface.js";
 
 /// Of both passes: a rectangle over the whole picture.

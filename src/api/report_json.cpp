@@ -1,0 +1,118 @@
+#include "api/report_json.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "base/platform/memory.h"
+
+namespace littoral {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+Json number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  if (std::abs(value) < 1e15 && value == std::floor(value)) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+/// An option's value: a number or a switch where its text is one.
+Json option_value(const std::string& text) {
+  if (text == "on" || text == "off") return text == "on";
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code == std::errc() && end == text.data() + text.size()) return number(value);
+  return text;
+}
+
+Json sums(const std::vector<std::pair<std::string, double>>& list) {
+  std::vector<std::pair<std::string, double>> unique;
+  for (const auto& [name, value] : list) {
+    auto it = unique.begin();
+    while (it != unique.end() && it->first != name) ++it;
+    if (it == unique.end())
+      unique.emplace_back(name, value);
+    else
+      it->second += value;
+  }
+  Json out = Json::object();
+  for (const auto& [name, value] : unique) out[name] = number(value);
+  return out;
+}
+
+/// Named values; of those named twice the last, for values that cannot be added.
+Json object(const std::vector<std::pair<std::string, double>>& list) {
+  Json out = Json::object();
+  for (const auto& [name, value] : list) out[name] = number(value);
+  return out;
+}
+
+struct InfoValueJson {
+  Json operator()(bool value) const { return value; }
+  Json operator()(double value) const { return number(value); }
+  Json operator()(const std::string& value) const { return value; }
+  Json operator()(const std::vector<double>& values) const {
+    Json out = Json::array();
+    for (double value : values) out.push_back(number(value));
+    return out;
+  }
+  Json operator()(const std::vector<std::pair<std::string, std::vector<double>>>& named) const {
+    Json out = Json::object();
+    for (const auto& [name, values] : named) out[name] = (*this)(values);
+    return out;
+  }
+};
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json out;
+  out["method"] = report.method;
+  out["domain"] = report.domain;
+  out["status"] = report.status;
+  out["options"] = Json::object();
+  for (const auto& [name, text] : report.options) out["options"][name] = option_value(text);
+  out["sizes"] = object(report.sizes);
+  out["timings"] = sums(report.timings);
+  out["iterations"] = sums(report.iterations);
+  out["residuals"] = object(report.residuals);
+  out["warnings"] = report.warnings;
+  out["unreachable_components"] = report.unreachable_components;
+  out["peak_memory_mb"] = std::round(peak_memory() / (1 << 20));
+  return dump(out);
+}
+
+std::string info_json(const std::vector<InfoEntry>& entries) {
+  Json out = Json::object();
+  for (const InfoEntry& entry : entries) out[entry.key] = std::visit(InfoValueJson{}, entry.value);
+  return dump(out);
+}
+
+std::string methods_json(const std::vector<MethodInfo>& methods) {
+  Json out = Json::array();
+  for (const MethodInfo& method : methods) {
+    Json options = Json::array();
+    for (const OptionInfo& info : method.options)
+      options.push_back({{"name", info.name},
+                         {"unit", info.unit},
+                         {"range", option_range_text(info)},
+                         {"default", option_value(info.fallback)},
+                         {"help", info.help}});
+    out.push_back({{"name", method.name},
+                   {"summary", method.summary},
+                   {"domains", method.domains},
+                   {"options", options},
+                   {"reference", method.reference}});
+  }
+  return dump(out);
+}
+
+}  // namespace littoral

@@ -1,0 +1,133 @@
+#include "api/space/traced_scene.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "api/space/sampled_distance.h"
+#include "api/space/tori_cloud.h"
+#include "base/error.h"
+#include "base/option_table.h"
+#include "io/render/volume_scene.h"
+#include "methods/implicit/sphere_trace.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int most_tori = 200000;  // in a page
+constexpr double part_of_pixel = 0.1;
+
+/// The field near the level set; farther away what its samples on the grid promise, which costs a
+/// hundredth: trilinear values less what the field can differ from them, which has the right sign.
+class Sketched final : public PointwiseDistance {
+ public:
+  Sketched(std::shared_ptr<const PointwiseDistance> field, const VolumeField& samples, double level,
+           double steepness)
+      : field_(std::move(field)),
+        samples_(samples),
+        level_(level),
+        margin_(steepness * samples.grid.spacing.norm()) {}
+  DistanceSample at(const Vec3& x) const override { return field_->at(x); }
+  double value(const Vec3& x) const override {
+    const double away = samples_.value(x) - level_;
+    if (!(std::abs(away) > 1.5 * margin_)) return field_->value(x);
+    return level_ + (away > 0 ? away - margin_ : away + margin_);
+  }
+
+ private:
+  std::shared_ptr<const PointwiseDistance> field_;
+  SampledDistance samples_;
+  double level_, margin_;
+};
+
+/// The tori of the one cloud that a page traces, also in its own shape so that they are fitted
+/// once.
+std::vector<Torus> tori_for_page(Shapes& shapes, Task task, Report& report) {
+  Shape& shape = shapes.all.front();
+  if (!shapes.plain() || shape.request.method != "tori" || shape.surface.n_faces() > 0)
+    throw UnsupportedError(
+        "pages trace one point cloud by its tori (method tori); `littoral render --trace` traces "
+        "all shapes, and `littoral sdf -o page.html` shows them on a grid");
+  shape.surface = fit_tori_cloud(shape.surface, shape.request, task, report);
+  shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
+  shape.request.options.clear();
+  if (shape.surface.n_vertices() > most_tori)
+    throw UnsupportedError("pages trace at most " + std::to_string(most_tori) +
+                           " points; this cloud has " + std::to_string(shape.surface.n_vertices()));
+  return tori_of_cloud(shape.surface);
+}
+
+void pack_tori(const MatX3& points, const std::vector<Torus>& tori, io::SceneTrace& trace) {
+  trace.tori.resize(points.rows(), 16);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Torus& t = tori[static_cast<std::size_t>(i)];
+    trace.tori.row(i) << points.row(i), t.rho, t.q.transpose(), t.log_weight, t.n.transpose(), t.k1,
+        t.e1.transpose(), t.k2;
+  }
+}
+
+/// Triangles from `first` on are not drawn, but still frame the picture.
+void hide_triangles(io::Scene& scene, Eigen::Index first) {
+  for (Eigen::Index t = first; t < scene.triangles.rows(); ++t)
+    scene.triangles(t, 1) = scene.triangles(t, 2) = scene.triangles(t, 0);
+}
+
+}  // namespace
+
+io::Scene traced_scene(const Shapes& shapes, const Grid& grid, const TracedView& view, Task task,
+                       Report& report) {
+  if (!std::isfinite(view.level)) throw InputError("the level must be a finite number");
+  Shapes used = shapes;
+  std::vector<Torus> tori;
+  if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
+  const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
+  const VolumeField volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
+  if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
+    throw InputError("the distance does not pass level " + number_text(view.level) +
+                     " in the box: it is from " + number_text(volume.values.minCoeff()) + " to " +
+                     number_text(volume.values.maxCoeff()));
+
+  io::VolumeView shown;
+  shown.axis = view.axis;
+  shown.level = view.level;
+  shown.position = view.position.value_or(grid.origin[view.axis]);
+  io::Scene scene = io::make_volume_scene(volume, shown);
+  const Eigen::Index slice = 2 * (Eigen::Index{grid.n[(view.axis + 1) % 3]} - 1) *
+                             (Eigen::Index{grid.n[(view.axis + 2) % 3]} - 1);
+  const bool with_slice = view.position.has_value() || view.for_page;
+  hide_triangles(scene, slice);
+  if (!with_slice) {
+    scene.triangles = scene.triangles.bottomRows(scene.triangles.rows() - slice).eval();
+    scene.values.resize(0);
+    scene.volume.reset();
+  }
+
+  auto trace = std::make_shared<io::SceneTrace>();
+  trace->low = grid.origin;
+  trace->high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  if (with_slice) {
+    const int layer = scene.volume->slice;
+    trace->low[view.axis] = grid.origin[view.axis] + layer * grid.spacing[view.axis];
+  }
+  trace->level = view.level;
+  trace->steepness = trace_steepness(*field, trace->low, trace->high, view.level);
+  const double size = (trace->high - trace->low).norm();
+  const auto sketch = std::make_shared<const Sketched>(field, volume, view.level, trace->steepness);
+  trace->hit = [sketch, level = view.level, steepness = trace->steepness, size](
+                   const Vec3& origin, const Vec3& direction, double from, double to, double pixel,
+                   Vec3& normal) {
+    TraceOptions options;
+    options.level = level;
+    options.steepness = steepness;
+    options.tolerance = std::max(part_of_pixel * pixel, 1e-7 * size);
+    const TraceHit hit = sphere_trace(*sketch, origin, direction, from, to, options);
+    normal = hit.normal;
+    return hit.found ? hit.t : std::numeric_limits<double>::infinity();
+  };
+  if (view.for_page) pack_tori(used.all.front().surface.points, tori, *trace);
+  scene.trace = std::move(trace);
+  return scene;
+}
+
+}  // namespace littoral

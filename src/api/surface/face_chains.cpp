@@ -1,0 +1,44 @@
+#include "api/surface/face_chains.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+
+namespace littoral {
+
+namespace {
+
+/// The function rises by one from triangle f to triangle g.
+bool add_step(int f, int g, const JumpCalculus& J, DualCurve& curve) {
+  for (int k = 0; k < 3; ++k) {
+    const int e = J.edge(f, k);
+    if (J.manifold[e]) {
+      if (J.across(f, k).face != g || f == g) continue;
+      curve.edge[e] += J.sides[e][0].face == g ? 1 : -1;
+      return true;
+    }
+    for (FacePair& p : curve.pairs)
+      if (p.edge == e && std::minmax(p.left, p.right) == std::minmax(f, g)) {
+        p.jump += p.left == g ? 1 : -1;
+        return true;
+      }
+  }
+  return false;
+}
+
+}  // namespace
+
+void add_chains(const std::vector<FaceChain>& chains, const JumpCalculus& J,
+                const std::vector<int>& triangle_of_face, DualCurve& curve) {
+  for (const FaceChain& chain : chains)
+    for (std::size_t i = 0; i + 1 < chain.faces.size(); ++i) {
+      const int f = triangle_of_face[chain.faces[i]], g = triangle_of_face[chain.faces[i + 1]];
+      if (f < 0 || g < 0 || !add_step(f, g, J, curve))
+        throw InputError(chain.origin + ": faces " + std::to_string(chain.faces[i]) + " and " +
+                         std::to_string(chain.faces[i + 1]) +
+                         " (counted from 0) share no edge; a chain goes from face to neighbour");
+    }
+}
+
+}  // namespace littoral

@@ -1,0 +1,96 @@
+#include "api/surface/level_lines.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/option_table.h"
+
+namespace littoral {
+
+namespace {
+
+// Signed distance from the line {values = level}, less `back`.
+VecX offset_back(const SurfaceMesh& mesh, const VecX& values, double level, double back,
+                 const DistanceRequest& request, const char* name, Report& report, Task task) {
+  SurfaceSources between;
+  for (Polyline& line : isolines(mesh, values, level)) {
+    SurfaceCurve curve;
+    curve.nodes = std::move(line.nodes);
+    if (line.closed) curve.nodes.push_back(curve.nodes.front());
+    // A line has larger values on its left, a signed curve its positive side: the sign stays.
+    between.curves.push_back(std::move(curve));
+  }
+  if (between.curves.empty())
+    throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
+                     " leaves nothing: no line at distance " + number_text(level));
+  DistanceRequest again = request;
+  again.flip = false;
+  Report second;
+  VecX distance = surface_distance(mesh, between, again, std::move(task), second);
+  for (const auto& [stage, seconds] : second.timings)
+    report.timings.emplace_back(std::string(name) + ": " + stage, seconds);
+  for (const std::string& text : second.warnings) report.warn(std::string(name) + ": " + text);
+  distance.array() -= back;
+  return distance;
+}
+
+}  // namespace
+
+std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
+                                    const std::vector<double>& levels, Report& report, Task task) {
+  std::vector<LevelLines> all;
+  bool any = false;
+  for (const double level : levels) {
+    task.stage(1.0 / static_cast<double>(levels.size()), "tracing lines").checkpoint();
+    all.push_back({level, isolines(mesh, values, level)});
+    if (all.back().lines.empty()) report.warn("there are no lines at level " + number_text(level));
+    any = any || !all.back().lines.empty();
+  }
+  if (!any) throw InputError("none of the levels is met by a face: there is nothing to write");
+  return all;
+}
+
+std::vector<LevelLines> offset_lines(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                                     const DistanceRequest& request,
+                                     const std::vector<double>& offsets,
+                                     const Morphology& morphology, Report& report, Task task) {
+  const double open = morphology.open, close = morphology.close;
+  if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
+    throw InputError("offset: the radii of opening and closing must not be negative");
+  const double steps = 1 + (open > 0) + (close > 0);
+  VecX values =
+      surface_distance(mesh, sources, request, task.stage(0.9 / steps, "distance"), report);
+  if (open > 0)
+    values = offset_back(mesh, values, -open, open, request, "opening", report,
+                         task.stage(0.9 / steps, "opening"));
+  if (close > 0)
+    values = offset_back(mesh, values, close, -close, request, "closing", report,
+                         task.stage(0.9 / steps, "closing"));
+  return level_lines(mesh, values, offsets, report, task.stage(1, "tracing lines"));
+}
+
+PolygonSoup join_lines(const SurfaceMesh& mesh, const std::vector<LevelLines>& levels) {
+  PolygonSoup out;
+  std::vector<Vec3> points;
+  std::vector<double> level_of_point;
+  for (const LevelLines& level : levels) {
+    for (const Polyline& line : level.lines) {
+      std::vector<int> indices;
+      for (const SurfacePoint& node : line.nodes) {
+        indices.push_back(static_cast<int>(points.size()));
+        points.push_back(mesh.position(node));
+        level_of_point.push_back(level.level);
+      }
+      if (line.closed) indices.push_back(indices.front());
+      out.lines.push_back(std::move(indices));
+    }
+  }
+  out.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  out.scalars["level"] = Eigen::Map<const VecX>(level_of_point.data(),
+                                                static_cast<Eigen::Index>(level_of_point.size()));
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,282 @@
+#include "api/surface/winding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "api/surface/face_chains.h"
+#include "base/error.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "domain/mesh/tear.h"
+#include "methods/winding/dual_winding.h"
+#include "methods/winding/nonconforming_winding.h"
+#include "operators/jump_calculus.h"
+#include "sources/conform.h"
+#include "sources/triangle_sources.h"
+
+namespace littoral {
+
+namespace {
+
+/// Joins directed edges, each as often as it counts, head to tail into polylines of vertices.
+std::vector<std::vector<int>> chains(const SurfaceMesh& mesh, const VecX& times) {
+  std::multimap<int, int> out;  // vertex -> next
+  std::map<int, int> surplus;
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    const long n = std::lround(std::abs(times[e]));
+    for (long i = 0; i < n; ++i) {
+      const int a = mesh.edges()(e, times[e] > 0 ? 0 : 1);
+      const int b = mesh.edges()(e, times[e] > 0 ? 1 : 0);
+      out.emplace(a, b);
+      ++surplus[a];
+      --surplus[b];
+    }
+  }
+  std::vector<std::vector<int>> lines;
+  const auto follow = [&](int v) {
+    std::vector<int>& line = lines.emplace_back(1, v);
+    for (auto it = out.find(v); it != out.end(); it = out.find(v)) {
+      v = it->second;
+      out.erase(it);
+      line.push_back(v);
+    }
+  };
+  for (const auto& [v, n] : surplus)  // ends of open curves first
+    for (int i = 0; i < n; ++i) follow(v);
+  while (!out.empty()) follow(out.begin()->first);
+  return lines;
+}
+
+Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
+  Polylines lines;
+  for (const std::vector<int>& chain : chains(mesh, times)) {
+    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(chain.size()), 3);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      line.row(static_cast<Eigen::Index>(i)) = mesh.point(chain[i]);
+  }
+  return lines;
+}
+
+double total_length(const Polylines& lines) {
+  double length = 0;
+  for (const MatX3& line : lines)
+    for (Eigen::Index i = 1; i < line.rows(); ++i) length += (line.row(i) - line.row(i - 1)).norm();
+  return length;
+}
+
+/// The cut mesh with one vertex for every value that meets at it.
+PolygonSoup torn_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
+                          const JumpCalculus& J, const WindingNumbers& numbers) {
+  // Open corners belong to their face alone; others to all with the same label and value to 1e-6.
+  Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Zero(mesh.n_faces(), 3);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const int t = triangle_of_face[f];
+    for (int k = 0; t >= 0 && k < 3; ++k) {
+      const std::int64_t value = std::llround(numbers.w.u(t, k) * 1e6);
+      key(f, k) = numbers.w.open[J.node(t, k)] ? (std::int64_t{1} << 62) + f
+                                               : value * (1 << 20) + numbers.region[t];
+    }
+  }
+  TornSurface torn = tear(mesh, key);
+  const auto n = static_cast<Eigen::Index>(torn.corner.size());
+  VecX winding = VecX::Zero(n), region = winding, weight = VecX::Ones(n);
+  for (Eigen::Index v = 0; v < n; ++v) {
+    const auto [f, k] = torn.corner[v];
+    const int t = triangle_of_face[f];
+    if (t < 0) continue;
+    winding[v] = numbers.w.u(t, k);
+    region[v] = numbers.region[t];
+    if (numbers.w.open[J.node(t, k)]) weight[v] = 0;
+  }
+  torn.soup.scalars = {{"winding", winding}, {"region", region}, {"weight", weight}};
+  return std::move(torn.soup);
+}
+
+/// The label of the largest part of every face of the input.
+VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, const JumpCalculus& J) {
+  std::vector<std::map<int, double>> area(mesh.n_faces());
+  for (int f = 0; f < answer.cut.mesh.n_faces(); ++f)
+    if (const int t = answer.triangle_of_face[f]; t >= 0)
+      area[answer.cut.parent_face[f]][answer.numbers.region[t]] += J.area[t];
+  VecXi region = VecXi::Zero(mesh.n_faces());
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    double largest = 0;
+    for (const auto& [label, a] : area[f])
+      if (a > largest) {
+        largest = a;
+        region[f] = label;
+      }
+  }
+  return region;
+}
+
+std::vector<CurvePiece> drawn_pieces(const SurfaceMesh& mesh, SurfaceSources drawn, bool flip,
+                                     Task& task, Report& report) {
+  drawn.chains.clear();
+  if (drawn.empty()) return {};
+  return signed_pieces(prepared_sources({mesh, drawn, flip}, task, report), report);
+}
+
+ConformingCurves conforming(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces,
+                            Formulation formulation, Report& report) {
+  if (pieces.empty() || formulation == Formulation::nonconforming)
+    return {cut_mesh(mesh, {}), VecX::Zero(mesh.n_edges()), false};
+  const Stopwatch watch(report, "cut");
+  return conform(mesh, pieces);
+}
+
+std::vector<SegmentInFace> in_faces(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                    const std::vector<CurvePiece>& pieces) {
+  std::vector<SegmentInFace> segments;
+  for (const CurvePiece& piece : pieces) {
+    if (T.triangle_of_face[piece.face] < 0) continue;
+    const std::vector<TriangleSources::Segment> parts = segments_of(mesh, T, piece);
+    for (const TriangleSources::Segment& s : parts) {
+      SegmentInFace& out = segments.emplace_back();
+      out.face = s.triangle;
+      const TriangleShape shape = T.shape(s.triangle);
+      for (int k = 0; k < 3; ++k) {
+        out.vector += (s.b[k] - s.a[k]) * shape.p[k] / static_cast<double>(parts.size());
+        out.middle[k] = (s.a[k] + s.b[k]) / 2;
+      }
+    }
+  }
+  return segments;
+}
+
+/// One polyline for every run of pieces of a curve.
+Polylines polylines(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces) {
+  Polylines lines;
+  for (std::size_t i = 0; i < pieces.size();) {
+    std::size_t end = i;
+    while (end < pieces.size() && pieces[end].curve == pieces[i].curve) ++end;
+    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(end - i) + 1, 3);
+    const auto at = [&](const CurvePiece& piece, const std::array<double, 3>& b) {
+      return mesh.position(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
+    };
+    line.row(0) = at(pieces[i], pieces[i].a);
+    for (Eigen::Index row = 1; i < end; ++i, ++row) line.row(row) = at(pieces[i], pieces[i].b);
+  }
+  return lines;
+}
+
+std::vector<FaceChain> reversed(std::vector<FaceChain> chains) {
+  for (FaceChain& chain : chains) std::reverse(chain.faces.begin(), chain.faces.end());
+  return chains;
+}
+
+void refuse_sideless(const SurfaceMesh& mesh, const JumpCalculus& J, const VecX& curve) {
+  for (int e = 0; e < J.n_edges; ++e)
+    if (curve[e] != 0 && !J.manifold[e])
+      throw UnsupportedError("the curve runs along the edge between vertices " +
+                             std::to_string(mesh.edges()(e, 0)) + " and " +
+                             std::to_string(mesh.edges()(e, 1)) +
+                             ", where more than two faces meet and it has no sides; write it as a "
+                             "chain of faces (c)");
+}
+
+void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
+  int count = 0, first = -1;
+  for (int e = 0; e < J.n_edges; ++e)
+    if (!J.manifold[e]) {
+      if (count++ == 0) first = e;
+    }
+  if (count == 0) return;
+  throw UnsupportedError("winding numbers of curves need at most two faces at every edge; " +
+                         std::to_string(count) + " edges have more, the first between vertices " +
+                         std::to_string(mesh.edges()(first, 0)) + " and " +
+                         std::to_string(mesh.edges()(first, 1)));
+}
+
+void check_combination(const WindingOptions& options) {
+  const auto formulation = static_cast<Formulation>(options.formulation);
+  if (formulation != Formulation::primal &&
+      options.boundary != static_cast<int>(AtBoundary::natural))
+    throw UnsupportedError("option boundary: free boundaries need formulation primal");
+  if (formulation == Formulation::nonconforming && options.labels == static_cast<int>(Labels::cut))
+    throw UnsupportedError(
+        "option labels: cut needs curves along edges, formulation primal or dual");
+}
+
+}  // namespace
+
+const MethodInfo& winding_method() {
+  static const MethodInfo method = {
+      "surface-winding",
+      "Regions that (broken) signed curves bound on a surface, and curves that bound nothing.",
+      {"triangle mesh"},
+      winding_options().infos(),
+      "Feng, Gillespie, Crane: Winding Numbers on Discrete Surfaces (2023)"};
+  return method;
+}
+
+void check_request(const WindingRequest& request) {
+  check_combination(parse_options(winding_method(), winding_options(), request.options));
+}
+
+WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
+                              const WindingRequest& request, Task task, Report& report) {
+  WindingOptions options = parse_options(winding_method(), winding_options(), request.options);
+  auto formulation = static_cast<Formulation>(options.formulation);
+  if (!sources.chains.empty()) formulation = Formulation::dual;
+  options.formulation = static_cast<int>(formulation);
+  check_combination(options);
+  report.method = winding_method().name;
+  report.domain = "triangle mesh";
+  report_options(winding_options(), options, report);
+  const std::vector<CurvePiece> pieces = drawn_pieces(mesh, sources, request.flip, task, report);
+  ConformingCurves curves = conforming(mesh, pieces, formulation, report);
+  if (curves.is_cut && !sources.chains.empty())
+    throw UnsupportedError(sources.chains[0].origin +
+                           ": chains of faces go with curves along edges, not through faces");
+  WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
+  const SurfaceMesh& cut = answer.cut.mesh;
+  if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
+  task.checkpoint();
+  const IntrinsicTriangulation T = intrinsic_triangulation(cut, report);
+  answer.triangle_of_face = T.triangle_of_face;
+  const auto J = [&] {
+    const Stopwatch watch(report, "operators");
+    return std::make_shared<const JumpCalculus>(jump_calculus(T));
+  }();
+  const Task work = task.stage(0.9, "winding");
+  if (formulation == Formulation::dual) {
+    DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
+    refuse_sideless(cut, *J, curve.edge);
+    add_chains(request.flip ? reversed(sources.chains) : sources.chains, *J,
+               answer.triangle_of_face, curve);
+    answer.numbers = dual_winding(*J, curve, options, work, report);
+  } else {
+    refuse_nonmanifold(cut, *J);
+    answer.numbers =
+        formulation == Formulation::primal
+            ? SurfaceWinding(J).solve(curves.times, options, work, report)
+            : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
+  }
+  answer.region = labels_of_input(mesh, answer, *J);
+  answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
+  answer.completed = polylines(cut, answer.numbers.completed);
+  const VecX& bounding = answer.numbers.bounding;
+  if (formulation == Formulation::nonconforming)
+    answer.bounding = polylines(cut, pieces);
+  else
+    answer.bounding = polylines(cut, bounding);
+  answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
+  report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
+  report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));
+  report.sizes.emplace_back("completed_length", total_length(answer.completed));
+  return answer;
+}
+
+SurfaceSources bounding_sources(const WindingAnswer& answer) {
+  SurfaceSources sources;
+  for (const auto& chain : chains(answer.cut.mesh, answer.numbers.bounding)) {
+    SurfaceCurve curve;
+    for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
+    sources.curves.push_back(std::move(curve));
+  }
+  return sources;
+}
+
+}  // namespace littoral

@@ -1,0 +1,60 @@
+#include "base/platform/memory.h"
+
+#include <sys/resource.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "base/error.h"
+
+namespace littoral {
+
+namespace {
+
+/// Bytes at a line "key: kilobytes kB" of a file of the system, or `otherwise`.
+double bytes_at(const char* file, const std::string& line, double otherwise) {
+  std::ifstream info(file);
+  for (std::string key; info >> key;) {
+    double kilobytes = 0;
+    if (key == line && info >> kilobytes) return 1024 * kilobytes;
+    info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+void return_freed_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
+double peak_memory() { return bytes_at("/proc/self/status", "VmHWM:", 0); }
+
+double available_memory() {
+  double bytes = bytes_at("/proc/meminfo", "MemAvailable:", std::numeric_limits<double>::max());
+  for (const int resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0 &&
+        limit.rlim_cur != RLIM_INFINITY)
+      bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+  }
+  return bytes;
+}
+
+void check_memory(double bytes, const std::string& what, const std::string& remedy) {
+  const double available = available_memory();
+  if (bytes <= available) return;
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",
+                bytes / 1e9, available / 1e9);
+  throw IoError(what + numbers + remedy);
+}
+
+}  // namespace littoral

@@ -1,0 +1,41 @@
+#pragma once
+// One triangle from its three side lengths: everything the operators need, no coordinates.
+
+#include <array>
+#include <cmath>
+
+#include "base/types.h"
+
+namespace littoral {
+
+/// Side k runs from corner k to corner k+1. Laid out in the plane with corner 0 at the origin and
+/// corner 1 on the positive real axis; `mirrored` puts corner 2 below the axis instead of above.
+struct TriangleShape {
+  double area;                  // [length^2]
+  std::array<double, 3> cot;    // cotangent at each corner (eq. 5)
+  std::array<Complex, 3> p;     // corner positions
+  std::array<Complex, 3> side;  // unit vector of side k
+};
+
+/// Area by Kahan's ordering of Heron's formula, accurate for needles; lengths must satisfy the
+/// triangle inequality strictly.
+inline double area_of_lengths(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (a < c) std::swap(a, c);
+  if (b < c) std::swap(b, c);
+  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return 0.25 * std::sqrt(std::max(0.0, product));
+}
+
+inline TriangleShape triangle_shape(double l0, double l1, double l2, bool mirrored) {
+  TriangleShape t;
+  t.area = area_of_lengths(l0, l1, l2);
+  const double s0 = l0 * l0, s1 = l1 * l1, s2 = l2 * l2, four = 4 * t.area;
+  t.cot = {(s0 + s2 - s1) / four, (s0 + s1 - s2) / four, (s1 + s2 - s0) / four};
+  const double y = 2 * t.area / l0;
+  t.p = {Complex(0, 0), Complex(l0, 0), Complex((s0 + s2 - s1) / (2 * l0), mirrored ? -y : y)};
+  t.side = {Complex(1, 0), (t.p[2] - t.p[1]) / l1, -t.p[2] / l2};
+  return t;
+}
+
+}  // namespace littoral

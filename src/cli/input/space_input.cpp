@@ -1,0 +1,199 @@
+#include "cli/input/space_input.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/read.h"
+#include "io/volume/volume.h"
+#include "io/write.h"
+#include "io/write_table.h"
+#include "sources/level_points.h"
+
+namespace littoral::cli {
+
+void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session) {
+  verb.add_option("INPUT", texts.input,
+                  "mesh, soup or point cloud: .obj .ply .off .stl .pc .xyz .pcd")
+      ->required()
+      ->type_name("");
+  verb.add_flag("--estimate-normals", texts.request.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
+  verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
+}
+
+void add_space_method(CLI::App& verb, SpaceTexts& texts, const std::string& fallback) {
+  std::string names;
+  const std::vector<MethodInfo> infos = space_method_infos();
+  for (const MethodInfo& info : infos) names += (names.empty() ? "" : ", ") + info.name;
+  verb.add_option("--method", texts.request.method,
+                  names + " [default " + (fallback.empty() ? texts.request.method : fallback) + "]")
+      ->type_name("NAME");
+  add_method_options(verb, texts.options, infos);
+}
+
+void add_shape_options(CLI::App& verb, SpaceTexts& texts, bool with_offset) {
+  const auto group = [](CLI::Option* option) { return option->group("Several shapes"); };
+  const std::string kinds = ": mesh, soup, cloud, or volume of distance; may be repeated";
+  for (const auto& [name, files, what] :
+       {std::tuple("--unite", &texts.unite, "also this shape"),
+        {"--intersect", &texts.intersect, "only what lies within this shape"},
+        {"--subtract", &texts.subtract, "without this shape"}})
+    group(add_repeated_option(verb, name, *files, what + kinds))->type_name("FILE");
+  group(verb.add_option("--other-method", texts.other_method,
+                        "of the shapes after INPUT [default: as --method where that is given, "
+                        "otherwise tori for clouds, winding for all else]"))
+      ->type_name("NAME");
+  group(verb.add_option("--blend", texts.blend,
+                        "round corners where shapes meet, this far from them [length; default 0]"))
+      ->check(CLI::Range(0.0, 1e300).description(""))
+      ->type_name("R");
+  if (with_offset)
+    group(verb.add_option("--offset", texts.offset,
+                          "move the surface outward, or if negative inward [length; default 0]"))
+        ->type_name("D");
+  group(verb.add_flag("--redistance", texts.redistance,
+                      "INPUT is a volume of any values: distance to where they are zero"));
+}
+
+void add_grid_options(CLI::App& verb, SpaceTexts& texts) {
+  verb.add_option("--resolution", texts.resolution,
+                  "nodes along the longest side, 2 to 100000 [default 64]")
+      ->check(CLI::Range(2, 100000).description(""))
+      ->type_name("N");
+  verb.add_option("--spacing", texts.spacing, "distance between nodes, instead [length]")
+      ->check(CLI::PositiveNumber.description(""))
+      ->type_name("H");
+  verb.add_option("--bounds", texts.bounds, "the box: x0,y0,z0,x1,y1,z1 [length]")
+      ->type_name("BOX");
+  verb.add_option("--padding", texts.padding,
+                  "without --bounds: margin around the input, in its longest side [default 0.25]")
+      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->type_name("F");
+}
+
+void use_space_options(SpaceTexts& texts, const Session& session) {
+  texts.request.flip = session.flip;
+  const MethodInfo& method = find_space_method(texts.request.method).info;
+  for (const auto& [name, text] : texts.options) {
+    check_has_option(method, name);
+    texts.request.options.emplace_back(name, text);
+  }
+  check_request(texts.request);
+}
+
+namespace {
+
+Shape read_shape(const std::string& file, bool redistance, double level) {
+  Shape shape;
+  if (!io::is_volume(file)) {
+    if (redistance) throw InputError(file + " is no volume: --redistance is for .vti .nrrd .npy");
+    shape.surface = io::read_surface(file);
+    return shape;
+  }
+  VolumeField field = io::read_volume(file);
+  try {
+    if (redistance)
+      shape.surface = level_points(field, level, {});
+    else
+      shape.field = std::move(field);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+  return shape;
+}
+
+}  // namespace
+
+Shapes read_shapes(SpaceTexts& texts, const Session& session, const std::string& plain) {
+  Shapes shapes;
+  shapes.all.push_back(read_shape(texts.input, texts.redistance, texts.at_level));
+  for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
+                                   {Boolean::intersect, &texts.intersect},
+                                   {Boolean::subtract, &texts.subtract}}) {
+    for (const std::string& file : *files) {
+      shapes.all.push_back(read_shape(file, false, 0));
+      shapes.how.with.push_back(how);
+    }
+  }
+  shapes.how.blend = texts.blend;
+  shapes.how.offset = texts.offset;
+  const auto fitting = [](const Shape& shape) {
+    return std::string(shape.surface.n_faces() == 0 ? "tori" : "winding");
+  };
+  Shape& first = shapes.all.front();
+  const bool given = !texts.request.method.empty();
+  if (!given) texts.request.method = shapes.plain() && !texts.redistance ? plain : fitting(first);
+  if (texts.request.method.empty()) texts.request.method = fitting(first);
+  use_space_options(texts, session);
+  first.request = texts.request;
+  if (!texts.other_method.empty() && shapes.all.size() == 1)
+    throw InputError("option --other-method: there is no shape but INPUT");
+  for (std::size_t s = 1; s < shapes.all.size(); ++s) {
+    SpaceRequest& request = shapes.all[s].request;
+    request.method = !texts.other_method.empty() ? texts.other_method
+                     : given                     ? texts.request.method
+                                                 : fitting(shapes.all[s]);
+    request.flip = texts.request.flip;
+    request.estimate_normals =
+        texts.request.estimate_normals && shapes.all[s].surface.n_faces() == 0;
+    const MethodInfo& method = find_space_method(request.method).info;
+    for (const auto& option : texts.request.options)
+      for (const OptionInfo& known : method.options)
+        if (known.name == option.first) request.options.push_back(option);
+    check_request(request);
+  }
+  check_combination(shapes.how, shapes.all.size());
+  return shapes;
+}
+
+GridRequest grid_request(const SpaceTexts& texts) {
+  GridRequest request;
+  if (texts.resolution > 0) request.resolution = texts.resolution;
+  if (texts.spacing > 0) request.spacing = texts.spacing;
+  request.padding = texts.padding;
+  if (!texts.bounds.empty()) {
+    const std::vector<double> numbers = parse_numbers("--bounds", texts.bounds);
+    if (numbers.size() != 6) throw InputError("option --bounds takes x0,y0,z0,x1,y1,z1");
+    request.bounds.emplace();
+    std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
+  }
+  return request;
+}
+
+void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out) {
+  verb.add_option("--points", points,
+                  "where to evaluate: the vertices of any surface or cloud file, or .csv or .txt "
+                  "with x, y, z first")
+      ->required()
+      ->type_name("FILE");
+  verb.add_option("-o,--output", out, "where to write: .csv .txt .npy .ply; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("OUT");
+}
+
+MatX3 read_queries(const std::string& file) {
+  const std::string extension = extension_of(file);
+  if (extension == ".csv" || extension == ".txt")
+    return io::read_columns(io::read_bytes(file), file);
+  return io::read_surface(file).points;
+}
+
+void write_query_table(const std::vector<std::string>& out, const MatX3& points,
+                       const Table& table) {
+  for (const std::string& file : out) {
+    if (extension_of(file) == ".ply") {
+      PolygonSoup cloud;
+      cloud.points = points;
+      for (std::size_t c = 0; c < table.names.size(); ++c)
+        cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
+      io::write_surface(file, cloud);
+    } else {
+      io::write_table(file, table.names, table.columns);
+    }
+  }
+}
+
+}  // namespace littoral::cli

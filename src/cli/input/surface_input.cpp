@@ -1,0 +1,75 @@
+#include "cli/input/surface_input.h"
+
+#include "base/error.h"
+#include "domain/volume/voxels.h"
+#include "io/read.h"
+#include "io/volume/read_voxels.h"
+#include "io/volume/volume.h"
+
+namespace littoral::cli {
+
+SurfaceMesh read_mesh(const std::filesystem::path& path) {
+  return mesh_of(io::read_surface(path), path);
+}
+
+SurfaceInput read_domain(const std::filesystem::path& path) {
+  if (!io::is_volume(path)) return {read_mesh(path)};
+  const io::VoxelMask mask = io::read_voxels(path);
+  VoxelSurface surface = boundary_of_voxels(mask.grid, mask.inside);
+  return {std::move(surface.mesh), std::move(surface.face_normals)};
+}
+
+SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {
+  try {
+    return SurfaceMesh(std::move(soup));
+  } catch (const InputError& e) {
+    throw InputError(path.filename().string() + ": " + e.what());
+  }
+}
+
+SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                                Session& session) {
+  SurfaceSources all;
+  for (const std::string& file : files) {
+    SurfaceSources more = io::read_sources(file, mesh, session.index_base, session.report);
+    all.curves.insert(all.curves.end(), more.curves.begin(), more.curves.end());
+    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
+    all.space_curves.insert(all.space_curves.end(), more.space_curves.begin(),
+                            more.space_curves.end());
+    all.chains.insert(all.chains.end(), more.chains.begin(), more.chains.end());
+  }
+  return all;
+}
+
+std::vector<int> checked_vertices(const std::vector<long long>& given, int n_vertices,
+                                  const std::string& file, const Session& session) {
+  const long long base = session.index_base.value_or(0);
+  std::vector<int> vertices;
+  for (long long v : given) {
+    if (v < base || v - base >= n_vertices)
+      throw InputError("option --vertex: there is no vertex " + std::to_string(v) + "; " + file +
+                       " has " + std::to_string(n_vertices) + ", counted from " +
+                       std::to_string(base));
+    vertices.push_back(static_cast<int>(v - base));
+  }
+  return vertices;
+}
+
+std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
+                         const std::string& file, bool optional) {
+  std::string known;
+  for (const auto& [name, values] : soup.scalars) known += (known.empty() ? "" : ", ") + name;
+  if (!wanted.empty()) {
+    if (soup.scalars.count(wanted) != 0) return wanted;
+    throw InputError(file + " has no field '" + wanted +
+                     "'; it has: " + (known.empty() ? "none" : known));
+  }
+  for (const char* name : {"distance", "u"})
+    if (soup.scalars.count(name) != 0) return name;
+  if (soup.scalars.size() == 1) return soup.scalars.begin()->first;
+  if (optional) return "";
+  throw InputError(known.empty() ? file + " holds no field with one value a vertex"
+                                 : file + " has the fields " + known + ": choose one with --field");
+}
+
+}  // namespace littoral::cli

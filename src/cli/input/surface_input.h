@@ -1,0 +1,41 @@
+#pragma once
+// Reading a surface and the sources on it, as several verbs do.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/session.h"
+#include "domain/mesh/polygon_soup.h"
+#include "domain/mesh/surface_mesh.h"
+#include "sources/surface_sources.h"
+
+namespace littoral::cli {
+
+/// Reads a surface and its connectivity; errors about the mesh name the file.
+SurfaceMesh read_mesh(const std::filesystem::path& path);
+SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path);
+
+/// A surface of any kind: the boundary of voxels has normals of its own.
+struct SurfaceInput {
+  SurfaceMesh mesh;
+  MatX3 face_normals{0, 3};
+  const MatX3* normals() const { return face_normals.rows() ? &face_normals : nullptr; }
+};
+SurfaceInput read_domain(const std::filesystem::path& path);
+
+/// All sources of several files together.
+SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                                Session& session);
+
+/// Vertices given as options, counted as the session says; throws InputError naming one that the
+/// mesh has not.
+std::vector<int> checked_vertices(const std::vector<long long>& given, int n_vertices,
+                                  const std::string& file, const Session& session);
+
+/// The scalar to use: `wanted`, or without that "distance", an OBJ's texture "u", or the only one.
+/// Throws InputError listing those that exist; with `optional` an empty name where there is none.
+std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
+                         const std::string& file, bool optional = false);
+
+}  // namespace littoral::cli

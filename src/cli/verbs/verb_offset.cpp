@@ -1,0 +1,166 @@
+// littoral offset: dilated, eroded, opened and closed shapes, and curves on surfaces.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "api/registry.h"
+#include "api/space/shells.h"
+#include "api/surface/level_lines.h"
+#include "base/error.h"
+#include "cli/input/method_options.h"
+#include "cli/input/space_input.h"
+#include "cli/input/surface_input.h"
+#include "cli/input/volume_input.h"
+#include "cli/verbs/verbs.h"
+#include "io/volume/volume.h"
+
+namespace littoral::cli {
+
+namespace {
+
+struct Arguments {
+  std::string in, field;
+  std::vector<std::string> sources, out;
+  std::string distances, dilate, erode;
+  Morphology morphology;
+  bool clip = false;
+  DistanceRequest request;
+  GivenOptions options;
+  SpaceTexts space;
+};
+
+// --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
+std::vector<double> all_distances(const Arguments& arguments) {
+  std::vector<double> all;
+  if (!arguments.distances.empty()) all = parse_numbers("--distance", arguments.distances);
+  for (const auto& [option, text, sign] :
+       {std::tuple("--dilate", &arguments.dilate, 1.0), {"--erode", &arguments.erode, -1.0}}) {
+    if (text->empty()) continue;
+    for (const double radius : parse_numbers(option, *text)) {
+      if (radius < 0)
+        throw InputError(std::string("option ") + option + " takes no negative number");
+      all.push_back(sign * radius);
+    }
+  }
+  if (!all.empty()) return all;
+  if (arguments.morphology.open > 0 || arguments.morphology.close > 0) return {0};
+  throw InputError("how far? name --distance D[,D...], --dilate, --erode, --open or --close");
+}
+
+void offset_curves(Arguments& arguments, const std::vector<double>& distances, Session& session) {
+  check_level_outputs(arguments.out, distances.size(), {".obj", ".ply"}, "lines");
+  arguments.request.flip = session.flip;
+  if (arguments.request.method.empty()) arguments.request.method = "signed-heat";
+  use_method_options(arguments.options, arguments.request);
+  const SurfaceMesh mesh = read_mesh(arguments.in);
+  const SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
+  session.reading = false;
+  Task task = session.task();
+  const auto levels = offset_lines(mesh, sources, arguments.request, distances,
+                                   arguments.morphology, session.report, task);
+  task.checkpoint(1);
+  write_lines(arguments.out, mesh, levels);
+}
+
+/// Signed distance around a shape or several, on a grid that holds all offsets of it.
+VolumeField distance_around(Arguments& arguments, const std::vector<double>& distances,
+                            Session& session) {
+  SpaceTexts& space = arguments.space;
+  space.input = arguments.in;
+  space.request.method = arguments.request.method;
+  space.options = arguments.options;
+  const Shapes shapes = read_shapes(space, session, "signed-heat");
+  double farthest = 0;
+  for (const double d : distances) farthest = std::max(farthest, std::abs(d));
+  const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
+  GridRequest grid = grid_request(space);
+  grid.padding += reach / longest_side(shapes);
+  VolumeField volume;
+  volume.grid = choose_grid(shapes, grid);
+  session.reading = false;
+  volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
+  return volume;
+}
+
+void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
+  check_level_outputs(arguments.out, distances.size(), surface_outputs, "a surface");
+  const SpaceTexts& space = arguments.space;
+  const bool alone = space.unite.empty() && space.intersect.empty() && space.subtract.empty();
+  const VolumeField distance = alone && !space.redistance && io::is_volume(arguments.in)
+                                   ? io::read_volume(arguments.in, arguments.field)
+                                   : distance_around(arguments, distances, session);
+  session.reading = false;
+  Task task = session.task();
+  const auto shells = offset_shells(distance, distances, arguments.morphology, arguments.clip,
+                                    session.report, task);
+  task.checkpoint(1);
+  write_shells(arguments.out, shells);
+}
+
+void run(Arguments& arguments, Session& session) {
+  const std::vector<double> distances = all_distances(arguments);
+  if (arguments.sources.empty())
+    offset_shape(arguments, distances, session);
+  else
+    offset_curves(arguments, distances, session);
+  session.print_report();
+}
+
+void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
+  verb.add_option("INPUT", arguments.in,
+                  "a mesh, soup or point cloud, a volume of signed distance, or with --sources the "
+                  "surface the curves lie on")
+      ->required()
+      ->type_name("");
+  verb.add_option("--distance", arguments.distances,
+                  "offsets, separated by commas; negative ones are inside [length]")
+      ->type_name("D[,D...]");
+  verb.add_option("--dilate", arguments.dilate, "offsets outward [length]")->type_name("R[,R...]");
+  verb.add_option("--erode", arguments.erode, "offsets inward [length]")->type_name("R[,R...]");
+  const auto radius = [](CLI::Option* option) {
+    option->check(CLI::Range(0.0, 1e300).description(""))->type_name("R");
+  };
+  radius(verb.add_option("--open", arguments.morphology.open,
+                         "first erode by R and dilate by R: thin parts go [length]"));
+  radius(verb.add_option("--close", arguments.morphology.close,
+                         "first (after --open) dilate by R and erode by R: gaps fill [length]"));
+  verb.add_flag("--clip", arguments.clip, "close the surface flat where it meets the box");
+  add_level_outputs(verb, arguments.out,
+                    ".obj .ply .off .stl, lines .obj .ply: one file, or one for each distance");
+  verb.add_option("--field", arguments.field, "which values of a volume [default: distance]")
+      ->type_name("NAME");
+  verb.add_option("--sources,-s", arguments.sources,
+                  "curves on INPUT: .txt .json .obj .ply; may be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+  verb.add_option("--method", arguments.request.method,
+                  "of `littoral sdf`, or for curves of `littoral distance` [default signed-heat]")
+      ->type_name("NAME");
+  verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
+  verb.add_flag("--estimate-normals", arguments.space.request.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
+  add_grid_options(verb, arguments.space);
+  add_shape_options(verb, arguments.space, false);
+  std::vector<MethodInfo> methods = space_method_infos();
+  methods.push_back(find_method("signed-heat"));
+  add_method_options(verb, arguments.options, methods);
+  add_index_option(verb, session);
+  add_json_option(verb, session);
+  add_common_options(verb, session);
+}
+
+}  // namespace
+
+void add_offset(CLI::App& program, Session& session) {
+  CLI::App* verb =
+      program.add_subcommand("offset", "offset surfaces and curves; dilate, erode, open and close");
+  auto arguments = std::make_shared<Arguments>();
+  arguments->request.method.clear();
+  add_options(*verb, *arguments, session);
+  verb->callback(
+      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+}
+
+}  // namespace littoral::cli

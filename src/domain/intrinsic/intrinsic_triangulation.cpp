@@ -1,0 +1,200 @@
+#include "domain/intrinsic/intrinsic_triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/disjoint_sets.h"
+#include "base/error.h"
+#include "domain/mesh/edge_sides.h"
+
+namespace littoral {
+
+namespace {
+
+void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
+  std::vector<int> kept;
+  T.triangle_of_face.assign(mesh.n_faces(), -1);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const auto c = mesh.face(f);
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    T.triangle_of_face[f] = static_cast<int>(kept.size());
+    kept.push_back(f);
+  }
+  const int n = static_cast<int>(kept.size());
+  if (n == 0) throw InputError("the mesh has no face with three different vertices");
+  if (n < mesh.n_faces())
+    report.warn(std::to_string(mesh.n_faces() - n) + " faces that repeat a vertex were left out");
+  T.faces.resize(n, 3);
+  T.side_edge.resize(n, 3);
+  T.along.resize(n, 3);
+  for (int t = 0; t < n; ++t)
+    for (int k = 0; k < 3; ++k) {
+      T.faces(t, k) = mesh.face(kept[t])[k];
+      T.side_edge(t, k) = mesh.side_edge(kept[t], k);
+      T.along(t, k) = mesh.side_along(kept[t], k) ? 1 : -1;
+    }
+}
+
+void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
+  Vec3 low = mesh.point(T.faces(0, 0)), high = low;
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      low = low.cwiseMin(mesh.point(T.faces(f, k)));
+      high = high.cwiseMax(mesh.point(T.faces(f, k)));
+    }
+  const double extent = (0.5 * high - 0.5 * low).maxCoeff();  // halved first: must not overflow
+  if (!(extent > 0)) throw InputError("the mesh has no extent: all its vertices are at one point");
+  if (extent < 1e-290) throw InputError("the mesh is too small for double precision; scale it up");
+  T.unit = std::exp2(std::floor(std::log2(extent)));
+
+  VecX edge_length(T.n_edges());
+  T.edge_use.assign(T.n_edges(), 0);
+  for (int e = 0; e < T.n_edges(); ++e) {
+    const Vec3 d = mesh.point(T.edges(e, 1)) / T.unit - mesh.point(T.edges(e, 0)) / T.unit;
+    edge_length[e] = d.norm();
+  }
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      auto& use = T.edge_use[T.side_edge(f, k)];
+      use = static_cast<std::uint8_t>(std::min(255, use + 1));
+    }
+  double sum = 0;
+  int used = 0;
+  for (int e = 0; e < T.n_edges(); ++e) {
+    if (!T.edge_use[e]) continue;
+    sum += edge_length[e];
+    ++used;
+  }
+  T.mean_edge_length = sum / used;
+
+  constexpr double margin = 1e-10;
+  int mollified = 0;
+  T.length.resize(T.n_faces(), 3);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    Eigen::Array3d l;
+    for (int k = 0; k < 3; ++k) l[k] = edge_length[T.side_edge(f, k)];
+    const double longest = l.maxCoeff() > 0 ? l.maxCoeff() : T.mean_edge_length;
+    const double slack = l.sum() - 2 * l.maxCoeff();
+    if (slack < margin * longest) {
+      l += margin * longest - slack;
+      ++mollified;
+    }
+    T.length.row(f) = l.matrix();
+  }
+  if (mollified)
+    report.warn(std::to_string(mollified) +
+                " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
+}
+
+/// Flips orientations within patches of manifold edges until neighbours agree; the majority of area
+/// keeps its own. Returns false for patches that cannot agree, leaving them as given.
+void orient(IntrinsicTriangulation& T, const EdgeSides& sides, Report& report) {
+  T.orientation.assign(T.n_faces(), 0);
+  int flipped = 0, nonorientable_patches = 0;
+  std::vector<int> patch;
+  for (int seed = 0; seed < T.n_faces(); ++seed) {
+    if (T.orientation[seed]) continue;
+    patch.assign(1, seed);
+    T.orientation[seed] = 1;
+    bool orientable = true;
+    double kept_area = 0, flipped_area = 0;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      const int f = patch[i];
+      const double area = area_of_lengths(T.length(f, 0), T.length(f, 1), T.length(f, 2));
+      (T.orientation[f] > 0 ? kept_area : flipped_area) += area;
+      for (int k = 0; k < 3; ++k) {
+        const auto at = sides.at(T.side_edge(f, k));
+        if (at.size() != 2) continue;
+        const TriangleSide& g = at[0].face == f && at[0].k == k ? at[1] : at[0];
+        const int wanted = -T.orientation[f] * T.along(f, k) * T.along(g.face, g.k);
+        if (!T.orientation[g.face]) {
+          T.orientation[g.face] = static_cast<std::int8_t>(wanted);
+          patch.push_back(g.face);
+        } else if (T.orientation[g.face] != wanted) {
+          orientable = false;
+        }
+      }
+    }
+    const bool reverse = flipped_area > kept_area;
+    if (!orientable) ++nonorientable_patches;
+    for (int f : patch) {
+      if (!orientable)
+        T.orientation[f] = 1;
+      else if (reverse)
+        T.orientation[f] = static_cast<std::int8_t>(-T.orientation[f]);
+      if (T.orientation[f] < 0) ++flipped;
+    }
+  }
+  if (flipped)
+    report.warn(std::to_string(flipped) +
+                " faces are oriented against the majority of their neighbours; the left side of a "
+                "curve follows the majority");
+  if (nonorientable_patches)
+    report.warn(
+        "the surface is not orientable: the left side of a curve follows the orientation "
+        "of each face it crosses");
+}
+
+/// Unit vector from side k of f into the face, in space; zero if the face is degenerate.
+Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, int k) {
+  const Vec3 a = mesh.point(T.faces(f, k)) / T.unit,
+             b = mesh.point(T.faces(f, (k + 1) % 3)) / T.unit;
+  const Vec3 c = mesh.point(T.faces(f, (k + 2) % 3)) / T.unit;
+  const Vec3 e = (b - a).stableNormalized();
+  return ((c - a) - e.dot(c - a) * e).stableNormalized();
+}
+
+/// Decides on which side of each edge its faces lie in the edge's frame, and marks the faces whose
+/// own frame says otherwise. Two faces lie on opposite sides; where more meet, those that leave the
+/// edge in the direction of the first (to 90 degrees) lie on its side.
+void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSides& sides) {
+  T.seam = Rows<std::uint8_t, 3>::Zero(T.n_faces(), 3);
+  auto left = [&](const TriangleSide& s) { return T.orientation[s.face] * T.along(s.face, s.k); };
+  for (int e = 0; e < T.n_edges(); ++e) {
+    const auto at = sides.at(e);
+    for (std::size_t i = 1; i < at.size(); ++i) {
+      bool same_side = false;
+      if (at.size() > 2) {
+        const Vec3 first = into_face(mesh, T, at[0].face, at[0].k);
+        same_side = first.dot(into_face(mesh, T, at[i].face, at[i].k)) > 1e-9;
+      }
+      const int wanted = same_side ? left(at[0]) : -left(at[0]);
+      if (left(at[i]) == wanted) continue;
+      T.seam(at[i].face, at[i].k) = 1;
+      T.has_seams = true;
+    }
+  }
+}
+
+void find_components(IntrinsicTriangulation& T) {
+  DisjointSets vertices(T.n_vertices);
+  std::vector<char> used(T.n_vertices, 0);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      used[T.faces(f, k)] = 1;
+      vertices.join(T.faces(f, 0), T.faces(f, k));
+    }
+  T.component = vertices.numbered(T.n_components, used);
+}
+
+}  // namespace
+
+IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& report) {
+  if (!mesh.is_triangle_mesh())
+    throw UnsupportedError(
+        "the mesh has polygons with more than three corners; "
+        "`littoral convert IN --triangulate -o OUT` makes triangles of them");
+  IntrinsicTriangulation T;
+  T.n_vertices = mesh.n_vertices();
+  T.edges = mesh.edges();
+  take_faces(mesh, T, report);
+  measure(mesh, T, report);
+  const EdgeSides sides = edge_sides(T);
+  orient(T, sides, report);
+  mark_seams(mesh, T, sides);
+  find_components(T);
+  return T;
+}
+
+}  // namespace littoral

@@ -1,0 +1,43 @@
+#include "domain/mesh/covering_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "domain/intrinsic/tufted_cover.h"
+
+namespace littoral {
+
+CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) {
+  const TuftedCover cover(MatX3(mesh.points() / T.unit), T.faces);
+  const int n = static_cast<int>(cover.faces().size());
+  PolygonSoup soup;
+  soup.points = mesh.points();
+  std::vector<int> edge_of_side;
+  for (int f = 0; f < n; ++f) {
+    soup.add_face(cover.faces()[f].v);
+    for (int k = 0; k < 3; ++k)
+      edge_of_side.push_back(std::min(3 * f + k, cover.faces()[f].twin[k]));
+  }
+  CoveringMesh out{SurfaceMesh(std::move(soup), edge_of_side), T};
+  IntrinsicTriangulation& C = out.T;
+  C.edges = out.mesh.edges();
+  for (auto* table : {&C.faces, &C.side_edge}) table->resize(n, 3);
+  C.along.resize(n, 3);
+  C.length.resize(n, 3);
+  C.orientation.assign(static_cast<std::size_t>(n), 1);
+  C.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
+  C.has_seams = false;
+  C.edge_use.assign(static_cast<std::size_t>(C.n_edges()), 2);
+  C.triangle_of_face.resize(static_cast<std::size_t>(n));
+  std::iota(C.triangle_of_face.begin(), C.triangle_of_face.end(), 0);
+  for (int f = 0; f < n; ++f)
+    for (int k = 0; k < 3; ++k) {
+      C.faces(f, k) = cover.faces()[f].v[k];
+      C.side_edge(f, k) = out.mesh.side_edge(f, k);
+      C.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
+      C.length(f, k) = T.length(f / 2, f % 2 ? 2 - k : k);
+    }
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,175 @@
+#include "domain/mesh/surface_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+
+namespace littoral {
+
+namespace {
+
+/// Lists, for each of n keys, the items that carry it; items stay in order.
+void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_of_item, int n,
+            std::vector<int>& offsets, std::vector<int>& values) {
+  offsets.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (int key : key_of_item) ++offsets[static_cast<std::size_t>(key) + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  values.resize(key_of_item.size());
+  std::vector<int> next(offsets.begin(), offsets.end() - 1);
+  for (std::size_t i = 0; i < key_of_item.size(); ++i)
+    values[static_cast<std::size_t>(next[key_of_item[i]]++)] = value_of_item[i];
+}
+
+void check_faces(const PolygonSoup& soup) {
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
+    if (corners.size() < 3)
+      throw InputError("face " + std::to_string(f) + " has " + std::to_string(corners.size()) +
+                       " corners; a face needs three");
+    for (int v : corners) {
+      if (v < 0 || v >= soup.n_vertices())
+        throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
+                         ", there are " + std::to_string(soup.n_vertices()));
+      if (!soup.points.row(v).allFinite())
+        throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
+                         ", has a coordinate that is not finite");
+    }
+  }
+}
+
+/// For each side (by its first corner) the first one with the same two ends.
+std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
+  const std::size_t n_corners = soup.corners.size();
+  std::vector<int> head(n_corners);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      head[static_cast<std::size_t>(soup.face_offsets[f]) + k] = corners[(k + 1) % corners.size()];
+  }
+  const auto low = [&](std::size_t side) { return std::min(soup.corners[side], head[side]); };
+  const auto high = [&](int side) { return std::max(soup.corners[side], head[side]); };
+  // Sides with the same smaller vertex are few: match them there.
+  std::vector<int> begin(static_cast<std::size_t>(soup.n_vertices()) + 1, 0), by_low(n_corners);
+  for (std::size_t c = 0; c < n_corners; ++c) ++begin[low(c)];
+  int sum = 0;
+  for (int& b : begin) sum += std::exchange(b, sum);
+  for (std::size_t c = 0; c < n_corners; ++c)  // begin becomes the end of each
+    by_low[static_cast<std::size_t>(begin[low(c)]++)] = static_cast<int>(c);
+  std::vector<int> first_side(n_corners);
+  auto at = by_low.begin();
+  for (int v = 0; v < soup.n_vertices(); ++v) {
+    const auto first = at, end = by_low.begin() + begin[v];
+    std::stable_sort(first, end, [&](int a, int b) { return high(a) < high(b); });
+    for (; at != end; ++at) {
+      const bool same = at != first && high(*at) == high(*(at - 1));
+      first_side[*at] = same ? first_side[*(at - 1)] : *at;
+    }
+  }
+  return first_side;
+}
+
+}  // namespace
+
+void SurfaceMesh::check() {
+  if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
+    throw InputError("the mesh has too many face corners for 32-bit numbering");
+  check_faces(soup_);
+}
+
+SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {
+  check();
+  connect(first_sides_by_ends(soup_));
+  find_components();
+}
+
+SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
+    : soup_(std::move(soup)) {
+  check();
+  std::vector<int> first_of(edge_of_side.size(), -1), first_side(edge_of_side.size());
+  for (std::size_t c = 0; c < edge_of_side.size(); ++c) {
+    int& first = first_of[edge_of_side[c]];
+    if (first < 0) first = static_cast<int>(c);
+    first_side[c] = first;
+  }
+  connect(first_side);
+  find_components();
+}
+
+void SurfaceMesh::connect(const std::vector<int>& first_side) {
+  const std::size_t n_corners = soup_.corners.size();
+  const auto n_edges_found = static_cast<Eigen::Index>(std::count_if(
+      first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; }));
+  std::vector<int> face_of(n_corners);
+  edges_.resize(n_edges_found, 2);
+  int next = 0;
+  side_edge_.resize(n_corners);
+  for (int f = 0; f < n_faces(); ++f) {
+    const auto corners = face(f);
+    triangles_ = triangles_ && corners.size() == 3;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const std::size_t c = static_cast<std::size_t>(soup_.face_offsets[f]) + k;
+      face_of[c] = f;
+      if (first_side[c] != static_cast<int>(c)) {
+        side_edge_[c] = side_edge_[first_side[c]];
+        continue;
+      }
+      side_edge_[c] = next;
+      edges_.row(next++) << corners[k], corners[(k + 1) % corners.size()];
+    }
+  }
+  bucket(side_edge_, face_of, n_edges(), edge_offsets_, edge_faces_);
+  bucket(soup_.corners, face_of, n_vertices(), vertex_offsets_, vertex_faces_);
+}
+
+void SurfaceMesh::find_components() {
+  const int n = n_vertices();
+  vertex_component_.assign(n, -1);
+  std::vector<int> stack;
+  for (int seed = 0; seed < n; ++seed) {
+    if (vertex_component_[seed] >= 0 || vertex_faces(seed).empty()) continue;
+    vertex_component_[seed] = n_components_;
+    stack.assign(1, seed);
+    while (!stack.empty()) {
+      const int v = stack.back();
+      stack.pop_back();
+      for (int f : vertex_faces(v)) {
+        for (int w : face(f)) {
+          if (vertex_component_[w] >= 0) continue;
+          vertex_component_[w] = n_components_;
+          stack.push_back(w);
+        }
+      }
+    }
+    ++n_components_;
+  }
+}
+
+Vec3 SurfaceMesh::position(const SurfacePoint& p) const {
+  switch (p.on) {
+    case SurfacePoint::On::vertex:
+      return point(p.element);
+    case SurfacePoint::On::edge:
+      return p.b[0] * point(edges_(p.element, 0)) + p.b[1] * point(edges_(p.element, 1));
+    case SurfacePoint::On::face:
+      break;
+  }
+  const auto corners = face(p.element);
+  return p.b[0] * point(corners[0]) + p.b[1] * point(corners[1]) + p.b[2] * point(corners[2]);
+}
+
+int SurfaceMesh::find_edge(int a, int b) const {
+  for (int f : vertex_faces(a)) {
+    const auto corners = face(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int tail = corners[k], head = corners[(k + 1) % corners.size()];
+      if ((tail == a && head == b) || (tail == b && head == a))
+        return side_edge(f, static_cast<int>(k));
+    }
+  }
+  return -1;
+}
+
+}  // namespace littoral

@@ -1,0 +1,100 @@
+#include "domain/mesh/triangulate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/types.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr long max_tests = 50'000'000;  // of a point in an ear, per polygon
+
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - a;
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+/// Corners in the plane of the polygon's vector area, counter-clockwise and of size about 1; empty
+/// where there is no such plane.
+std::vector<Vec2> flatten(const PolygonSoup& soup, std::span<const int> face) {
+  Vec3 low = soup.points.row(face[0]), high = low;
+  for (int v : face) {
+    if (!soup.points.row(v).allFinite()) return {};
+    low = low.cwiseMin(soup.points.row(v).transpose());
+    high = high.cwiseMax(soup.points.row(v).transpose());
+  }
+  const double size = (high - low).stableNorm();
+  if (!(size > 0) || !std::isfinite(size)) return {};
+  std::vector<Vec3> p;
+  for (int v : face) p.push_back((soup.points.row(v).transpose() - low) / size);
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 1; k + 1 < p.size(); ++k) normal += (p[k] - p[0]).cross(p[k + 1] - p[0]);
+  if (!(normal.norm() > 1e-14)) return {};
+  normal.normalize();
+  const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+  std::vector<Vec2> out;
+  for (const Vec3& q : p) out.push_back({q.dot(x), q.dot(y)});
+  return out;
+}
+
+/// Is the triangle a, b, c of the remaining polygon free of other corners, and turned the right
+/// way?
+bool is_ear(const std::vector<Vec2>& p, const std::vector<int>& rest, std::size_t k, long& tests) {
+  const std::size_t n = rest.size();
+  const Vec2 &a = p[rest[(k + n - 1) % n]], &b = p[rest[k]], &c = p[rest[(k + 1) % n]];
+  if (!(turn(a, b, c) > 0)) return false;
+  for (int i : rest) {
+    const Vec2& q = p[i];
+    if (q == a || q == b || q == c) continue;
+    ++tests;
+    if (turn(a, b, q) >= 0 && turn(b, c, q) >= 0 && turn(c, a, q) >= 0) return false;
+  }
+  return true;
+}
+
+void cut(const PolygonSoup& soup, std::span<const int> face, PolygonSoup& out) {
+  std::vector<int> rest(face.size());
+  for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = static_cast<int>(k);
+  const auto emit = [&](int a, int b, int c) {
+    out.add_face(std::array{face[a], face[b], face[c]});
+  };
+  const std::vector<Vec2> p = face.size() > 3 ? flatten(soup, face) : std::vector<Vec2>{};
+  long tests = 0;
+  std::size_t k = 1, misses = 0;
+  while (!p.empty() && rest.size() > 3 && misses < rest.size() && tests < max_tests) {
+    const std::size_t n = rest.size();
+    k %= n;
+    if (!is_ear(p, rest, k, tests)) {
+      ++k;
+      ++misses;
+      continue;
+    }
+    emit(rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]);
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    misses = 0;
+  }
+  for (std::size_t i = 1; i + 1 < rest.size(); ++i) emit(rest[0], rest[i], rest[i + 1]);
+}
+
+}  // namespace
+
+PolygonSoup triangulate(const PolygonSoup& soup) {
+  PolygonSoup out;
+  out.points = soup.points;
+  out.lines = soup.lines;
+  out.normals = soup.normals;
+  out.scalars = soup.scalars;
+  for (int f = 0; f < soup.n_faces(); ++f)
+    if (soup.face(f).size() >= 3) cut(soup, soup.face(f), out);
+  return out;
+}
+
+MatX3i triangles_of(const PolygonSoup& soup) {
+  return Eigen::Map<const MatX3i>(soup.corners.data(), soup.n_faces(), 3);
+}
+
+}  // namespace littoral

@@ -1,0 +1,19 @@
+#pragma once
+// Polygons cut into triangles.
+
+#include "domain/mesh/polygon_soup.h"
+
+namespace littoral {
+
+/// The soup with every polygon cut into triangles on its own corners, with its orientation; n
+/// corners give n - 2 triangles. Points, lines, normals and scalars stay as they are.
+///
+/// Ears are clipped in the plane of the polygon's vector area; where none is left (the polygon
+/// crosses itself or has no area), or the polygon has so many corners that clipping would take
+/// seconds, the rest becomes a fan. Faces of fewer than three corners are dropped. Never fails.
+PolygonSoup triangulate(const PolygonSoup& soup);
+
+/// The corners of a soup of triangles alone: faces x 3.
+MatX3i triangles_of(const PolygonSoup& soup);
+
+}  // namespace littoral

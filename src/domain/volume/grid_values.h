@@ -1,0 +1,16 @@
+#pragma once
+// A function of space at the nodes of a grid.
+
+#include <functional>
+
+#include "base/task.h"
+#include "domain/volume/grid.h"
+
+namespace littoral {
+
+/// value(x, last) at every node, along rows on all threads; `last` is -1 at the first node of a row
+/// and then whatever the call before left in it.
+VecX grid_values(const Grid& grid, const Task& task,
+                 const std::function<double(const Vec3& x, int& last)>& value);
+
+}  // namespace littoral

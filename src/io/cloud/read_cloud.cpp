@@ -1,0 +1,73 @@
+// Point clouds as text: .pc (v and vn records) and .xyz (columns).
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/surface/surface_formats.h"
+#include "io/text_scan.h"
+
+namespace littoral::io {
+namespace {
+
+MatX3 rows_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const MatX3>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
+}
+
+PolygonSoup cloud_of(const std::vector<double>& points, const std::vector<double>& normals,
+                     const std::string& name) {
+  if (points.empty()) throw InputError(name + ": no points");
+  if (points.size() / 3 > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw InputError(name + ": more than 2147483647 points");
+  PolygonSoup cloud;
+  cloud.points = rows_of(points);
+  if (!normals.empty()) cloud.normals = rows_of(normals);
+  return cloud;
+}
+
+}  // namespace
+
+PolygonSoup read_pc(std::string_view bytes, const std::string& name) {
+  LineScanner scan(bytes, name, '#');
+  std::vector<double> points, normals;
+  while (scan.next()) {
+    const std::string_view record = scan.word();
+    if (record != "v" && record != "vn")
+      scan.fail("expected 'v x y z' or 'vn x y z', found " + in_quotes(record));
+    std::vector<double>& to = record == "v" ? points : normals;
+    for (int k = 0; k < 3; ++k) to.push_back(scan.number("a coordinate"));
+    scan.expect_end();
+  }
+  if (!normals.empty() && normals.size() != points.size())
+    throw InputError(name + ": " + std::to_string(points.size() / 3) + " points but " +
+                     std::to_string(normals.size() / 3) + " normals");
+  return cloud_of(points, normals, name);
+}
+
+PolygonSoup read_xyz(std::string_view bytes, const std::string& name) {
+  LineScanner scan(bytes, name, '#');
+  std::vector<double> points, normals, row;
+  std::size_t columns = 0;
+  while (scan.next()) {
+    row.clear();
+    for (std::string_view word; !(word = scan.word()).empty();) {
+      const auto number = parse_double(word);
+      if (!number) scan.fail("expected a number, found " + in_quotes(word));
+      row.push_back(*number);
+    }
+    if (row.size() == 1 && points.empty() && columns == 0) continue;  // a count of points
+    if (columns == 0) columns = row.size();
+    if (row.size() != columns)
+      scan.fail("a row of " + std::to_string(row.size()) + " numbers, the first had " +
+                std::to_string(columns));
+    if (columns < 3)
+      scan.fail("a row of " + std::to_string(columns) + " numbers, x y z are needed");
+    points.insert(points.end(), row.begin(), row.begin() + 3);
+    // Six columns are points and normals; any other number of further ones is colour or the like.
+    if (columns == 6) normals.insert(normals.end(), row.begin() + 3, row.end());
+  }
+  return cloud_of(points, normals, name);
+}
+
+}  // namespace littoral::io

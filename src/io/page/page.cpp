@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/error.h"
+#include "io/page/page_template.h"
+#include "io/render/scene.h"
+#include "io/render/scene_style.h"
+#include "io/write.h"
+
+namespace littoral::io {
+
+namespace {
+
+using nlohmann::json;
+
+std::string base64(const void* data, std::size_t size) {
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* byte = static_cast<const unsigned char*>(data);
+  std::string text;
+  text.reserve((size + 2) / 3 * 4);
+  for (std::size_t i = 0; i < size; i += 3) {
+    const std::size_t left = size - i;
+    const std::uint32_t bits = std::uint32_t{byte[i]} << 16 |
+                               (left > 1 ? std::uint32_t{byte[i + 1]} << 8 : 0) |
+                               (left > 2 ? std::uint32_t{byte[i + 2]} : 0);
+    text += digits[bits >> 18];
+    text += digits[bits >> 12 & 63];
+    text += left > 1 ? digits[bits >> 6 & 63] : '=';
+    text += left > 2 ? digits[bits & 63] : '=';
+  }
+  return text;
+}
+
+template <class T>
+std::string base64(const std::vector<T>& items) {
+  return base64(items.data(), items.size() * sizeof(T));
+}
+
+// Positions relative to the centre in units of the radius: single precision is then always enough
+// for the screen, wherever and however large the model is.
+class Packer {
+ public:
+  explicit Packer(const SceneFrame& frame) : frame_(frame) {}
+  void add(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) {
+      const double x = (p[k] - frame_.centre[k]) / frame_.radius;
+      items_.push_back(std::isfinite(x) ? static_cast<float>(x) : 0.f);
+    }
+  }
+  std::string text() const { return base64(items_); }
+
+ private:
+  const SceneFrame& frame_;
+  std::vector<float> items_;
+};
+
+json field_json(const Scene& scene, const FieldStyle& style) {
+  json field;
+  field["name"] = scene.field_name;
+  field["present"] = style.present;
+  field["diverging"] = style.diverging;
+  field["infinite"] = style.infinite;
+  for (const auto& [key, value] : {std::pair{"low", style.low},
+                                   {"high", style.high},
+                                   {"colourLow", style.colour_low},
+                                   {"colourHigh", style.colour_high},
+                                   {"spacing", style.spacing}}) {
+    field[key] = value;
+  }
+  field["levels"] = scene.levels;
+  // The slider's stops: the same choice of spacing that pictures make, from few lines to many.
+  std::vector<double> spacings;
+  for (double count = 2; count < 300; count *= 1.2) {
+    const double step = nice_spacing(style.low, style.high, count);
+    if (step > 0 && (spacings.empty() || step < spacings.back())) spacings.push_back(step);
+  }
+  field["spacings"] = spacings;
+  field["ticks"] = nice_ticks(style.low, style.high, nice_spacing(style.low, style.high, 7));
+  std::vector<std::string> labels;
+  for (const double tick : field["ticks"].get<std::vector<double>>()) {
+    labels.push_back(label_text(tick));
+  }
+  field["labels"] = labels;
+  const auto& map = colour_map(style.diverging);
+  field["colours"] = base64(map.data(), map.size() * sizeof(Rgb));
+  return field;
+}
+
+json sources_json(const Scene& scene, const SceneFrame& frame) {
+  const SourceMarks marks = source_marks(scene, frame.radius);
+  Packer signed_strokes(frame), unsigned_strokes(frame), arrows(frame), points(frame);
+  for (const auto& stroke : marks.strokes) {
+    Packer& packer = stroke.is_signed ? signed_strokes : unsigned_strokes;
+    packer.add(stroke.a);
+    packer.add(stroke.b);
+  }
+  for (const auto& arrow : marks.arrows) {
+    arrows.add(arrow.base);
+    arrows.add(arrow.tip);
+  }
+  for (Eigen::Index i = 0; i < scene.source_points.rows(); ++i)
+    points.add(scene.source_points.row(i));
+  return {{"signed", signed_strokes.text()}, {"unsigned", unsigned_strokes.text()},
+          {"arrows", arrows.text()},         {"points", points.text()},
+          {"signedColour", signed_colour},   {"unsignedColour", unsigned_colour}};
+}
+
+// The box of a volume, as a surface to place the view by.
+Scene box_of(const Scene& scene) {
+  Scene box;
+  box.volume = scene.volume;
+  box.points.resize(8, 3);
+  box.triangles.resize(4, 3);
+  box.triangles << 0, 1, 3, 2, 3, 7, 4, 5, 7, 6, 5, 7;  // every corner
+  const Grid& grid = scene.volume->thin.grid;
+  for (int c = 0; c < 8; ++c)
+    box.points.row(c) = grid.point((c & 1) ? grid.n[0] - 1 : 0, (c & 2) ? grid.n[1] - 1 : 0,
+                                   (c & 4) ? grid.n[2] - 1 : 0);
+  return box;
+}
+
+// Values in 65534 steps from the least to the greatest; 65535 is infinite.
+json volume_json(const SceneVolume& volume, const SceneFrame& frame, const FieldStyle& style) {
+  const Grid& grid = volume.thin.grid;
+  const double half = 0.5 * style.high - 0.5 * style.low;
+  const auto part = [&](double value) {
+    return half > 0 ? std::clamp((0.5 * value - 0.5 * style.low) / half, 0.0, 1.0) : 0.0;
+  };
+  std::vector<std::uint16_t> values;
+  values.reserve(static_cast<std::size_t>(volume.thin.values.size()));
+  for (const double value : volume.thin.values)
+    values.push_back(static_cast<std::uint16_t>(
+        std::isfinite(value) ? std::lround(65534 * part(value)) : 65535));
+  const Vec3 low = grid.origin, high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  const Vec3 origin = (low - frame.centre) / frame.radius, spacing = grid.spacing / frame.radius;
+  const auto triple = [](const Vec3& v) { return json{v[0], v[1], v[2]}; };
+  return {{"n", grid.n},
+          {"origin", triple(origin)},
+          {"spacing", triple(spacing)},
+          {"low", triple(low)},
+          {"high", triple(high)},
+          {"values", base64(values)},
+          {"axis", volume.axis},
+          {"position", volume.position},
+          {"level", part(volume.level)},
+          {"isosurface", volume.isosurface}};
+}
+
+// Tori in the page's units, and how the values of the volume become distances in them.
+json trace_json(const SceneTrace& trace, const SceneFrame& frame, const FieldStyle& style) {
+  std::vector<float> numbers;
+  numbers.reserve(static_cast<std::size_t>(trace.tori.size()));
+  for (Eigen::Index i = 0; i < trace.tori.rows(); ++i) {
+    for (int k = 0; k < 16; ++k) {
+      const double x = trace.tori(i, k);
+      const bool place = k < 3 || (k >= 4 && k < 7), curvature = k == 11 || k == 15;
+      const double scaled = place       ? (x - frame.centre[k % 4]) / frame.radius
+                            : curvature ? x * frame.radius
+                            : k == 3    ? x / frame.radius
+                                        : x;
+      constexpr double most = 1e30;  // a lone point's plane has an infinite patch
+      numbers.push_back(static_cast<float>(std::clamp(scaled, -most, most)));
+    }
+  }
+  return {{"tori", base64(numbers)},
+          {"steepness", trace.steepness},
+          {"low", style.low / frame.radius},
+          {"range", style.high / frame.radius - style.low / frame.radius}};
+}
+
+json scene_json(const Scene& all) {
+  const FieldStyle style = field_style(all);
+  const Scene box = all.volume ? box_of(all) : Scene{};
+  const Scene& scene = all.volume ? box : all;
+  const SceneFrame frame = scene_frame(scene);
+  json page;
+  page["title"] = all.title;
+  page["facts"] = json::array();
+  for (const auto& [key, value] : all.facts) page["facts"].push_back({key, value});
+  page["centre"] = {frame.centre[0], frame.centre[1], frame.centre[2]};
+  page["radius"] = frame.radius;
+  page["towardsEye"] = {frame.towards_eye[0], frame.towards_eye[1], frame.towards_eye[2]};
+  page["up"] = {frame.up[0], frame.up[1], frame.up[2]};
+  page["field"] = field_json(all, style);
+  page["sources"] = sources_json(all, frame);
+  if (all.volume) page["volume"] = volume_json(*all.volume, frame, style);
+  if (all.volume && all.trace && all.trace->tori.rows() > 0)
+    page["trace"] = trace_json(*all.trace, frame, style);
+  page["plainColour"] = plain_colour;
+  page["infiniteColour"] = infinite_colour;
+
+  Packer positions(frame);
+  for (Eigen::Index v = 0; v < scene.points.rows(); ++v) positions.add(scene.points.row(v));
+  page["positions"] = positions.text();
+  static_assert(sizeof(int) == sizeof(std::uint32_t));
+  page["triangles"] = base64(scene.triangles.data(),
+                             static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
+  page["innerSides"] = base64(scene.inner_sides);
+  if (style.present && !all.volume) {
+    // Values as 0..1 between the least and the greatest; infinite ones as +inf.
+    const double half = 0.5 * style.high - 0.5 * style.low;
+    std::vector<float> values;
+    values.reserve(static_cast<std::size_t>(scene.values.size()));
+    for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
+      const double value = scene.values[v];
+      const double t = half > 0 ? (0.5 * value - 0.5 * style.low) / half : 0;
+      values.push_back(std::isfinite(value) ? static_cast<float>(std::min(1.0, std::max(0.0, t)))
+                                            : std::numeric_limits<float>::infinity());
+    }
+    page["values"] = base64(values);
+    if (scene.weights.size() && (scene.weights.array() != 1).any()) {
+      std::vector<unsigned char> weights;
+      for (const double w : scene.weights)
+        weights.push_back(static_cast<unsigned char>(std::lround(255 * w)));
+      page["weights"] = base64(weights);
+    }
+  }
+  return page;
+}
+
+// JSON that cannot end the script element it stands in.
+std::string script_text(const json& value) {
+  const std::string plain = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  std::string text;
+  text.reserve(plain.size());
+  for (const char c : plain) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string escape_html(std::string_view plain) {
+  std::string text;
+  for (const char c : plain) {
+    switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '>':
+        text += "&gt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      case '\'':
+        text += "&#39;";
+        break;
+      default:
+        text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+#ifndef LITTORAL_HAS_VIEWER
+std::string_view page_template() { return {}; }
+#endif
+
+bool has_viewer() { return !page_template().empty(); }
+
+void write_page(const std::filesystem::path& path, const Scene& scene) {
+  check_scene(scene);
+  const std::string_view page = page_template();
+  if (page.empty()) {
+    throw UnsupportedError("cannot write " + path.string() +
+                           ": this build lacks the viewer (configure with LITTORAL_VIEWER=ON and "
+                           "npm installed); pictures (.png) work");
+  }
+  constexpr std::string_view title_mark = "LITTORAL_TITLE", data_mark = "\"LITTORAL_DATA\"";
+  const std::size_t title = page.find(title_mark);
+  const std::size_t data = page.find(data_mark, title);
+  if (data == std::string_view::npos) throw IoError("the built-in viewer page is damaged");
+  const std::string heading = escape_html(scene.title.empty() ? "littoral" : scene.title);
+  const std::string content = script_text(scene_json(scene));
+  write_atomically(path, [&](std::ostream& out) {
+    out << page.substr(0, title) << heading
+        << page.substr(title + title_mark.size(), data - title - title_mark.size()) << content
+        << page.substr(data + data_mark.size());
+  });
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,26 @@
+#include <png.h>
+
+#include "base/error.h"
+#include "io/render/picture.h"
+
+namespace littoral::io {
+
+std::string encode_png(const Image& image) {
+  // libpng's simplified interface: errors come back as a return value and a message.
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string bytes(size, '\0');
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) {
+    const std::string message = header.message;
+    png_image_free(&header);
+    throw IoError("cannot encode a picture as PNG: " + message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,103 @@
+#include "io/render/scene.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace littoral::io {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError("scene: " + what); }
+
+}  // namespace
+
+Scene make_scene(const PolygonSoup& soup, const std::string& field) {
+  Scene scene;
+  scene.points = soup.points;
+  scene.field_name = field;
+  if (const auto it = soup.scalars.find(field); it != soup.scalars.end()) scene.values = it->second;
+  if (const auto it = soup.scalars.find("weight"); it != soup.scalars.end() && field != "weight")
+    if (scene.values.size() && it->second.minCoeff() >= 0 && it->second.maxCoeff() <= 1)
+      scene.weights = it->second;
+  Eigen::Index count = 0;
+  bool polygons = false;
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = static_cast<Eigen::Index>(soup.face(f).size());
+    count += std::max<Eigen::Index>(0, corners - 2);
+    polygons |= corners > 3;
+  }
+  scene.triangles.resize(count, 3);
+  if (polygons) scene.inner_sides.assign(static_cast<std::size_t>(count), 0);
+  Eigen::Index t = 0;
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto face = soup.face(f);
+    for (std::size_t k = 2; k < face.size(); ++k, ++t) {
+      scene.triangles.row(t) << face[0], face[k - 1], face[k];
+      if (!polygons) continue;
+      const int first = k > 2 ? 1 : 0, last = k + 1 < face.size() ? 4 : 0;
+      scene.inner_sides[static_cast<std::size_t>(t)] = static_cast<unsigned char>(first | last);
+    }
+  }
+  return scene;
+}
+
+void add_sources(Scene& scene, const SurfaceMesh& mesh, const SurfaceSources& sources) {
+  for (const SurfaceCurve& curve : sources.curves) {
+    SceneCurve shown{MatX3(static_cast<Eigen::Index>(curve.nodes.size()), 3), curve.is_signed};
+    for (std::size_t i = 0; i < curve.nodes.size(); ++i) {
+      shown.points.row(static_cast<Eigen::Index>(i)) = mesh.position(curve.nodes[i]).transpose();
+    }
+    scene.curves.push_back(std::move(shown));
+  }
+  for (const SpaceCurve& curve : sources.space_curves) {
+    scene.curves.push_back({curve.points, curve.is_signed});
+  }
+  const Eigen::Index before = scene.source_points.rows();
+  const auto added = static_cast<Eigen::Index>(sources.points.size());
+  scene.source_points.conservativeResize(before + added, 3);
+  for (Eigen::Index i = 0; i < added; ++i) {
+    scene.source_points.row(before + i) =
+        mesh.position(sources.points[static_cast<std::size_t>(i)]).transpose();
+  }
+}
+
+void check_scene(const Scene& scene) {
+  const Eigen::Index n = scene.points.rows();
+  if (scene.triangles.rows() == 0) refuse("the surface has no faces to show");
+  for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = scene.triangles(t, k);
+      if (v < 0 || v >= n) {
+        refuse("triangle " + std::to_string(t) + " refers to vertex " + std::to_string(v) +
+               ", there are " + std::to_string(n));
+      }
+      if (!scene.points.row(v).allFinite()) {
+        refuse("vertex " + std::to_string(v) + " is not finite");
+      }
+    }
+  }
+  if (!scene.inner_sides.empty() &&
+      static_cast<Eigen::Index>(scene.inner_sides.size()) != scene.triangles.rows()) {
+    refuse("inner_sides must have one entry a triangle");
+  }
+  if (scene.values.size() != 0 && scene.values.size() != n) {
+    refuse(std::to_string(scene.values.size()) + " values for " + std::to_string(n) + " vertices");
+  }
+  for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
+    if (std::isnan(scene.values[v])) refuse("the value of vertex " + std::to_string(v) + " is NaN");
+  }
+  if (scene.weights.size() != 0 && (scene.weights.size() != n || !(scene.weights.minCoeff() >= 0 &&
+                                                                   scene.weights.maxCoeff() <= 1)))
+    refuse("weights must be between 0 and 1, one a vertex");
+  for (const SceneCurve& curve : scene.curves) {
+    if (!curve.points.allFinite()) refuse("a source curve has a node that is not finite");
+  }
+  if (!scene.source_points.allFinite()) refuse("a source point is not finite");
+  for (const double level : scene.levels) {
+    if (!std::isfinite(level)) refuse("an isoline level is not finite");
+  }
+  if (scene.isolines < 0) refuse("the number of isolines is negative");
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,102 @@
+// The choice of a source reader, and polylines of mesh files as sources.
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "io/read.h"
+#include "io/sources/source_nodes.h"
+#include "io/text_scan.h"
+
+namespace littoral::io {
+namespace {
+
+// The lines as they are; or, where a file has nothing but single segments (as modelling programs
+// export edges), these joined head to tail.
+std::vector<std::vector<int>> polylines(const PolygonSoup& soup) {
+  std::vector<Segment> segments;
+  for (const auto& line : soup.lines) {
+    if (line.size() != 2) return soup.lines;
+    segments.emplace_back(line[0], line[1]);
+  }
+  return chain(segments, soup.n_vertices());
+}
+
+// Both the same, where NaN equals NaN: unused vertices may hold it.
+bool same_points(const MatX3& a, const MatX3& b) {
+  if (a.rows() != b.rows()) return false;
+  return std::equal(a.data(), a.data() + a.size(), b.data(),
+                    [](double x, double y) { return x == y || (x != x && y != y); });
+}
+
+void check_finite(const PolygonSoup& soup, int v, const std::string& name) {
+  if (soup.points.row(v).allFinite()) return;
+  throw InputError(name + ": a line uses vertex " + std::to_string(v) +
+                   " (counted from 0), which is not finite");
+}
+
+SurfaceSources space_curves_from_lines(const PolygonSoup& soup, const std::string& name) {
+  SurfaceSources sources;
+  for (const auto& line : polylines(soup)) {
+    SpaceCurve curve;
+    curve.points.resize(static_cast<Eigen::Index>(line.size()), 3);
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      check_finite(soup, line[k], name);
+      curve.points.row(static_cast<Eigen::Index>(k)) = soup.points.row(line[k]);
+    }
+    curve.origin = name;
+    sources.space_curves.push_back(std::move(curve));
+  }
+  return sources;
+}
+
+}  // namespace
+
+SurfaceSources sources_from_lines(const PolygonSoup& soup, const std::string& name) {
+  SurfaceSources sources;
+  for (const auto& line : polylines(soup)) {
+    SurfaceCurve curve;
+    for (int v : line) {
+      check_finite(soup, v, name);
+      curve.nodes.push_back(SurfacePoint::at_vertex(v));
+    }
+    curve.origin = name;
+    sources.curves.push_back(std::move(curve));
+  }
+  return sources;
+}
+
+SurfaceSources read_sources_bytes(std::string_view bytes, const std::string& extension,
+                                  const std::string& name, const SurfaceMesh& mesh,
+                                  std::optional<int> index_base, Report& report) {
+  if (index_base && *index_base != 0 && *index_base != 1) {
+    throw InputError("the index base must be 0 or 1, not " + std::to_string(*index_base));
+  }
+  const std::string format = lower_case(extension);
+  SurfaceSources sources;
+  if (format == ".txt") {
+    sources = read_sources_txt(bytes, name, mesh, index_base);
+  } else if (format == ".json") {
+    sources = read_sources_json(bytes, name, mesh, index_base);
+  } else if (format == ".obj" || format == ".ply") {
+    const PolygonSoup soup = read_surface_bytes(bytes, format, name);
+    if (soup.lines.empty()) {
+      throw InputError(name + ": no lines; sources need 'l' records (.obj) or edges (.ply)");
+    }
+    if (index_base) report.warn(name + ": the index base has no effect on " + format + " files");
+    sources = same_points(soup.points, mesh.points()) ? sources_from_lines(soup, name)
+                                                      : space_curves_from_lines(soup, name);
+  } else {
+    throw InputError(name + ": unknown source format " + in_quotes(extension) +
+                     "; .txt, .json, .obj and .ply are read");
+  }
+  if (sources.empty()) throw InputError(name + ": no sources");
+  return sources;
+}
+
+SurfaceSources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                            std::optional<int> index_base, Report& report) {
+  return read_sources_bytes(read_bytes(path), path.extension().string(), path.string(), mesh,
+                            index_base, report);
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,116 @@
+// Geomview OFF, text form.
+
+#include <limits>
+
+#include "base/error.h"
+#include "io/surface/surface_formats.h"
+#include "io/text_scan.h"
+
+namespace littoral::io {
+namespace {
+
+struct OffHeader {
+  bool normals = false;
+  std::int64_t vertices = 0, faces = 0;
+};
+
+// The first word: OFF after any of the prefixes ST (texture), C (colour), N (normals), 4 (four
+// coordinates), n (any dimension), in this order; the last two do not describe surfaces in space.
+// `rest` receives what is glued to the word ("OFF8 6 0" is seen in practice). False: another word.
+bool parse_magic(const LineScanner& scan, std::string_view word, OffHeader& header,
+                 std::string_view& rest) {
+  const auto skip = [&](std::string_view prefix) {
+    const bool found = word.starts_with(prefix);
+    if (found) word.remove_prefix(prefix.size());
+    return found;
+  };
+  skip("ST");
+  skip("C");
+  header.normals = skip("N");
+  const bool homogeneous = skip("4"), any_dimension = skip("n");
+  if (!skip("OFF") && !skip("off")) return false;
+  if (homogeneous) scan.fail("4OFF (four coordinates) is not supported");
+  if (any_dimension) scan.fail("nOFF (any dimension) is not supported");
+  rest = word;
+  return true;
+}
+
+OffHeader read_header(LineScanner& scan, std::size_t size) {
+  OffHeader header;
+  if (!scan.next()) scan.fail("the file is empty");
+  std::string_view glued;
+  std::string_view word = scan.word();
+  if (parse_magic(scan, word, header, glued)) {
+    word = glued.empty() ? scan.word() : glued;
+    if (word == "BINARY") scan.fail("binary OFF is not supported, only its text form");
+    if (word.empty()) {
+      if (!scan.next()) scan.fail("the file ends before the counts of vertices and faces");
+      word = scan.word();
+    }
+  }
+  const auto vertices = parse_integer(word);
+  if (!vertices) scan.fail("expected OFF or the number of vertices, found " + in_quotes(word));
+  header.vertices = *vertices;
+  header.faces = scan.integer("the number of faces");
+  // Every vertex and face takes a line, and so at least two bytes.
+  const auto check = [&](std::int64_t count, const char* what) {
+    if (count < 0) scan.fail("negative number of " + std::string(what));
+    if (static_cast<std::uint64_t>(count) > size / 2 || count > std::numeric_limits<int>::max()) {
+      scan.fail("the header promises " + std::to_string(count) + " " + what + ", the file has " +
+                std::to_string(size) + " bytes");
+    }
+  };
+  check(header.vertices, "vertices");
+  check(header.faces, "faces");
+  return header;
+}
+
+void next_row(LineScanner& scan, std::int64_t row, std::int64_t count, const char* what) {
+  if (scan.next()) return;
+  scan.fail("the file ends after " + std::to_string(row) + " of " + std::to_string(count) + " " +
+            what);
+}
+
+void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
+  for (std::int64_t f = 0; f < header.faces; ++f) {
+    next_row(scan, f, header.faces, "faces");
+    const std::int64_t degree = scan.integer("the number of corners");
+    if (degree < 3) {
+      scan.fail("face has " + std::to_string(degree) + " corners, at least 3 are needed");
+    }
+    for (std::int64_t k = 0; k < degree; ++k) {
+      const std::int64_t v = scan.integer("a vertex index");
+      if (v < 0 || v >= header.vertices) {
+        scan.fail("face refers to vertex " + std::to_string(v) + ", the file has " +
+                  std::to_string(header.vertices) + " (counted from 0)");
+      }
+      soup.corners.push_back(static_cast<int>(v));
+    }
+    if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      scan.fail("more than 2147483647 corners");
+    }
+    soup.face_offsets.push_back(static_cast<int>(soup.corners.size()));
+  }
+}
+
+}  // namespace
+
+PolygonSoup read_off(std::string_view bytes, const std::string& name) {
+  LineScanner scan(without_byte_order_mark(bytes, name), name, '#');
+  const OffHeader header = read_header(scan, bytes.size());
+  if (header.vertices == 0) throw InputError(name + ": no vertices");
+  PolygonSoup soup;
+  soup.points.resize(header.vertices, 3);
+  if (header.normals) soup.normals.resize(header.vertices, 3);
+  for (std::int64_t v = 0; v < header.vertices; ++v) {
+    next_row(scan, v, header.vertices, "vertices");
+    for (int k = 0; k < 3; ++k) soup.points(v, k) = scan.number("a coordinate");
+    for (int k = 0; k < 3 && header.normals; ++k) {
+      soup.normals(v, k) = scan.number("a normal's coordinate");
+    }
+  }
+  read_faces(scan, header, soup);
+  return soup;
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,273 @@
+// PLY bodies.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/surface/ply_header.h"
+#include "io/surface/surface_formats.h"
+#include "io/text_scan.h"
+
+namespace littoral::io {
+namespace {
+
+// Values of a text body: a row of an element is a line.
+class TextBody {
+ public:
+  TextBody(std::string_view bytes, const std::string& name, const PlyHeader& header)
+      : scan_(bytes.substr(header.body), name, '\0', false, header.body_line) {}
+
+  void begin_row(const PlyElement& element, std::uint64_t row) {
+    if (scan_.next()) return;
+    fail("the file ends after " + std::to_string(row) + " of " + std::to_string(element.count) +
+         " of element " + in_quotes(element.name));
+  }
+  double value(PlyType) { return scan_.number("a number"); }
+  void end_row() { scan_.expect_end(); }
+  std::size_t bytes_left() const { return scan_.line_bytes_left(); }
+  [[noreturn]] void fail(const std::string& text) const { scan_.fail(text); }
+
+ private:
+  LineScanner scan_;
+};
+
+// Values of a binary body.
+class BinaryBody {
+ public:
+  BinaryBody(std::string_view bytes, const std::string& name, const PlyHeader& header)
+      : bytes_(bytes),
+        name_(name),
+        order_(header.format == PlyFormat::big_endian ? std::endian::big : std::endian::little),
+        at_(header.body) {}
+
+  void begin_row(const PlyElement& element, std::uint64_t row) {
+    element_ = &element;
+    row_ = row;
+  }
+  double value(PlyType type) {
+    const std::size_t size = byte_size(type);
+    if (bytes_left() < size) {
+      fail("the file ends after " + std::to_string(row_) + " of " +
+           std::to_string(element_->count) + " of element " + in_quotes(element_->name));
+    }
+    const char* from = bytes_.data() + at_;
+    at_ += size;
+    switch (type) {
+      case PlyType::int8:
+        return load<std::int8_t>(from, order_);
+      case PlyType::uint8:
+        return load<std::uint8_t>(from, order_);
+      case PlyType::int16:
+        return load<std::int16_t>(from, order_);
+      case PlyType::uint16:
+        return load<std::uint16_t>(from, order_);
+      case PlyType::int32:
+        return load<std::int32_t>(from, order_);
+      case PlyType::uint32:
+        return load<std::uint32_t>(from, order_);
+      case PlyType::float32:
+        return load<float>(from, order_);
+      case PlyType::float64:
+        break;
+    }
+    return load<double>(from, order_);
+  }
+  void end_row() {}
+  std::size_t bytes_left() const { return bytes_.size() - at_; }
+  [[noreturn]] void fail(const std::string& text) const {
+    throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text);
+  }
+
+ private:
+  std::string_view bytes_;
+  const std::string& name_;
+  std::endian order_;
+  std::size_t at_;
+  const PlyElement* element_ = nullptr;
+  std::uint64_t row_ = 0;
+};
+
+constexpr int unused = -1;  // a property that the element does not have
+
+int find_property(const PlyElement& element, std::string_view name, bool is_list) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& p = element.properties[i];
+    if (p.name == name && p.is_list == is_list) return static_cast<int>(i);
+  }
+  return unused;
+}
+
+template <class Body>
+class PlyReader {
+ public:
+  PlyReader(const PlyHeader& header, Body body) : header_(header), body_(std::move(body)) {
+    for (const PlyElement& e : header.elements) {
+      if (e.name != "vertex") continue;
+      if (n_vertices_ > 0) body_.fail("element 'vertex' appears twice");
+      n_vertices_ = e.count;
+    }
+  }
+
+  PolygonSoup read(const std::string& name) {
+    if (n_vertices_ == 0) throw InputError(name + ": no vertices");
+    for (const PlyElement& e : header_.elements) {
+      if (e.name == "vertex") {
+        read_vertices(e);
+      } else if (e.name == "face" && e.count > 0) {
+        read_faces(e);
+      } else if (e.name == "edge" && e.count > 0) {
+        read_edges(e);
+      } else if (e.name == "tristrips" && e.count > 0) {
+        body_.fail("triangle strips are not supported; write the faces as lists");
+      } else if (!e.properties.empty()) {  // without any it takes no bytes, whatever its count
+        rows(e, unused, [](std::uint64_t) {});
+      }
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  // Reads all rows of an element: scalar property i into row_[i], list property `list` into list_.
+  template <class Visit>
+  void rows(const PlyElement& element, int list, const Visit& visit) {
+    row_.assign(element.properties.size(), 0);
+    for (std::uint64_t r = 0; r < element.count; ++r) {
+      body_.begin_row(element, r);
+      for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& p = element.properties[i];
+        if (p.is_list) {
+          read_list(p, static_cast<int>(i) == list);
+        } else {
+          row_[i] = body_.value(p.type);
+        }
+      }
+      body_.end_row();
+      visit(r);
+    }
+  }
+
+  void read_list(const PlyProperty& p, bool keep) {
+    const double length = body_.value(p.count_type);
+    if (!(length >= 0) || length != std::floor(length)) {
+      body_.fail("a list with a length that is not a whole number");
+    }
+    // Every item takes at least a byte, so this also bounds the loop.
+    if (length > static_cast<double>(body_.bytes_left())) {
+      body_.fail("a list of " + std::to_string(static_cast<std::int64_t>(std::min(length, 9e15))) +
+                 " items, the file is shorter");
+    }
+    if (keep) list_.clear();
+    for (auto k = static_cast<std::uint64_t>(length); k > 0; --k) {
+      const double value = body_.value(p.type);
+      if (keep) list_.push_back(value);
+    }
+  }
+
+  int vertex(double value, const char* what) const {
+    if (!(value >= 0 && value < static_cast<double>(n_vertices_)) || value != std::floor(value)) {
+      std::string text = std::to_string(value);
+      if (value == std::floor(value)) text.erase(text.find('.'));
+      body_.fail(std::string(what) + " refers to vertex " + text + ", the file has " +
+                 std::to_string(n_vertices_) + " (counted from 0)");
+    }
+    return static_cast<int>(value);
+  }
+
+  int needed(const PlyElement& element, const char* property) const {
+    const int i = find_property(element, property, false);
+    if (i == unused) {
+      body_.fail("element " + in_quotes(element.name) + " has no property '" + property + "'");
+    }
+    return i;
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::array<int, 3> position{needed(element, "x"), needed(element, "y"),
+                                      needed(element, "z")};
+    const std::array<int, 3> normal{find_property(element, "nx", false),
+                                    find_property(element, "ny", false),
+                                    find_property(element, "nz", false)};
+    const bool normals = normal[0] != unused && normal[1] != unused && normal[2] != unused;
+    const auto n = static_cast<Eigen::Index>(element.count);
+    std::vector<std::pair<int, VecX*>> scalars;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& p = element.properties[i];
+      const int number = static_cast<int>(i);
+      const auto is = [&](const auto& set) {
+        return std::find(set.begin(), set.end(), number) != set.end();
+      };
+      if (p.is_list || !is_floating(p.type) || is(position) || (normals && is(normal))) continue;
+      const auto [entry, is_new] = soup_.scalars.try_emplace(p.name, VecX(n));
+      if (!is_new) body_.fail("property " + in_quotes(p.name) + " appears twice");
+      scalars.emplace_back(number, &entry->second);
+    }
+    soup_.points.resize(n, 3);
+    if (normals) soup_.normals.resize(n, 3);
+    rows(element, unused, [&](std::uint64_t r) {
+      const auto v = static_cast<Eigen::Index>(r);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        soup_.points(v, column) = row_[static_cast<std::size_t>(position[k])];
+        if (normals) soup_.normals(v, column) = row_[static_cast<std::size_t>(normal[k])];
+      }
+      for (const auto& [i, values] : scalars) (*values)(v) = row_[static_cast<std::size_t>(i)];
+    });
+  }
+
+  void read_faces(const PlyElement& element) {
+    int list = find_property(element, "vertex_indices", true);
+    if (list == unused) list = find_property(element, "vertex_index", true);
+    if (list == unused) body_.fail("element 'face' has no list 'vertex_indices'");
+    rows(element, list, [&](std::uint64_t r) {
+      const std::string face = "face " + std::to_string(r);
+      if (list_.size() < 3) {
+        body_.fail(face + " has " + std::to_string(list_.size()) +
+                   " corners, at least 3 are needed");
+      }
+      for (double v : list_) soup_.corners.push_back(vertex(v, face.c_str()));
+      if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        body_.fail("more than 2147483647 corners");
+      }
+      soup_.face_offsets.push_back(static_cast<int>(soup_.corners.size()));
+    });
+  }
+
+  void read_edges(const PlyElement& element) {
+    const int tail = needed(element, "vertex1"), head = needed(element, "vertex2");
+    const int line = find_property(element, "line", false);
+    double last_line = 0;
+    rows(element, unused, [&](std::uint64_t r) {
+      const std::string edge = "edge " + std::to_string(r);
+      const int a = vertex(row_[static_cast<std::size_t>(tail)], edge.c_str());
+      const int b = vertex(row_[static_cast<std::size_t>(head)], edge.c_str());
+      const double number = line == unused ? 0 : row_[static_cast<std::size_t>(line)];
+      if (soup_.lines.empty() || soup_.lines.back().back() != a || number != last_line) {
+        soup_.lines.push_back({a});
+      }
+      soup_.lines.back().push_back(b);
+      last_line = number;
+    });
+  }
+
+  const PlyHeader& header_;
+  Body body_;
+  std::uint64_t n_vertices_ = 0;
+  PolygonSoup soup_;
+  std::vector<double> row_, list_;
+};
+
+}  // namespace
+
+PolygonSoup read_ply(std::string_view bytes, const std::string& name) {
+  const PlyHeader header = read_ply_header(bytes, name);
+  if (header.format == PlyFormat::ascii) {
+    return PlyReader(header, TextBody(bytes, name, header)).read(name);
+  }
+  return PlyReader(header, BinaryBody(bytes, name, header)).read(name);
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,52 @@
+// Files as a whole, and the choice of a surface reader.
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "base/error.h"
+#include "io/read.h"
+#include "io/surface/surface_formats.h"
+#include "io/text_scan.h"
+
+namespace littoral::io {
+
+std::string read_bytes(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& why) -> std::string {
+    throw IoError("cannot read " + path.string() + ": " + why);
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return fail("it is a directory");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file) return fail(std::generic_category().message(errno));
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
+    bytes.append(block.data(), n);
+  }
+  if (std::ferror(file.get())) return fail(std::generic_category().message(errno));
+  return bytes;
+}
+
+PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extension,
+                               const std::string& name) {
+  const std::string format = lower_case(extension);
+  if (format == ".obj") return read_obj(bytes, name);
+  if (format == ".off") return read_off(bytes, name);
+  if (format == ".ply") return read_ply(bytes, name);
+  if (format == ".stl") return read_stl(bytes, name);
+  if (format == ".pc") return read_pc(bytes, name);
+  if (format == ".xyz") return read_xyz(bytes, name);
+  if (format == ".pcd") return read_pcd(bytes, name);
+  throw InputError(name + ": unknown surface format " + in_quotes(extension) +
+                   "; .obj, .off, .ply, .stl, .pc, .xyz and .pcd are read");
+}
+
+PolygonSoup read_surface(const std::filesystem::path& path) {
+  return read_surface_bytes(read_bytes(path), path.extension().string(), path.string());
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,41 @@
+#pragma once
+// One reader per surface format. Each takes a whole file and the name to use in messages, and
+// answers any bytes with what they say or an InputError. Points are kept even where they are not
+// finite.
+
+#include <string>
+#include <string_view>
+
+#include "domain/mesh/polygon_soup.h"
+
+namespace littoral::io {
+
+/// Wavefront OBJ: v (extra numbers ignored), vt, vn, f, l; every other record is ignored. Normals
+/// and the texture's u (as scalar "u") are kept where each vertex has exactly one.
+PolygonSoup read_obj(std::string_view bytes, const std::string& name);
+
+/// Geomview OFF with any of the prefixes ST, C, N; normals are kept, colours are not.
+PolygonSoup read_off(std::string_view bytes, const std::string& name);
+
+/// Stanford PLY, ascii or binary of either byte order. Normals and the vertices' floating-point
+/// properties are kept; edges become lines, joined while one begins where the last one ended (or by
+/// the property "line" of our own files).
+PolygonSoup read_ply(std::string_view bytes, const std::string& name);
+
+/// STL, ascii or binary: told apart by the size that the triangle count asks for, not by the first
+/// word. Corners at the same position are merged; facet normals are ignored.
+PolygonSoup read_stl(std::string_view bytes, const std::string& name);
+
+/// Point cloud of records "v x y z" and "vn x y z" in any order; as many normals as points, or
+/// none.
+PolygonSoup read_pc(std::string_view bytes, const std::string& name);
+
+/// Point cloud of rows "x y z" or "x y z nx ny nz"; further columns are ignored where there are not
+/// six. A first line with one number is taken for a count.
+PolygonSoup read_xyz(std::string_view bytes, const std::string& name);
+
+/// Point cloud of the Point Cloud Library, ascii or uncompressed binary: x y z, normal_x normal_y
+/// normal_z.
+PolygonSoup read_pcd(std::string_view bytes, const std::string& name);
+
+}  // namespace littoral::io

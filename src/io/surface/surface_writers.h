@@ -1,0 +1,42 @@
+#pragma once
+// One writer per format; each writes a whole file to a stream. What is written was checked before.
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+#include "domain/mesh/polygon_soup.h"
+
+namespace littoral::io {
+
+/// The shortest text that reads back as the same double; "inf", "-inf" and "nan" where it is none.
+std::string exact_text(double value);
+
+/// `u`, one value per vertex or nothing, becomes the texture coordinate.
+void write_obj(std::ostream& out, const PolygonSoup& soup, const VecX* u);
+void write_ply(std::ostream& out, const PolygonSoup& soup);
+void write_off(std::ostream& out, const PolygonSoup& soup);
+/// Faces must be triangles with coordinates in the range of single precision.
+void write_stl(std::ostream& out, const PolygonSoup& soup);
+/// VTK's XML polygon data with one scalar per point (appended raw data).
+void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// Text as it stands between quotes in XML.
+std::string xml_text(const std::string& plain);
+/// The arrays of VTK's XML files that stand as raw data at the end: announced in order, then
+/// written.
+class AppendedArrays {
+ public:
+  explicit AppendedArrays(std::ostream& out) : out_(out) {}
+  /// type: "Float64"; bytes: of all its numbers.
+  void announce(const char* type, const std::string& name, int components, std::uint64_t bytes);
+
+ private:
+  std::ostream& out_;
+  std::uint64_t offset_ = 0;  // every block is its length in bytes and then the data
+};
+/// The header of NumPy's format 1.0 for float64; `shape` as "8," or "2, 3, 4".
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest);
+/// NumPy's format 1.0, one dimension of float64.
+void write_npy(std::ostream& out, const VecX& values);
+
+}  // namespace littoral::io

@@ -1,0 +1,66 @@
+// PLY, binary little endian.
+
+#include <algorithm>
+
+#include "io/binary.h"
+#include "io/surface/surface_writers.h"
+
+namespace littoral::io {
+namespace {
+
+std::size_t largest_face(const PolygonSoup& soup) {
+  std::size_t largest = 0;
+  for (int f = 0; f < soup.n_faces(); ++f) largest = std::max(largest, soup.face(f).size());
+  return largest;
+}
+
+void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) {
+  out << "ply\nformat binary_little_endian 1.0\ncomment written by littoral\n";
+  out << "element vertex " << soup.n_vertices() << '\n';
+  for (const char* name : {"x", "y", "z"}) out << "property double " << name << '\n';
+  for (const char* name : {"nx", "ny", "nz"}) {
+    if (soup.normals.rows() > 0) out << "property double " << name << '\n';
+  }
+  for (const auto& [name, values] : soup.scalars) out << "property double " << name << '\n';
+  out << "element face " << soup.n_faces() << '\n';
+  out << "property list " << (small_faces ? "uchar" : "int") << " int vertex_indices\n";
+  if (!soup.lines.empty()) {
+    std::size_t n_edges = 0;
+    for (const auto& line : soup.lines) n_edges += line.size() - 1;
+    out << "element edge " << n_edges << '\n';
+    for (const char* name : {"vertex1", "vertex2", "line"}) out << "property int " << name << '\n';
+  }
+  out << "end_header\n";
+}
+
+}  // namespace
+
+void write_ply(std::ostream& out, const PolygonSoup& soup) {
+  const bool small_faces = largest_face(soup) <= 255;
+  write_header(out, soup, small_faces);
+  for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) store_little(out, soup.points(v, k));
+    for (int k = 0; k < 3 && soup.normals.rows() > 0; ++k) store_little(out, soup.normals(v, k));
+    for (const auto& [name, values] : soup.scalars) store_little(out, values(v));
+  }
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto face = soup.face(f);
+    if (small_faces) {
+      store_little(out, static_cast<std::uint8_t>(face.size()));
+    } else {
+      store_little(out, static_cast<std::int32_t>(face.size()));
+    }
+    for (int v : face) store_little(out, static_cast<std::int32_t>(v));
+  }
+  std::int32_t number = 0;
+  for (const auto& line : soup.lines) {
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      store_little(out, static_cast<std::int32_t>(line[k]));
+      store_little(out, static_cast<std::int32_t>(line[k + 1]));
+      store_little(out, number);
+    }
+    ++number;
+  }
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,151 @@
+// Surfaces as text and STL, and the choice of a writer.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/surface/surface_writers.h"
+#include "io/text_scan.h"
+#include "io/write.h"
+
+namespace littoral::io {
+namespace {
+
+void write_row(std::ostream& out, const char* record, const MatX3& values, Eigen::Index row) {
+  out << record << exact_text(values(row, 0)) << ' ' << exact_text(values(row, 1)) << ' '
+      << exact_text(values(row, 2)) << '\n';
+}
+
+void check_lengths(const std::string& name, const PolygonSoup& soup) {
+  const auto check = [&](Eigen::Index length, const std::string& what) {
+    if (length == soup.points.rows()) return;
+    throw InputError("cannot write " + name + ": " + std::to_string(length) + " " + what + " for " +
+                     std::to_string(soup.points.rows()) + " points");
+  };
+  if (soup.normals.rows() > 0) check(soup.normals.rows(), "normals");
+  for (const auto& [field, values] : soup.scalars)
+    check(values.size(), "values of '" + field + "'");
+}
+
+// A property's name is one word of a PLY header, and must not be one of those with a meaning.
+void check_names(const std::string& name, const PolygonSoup& soup) {
+  for (const auto& [field, values] : soup.scalars) {
+    const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
+    const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
+    if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
+    throw UnsupportedError("cannot write " + name + ": the scalar " + in_quotes(field) +
+                           " cannot be the name of a PLY property; rename it");
+  }
+}
+
+void check_stl(const std::string& name, const PolygonSoup& soup) {
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    if (soup.face(f).size() != 3) {
+      throw UnsupportedError(
+          "cannot write " + name + ": face " + std::to_string(f) + " has " +
+          std::to_string(soup.face(f).size()) +
+          " corners, STL holds triangles only; .obj, .ply and .off hold polygons");
+    }
+  }
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    for (int v : soup.face(f)) {
+      const double largest = soup.points.row(v).cwiseAbs().maxCoeff();
+      if (largest <= std::numeric_limits<float>::max()) continue;
+      throw UnsupportedError("cannot write " + name + ": vertex " + std::to_string(v) +
+                             " is beyond STL's single precision; .obj, .ply and .off hold doubles");
+    }
+  }
+}
+
+}  // namespace
+
+std::string exact_text(double value) {
+  std::array<char, 32> text;
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
+}
+
+void write_obj(std::ostream& out, const PolygonSoup& soup, const VecX* u) {
+  const bool normals = soup.normals.rows() > 0;
+  for (Eigen::Index v = 0; v < soup.points.rows(); ++v) write_row(out, "v ", soup.points, v);
+  for (Eigen::Index v = 0; u && v < u->size(); ++v) out << "vt " << exact_text((*u)(v)) << " 0\n";
+  for (Eigen::Index v = 0; v < soup.normals.rows(); ++v) write_row(out, "vn ", soup.normals, v);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    out << 'f';
+    for (int v : soup.face(f)) {
+      out << ' ' << v + 1;
+      if (u || normals) out << '/';
+      if (u) out << v + 1;
+      if (normals) out << '/' << v + 1;
+    }
+    out << '\n';
+  }
+  for (const auto& line : soup.lines) {
+    out << 'l';
+    for (int v : line) out << ' ' << v + 1;
+    out << '\n';
+  }
+}
+
+void write_off(std::ostream& out, const PolygonSoup& soup) {
+  const bool normals = soup.normals.rows() > 0;
+  out << (normals ? "NOFF\n" : "OFF\n") << soup.n_vertices() << ' ' << soup.n_faces() << " 0\n";
+  for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) out << (k ? " " : "") << exact_text(soup.points(v, k));
+    for (int k = 0; k < 3 && normals; ++k) out << ' ' << exact_text(soup.normals(v, k));
+    out << '\n';
+  }
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    out << soup.face(f).size();
+    for (int v : soup.face(f)) out << ' ' << v;
+    out << '\n';
+  }
+}
+
+void write_stl(std::ostream& out, const PolygonSoup& soup) {
+  std::array<char, 80> header{"binary STL written by littoral"};
+  out.write(header.data(), header.size());
+  store_little(out, static_cast<std::uint32_t>(soup.n_faces()));
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto face = soup.face(f);
+    const Vec3 a = soup.points.row(face[0]), b = soup.points.row(face[1]),
+               c = soup.points.row(face[2]);
+    // Scaled first: the cross product of huge or tiny sides leaves even the doubles.
+    const Vec3 ab = (b - a).stableNormalized(), ac = (c - a).stableNormalized();
+    const Vec3 normal = ab.cross(ac).stableNormalized();
+    for (double x : normal) store_little(out, static_cast<float>(std::isfinite(x) ? x : 0.0));
+    for (const Vec3& p : {a, b, c}) {
+      for (double x : p) store_little(out, static_cast<float>(x));
+    }
+    store_little(out, std::uint16_t{0});
+  }
+}
+
+void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
+                   const std::string& field) {
+  const std::string format = lower_case(path.extension().string());
+  check_lengths(path.string(), soup);
+  const auto found = soup.scalars.find(field);
+  const VecX* u = found == soup.scalars.end() ? nullptr : &found->second;
+  if (format == ".obj") {
+    write_atomically(path, [&](std::ostream& out) { write_obj(out, soup, u); });
+  } else if (format == ".ply") {
+    check_names(path.string(), soup);
+    write_atomically(path, [&](std::ostream& out) { write_ply(out, soup); });
+  } else if (format == ".off") {
+    write_atomically(path, [&](std::ostream& out) { write_off(out, soup); });
+  } else if (format == ".stl") {
+    check_stl(path.string(), soup);
+    write_atomically(path, [&](std::ostream& out) { write_stl(out, soup); });
+  } else {
+    throw UnsupportedError("cannot write " + path.string() + ": unknown surface format " +
+                           in_quotes(format) + "; .obj, .ply, .off and .stl are written");
+  }
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,23 @@
+#pragma once
+// What the program and its module littoral_vdb share. OpenVDB is a module of its own, loaded where
+// a .vdb is written: binding its symbols takes longer than everything else at the start of the
+// program.
+
+#include <ostream>
+#include <string>
+
+#include "io/volume/volume.h"
+
+namespace littoral::io {
+
+/// What the module exports, under the name below.
+struct VdbModule {
+  const char* version;  // of littoral: the module must come from the same build
+  /// Writes the volume; returns what went wrong, or nothing.
+  std::string (*write)(std::ostream& out, const VolumeField& volume, double band);
+};
+
+/// The module's only symbol, a function that returns a VdbModule.
+constexpr const char* vdb_module_symbol = "littoral_vdb_module";
+
+}  // namespace littoral::io

@@ -1,0 +1,60 @@
+#pragma once
+// One reader and writer per volume format, and what they share.
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "io/volume/volume.h"
+
+namespace littoral::io {
+
+VolumeField read_vti(std::string_view bytes, const std::string& name, const std::string& field);
+VolumeField read_nrrd(std::string_view bytes, const std::string& name);
+VolumeField read_npy_volume(std::string_view bytes, const std::string& name);
+
+void write_vti(std::ostream& out, const VolumeField& volume);
+void write_nrrd(std::ostream& out, const VolumeField& volume);
+void write_npy_volume(std::ostream& out, const VolumeField& volume);
+void write_vdb(std::ostream& out, const VolumeField& volume, const VolumeWriteOptions& options);
+
+/// The header of a NumPy file: shape, type and order; nothing if it is none.
+struct NpyHeader {
+  std::string type;  // "<f8"
+  bool fortran = false;
+  std::vector<std::int64_t> shape;
+  std::size_t data = 0;  // where the numbers begin
+};
+std::optional<NpyHeader> parse_npy_header(std::string_view bytes);
+
+/// How numbers are stored.
+struct NumberKind {
+  char family = 'f';  // 'f' floating point, 'i' signed, 'u' unsigned
+  std::size_t size = 8;
+};
+
+/// `count` numbers stored one after the other, as doubles; bytes must be long enough.
+VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, std::endian order);
+
+/// Writes numbers as float64, little endian.
+void store_numbers(std::ostream& out, const VecX& values);
+
+/// Number of nodes of a grid; throws InputError "name: ..." where a size is less than 1 or there
+/// are more nodes than `most`.
+std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::size_t most,
+                          const std::string& name);
+
+/// Throws InputError "name: ..." unless the spacing is positive and the box finite.
+void check_box(const Grid& grid, const std::string& name);
+
+/// The bytes that a base64 text stands for, up to its end or padding; blanks are skipped. Nothing
+/// where it has other characters. `used`: how much of the text was read.
+std::optional<std::string> decode_base64(std::string_view text, std::size_t& used);
+
+/// Unpacks a zlib or gzip stream of exactly `size` bytes; nothing where it is another or damaged.
+std::optional<std::string> unpack(std::string_view packed, std::size_t size);
+
+}  // namespace littoral::io

@@ -1,0 +1,133 @@
+// What volume formats share: stored numbers, sizes, packed data.
+
+#include <zlib.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "io/binary.h"
+#include "io/volume/volume_formats.h"
+
+namespace littoral::io {
+
+namespace {
+
+template <class T>
+void load_all(std::string_view bytes, std::endian order, VecX& values) {
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] =
+        static_cast<double>(load<T>(bytes.data() + sizeof(T) * static_cast<std::size_t>(i), order));
+}
+
+}  // namespace
+
+VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, std::endian order) {
+  VecX values(static_cast<Eigen::Index>(count));
+  const auto is = [&](char family, std::size_t size) {
+    return kind.family == family && kind.size == size;
+  };
+  if (is('f', 8)) load_all<double>(bytes, order, values);
+  if (is('f', 4)) load_all<float>(bytes, order, values);
+  if (is('i', 1)) load_all<std::int8_t>(bytes, order, values);
+  if (is('u', 1)) load_all<std::uint8_t>(bytes, order, values);
+  if (is('i', 2)) load_all<std::int16_t>(bytes, order, values);
+  if (is('u', 2)) load_all<std::uint16_t>(bytes, order, values);
+  if (is('i', 4)) load_all<std::int32_t>(bytes, order, values);
+  if (is('u', 4)) load_all<std::uint32_t>(bytes, order, values);
+  if (is('i', 8)) load_all<std::int64_t>(bytes, order, values);
+  if (is('u', 8)) load_all<std::uint64_t>(bytes, order, values);
+  return values;
+}
+
+void store_numbers(std::ostream& out, const VecX& values) {
+  for (double value : values) store_little(out, value);
+}
+
+std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::size_t most,
+                          const std::string& name) {
+  std::size_t nodes = 1;
+  for (const std::int64_t k : n) {
+    if (k < 1) throw InputError(name + ": the grid has no nodes");
+    if (k > std::numeric_limits<int>::max() || nodes > most / static_cast<std::size_t>(k))
+      throw InputError(name + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+                       std::to_string(n[2]) + " nodes are more than the file holds");
+    nodes *= static_cast<std::size_t>(k);
+  }
+  return nodes;
+}
+
+void check_box(const Grid& grid, const std::string& name) {
+  const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  if (!(grid.spacing.minCoeff() > 0) || !grid.spacing.allFinite())
+    throw InputError(name + ": the spacing of the grid must be positive");
+  if (!grid.origin.allFinite() || !far.allFinite())
+    throw InputError(name + ": the box of the grid is not finite");
+}
+
+std::optional<std::string> decode_base64(std::string_view text, std::size_t& used) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int held = 0, padding = 0;
+  for (used = 0; used < text.size(); ++used) {
+    const char c = text[used];
+    int digit = -1;
+    if (c >= 'A' && c <= 'Z') digit = c - 'A';
+    if (c >= 'a' && c <= 'z') digit = c - 'a' + 26;
+    if (c >= '0' && c <= '9') digit = c - '0' + 52;
+    if (c == '+') digit = 62;
+    if (c == '/') digit = 63;
+    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+    if (c == '=') {
+      ++padding;
+      digit = 0;
+    } else if (padding > 0) {
+      break;  // another text begins
+    }
+    if (digit < 0) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    if (++held < 4) continue;
+    if (padding > 2) return std::nullopt;
+    for (int k = 2; k >= padding; --k) bytes += static_cast<char>(bits >> 8 * k & 255);
+    bits = 0;
+    held = 0;
+    if (padding > 0) {
+      ++used;
+      break;
+    }
+  }
+  if (held != 0) return std::nullopt;
+  return bytes;
+}
+
+std::optional<std::string> unpack(std::string_view packed, std::size_t size) {
+  constexpr std::size_t best_ratio = 1032;  // of the format
+  if (size / best_ratio > packed.size() + 1) return std::nullopt;
+  std::string bytes(size, '\0');
+  z_stream stream{};
+  constexpr int zlib_or_gzip = 15 + 32;
+  if (inflateInit2(&stream, zlib_or_gzip) != Z_OK) return std::nullopt;
+  // zlib counts in 32 bits: feed it pieces.
+  constexpr std::size_t piece = std::size_t{1} << 30;
+  std::size_t in = 0, out = 0;
+  int status = Z_OK;
+  while (status == Z_OK) {
+    const std::size_t give = std::min(piece, packed.size() - in);
+    const std::size_t room = std::min(piece, size - out);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
+    stream.avail_in = static_cast<uInt>(give);
+    stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + out);
+    stream.avail_out = static_cast<uInt>(room);
+    status = inflate(&stream, Z_NO_FLUSH);
+    const std::size_t taken = give - stream.avail_in, made = room - stream.avail_out;
+    in += taken;
+    out += made;
+    if (taken == 0 && made == 0 && status == Z_OK) break;
+  }
+  inflateEnd(&stream);
+  if (status != Z_STREAM_END || out != size) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,70 @@
+// Finding the module that writes .vdb.
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "base/error.h"
+#include "io/volume/vdb_module.h"
+#include "io/volume/volume_formats.h"
+
+namespace littoral::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* file_name = "littoral_vdb.so";
+
+/// The folder of the program or shared library that this code is part of.
+fs::path own_folder() {
+  std::error_code none;
+  Dl_info info{};
+  static const int here = 0;
+  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+  // Of the program itself, the loader knows no more than how it was called.
+  fs::path object = fs::canonical(info.dli_fname, none);
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  if (object.empty() || object.filename() == program.filename()) object = program;
+  return object.parent_path();
+}
+
+/// Beside the program, one folder up (a build's tests), or where it is installed.
+const VdbModule* find_module() {
+  std::vector<fs::path> places;
+  if (const fs::path folder = own_folder(); !folder.empty())
+    places = {folder, folder.parent_path(),
+              (folder / LITTORAL_MODULES_FROM_PROGRAM).lexically_normal(), folder / "littoral"};
+  places.emplace_back(LITTORAL_MODULES);
+  for (const fs::path& place : places) {
+    std::error_code none;
+    const fs::path file = place / file_name;
+    if (!fs::exists(file, none)) continue;
+    void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) continue;
+    const auto entry = reinterpret_cast<const VdbModule* (*)()>(dlsym(module, vdb_module_symbol));
+    if (entry == nullptr) continue;
+    const VdbModule* found = entry();
+    if (std::string(found->version) == LITTORAL_VERSION) return found;
+  }
+  return nullptr;
+}
+
+const VdbModule* module() {
+  static const VdbModule* const found = find_module();
+  return found;
+}
+
+}  // namespace
+
+bool has_openvdb() { return module() != nullptr; }
+
+void write_vdb(std::ostream& out, const VolumeField& volume, const VolumeWriteOptions& options) {
+  if (module() == nullptr)
+    throw UnsupportedError(std::string("there is no module ") + file_name +
+                           " beside the program; it is built where OpenVDB is");
+  const std::string error = module()->write(out, volume, options.band);
+  if (!error.empty()) throw IoError("OpenVDB: " + error);
+}
+
+}  // namespace littoral::io

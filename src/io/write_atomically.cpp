@@ -1,0 +1,106 @@
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "base/error.h"
+#include "io/write.h"
+
+namespace littoral::io {
+namespace {
+
+// Names of temporary files in fixed storage, where a signal handler can read them at any time.
+struct Slot {
+  enum State : int { empty, claimed, named };
+  std::atomic<int> state{empty};
+  std::array<char, 4096> path{};
+};
+static_assert(std::atomic<int>::is_always_lock_free);
+std::array<Slot, 32> slots;
+
+// A temporary file's entry in the table, and the file itself unless it was kept.
+class Unfinished {
+ public:
+  explicit Unfinished(std::string path) : path_(std::move(path)) {
+    if (path_.size() >= slots[0].path.size()) return;
+    for (Slot& slot : slots) {
+      int expected = Slot::empty;
+      if (!slot.state.compare_exchange_strong(expected, Slot::claimed)) continue;
+      std::memcpy(slot.path.data(), path_.c_str(), path_.size() + 1);
+      slot.state = Slot::named;
+      slot_ = &slot;
+      return;
+    }
+  }
+  ~Unfinished() {
+    if (!kept_) ::unlink(path_.c_str());
+    if (slot_) slot_->state = Slot::empty;
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  void keep() { kept_ = true; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  Slot* slot_ = nullptr;
+  bool kept_ = false;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+  throw IoError("cannot write " + path.string() + ": " + std::generic_category().message(error));
+}
+
+void write_stream(const std::filesystem::path& path, const std::string& file,
+                  const std::function<void(std::ostream&)>& body) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (!out) fail(path, errno ? errno : EIO);
+  errno = 0;
+  body(out);
+  const int error = out ? 0 : errno;
+  errno = 0;
+  out.close();
+  if (!out) fail(path, error ? error : errno ? errno : EIO);
+}
+
+std::string temporary_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  std::string name(1, '.');
+  name.append(target.filename().string()).append(1, '.').append(std::to_string(::getpid()));
+  name.append(1, '-').append(std::to_string(counter++)).append(".tmp");
+  return (target.parent_path() / name).string();
+}
+
+}  // namespace
+
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(std::ostream&)>& body) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) fail(path, EISDIR);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    write_stream(path, path.string(), body);
+    return;
+  }
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
+  const std::filesystem::path& target = error ? path : resolved;
+  Unfinished temporary(temporary_name(target));
+  write_stream(path, temporary.path(), body);
+  std::filesystem::rename(temporary.path(), target, error);
+  if (error) fail(path, error.value());
+  temporary.keep();
+}
+
+void remove_unfinished_files() noexcept {
+  for (Slot& slot : slots) {
+    if (slot.state == Slot::named) ::unlink(slot.path.data());
+  }
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,21 @@
+#pragma once
+// Fast marching on triangles (Kimmel and Sethian, "Computing geodesic paths on manifolds", 1998).
+
+#include "base/report.h"
+#include "base/task.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "sources/triangle_sources.h"
+
+namespace littoral {
+
+/// Distance at the vertices (vertices) [length of the input] from points and curves, first order in
+/// the edge length; +inf on components that no source reaches. Signed where signed curves are
+/// nearest: each vertex takes the sign of the vertices it was reached from, so gaps in a curve are
+/// not filled in.
+///
+/// A triangle that is obtuse at the vertex to be reached is split by unfolding its neighbours until
+/// one of their vertices lies in front of it. Any topology.
+VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sources,
+                   const Task& task, Report& report);
+
+}  // namespace littoral

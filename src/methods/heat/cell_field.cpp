@@ -1,0 +1,79 @@
+#include "methods/heat/cell_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace littoral {
+
+CellField no_field(Eigen::Index cells) {
+  return {VecX::Zero(2 * cells), VecX::Constant(cells, -std::numeric_limits<double>::infinity())};
+}
+
+CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
+  // A cell has carriers in one layer or in two that follow each other: what it has in the first
+  // and, in its units, in the second.
+  constexpr double negligible = 1e-290;
+  CellField out = no_field(map.rows / 2);
+  const auto n_layers = static_cast<int>(field.scale.size());
+  double log_scale = 0;
+  VecX y = n_layers > 0 ? map.apply(n_layers == 1 ? field.x : field.in_layer(0)) : VecX(), next;
+  for (int p = 0; p < n_layers; ++p, std::swap(y, next)) {
+    log_scale += std::log(field.scale[p]);
+    const bool last = p + 1 == n_layers;
+    if (!last) next = map.apply(field.in_layer(p + 1));
+    for (Eigen::Index c = 0; c < out.log_length.size(); ++c) {
+      if (std::isfinite(out.log_length[c])) continue;
+      Eigen::Vector2d v = y.segment<2>(2 * c);
+      if (!(v.cwiseAbs().maxCoeff() > negligible)) continue;
+      if (!last) v += field.scale[p + 1] * next.segment<2>(2 * c);
+      const double m = v.cwiseAbs().maxCoeff();
+      if (!(m > negligible)) continue;
+      v /= m;
+      const double length = v.norm();
+      out.Y.segment<2>(2 * c) = v / length;
+      out.log_length[c] = log_scale + std::log(m * length);
+    }
+  }
+  return out;
+}
+
+void restore_units(LayeredField<double>& field, const VecX& b, const std::vector<int>& piece) {
+  const Eigen::Index block = b.size() / static_cast<Eigen::Index>(piece.size());
+  std::vector<double> largest;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0) continue;
+    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
+    const double m = b.segment(static_cast<Eigen::Index>(i) * block, block).cwiseAbs().maxCoeff();
+    largest[piece[i]] = std::max(largest[piece[i]], m);
+  }
+  const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+  if (!(top > 0)) return;
+  field.scale[0] *= top;
+  if (std::all_of(largest.begin(), largest.end(), [top](double m) { return m == top; })) return;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    if (piece[i] >= 0)  // bounded: fields of different pieces are never compared
+      field.x.segment(static_cast<Eigen::Index>(i) * block, block) *=
+          std::max(1e-20, largest[piece[i]] / top);
+}
+
+void take_longer(CellField& field, const CellField& other, double log_factor) {
+  for (Eigen::Index c = 0; c < field.log_length.size(); ++c) {
+    if (!(other.log_length[c] + log_factor > field.log_length[c])) continue;
+    field.log_length[c] = other.log_length[c] + log_factor;
+    field.Y.segment<2>(2 * c) = other.Y.segment<2>(2 * c);
+  }
+}
+
+VecX normalize(VecX Y) {
+  for (Eigen::Index c = 0; c < Y.size() / 2; ++c) {
+    const double m = Y.segment<2>(2 * c).cwiseAbs().maxCoeff();
+    if (!(m > 0)) continue;
+    Y.segment<2>(2 * c) /= m;
+    Y.segment<2>(2 * c).normalize();
+  }
+  return Y;
+}
+
+}  // namespace littoral

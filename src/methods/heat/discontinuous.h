@@ -1,0 +1,29 @@
+#pragma once
+// Signed distance that may jump, to curves that bound nothing (Feng and Crane 2024, section 7.2).
+
+#include "base/report.h"
+#include "base/task.h"
+#include "operators/jump_calculus.h"
+
+namespace littoral {
+
+/// A function with values at corners, and where it is torn.
+struct DiscontinuousField {
+  MatX3 phi{0, 3};       // faces x 3, units of the triangulation
+  MatX3i piece{0, 3};    // faces x 3: corners at one vertex with one number share their value
+  VecX jump;             // edges, left minus right, before smoothing
+  double objective = 0;  // of eq. 16
+  double gap = 0;        // relative, certified
+};
+
+/// Eq. 15: how much the unit vectors of the two faces at an edge differ along it. edges.
+VecX edge_curl(const JumpCalculus& J, const VecX& Y);
+
+/// Step III by eq. 16: Y (2 faces, unit vectors in the faces' frames) integrated exactly in every
+/// face, with the least jumps across edges, which cost |edge| exp(-|curl|). Jumps below `tear`
+/// [units] are then closed by heat flow for time `t` (figure 12) on the surface torn at the others;
+/// t = 0: left as they are.
+DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y, double tear,
+                                           double t, const Task& task, Report& report);
+
+}  // namespace littoral

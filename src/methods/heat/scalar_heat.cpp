@@ -1,0 +1,78 @@
+#include "methods/heat/scalar_heat.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace littoral {
+
+namespace {
+
+/// M + t L, lower triangle; rows and columns of `dropped` nodes and of nodes without mass become
+/// those of the identity.
+SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped) {
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(C.L.nonZeros()) + static_cast<std::size_t>(C.L.rows()));
+  auto drop = [&](Eigen::Index i) { return dropped[i] || !(C.M[i] > 0); };
+  for (int j = 0; j < C.L.outerSize(); ++j) {
+    entries.emplace_back(j, j, drop(j) ? 1.0 : C.M[j]);
+    for (SpMat::InnerIterator it(C.L, j); it; ++it)
+      if (!drop(j) && !drop(it.row())) entries.emplace_back(it.row(), j, t * it.value());
+  }
+  SpMat A(C.L.rows(), C.L.cols());
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+}  // namespace
+
+ScalarHeat::ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order,
+                       const Task& task) {
+  auto system = [&](const std::vector<char>& dropped) {
+    return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
+                                                      decay_lengths(C.M, t), expect, task, order);
+  };
+  neumann_ = system(std::vector<char>(C.boundary.size(), 0));
+  if (std::find(C.boundary.begin(), C.boundary.end(), 1) != C.boundary.end())
+    dirichlet_ = system(C.boundary);
+}
+
+CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
+                           Report& report) const {
+  VecX b = u0;
+  for (Eigen::Index i = 0; i < b.size(); ++i)
+    if (!(C.M[i] > 0)) b[i] = 0;
+  LayeredField<double> u = neumann_->solve(b, C.component, task, report);
+  restore_units(u, b, C.component);
+  if (dirichlet_) {
+    // Mean of both where they are on the same scale: within the first layer. Beyond, hundreds of
+    // spacings away, the Neumann solution alone; its bias is a boundary layer one spacing wide.
+    for (Eigen::Index i = 0; i < b.size(); ++i)
+      if (C.boundary[i]) b[i] = 0;
+    Report inner;
+    LayeredField<double> d = dirichlet_->solve(b, C.component, task, inner);
+    restore_units(d, b, C.component);
+    for (Eigen::Index i = 0; i < b.size(); ++i)
+      if (u.layer[i] == 0) u.x[i] = 0.5 * (u.x[i] + (d.layer[i] == 0 ? d.x[i] : 0));
+  }
+  u.x = -u.x;
+  return cell_field(C.G, u);
+}
+
+void ScalarHeat::add_nearest(const Calculus& C, const SourceTerms& terms, double point_weight,
+                             CellField& field, Task task, Report& report) const {
+  Report least;  // what every batch has to say, one batch has to say
+  double passes = 0;
+  const Eigen::Index n_batches = terms.u0.cols();
+  for (Eigen::Index k = 0; k < n_batches; ++k) {
+    Report inner;
+    const CellField flow =
+        this->flow(C, VecX(terms.u0.col(k)), task.stage(1.0 / double(n_batches), "diffuse"), inner);
+    take_longer(field, flow, terms.batch_of_points[k] ? std::log(point_weight) : 0);
+    for (const auto& [loop, count] : inner.iterations) passes += count;
+    if (k == 0 || inner.warnings.size() < least.warnings.size()) least = inner;
+  }
+  report.iterations.emplace_back("heat passes", passes);
+  for (const std::string& warning : least.warnings) report.warn(warning);
+}
+
+}  // namespace littoral

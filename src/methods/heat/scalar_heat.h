@@ -1,0 +1,43 @@
+#pragma once
+// Directions away from points and unsigned curves, by scalar diffusion (Crane et al. 2013).
+
+#include <memory>
+#include <vector>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "methods/heat/cell_field.h"
+#include "operators/calculus.h"
+#include "sources/source_terms.h"
+
+namespace littoral {
+
+/// (M + t L) u = u0 with zero Neumann and zero Dirichlet boundary values; immutable. The mean of
+/// the two is used: their reflections cancel at a straight boundary, so the gradient is not bent
+/// there.
+class ScalarHeat {
+ public:
+  ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order, const Task& task);
+
+  /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
+  /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources
+  /// that face each other into their average, over a width of sqrt(t) on both sides of the line
+  /// between. Points are weighted as point_weight (> 0) times the curves' measure.
+  void add_nearest(const Calculus& C, const SourceTerms& terms, double point_weight,
+                   CellField& field, Task task, Report& report) const;
+
+  double nonzeros() const {
+    return neumann_->nonzeros() + (dirichlet_ ? dirichlet_->nonzeros() : 0);
+  }
+
+ private:
+  CellField flow(const Calculus& C, const VecX& u0, const Task& task, Report& report) const;
+
+  std::shared_ptr<const HeatSystem<double>> neumann_, dirichlet_;  // no dirichlet_ without boundary
+};
+
+/// Makes a point's gradient as long as that of a straight curve at distance sqrt(t) from both:
+/// pi e^-1 / K1(1), for unit masses of both and times sqrt(t).
+constexpr double point_to_line = 1.92;
+
+}  // namespace littoral

@@ -1,0 +1,247 @@
+#include "methods/heat/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/direct/definite.h"
+#include "solve/optimization/admm.h"
+#include "solve/optimization/pdhg.h"
+
+namespace littoral {
+
+namespace {
+
+/// Constraints on one number a cell after the cells of the gradient, in its first coordinate: at
+/// first nodes that keep their sign and stay within a bound, then rows that vanish.
+class SignedBall : public CellEnergy {
+ public:
+  SignedBall(int dim, Eigen::Index cells, std::vector<int> sign, VecX bound)
+      : dim_(dim), cells_(cells), sign_(std::move(sign)), bound_(std::move(bound)) {}
+
+  void prox(Eigen::Index cell, double, const double* w, double* z) const override {
+    if (cell < cells_) {
+      double length2 = 0;
+      for (int d = 0; d < dim_; ++d) length2 += w[d] * w[d];
+      const double shrink = 1 / std::sqrt(std::max(1.0, length2));
+      for (int d = 0; d < dim_; ++d) z[d] = shrink * w[d];
+      return;
+    }
+    for (int d = 0; d < dim_; ++d) z[d] = 0;
+    const Eigen::Index i = cell - cells_;
+    if (i >= bound_.size()) return;
+    const int sign = sign_[static_cast<std::size_t>(i)];
+    z[0] = sign * std::clamp(sign * w[0], 0.0, bound_[i]);
+  }
+  double value(Eigen::Index, const double*) const override { return 0; }
+  double conjugate(Eigen::Index cell, const double* y) const override {
+    return cell < cells_ ? Eigen::Map<const VecX>(y, dim_).norm() : 0;
+  }
+  double gauge(Eigen::Index cell, const double* z) const override {
+    return cell < cells_ ? Eigen::Map<const VecX>(z, dim_).norm() : 0;
+  }
+
+ private:
+  int dim_;
+  Eigen::Index cells_;
+  std::vector<int> sign_;
+  VecX bound_;
+};
+
+int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+/// Signs of phi0 on the components that count, 0 at the source.
+std::vector<int> signs_of(const Calculus& C, const std::vector<char>& reached, const VecX& phi0) {
+  double largest = 0;
+  for (const double x : phi0)
+    if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+  std::vector<int> out(static_cast<std::size_t>(phi0.size()), 0);
+  for (Eigen::Index i = 0; i < phi0.size(); ++i) {
+    const int c = C.component[i];
+    if (c >= 0 && reached[c] && std::abs(phi0[i]) > 1e-9 * largest) out[i] = sign(phi0[i]);
+  }
+  return out;
+}
+
+/// How far each node of a cell in which phi0 changes sign is from its zero set: |phi0| over the
+/// mean slope of those cells. Negative at all other nodes.
+VecX distance_to_zero_set(const Calculus& C, const SpRows& G, int dim, const std::vector<int>& s,
+                          const VecX& phi0) {
+  const Eigen::Index n = phi0.size();
+  VecX slope = VecX::Zero(n), weight = VecX::Zero(n);
+  std::vector<int> nodes;
+  for (Eigen::Index c = 0; c < C.A.size(); ++c) {
+    double slope2 = 0;
+    bool above = false, below = false;
+    nodes.clear();
+    for (Eigen::Index r = dim * c; r < dim * (c + 1); ++r) {
+      double g = 0;
+      for (SpRows::InnerIterator it(G, r); it; ++it) {
+        if (it.value() == 0) continue;
+        const auto i = static_cast<int>(it.col());
+        g += it.value() * phi0[i];
+        above = above || s[i] > 0;
+        below = below || s[i] < 0;
+        if (std::find(nodes.begin(), nodes.end(), i) == nodes.end()) nodes.push_back(i);
+      }
+      slope2 += g * g;
+    }
+    if (!above || !below || !(slope2 > 0)) continue;
+    for (const int i : nodes) {
+      slope[i] += C.A[c] * std::sqrt(slope2);
+      weight[i] += C.A[c];
+    }
+  }
+  VecX distance(n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    distance[i] = weight[i] > 0 ? std::abs(phi0[i]) * weight[i] / slope[i] : -1;
+  return distance;
+}
+
+/// G, and below it each row of R as the first of `dim` rows.
+SpRows stacked(const SpRows& G, const SpMat& R, int dim) {
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(G.nonZeros() + R.nonZeros()));
+  for (int r = 0; r < G.outerSize(); ++r)
+    for (SpRows::InnerIterator it(G, r); it; ++it)
+      entries.emplace_back(r, static_cast<int>(it.col()), it.value());
+  for (int j = 0; j < R.outerSize(); ++j)
+    for (SpMat::InnerIterator it(R, j); it; ++it)
+      entries.emplace_back(static_cast<int>(G.rows()) + dim * static_cast<int>(it.row()), j,
+                           it.value());
+  SpRows both(G.rows() + dim * R.rows(), G.cols());
+  both.setFromTriplets(entries.begin(), entries.end());
+  return both;
+}
+
+/// The rows after the gradient, over h: nodes next to the zero set of phi0, which keep their sign
+/// and stay within `bound`; then rows of the source.
+struct BandRows {
+  SpMat R;
+  std::vector<int> sign;  // of the first rows
+  VecX bound;             // of the first rows
+  VecX weight;
+};
+
+/// A row of the source that touches those nodes is left out: phi0 has its zero set there, and a row
+/// all of whose nodes have one sign would hold them at 0, a dent.
+BandRows held_rows(const Calculus& C, const SpMat& source, int dim, const std::vector<int>& s,
+                   const VecX& near) {
+  BandRows held;
+  Triplets entries;
+  std::vector<double> weight, bound;
+  for (Eigen::Index i = 0; i < near.size(); ++i) {
+    const int c = C.component[i];
+    if (near[i] < 0 || c < 0) continue;
+    entries.emplace_back(static_cast<int>(weight.size()), i, 1 / C.h);
+    held.sign.push_back(s[i]);
+    bound.push_back(near[i] / C.h);
+    weight.push_back(C.M[i]);
+  }
+  const SpRows rows = source;
+  for (int r = 0; r < rows.rows(); ++r) {
+    bool alone = true;
+    for (SpRows::InnerIterator it(rows, r); it; ++it)
+      if (it.value() != 0 && near[it.col()] >= 0) alone = false;
+    if (!alone) continue;
+    for (SpRows::InnerIterator it(rows, r); it; ++it)
+      entries.emplace_back(static_cast<int>(weight.size()), static_cast<int>(it.col()),
+                           it.value() / C.h);
+    weight.push_back(10 * std::pow(C.h, dim));
+  }
+  held.bound = Eigen::Map<const VecX>(bound.data(), static_cast<Eigen::Index>(bound.size()));
+  held.weight = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
+  held.R.resize(held.weight.size(), near.size());
+  held.R.setFromTriplets(entries.begin(), entries.end());
+  return held;
+}
+
+constexpr Eigen::Index most_for_a_factor = 60'000;  // nodes in space; a factor grows like n^(4/3)
+
+}  // namespace
+
+VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
+             const SharpenOptions& options, const Task& task, Report& report) {
+  const Calculus& C = ops.scalar;
+  const Stopwatch watch(report, "sharpen");
+  const Eigen::Index n = C.M.size(), cells = C.A.size();
+  const int dim = static_cast<int>(C.G.rows / cells);
+  const std::vector<int> s = signs_of(C, terms.reached, phi0);
+  std::vector<char> gone(static_cast<std::size_t>(n), 0);
+  VecX start(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int c = C.component[i];
+    gone[i] = c < 0 || !terms.reached[c];
+    start[i] = gone[i] ? 0 : phi0[i] / ops.unit;
+  }
+  const SpRows G = C.G.matrix();
+  const BandRows held = held_rows(C, terms.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
+  const VecX& w = held.weight;
+  const Eigen::Index extra = w.size();
+
+  SplitProblem problem;
+  problem.dim = dim;
+  problem.A.resize(cells + extra);
+  problem.A << C.A, w;
+  problem.b = VecX::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) problem.b[i] = s[i] * C.M[i];
+  const SignedBall energy(dim, cells, held.sign, held.bound);
+  problem.energy = &energy;
+  problem.G = stacked(G, held.R, dim);
+
+  AdmmState state;
+  multiply(problem.G, start, state.z, task);
+  for (Eigen::Index c = 0; c < cells + extra; ++c) {
+    const VecX given = state.z.segment(dim * c, dim);
+    energy.prox(c, 1, given.data(), state.z.data() + dim * c);
+  }
+  state.w = VecX::Zero(state.z.size());
+  state.rho = 2 * problem.length();
+  AdmmOptions admm_options;
+  admm_options.relative = options.tolerance;
+  admm_options.absolute = std::min(5e-6, 5e-4 * options.tolerance);
+  admm_options.max_iterations = options.max_iterations;
+  AdmmResult result;
+  if (options.solver == SharpenSolver::pdhg) {
+    result = pdhg(problem, C.M, start, admm_options, task);
+  } else {
+    const SpMat matrix = eliminated(with_rows(C.L, held.R, w), gone);
+    const bool large = dim == 3 && n > most_for_a_factor;
+    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(held.R))
+                                   : DefiniteSystem(matrix, task);
+    VecX last = start;
+    problem.solve = [&](const VecX& b, double rho) {
+      VecX rhs = b / rho;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (gone[i]) rhs[i] = 0;
+      return large ? last = K.improved(last, rhs, task) : K.solve_once(rhs);
+    };
+    result = admm(problem, admm_options, state, task);
+  }
+  report.iterations.emplace_back("sharpening", result.iterations);
+  report.residuals.emplace_back("sharpening, primal", result.primal);
+  report.residuals.emplace_back("sharpening, dual", result.dual);
+  if (!result.converged) {
+    report.status = "not converged";
+    report.warn("sharpening stopped after " + std::to_string(result.iterations) +
+                " iterations above the tolerance");
+  }
+  VecX out = phi0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!gone[i]) out[i] = s[i] * std::max(0.0, s[i] * result.u[i]) * ops.unit;
+  return out;
+}
+
+VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
+                      SharpenSolver solver, const Task& task, Report& report) {
+  const Calculus& C = ops.scalar;
+  SourceTerms terms;
+  terms.A = rows;
+  terms.reached.assign(static_cast<std::size_t>(C.n_components), 0);
+  for (const int i : unknowns_of(rows))
+    if (C.component[i] >= 0) terms.reached[C.component[i]] = 1;
+  SharpenOptions options;
+  options.solver = solver;
+  return sharpen(ops, terms, phi0, options, task, report);
+}
+
+}  // namespace littoral

@@ -1,0 +1,228 @@
+#include "methods/heat/signed_heat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "methods/heat/shift.h"
+#include "methods/heat/time_scale.h"
+
+namespace littoral {
+
+const OptionTable<SignedHeatOptions>& signed_heat_options() {
+  using O = SignedHeatOptions;
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .number(
+              &O::time_scale, "time-scale", "multiple of h^2, 0 = automatic", 0, 1e6,
+              "Diffusion time t as a multiple of h^2, h being half the mean edge length; larger "
+              "values smooth more and close wider gaps.")
+          .choice(&O::constraint, "constraint", {"none", "zero-set", "level-sets"},
+                  "Values at the source: shifted to mean zero, all zero, or constant along each "
+                  "connected part.")
+          .number(&O::soft, "soft", "weight per mean edge length of source, 0 = off", 0, 1e12,
+                  "Replaces the constraint by a penalty on the squared value along the source.")
+          .toggle(&O::preserve_normals, "preserve-normals",
+                  "Holds the diffused vectors at the source's own normals.")
+          .choice(
+              &O::points, "points", {"gradient", "radial"},
+              "Diffused vectors of points: the gradient of scalar heat, each cell's from the "
+              "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
+              "Beside curves always radial.")
+          .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
+                  "Flips and refines the triangles intrinsically first; for bad triangulations.")
+          .toggle(&O::discontinuous, "discontinuous",
+                  "Lets the distance jump where the directions cannot be integrated: for curves "
+                  "without inside and outside.")
+          .number(&O::tear, "tear", "mean edge lengths", 0, 1e6,
+                  "Discontinuous: jumps larger than that stay, smaller ones are smoothed out.")
+          .number(&O::smoothing, "smoothing", "multiple of h^2, 0 = none", 0, 1e6,
+                  "Discontinuous: time of the heat flow that smooths out small jumps, h being the "
+                  "mean edge length; 0 leaves all jumps.")
+          .choice(&O::sharpen, "sharpen", {"off", "on", "quadratic"},
+                  "Afterwards makes the distance as large as slope 1 allows, with the same signs: "
+                  "on linear elements, or on quadratic ones from the curves and the zero set in "
+                  "their gaps (triangle and polygon meshes).")
+          .choice(&O::sharpen_solver, "sharpen-solver", {"admm", "pdhg"},
+                  "Sharpening by alternating directions, or by the primal-dual hybrid gradient "
+                  "method, which factors nothing.")
+          .toggle(&O::bounding_only, "bounding-only",
+                  "Leaves out the parts of signed curves that bound nothing (surface winding "
+                  "numbers).");
+  return table;
+}
+
+double automatic_time_scale(const SourceTerms& terms) { return terms.only_points ? 16 : 1; }
+
+namespace {
+
+/// Do points enter as gradients of scalar heat? Beside curves they cannot: the two discrete kernels
+/// fall at different rates.
+bool by_gradient(const SourceTerms& terms, const SignedHeatOptions& options) {
+  return static_cast<PointVectors>(options.points) == PointVectors::gradient && terms.only_points &&
+         !options.preserve_normals;
+}
+
+}  // namespace
+
+Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& options) {
+  return {!by_gradient(terms, options), by_gradient(terms, options)};
+}
+
+SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
+                       Diffusions diffusions, Expect expect)
+    : ops_(std::move(ops)),
+      expect_(expect),
+      order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
+      poisson_(std::make_shared<const Poisson>(
+          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
+          task.stage(0.2, "factor Poisson"), order_, solver_for(expect))) {
+  factor_heat(time_scale, diffusions, task);
+}
+
+void SignedHeat::factor_heat(double time_scale, Diffusions diffusions, Task& task) {
+  root_t_ = ops_->vector.h * std::sqrt(time_scale);
+  const double t = root_t_ * root_t_;
+  if (diffusions.scalars)
+    scalar_heat_.emplace(ops_->scalar, t, expect_, order_, task.stage(0.2, "factor heat"));
+  if (diffusions.vectors)
+    heat_.emplace(ops_->vector, t, expect_, order_, task.stage(0.4, "factor vector heat"));
+}
+
+SignedHeat SignedHeat::with_time_scale(double time_scale, Task task) const {
+  SignedHeat out = *this;
+  out.factor_heat(time_scale, {heat_.has_value(), scalar_heat_.has_value()}, task);
+  return out;
+}
+
+VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
+                           const SignedHeatOptions& options, const Task& task,
+                           Report& report) const {
+  // Step III: L phi = G^T A Y (eq. 13), subject to the constraints of section 7.1.
+  // With points, phi = d0 + psi where d0 is the exact distance next to them: psi has the
+  // constraints.
+  const Calculus& C = ops_->scalar;
+  const VecX b = C.divergence(Y);
+  if (options.soft > 0)
+    return poisson_->solve_soft(b, terms.A, options.soft * terms.weight, task, report);
+  switch (static_cast<Constraint>(options.constraint)) {
+    case Constraint::none: {
+      VecX phi = poisson_->solve(b, report, task);
+      shift_to_mean_zero(C, terms, phi);
+      return phi;
+    }
+    case Constraint::zero_set:
+      return poisson_->solve_levels(b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}},
+                                    task, report);
+    case Constraint::level_sets:
+      break;
+  }
+  LevelRows rows{terms.A, terms.group, std::vector<int>(terms.n_groups, 0)};
+  std::vector<char> anchored(C.n_components, 0);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> A = terms.A;
+  for (int r = 0; r < A.rows(); ++r)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(A, r); it; ++it) {
+      const int c = C.component[it.col()];
+      if (c < 0 || anchored[c]) continue;
+      anchored[c] = 1;
+      rows.anchor[terms.group[r]] = 1;
+    }
+  VecX phi = poisson_->solve_levels(b, rows, task, report);
+  shift_to_mean_zero(C, terms, phi);
+  return phi;
+}
+
+VecX SignedHeat::directions(const SourceTerms& terms, const SignedHeatOptions& options,
+                            const Task& task, Report& report) const {
+  // Steps I and II: X = diffused normals, Y = X / |X|.
+  const Calculus& C = ops_->scalar;
+  const VectorDiffusion& V = ops_->vector;
+  const VecX X0 = terms.X0 + terms.X0_points;
+  if (options.preserve_normals) return heat_->diffuse_held(V, normalize(X0), task, report).Y;
+  if (!by_gradient(terms, options)) return heat_->diffuse(V, X0, task, report).Y;
+  CellField X = no_field(C.A.size());
+  scalar_heat_->add_nearest(C, terms, 1, X, task, report);
+  set_near(C, terms, X.Y);
+  return X.Y;
+}
+
+VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
+                       Report& report) const {
+  const VectorDiffusion& V = ops_->vector;
+  const Diffusions needed = needed_diffusions(terms, options);
+  if ((needed.vectors && !heat_) || (needed.scalars && !scalar_heat_))
+    throw UnsupportedError("signed-heat was not prepared for sources of this kind");
+  const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
+
+  VecX Y;
+  {
+    const Stopwatch watch(report, "diffuse");
+    Y = directions(terms, options, heat_stage, report);
+  }
+  if (!(Y.cwiseAbs().maxCoeff() > 0))
+    report.warn("the normals of the sources cancel everywhere; the distance is zero");
+  std::vector<char> reached(V.n_pieces, needed.vectors ? 0 : 1);  // scalar heat reaches all
+  for (int i = 0; i < V.n; ++i)
+    if (V.piece[i] >= 0 &&
+        !(terms.X0.segment<2>(2 * i).isZero(0) && terms.X0_points.segment<2>(2 * i).isZero(0)))
+      reached[V.piece[i]] = 1;
+
+  const Stopwatch watch(report, "integrate");
+  const bool near = needed.scalars && !terms.d0.isZero(0);
+  const VecX g0 = near ? ops_->scalar.G.apply(terms.d0) : VecX();
+  const auto integrated = [&] {
+    if (!near) return integrate(terms, Y, options, poisson_stage, report);
+    return VecX(terms.d0 + integrate(terms, Y - g0, options, poisson_stage, report));
+  };
+  VecX phi = integrated();
+  while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();
+  report.residuals.emplace_back(against_directions, share_against(ops_->scalar, phi, Y));
+  report.sizes.emplace_back("factor_mb", factor_megabytes());
+  return finish_field(*ops_, terms, phi, report);
+}
+
+double SignedHeat::factor_megabytes() const {
+  const double scalar = poisson_->nonzeros() + (scalar_heat_ ? scalar_heat_->nonzeros() : 0);
+  const double vector = heat_ ? heat_->nonzeros() : 0;
+  return (8 * scalar + (ops_->vector.complex_linear() ? 16 : 8) * vector) / (1 << 20);
+}
+
+bool SignedHeat::add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y,
+                                    const Task& task, Report& report) const {
+  // A piece that hangs on others by single nodes gets no heat through them: it is a problem of its
+  // own, with point sources at those nodes, each as strong as its distance makes it and with its
+  // sign.
+  const VectorDiffusion& V = ops_->vector;
+  std::vector<char> node_reached(static_cast<std::size_t>(phi.size()), 0);
+  for (const Pinch& pinch : V.pinches)
+    if (reached[pinch.piece]) node_reached[pinch.node] = 1;
+  std::vector<double> nearest(V.n_pieces, std::numeric_limits<double>::infinity());
+  for (const Pinch& pinch : V.pinches)
+    if (!reached[pinch.piece] && node_reached[pinch.node])
+      nearest[pinch.piece] = std::min(nearest[pinch.piece], std::abs(phi[pinch.node]));
+  VecX X0 = VecX::Zero(2 * V.n);
+  for (const Pinch& pinch : V.pinches) {
+    if (reached[pinch.piece] || !node_reached[pinch.node]) continue;
+    const double d = phi[pinch.node];
+    const double strength = std::exp(-(std::abs(d) - nearest[pinch.piece]) / root_t_);
+    for (const auto& [carrier, z] : pinch.radial) {
+      X0[2 * carrier] += std::copysign(strength, d) * z.real();
+      X0[2 * carrier + 1] += std::copysign(strength, d) * z.imag();
+    }
+  }
+  bool any = false;
+  for (int p = 0; p < V.n_pieces; ++p) {
+    if (!std::isfinite(nearest[p])) continue;
+    reached[p] = 1;
+    any = true;
+  }
+  if (!any) return false;
+  const CellField beyond = heat_->diffuse(V, X0, task, report);
+  for (Eigen::Index c = 0; c < beyond.log_length.size(); ++c)
+    if (std::isfinite(beyond.log_length[c])) Y.segment<2>(2 * c) = beyond.Y.segment<2>(2 * c);
+  return true;
+}
+
+}  // namespace littoral

@@ -1,0 +1,116 @@
+#include "methods/heat/signed_heat_tets.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "base/parallel.h"
+#include "methods/heat/shift.h"
+#include "solve/direct/cholesky.h"
+#include "solve/poisson/held_poisson.h"
+#include "solve/poisson/poisson.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double point_time = 4;  // around points, in units of the time elsewhere
+
+/// Step II, one vector a tet; zeros in tets of some volume are counted.
+MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
+  for (Eigen::Index t = 0; t < X.rows(); ++t) {
+    auto x = X.row(t);
+    const double size = x.stableNorm();
+    if (size > 0 && std::isfinite(size)) {
+      x /= size;
+    } else {
+      x.setZero();
+      if (volumes[t] > 0) ++zeros;
+    }
+  }
+  return X;
+}
+
+/// Step III: L phi = G^T A Y, held at the sources.
+VecX integrate(const TetOperators& ops, const TetSourceTerms& terms, const MatX3& Y, double h,
+               double tolerance, const SpaceHeatOptions& options, Task task, Report& report) {
+  const Task factor_stage = task.stage(0.7, "factoring");
+  const Task hold_stage = task.stage(0.3, "integrating");
+  const Stopwatch watch(report, "integrate");
+  const Poisson poisson(ops.L, ops.component, ops.n_components, factor_stage);
+  VecX phi = poisson.solve(ops.divergence(Y), report);
+  std::vector<char> reached(static_cast<std::size_t>(ops.n_components), 0);
+  for (int v = 0; v < terms.A.outerSize(); ++v)
+    if (SpMat::InnerIterator(terms.A, v) && ops.component[static_cast<std::size_t>(v)] >= 0)
+      reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(v)])] = 1;
+
+  const auto constraint = static_cast<SpaceConstraint>(options.constraint);
+  if (terms.A.rows() > 0 && constraint != SpaceConstraint::none) {
+    VecX softness = VecX::Zero(terms.A.rows());
+    if (constraint == SpaceConstraint::soft) softness = h / (options.soft * terms.weight.array());
+    phi = solve_held(
+        [&](VecX& b) {
+          Report ignored;
+          b = poisson.solve(b, ignored);
+        },
+        std::move(phi), {terms.A, softness, tolerance}, hold_stage, report);
+  } else if (terms.A.rows() > 0) {
+    phi.array() -= terms.weight.dot(terms.A * phi) / terms.weight.sum();
+  }
+  set_unreached(phi, ops.component, reached, report);
+  return phi;
+}
+
+}  // namespace
+
+VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
+                      double tolerance, const SpaceHeatOptions& options, Task task,
+                      Report& report) {
+  const Task heat_stage = task.stage(0.7, "diffusing normals");
+  const Task integrate_stage = task.stage(0.3, "integrating");
+
+  // Step I: (M + t L) X = X0 on faces; space is flat, so componentwise.
+  MatX3 Y;
+  {
+    const Stopwatch watch(report, "diffuse");
+    const FlushSubnormals flush;
+    const double t = options.time_scale * h * h;
+    const SpMat A = ops.face_mass + t * ops.face_laplacian;
+    const Cholesky<double> factor(A, heat_stage);
+    const MatX3 X = factor.solve(terms.X0);
+    // Step II: Y = X / |X| on tets (B.2).
+    int zeros = 0;
+    Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
+    if (zeros > 0)
+      report.warn(std::to_string(zeros) + " tets have no direction: too far from the input");
+  }
+  return integrate(ops, terms, Y, h, tolerance, options, integrate_stage, report);
+}
+
+VecX unsigned_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
+                        double tolerance, const SpaceHeatOptions& options, Task task,
+                        Report& report) {
+  const Task heat_stage = task.stage(0.5, "diffusing");
+  const Task integrate_stage = task.stage(0.5, "integrating");
+  MatX3 Y;
+  {
+    const Stopwatch watch(report, "diffuse");
+    const FlushSubnormals flush;
+    // Step I: (M + t L) u = sum of the sources.
+    const double t = point_time * options.time_scale * h * h;
+    VecX mass = ops.vertex_mass();
+    for (Eigen::Index v = 0; v < mass.size(); ++v)  // those of no tet: an equation of their own
+      if (ops.component[static_cast<std::size_t>(v)] < 0) mass[v] = 1;
+    const SpMat A = t * ops.L + SpMat(mass.asDiagonal());
+    const Cholesky<double> factor(A, heat_stage);
+    const VecX u = factor.solve(VecX(terms.A.transpose() * VecX::Ones(terms.A.rows())));
+    // Step II: Y = -grad u / |grad u|.
+    int zeros = 0;
+    Y = normalize_rows(-ops.gradient(u), ops.volumes, zeros);
+    if (zeros > 0)
+      report.warn(std::to_string(zeros) + " tets have no direction: too far from the sources");
+  }
+  return integrate(ops, terms, Y, h, tolerance, options, integrate_stage, report);
+}
+
+}  // namespace littoral

@@ -1,0 +1,64 @@
+#include "methods/heat/time_scale.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "methods/heat/signed_heat.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double remarkable_share = 0.02;  // of cells, for sources that may have gaps
+
+std::string in_short(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", x);
+  return text;
+}
+
+}  // namespace
+
+double automatic_time_scale(const SourceTerms& terms, const Operators& ops) {
+  const double scale = automatic_time_scale(terms);
+  if (terms.only_points || ops.vector.at_nodes) return scale;
+  constexpr double enough_cells = 50'000, largest = 4;
+  return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
+}
+
+double share_against(const Calculus& C, const VecX& phi, const VecX& Y) {
+  const VecX g = C.G.apply(phi);
+  double against = 0, all = 0;
+  for (Eigen::Index c = 0; c < C.A.size(); ++c) {
+    const auto y = Y.segment<2>(2 * c);
+    if (y.isZero(0)) continue;  // no source reaches it
+    all += C.A[c];
+    if (!(y.dot(g.segment<2>(2 * c)) > 0)) against += C.A[c];
+  }
+  return all > 0 ? against / all : 0;
+}
+
+double share_against(const Report& report) {
+  double share = 0;
+  for (const auto& [name, value] : report.residuals)
+    if (name == against_directions) share = value;
+  return share;
+}
+
+std::string raised_warning(double from, double to, double share_before, double share_after) {
+  return "time scale raised from " + in_short(from) + " to " + in_short(to) +
+         ": with the smaller one directions mean nothing on parts of this mesh (the distance fell "
+         "along them on " +
+         in_short(100 * share_before) + " % of the surface, now on " + in_short(100 * share_after) +
+         " %)";
+}
+
+void warn_against(Report& report) {
+  const double share = share_against(report);
+  if (share > remarkable_share)
+    report.warn("the distance falls along the diffused directions on " + in_short(100 * share) +
+                " % of the surface: sources contradict each other, or the time scale is too small "
+                "for this mesh; the automatic one finds out");
+}
+
+}  // namespace littoral

@@ -1,0 +1,56 @@
+#include "methods/heat/unsigned_heat.h"
+
+#include <cmath>
+
+#include "methods/heat/shift.h"
+#include "methods/heat/time_scale.h"
+
+namespace littoral {
+
+const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
+  using O = UnsignedHeatOptions;
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .number(&O::time_scale, "time-scale", "multiple of h^2, 0 = automatic", 0, 1e6,
+                  "Diffusion time t as a multiple of h^2, h being the mean edge length.")
+          .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
+                  "Flips and refines the triangles intrinsically first; for bad triangulations.");
+  return table;
+}
+
+UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
+                           Task task, Expect expect)
+    : ops_(std::move(ops)),
+      expect_(expect),
+      root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
+      order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
+      heat_(ops_->scalar, root_t_ * root_t_, expect, order_, task.stage(0.4, "factor heat")),
+      poisson_(std::make_shared<const Poisson>(
+          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
+          task.stage(0.3, "factor Poisson"), order_, solver_for(expect))) {}
+
+UnsignedHeat UnsignedHeat::with_time_scale(double time_scale, const Task& task) const {
+  UnsignedHeat out = *this;
+  out.root_t_ = ops_->scalar.h * std::sqrt(time_scale);
+  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, expect_, order_, task);
+  return out;
+}
+
+VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) const {
+  const Calculus& C = ops_->scalar;
+  const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
+
+  // Y = -grad u / |grad u|.
+  CellField X = no_field(C.A.size());
+  heat_.add_nearest(C, terms, point_to_line * root_t_ / C.h, X, heat_stage, report);
+  set_near(C, terms, X.Y);
+
+  // L phi = G^T A Y, phi = d0 + psi with psi = 0 at the sources.
+  const VecX b = C.divergence(X.Y - C.G.apply(terms.d0));
+  const VecX psi = poisson_->solve_levels(
+      b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}}, poisson_stage, report);
+  report.residuals.emplace_back(against_directions, share_against(C, terms.d0 + psi, X.Y));
+  return finish_field(*ops_, terms, (terms.d0 + psi).cwiseMax(0.0), report);
+}
+
+}  // namespace littoral

@@ -1,0 +1,79 @@
+#include "methods/heat/vector_heat.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace littoral {
+
+namespace {
+
+/// M + t L, lower triangle; carriers without mass get a unit diagonal.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, const VecX& M,
+                                        double t) {
+  const Eigen::Index block = L.rows() / M.size();
+  Eigen::SparseMatrix<Scalar> A = L;  // no temporary matrices: this is the largest one there is
+  A.makeCompressed();
+  A.coeffs() *= t;
+  std::vector<int> missing;
+  for (Eigen::Index i = 0; i < A.cols(); ++i) {
+    const int first = A.outerIndexPtr()[i];  // the diagonal, in a lower triangle, if there is one
+    if (first < A.outerIndexPtr()[i + 1] && A.innerIndexPtr()[first] == i)
+      A.valuePtr()[first] += M[i / block] > 0 ? M[i / block] : 1.0;
+    else
+      missing.push_back(static_cast<int>(i));
+  }
+  for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
+  A.makeCompressed();
+  return A;
+}
+
+VecXc to_complex(const VecX& X) {
+  VecXc z(X.size() / 2);
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = {X[2 * i], X[2 * i + 1]};
+  return z;
+}
+
+LayeredField<double> as_pairs(const LayeredField<Complex>& field) {
+  LayeredField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
+  for (Eigen::Index i = 0; i < field.x.size(); ++i) {
+    pairs.x[2 * i] = field.x[i].real();
+    pairs.x[2 * i + 1] = field.x[i].imag();
+  }
+  return pairs;
+}
+
+}  // namespace
+
+VectorHeat::VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+                       const Task& task) {
+  Ordering order = V.at_nodes          ? nodes
+                   : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)
+                                       : Ordering();
+  task.checkpoint();
+  if (V.complex_linear())
+    complex_ = std::make_shared<const HeatSystem<Complex>>(
+        heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), expect, task, std::move(order));
+  else
+    real_ = std::make_shared<const HeatSystem<double>>(
+        heat_matrix(V.L_real, V.M, t), 2, decay_lengths(V.M, t), expect, task, std::move(order));
+}
+
+CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                              Report& report) const {
+  auto X = complex_ ? as_pairs(complex_->solve(to_complex(X0), V.piece, task, report))
+                    : real_->solve(X0, V.piece, task, report);
+  restore_units(X, X0, V.piece);
+  return cell_field(V.to_cells, X);
+}
+
+CellField VectorHeat::diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
+                                   Report& report) const {
+  const auto X = complex_ ? as_pairs(complex_->solve_held(to_complex(held), V.piece, task, report))
+                          : real_->solve_held(held, V.piece, task, report);
+  return cell_field(V.to_cells, X);
+}
+
+double VectorHeat::nonzeros() const { return complex_ ? complex_->nonzeros() : real_->nonzeros(); }
+
+}  // namespace littoral

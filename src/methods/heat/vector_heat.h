@@ -1,0 +1,37 @@
+#pragma once
+// Steps I and II: one backward Euler step of vector diffusion, then directions at the cells.
+
+#include <memory>
+#include <vector>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "methods/heat/cell_field.h"
+#include "operators/calculus.h"
+#include "solve/heat/heat_system.h"
+
+namespace littoral {
+
+/// (M + t L) X = X0 (eq. 12); immutable.
+class VectorHeat {
+ public:
+  /// nodes: the order of elimination of the nodes between which the carriers lie.
+  VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+             const Task& task);
+
+  /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
+  CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                    Report& report) const;
+
+  /// The same with X held at `held` (2 carriers) wherever that is not zero.
+  CellField diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
+                         Report& report) const;
+
+  double nonzeros() const;
+
+ private:
+  std::shared_ptr<const HeatSystem<Complex>> complex_;  // one of the two
+  std::shared_ptr<const HeatSystem<double>> real_;
+};
+
+}  // namespace littoral

@@ -1,0 +1,156 @@
+#include "methods/implicit/closest_point.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "spatial/point_tree.h"
+#include "spatial/triangle_bvh.h"
+#include "spatial/winding_number.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double sign_accuracy = 2.3;  // errors of .003 do not matter to a comparison with 1/2
+
+/// Distance and gradient from the nearest point, its normal (for queries on the surface) and a
+/// side.
+DistanceSample signed_sample(const Vec3& x, const Vec3& nearest, double distance, bool inside,
+                             const Vec3& normal) {
+  const double sign = inside ? -1 : 1;
+  DistanceSample out;
+  out.value = sign * distance;
+  out.gradient = distance > 0 ? Vec3(sign * (x - nearest).stableNormalized()) : normal;
+  return out;
+}
+
+/// Angle-weighted normals at corners, and sums of normals across edges. Vertices at one position
+/// count as one, so that soups whose faces share nothing but positions work as well.
+class Pseudonormals {
+ public:
+  Pseudonormals(const MatX3& points, const MatX3i& faces)
+      : faces_(faces), normals_(MatX3::Zero(faces.rows(), 3)) {
+    std::map<std::array<double, 3>, int> place;
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+      vertex_.push_back(place
+                            .try_emplace({points(v, 0), points(v, 1), points(v, 2)},
+                                         static_cast<int>(place.size()))
+                            .first->second);
+    at_vertex_ = MatX3::Zero(static_cast<Eigen::Index>(place.size()), 3);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+      std::array<Vec3, 3> p;
+      for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(faces(f, k));
+      const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
+      if (!n.allFinite()) continue;
+      normals_.row(f) = n;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
+        const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+        at_vertex_.row(vertex(f, static_cast<int>(k))) += angle * n;
+        const auto [edge, is_new] = at_edge_.try_emplace(edge_key(f, static_cast<int>(k)), n);
+        if (!is_new) edge->second += n;
+      }
+    }
+  }
+
+  /// Where the foot lies on a corner or side to within rounding, that one's normal.
+  Vec3 at(const ClosestPoint& foot) const {
+    constexpr double rounding = 1e-10;
+    int zeros = 0, zero = 0, one = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (foot.barycentric[static_cast<std::size_t>(k)] <= rounding) {
+        ++zeros;
+        zero = k;
+      } else {
+        one = k;
+      }
+    }
+    if (zeros == 2) return at_vertex_.row(vertex(foot.face, one));
+    if (zeros == 1) {
+      const auto edge = at_edge_.find(edge_key(foot.face, (zero + 1) % 3));
+      if (edge != at_edge_.end()) return edge->second;
+    }
+    return normals_.row(foot.face);
+  }
+  Vec3 of_face(int f) const { return normals_.row(f); }
+
+ private:
+  int vertex(Eigen::Index f, int k) const {
+    return vertex_[static_cast<std::size_t>(faces_(f, k))];
+  }
+  std::pair<int, int> edge_key(Eigen::Index f, int k) const {
+    return std::minmax({vertex(f, k), vertex(f, (k + 1) % 3)});
+  }
+
+  MatX3i faces_;
+  std::vector<int> vertex_;  // vertex -> position
+  MatX3 normals_, at_vertex_;
+  std::map<std::pair<int, int>, Vec3> at_edge_;
+};
+
+class ToTriangles : public PointwiseDistance {
+ public:
+  ToTriangles(const MatX3& points, const MatX3i& faces, SignRule rule)
+      : bvh_(points, faces), normals_(points, faces) {
+    if (rule == SignRule::winding) winding_ = std::make_unique<WindingNumber>(points, faces);
+  }
+  DistanceSample at(const Vec3& x) const override {
+    const ClosestPoint foot = bvh_.closest_point(x);
+    return signed_sample(x, foot.point, foot.distance, is_inside(x, foot),
+                         normals_.of_face(foot.face));
+  }
+  double value_after(const Vec3& x, int& last) const override {
+    const ClosestPoint foot = bvh_.closest_point(x, last);
+    last = foot.face;
+    return is_inside(x, foot) ? -foot.distance : foot.distance;
+  }
+
+ private:
+  bool is_inside(const Vec3& x, const ClosestPoint& foot) const {
+    return winding_ ? (*winding_)(x, sign_accuracy) > 0.5
+                    : normals_.at(foot).dot(x - foot.point) < 0;
+  }
+
+  TriangleBvh bvh_;
+  Pseudonormals normals_;
+  std::unique_ptr<WindingNumber> winding_;  // null: pseudonormals
+};
+
+class ToPoints : public PointwiseDistance {
+ public:
+  ToPoints(OrientedPoints samples, SignRule rule)
+      : samples_(std::move(samples)), tree_(samples_.points) {
+    if (rule == SignRule::winding)
+      winding_ = std::make_unique<WindingNumber>(samples_.points, samples_.normals, samples_.areas);
+  }
+  DistanceSample at(const Vec3& x) const override {
+    const Neighbour found = tree_.nearest(x);
+    const Vec3 p = samples_.points.row(found.point), n = samples_.normals.row(found.point);
+    const bool inside = winding_ ? (*winding_)(x, sign_accuracy) > 0.5 : n.dot(x - p) < 0;
+    return signed_sample(x, p, std::sqrt(found.squared_distance), inside, n);
+  }
+
+ private:
+  OrientedPoints samples_;
+  PointTree tree_;
+  std::unique_ptr<WindingNumber> winding_;
+};
+
+}  // namespace
+
+std::unique_ptr<const PointwiseDistance> closest_point_distance(const MatX3& points,
+                                                                const MatX3i& faces,
+                                                                SignRule rule) {
+  return std::make_unique<ToTriangles>(points, faces, rule);
+}
+
+std::unique_ptr<const PointwiseDistance> closest_point_distance(const OrientedPoints& samples,
+                                                                SignRule rule) {
+  return std::make_unique<ToPoints>(samples, rule);
+}
+
+}  // namespace littoral

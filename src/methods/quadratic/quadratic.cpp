@@ -1,0 +1,146 @@
+#include "methods/quadratic/quadratic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "methods/quadratic/quadratic_program.h"
+
+namespace littoral {
+
+const OptionTable<QuadraticOptions>& quadratic_options() {
+  using O = QuadraticOptions;
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .number(&O::tolerance, "tolerance", "of the integral of squared distance", 1e-10, 1e-1,
+                  "Duality gap at which the solver stops.")
+          .number(&O::max_iterations, "max-iterations", "", 1, 1000,
+                  "Interior-point iterations for each component of the mesh.")
+          .number(&O::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
+                  "Distance allowed at a source.")
+          .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
+                  "Distance between samples on curves; 0 knows the distance around them instead.")
+          .toggle(&O::insert_samples, "insert-samples",
+                  "Adds sample points where the constraint is violated between the usual seven.")
+          .toggle(&O::is_signed, "signed",
+                  "Takes the sign, and curves that fill gaps, from the signed heat method.")
+          .number(
+              &O::subdivide, "subdivide", "", 1, 64,
+              "Writes and draws a mesh with every side cut into this many parts, which shows the "
+              "field between the vertices.");
+  return table;
+}
+
+template <int D>
+double QuadraticField<D>::distance(int element, const typename P2Shape<D>::Point& b) const {
+  const auto local = elements->gather(u, element);
+  if (!local.allFinite()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(0.0, P2Shape<D>::values(b).dot(local)));
+}
+
+template <int D>
+VecX QuadraticField<D>::at_vertices() const {
+  return u.head(elements->n_vertices).cwiseMax(0.0).cwiseSqrt();
+}
+
+template <int D>
+struct Quadratic<D>::Part {
+  using Solver = ParabolicSolver<P2Shape<D>::nodes, D>;
+
+  QuadraticPart<D> part;
+
+  explicit Part(QuadraticPart<D> p) : part(std::move(p)) {}
+
+  /// Analysed when first needed.
+  std::shared_ptr<const Solver> solver(const Task& task) {
+    const std::lock_guard lock(mutex_);
+    if (!solver_)
+      solver_ = std::make_shared<const Solver>(static_cast<int>(part.nodes.size()), part.local_node,
+                                               task);
+    return solver_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const Solver> solver_;
+};
+
+template <int D>
+Quadratic<D>::Quadratic(std::shared_ptr<const P2Elements<D>> elements)
+    : elements_(std::move(elements)) {
+  for (auto& part : quadratic_parts(*elements_))
+    parts_.push_back(std::make_unique<Part>(std::move(part)));
+}
+
+template <int D>
+Quadratic<D>::~Quadratic() = default;
+
+template <int D>
+QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
+                                      const QuadraticOptions& options, Task task,
+                                      Report& report) const {
+  const P2Elements<D>& E = *elements_;
+  QuadraticField<D> field;
+  field.elements = elements_;
+  field.u = VecX::Constant(E.n_nodes(), std::numeric_limits<double>::infinity());
+  if (E.mollified > 0)
+    report.warn("edges lengthened by " + number_text(E.mollified * E.unit) +
+                " because of nearly degenerate elements");
+  std::vector<std::vector<P2Source<D>>> of_part(parts_.size());
+  for (const P2Source<D>& source : sources)
+    of_part[E.component[E.node[source.where.at(0).element][0]]].push_back(source);
+  double total = 0;
+  for (std::size_t c = 0; c < parts_.size(); ++c)
+    if (!of_part[c].empty()) total += static_cast<double>(parts_[c]->part.elements.size());
+
+  double iterations = 0, gap = 0, residual = 0, samples = 0;
+  bool converged = true;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    if (of_part[c].empty()) {
+      report.unreachable_components.push_back(static_cast<int>(c));
+      continue;
+    }
+    const QuadraticPart<D>& part = parts_[c]->part;
+    Task stage = task.stage(static_cast<double>(part.elements.size()) / total, "squared distance");
+    const auto solver = [&] {
+      const Stopwatch watch(report, "analyse");
+      return parts_[c]->solver(stage.stage(0.1, "analysing"));
+    }();
+    const Stopwatch watch(report, "solve");
+    const QuadraticProgram<D> program(E, part, of_part[c], options.source_radius * E.h);
+    typename Part::Solver::Inserter insert;
+    if (options.insert_samples)
+      insert = [&](const VecX& u, double share) {
+        return program.violated(u, share * 100 * options.tolerance);
+      };
+    const ParabolicResult result =
+        solver->solve(program.program(), program.start(),
+                      {options.tolerance, static_cast<int>(options.max_iterations)}, insert,
+                      stage.stage(0.9, "interior point"));
+    const double to_input = std::pow(part.scale * E.unit, 2);
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      field.u[part.nodes[i]] = to_input * result.x[static_cast<Eigen::Index>(i)];
+    converged = converged && result.converged;
+    iterations += result.iterations;
+    samples += static_cast<double>(result.samples);
+    gap = std::max(gap, result.gap);
+    residual = std::max(residual, result.primal_residual);
+  }
+  report.iterations.emplace_back("interior point", iterations);
+  report.residuals.emplace_back("duality gap", gap);
+  report.residuals.emplace_back("constraints", residual);
+  report.sizes.emplace_back("samples", samples);
+  if (!converged) {
+    report.status = "not converged";
+    report.warn("the solver stopped at a relative duality gap of " + number_text(gap));
+  }
+  return field;
+}
+
+template class Quadratic<2>;
+template class Quadratic<3>;
+template struct QuadraticField<2>;
+template struct QuadraticField<3>;
+
+}  // namespace littoral

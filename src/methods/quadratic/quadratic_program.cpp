@@ -1,0 +1,296 @@
+#include "methods/quadratic/quadratic_program.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace littoral {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Squared length of a vector given by differences of barycentrics, from the edge lengths.
+template <int D>
+double squared_length(const P2Elements<D>& E, int element,
+                      const typename P2Shape<D>::Point& difference) {
+  using Shape = P2Shape<D>;
+  double sum = 0;
+  for (int k = 0; k < Shape::edges; ++k) {
+    const auto [i, j] = Shape::edge(k);
+    const double l = E.edge_length[E.node[element][Shape::corners + k] - E.n_vertices];
+    sum -= difference[i] * difference[j] * l * l;
+  }
+  return std::max(0.0, sum);
+}
+
+/// A source in one of the elements that contain it, by the part's number.
+template <int D>
+struct Touched {
+  int element;
+  P2Point<D> point;
+  double distance;  // there, at most
+};
+
+/// Distance from the sources to the part's nodes along edges (Dijkstra); a middle node takes the
+/// mean of its ends.
+template <int D>
+VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
+                          const std::vector<Touched<D>>& sources) {
+  using Shape = P2Shape<D>;
+  const auto n = part.nodes.size();
+  std::vector<int> first(n + 1, 0);
+  std::vector<std::pair<int, double>> neighbour;
+  auto each_edge = [&](auto&& visit) {
+    for (std::size_t e = 0; e < part.elements.size(); ++e)
+      for (int k = 0; k < Shape::edges; ++k) {
+        const auto [i, j] = Shape::edge(k);
+        const int middle = part.nodes[part.local_node[e][Shape::corners + k]] - E.n_vertices;
+        visit(part.local_node[e][i], part.local_node[e][j], E.edge_length[middle]);
+      }
+  };
+  each_edge([&](int a, int b, double) { ++first[a + 1], ++first[b + 1]; });
+  for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
+  neighbour.resize(static_cast<std::size_t>(first[n]));
+  std::vector<int> next(first.begin(), first.end() - 1);
+  each_edge([&](int a, int b, double length) {
+    neighbour[next[a]++] = {b, length};
+    neighbour[next[b]++] = {a, length};
+  });
+
+  VecX d = VecX::Constant(static_cast<Eigen::Index>(n), infinity);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  auto reach = [&](int v, double distance) {
+    if (distance >= d[v]) return;
+    d[v] = distance;
+    queue.emplace(distance, v);
+  };
+  for (const auto& [e, point, before] : sources)
+    for (int i = 0; i < Shape::corners; ++i)
+      reach(part.local_node[e][i],
+            before + std::sqrt(squared_length(E, point.element, Shape::corner(i) - point.b)));
+  while (!queue.empty()) {
+    const auto [distance, v] = queue.top();
+    queue.pop();
+    if (distance > d[v]) continue;
+    for (int k = first[v]; k < first[v + 1]; ++k)
+      reach(neighbour[k].first, distance + neighbour[k].second);
+  }
+  for (const auto& node : part.local_node)
+    for (int k = 0; k < Shape::edges; ++k) {
+      const auto [i, j] = Shape::edge(k);
+      d[node[Shape::corners + k]] = 0.5 * (d[node[i]] + d[node[j]]);
+    }
+  return d;
+}
+
+/// Points whose barycentrics are quarters, without the nodes.
+template <int D>
+std::vector<typename P2Shape<D>::Point> quarter_points() {
+  std::vector<typename P2Shape<D>::Point> points;
+  int codes = 1;
+  for (int d = 0; d < D; ++d) codes *= 5;
+  for (int code = 0; code < codes; ++code) {
+    std::array<int, D + 1> quarters{4};
+    bool node = true;
+    for (int d = 1, rest = code; d <= D; ++d, rest /= 5) {
+      quarters[d] = rest % 5;
+      quarters[0] -= quarters[d];
+      node = node && quarters[d] % 2 == 0;
+    }
+    if (node || quarters[0] < 0) continue;
+    points.emplace_back();
+    for (int i = 0; i <= D; ++i) points.back()[i] = 0.25 * quarters[i];
+  }
+  return points;
+}
+
+/// Value and slopes on the element whose corners are 0 and the unit vectors.
+template <int D>
+typename QuadraticProgram<D>::Program::Point reference_rows(const typename P2Shape<D>::Point& b) {
+  typename P2Shape<D>::Gradients grad;
+  grad << -Eigen::Matrix<double, D, 1>::Ones(), Eigen::Matrix<double, D, D>::Identity();
+  return {P2Shape<D>::values(b), P2Shape<D>::slopes(b, grad)};
+}
+
+}  // namespace
+
+template <int D>
+std::vector<QuadraticPart<D>> quadratic_parts(const P2Elements<D>& E) {
+  std::vector<QuadraticPart<D>> parts(static_cast<std::size_t>(E.n_components));
+  std::vector<double> measure(parts.size(), 0);
+  std::vector<int> number(static_cast<std::size_t>(E.n_nodes()), -1);
+  for (int e = 0; e < E.n_elements(); ++e) {
+    const int c = E.component[E.node[e][0]];
+    QuadraticPart<D>& part = parts[c];
+    measure[c] += E.measure[e];
+    std::array<int, P2Shape<D>::nodes> local{};
+    for (int i = 0; i < P2Shape<D>::nodes; ++i) {
+      int& k = number[E.node[e][i]];
+      if (k < 0) {
+        k = static_cast<int>(part.nodes.size());
+        part.nodes.push_back(E.node[e][i]);
+      }
+      local[i] = k;
+    }
+    part.elements.push_back(e);
+    part.local_node.push_back(local);
+  }
+  for (std::size_t c = 0; c < parts.size(); ++c) parts[c].scale = std::pow(measure[c], 1.0 / D);
+  return parts;
+}
+
+template <int D>
+std::pair<double, typename P2Shape<D>::Point> p2_minimum(const typename P2Shape<D>::Values& s) {
+  // As a form b^T H b in barycentrics (which sum to 1); on the face of the simplex spanned by
+  // corners S its stationary point is H_S^{-1} 1 over its sum, with the value 1 / sum.
+  using Shape = P2Shape<D>;
+  Eigen::Matrix<double, D + 1, D + 1> H = s.template head<D + 1>().asDiagonal();
+  for (int k = 0; k < Shape::edges; ++k) {
+    const auto [i, j] = Shape::edge(k);
+    H(i, j) = H(j, i) = 2 * s[Shape::corners + k] - 0.5 * (s[i] + s[j]);
+  }
+  std::pair<double, typename Shape::Point> best{infinity, Shape::centre()};
+  for (int i = 0; i < Shape::corners; ++i)
+    if (s[i] < best.first) best = {s[i], Shape::corner(i)};
+  for (int set = 1; set < 1 << Shape::corners; ++set) {
+    std::array<int, D + 1> corner{};
+    int n = 0;
+    for (int i = 0; i < Shape::corners; ++i)
+      if (set >> i & 1) corner[n++] = i;
+    if (n < 2) continue;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, D + 1, D + 1> A(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) A(i, j) = H(corner[i], corner[j]);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, D + 1, 1> x =
+        A.partialPivLu().solve(decltype(x)::Ones(n));
+    const double sum = x.sum();
+    typename Shape::Point b = Shape::Point::Zero();
+    bool inside = std::isfinite(sum) && sum != 0;
+    for (int i = 0; i < n && inside; ++i) {
+      b[corner[i]] = x[i] / sum;
+      inside = b[corner[i]] > 0;
+    }
+    if (inside && 1 / sum < best.first) best = {b.dot(H * b), b};
+  }
+  return best;
+}
+
+template <int D>
+QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPart<D>& part,
+                                      const std::vector<P2Source<D>>& sources, double radius)
+    : E_(E), part_(part), curve_inside_(part.elements.size(), 0) {
+  using Shape = P2Shape<D>;
+  std::vector<Touched<D>> touched;
+  std::vector<int> holds(part.elements.size(), 0);  // sources
+  const auto local = [&](int element) {
+    const auto at = std::lower_bound(part.elements.begin(), part.elements.end(), element);
+    const bool found = at != part.elements.end() && *at == element;
+    return found ? static_cast<int>(at - part.elements.begin()) : -1;
+  };
+  const auto cap = [&](double distance) {
+    return (radius * radius + distance * distance) / (part.scale * part.scale);
+  };
+  for (const P2Source<D>& source : sources) {
+    for (const P2Point<D>& point : source.where) {
+      const int e = local(point.element);
+      if (e < 0) continue;
+      touched.push_back({e, point, source.distance});
+      ++holds[e];
+      if (source.on_curve) curve_inside_[e] = 1;
+      if (&point == &source.where.front())
+        program_.caps.push_back({e, cap(source.distance), Shape::values(point.b)});
+    }
+  }
+  if (touched.empty()) return;
+  alone_ = program_.caps.size() == 1;
+  d_ = distance_along_edges(E, part, touched) / part.scale;
+
+  // Objective: the integral of u, over the part's measure.
+  const VecX integral = E.integral();
+  program_.c.resize(static_cast<Eigen::Index>(part.nodes.size()));
+  for (std::size_t i = 0; i < part.nodes.size(); ++i)
+    program_.c[static_cast<Eigen::Index>(i)] = integral[part.nodes[i]] / std::pow(part.scale, D);
+
+  // Samples: the nodes and the centre of each element (section 5), and a source that is alone in
+  // its elements: without a sample there, its elements are not exact in the plane.
+  std::vector<typename Shape::Point> points;
+  for (int i = 0; i < Shape::corners; ++i) points.push_back(Shape::corner(i));
+  for (int k = 0; k < Shape::edges; ++k) points.push_back(Shape::middle(k));
+  points.push_back(Shape::centre());
+  for (const auto& b : points) program_.points.push_back(reference_rows<D>(b));
+  for (std::size_t e = 0; e < part.elements.size(); ++e) {
+    program_.transform.push_back(E.grad[part.elements[e]].template rightCols<D>() * part.scale);
+    program_.weight.push_back(E.measure[part.elements[e]]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int element = static_cast<int>(e);
+      program_.samples.push_back({element, static_cast<int>(i), size(element, points[i])});
+    }
+  }
+  for (const P2Source<D>& source : sources) {
+    if (source.on_curve) continue;
+    for (const P2Point<D>& point : source.where) {
+      const int e = local(point.element);
+      if (e < 0 || holds[e] != 1 || point.b.maxCoeff() >= 1) continue;
+      program_.samples.push_back({e, static_cast<int>(program_.points.size()), size(e, point.b)});
+      program_.points.push_back(reference_rows<D>(point.b));
+    }
+  }
+}
+
+template <int D>
+double QuadraticProgram<D>::size(int local, const typename P2Shape<D>::Point& b) const {
+  double d = 0;
+  for (int i = 0; i < P2Shape<D>::corners; ++i) d += b[i] * d_[part_.local_node[local][i]];
+  return std::pow(std::max(d, 0.5 * E_.h / part_.scale), 2);
+}
+
+template <int D>
+VecX QuadraticProgram<D>::start() const {
+  return 0.6 * d_.cwiseAbs2();
+}
+
+template <int D>
+std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>::violated(
+    const VecX& u, double allowed) const {
+  using Shape = P2Shape<D>;
+  std::vector<typename Program::Inserted> found;
+  const auto insert = [&](std::size_t e, const typename Shape::Point& b) {
+    const int element = static_cast<int>(e);
+    found.push_back({element, reference_rows<D>(b), size(element, b)});
+  };
+  const double h2 = std::pow(E_.h / part_.scale, 2);
+  for (std::size_t e = 0; e < part_.elements.size(); ++e) {
+    if (curve_inside_[e]) continue;
+    typename Shape::Values local;
+    for (int i = 0; i < Shape::nodes; ++i) local[i] = u[part_.local_node[e][i]];
+    const typename Shape::Gradients grad = E_.grad[part_.elements[e]] * part_.scale;
+    typename Shape::Values slack;
+    const auto slack_at = [&](const typename Shape::Point& b) {
+      double squared = 0;
+      for (const auto& g : Shape::slopes(b, grad)) squared += std::pow(g.dot(local), 2);
+      return Shape::values(b).dot(local) - 0.25 * squared;
+    };
+    for (int i = 0; i < Shape::corners; ++i) slack[i] = slack_at(Shape::corner(i));
+    for (int k = 0; k < Shape::edges; ++k) slack[Shape::corners + k] = slack_at(Shape::middle(k));
+    const auto [least, b] = p2_minimum<D>(slack);
+    // Next to a lone source, where u is small, a dip of v moves the source by sqrt(v).
+    const double least_u = (alone_ ? 1e-3 : 1) * h2;
+    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + least_u)) continue;
+    insert(e, b);
+    for (const auto& point : quarter_points<D>()) insert(e, point);
+  }
+  return found;
+}
+
+template std::vector<QuadraticPart<2>> quadratic_parts(const P2Elements<2>&);
+template std::vector<QuadraticPart<3>> quadratic_parts(const P2Elements<3>&);
+template std::pair<double, P2Shape<2>::Point> p2_minimum<2>(const P2Shape<2>::Values&);
+template std::pair<double, P2Shape<3>::Point> p2_minimum<3>(const P2Shape<3>::Values&);
+template class QuadraticProgram<2>;
+template class QuadraticProgram<3>;
+
+}  // namespace littoral

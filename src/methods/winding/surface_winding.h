@@ -1,0 +1,93 @@
+#pragma once
+// Surface winding numbers (Feng, Gillespie and Crane 2023; thesis chapter 6): which regions a messy
+// set of curves bounds on a surface of any topology, and which curves bound nothing.
+
+#include <memory>
+#include <vector>
+
+#include "base/option_table.h"
+#include "base/report.h"
+#include "base/task.h"
+#include "methods/winding/jump_laplace.h"
+#include "methods/winding/region_labels.h"
+#include "operators/jump_calculus.h"
+
+namespace littoral {
+
+/// How faces get their labels.
+enum class Labels { round, cut };
+
+/// Values at corners of a mesh cut along the curve; one per face; or continuous (thesis 6.4).
+enum class Formulation { primal, dual, nonconforming };
+
+/// What the residual function is a choice of: one constant per face, or per part of the surface
+/// between curves completed by shortest paths (thesis 6.3).
+enum class Residual { faces, paths };
+
+/// What happens at the boundary of the surface (thesis 6.2): nothing flows across it, or, nearly,
+/// what would happen without it.
+enum class AtBoundary { natural, free };
+
+struct WindingOptions {
+  int formulation = static_cast<int>(Formulation::primal);
+  int boundary = static_cast<int>(AtBoundary::natural);
+  int residual = static_cast<int>(Residual::faces);
+  int contour = static_cast<int>(Contour::curve);
+  int labels = static_cast<int>(Labels::round);
+  double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
+  bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
+};
+
+/// Names, ranges, defaults and one sentence for each of the above.
+const OptionTable<WindingOptions>& winding_options();
+
+/// Everything the five steps find. Edge vectors are jumps, left minus right.
+struct WindingNumbers {
+  CornerFunction u;      // solution of the jump Laplace equation, faces x 3
+  VecX gamma;            // edges, harmonic part of its Darboux derivative; empty: not needed
+  MatX3 v{0, 3};         // residual function, faces x 3; 0 on simply connected components
+  CornerFunction w;      // winding number function, faces x 3, shifted so that rounding it labels
+  VecXi region;          // faces, integer winding number; 0 covers most of each component
+  VecX curve;            // edges, the input
+  VecX nonbounding;      // edges, share of the curve that bounds nothing
+  VecX bounding;         // edges, the curve where less than half of it bounds nothing
+  VecX completed;        // edges, jumps of `region`: the closed curve that bounds the regions
+  double objective = 0;  // of the residual function, in units of length
+  double gap = 0;
+};
+
+inline constexpr const char* unbounded_warning =
+    "the curve crosses itself so that jumps of the residual function could not be bounded by the "
+    "curve's";
+
+/// Step 4: the edges of the curve, whole, that are not rather nonbounding than bounding.
+VecX bounding_part(const WindingNumbers& numbers);
+
+/// Labels w shifted by `shift` (components) as `region` says, and all that follows from it; 0 is
+/// made the outside.
+void settle_labels(const JumpCalculus& J, const VecX& shift, VecXi region, WindingNumbers& result);
+
+/// Step 5: labels for given `w` and `bounding`. `pairs`: of the dual formulation, or none.
+void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
+                   const WindingOptions& options, const Task& task, WindingNumbers& result,
+                   Report& report);
+
+/// One surface's winding numbers; const and usable from several threads.
+class SurfaceWinding {
+ public:
+  explicit SurfaceWinding(std::shared_ptr<const JumpCalculus> J) : J_(std::move(J)) {}
+
+  /// `curve` (edges): how often the curve runs along each edge, against counted negative; so the
+  /// winding number is larger by that on the left. The report gets residuals and iterations, and
+  /// the components without a curve; labels there are 0.
+  WindingNumbers solve(const VecX& curve, const WindingOptions& options, Task task,
+                       Report& report) const;
+
+ private:
+  void decompose(WindingNumbers& result, const WindingOptions& options, Task& task,
+                 Report& report) const;
+
+  std::shared_ptr<const JumpCalculus> J_;
+};
+
+}  // namespace littoral

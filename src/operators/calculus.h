@@ -1,0 +1,69 @@
+#pragma once
+// The operators a method may use: all it ever sees of a domain. Each discretization is translated
+// into this once (operators/triangles.cpp, ...); each method is written against it once.
+//
+// Vectors are complex numbers in the frame of their carrier or cell, stored as interleaved pairs of
+// reals: entry 2 i is the real, 2 i + 1 the imaginary part. Symmetric matrices store their lower
+// triangle only. All lengths are in `unit`s of the domain.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/types.h"
+#include "operators/linear_map.h"
+
+namespace littoral {
+
+/// Scalar functions: values at nodes, gradients at cells.
+struct Calculus {
+  SpMat L;                     // nodes x nodes, lower triangle; positive semidefinite, L = -Delta
+  VecX M;                      // nodes; lumped mass [length^2]
+  LinearMap G;                 // 2 cells x nodes; gradient in each cell's frame
+  VecX A;                      // cells; measure [length^2]
+  double h = 0;                // mean distance between neighbouring nodes [length]
+  std::vector<int> component;  // nodes; -1 for nodes that belong to no cell
+  int n_components = 0;
+  std::vector<char> boundary;  // nodes; 1 on the boundary
+
+  /// G^T A Y: the weak form of -div Y with natural boundary conditions (eq. 3, 13), 2 cells ->
+  /// nodes.
+  VecX divergence(const VecX& Y) const;
+};
+
+/// A node where pieces touch that no carrier connects (two cubes sharing a vertex): what flows out
+/// of the node into one of the pieces.
+struct Pinch {
+  int node;                                     // of the scalar calculus
+  int piece;                                    // of the carriers
+  std::vector<std::pair<int, Complex>> radial;  // carrier, unit-mass radial measure (eq. 19)
+};
+
+/// Vector fields that can be diffused: the connection Laplacian on its carrier.
+struct VectorDiffusion {
+  int n = 0;               // carriers
+  VecX M;                  // carriers; lumped mass [length^2]
+  SpMatC L;                // carriers x carriers, lower triangle, Hermitian positive semidefinite;
+                           //   empty if frames cannot be chosen so that it is complex-linear
+  SpMat L_real;            // then: 2 carriers x 2 carriers, lower triangle, symmetric
+  Rows<int, 2> ends;       // carriers x 2: the nodes a carrier lies between; no rows where carriers
+                           //   are not edges between nodes
+  bool at_nodes = false;   // carriers are the nodes of the scalar calculus, coupled as in its L
+  LinearMap to_cells;      // 2 cells x 2 carriers; mean of a cell's carriers, in the cell's frame
+  double h = 0;            // mean distance between neighbouring carriers [length]
+  std::vector<int> piece;  // carriers; connected pieces of the diffusion, -1 for unused carriers
+  int n_pieces = 0;
+  std::vector<Pinch> pinches;
+
+  bool complex_linear() const { return L.rows() > 0; }
+};
+
+/// One domain's operators.
+struct Operators {
+  std::string domain;  // "triangle mesh"
+  double unit = 1;     // [length] of one unit in the input's coordinates
+  Calculus scalar;
+  VectorDiffusion vector;
+};
+
+}  // namespace littoral

@@ -1,0 +1,49 @@
+#pragma once
+// The calculus of a regular grid, without matrices: values at nodes, gradients at grid edges.
+
+#include <functional>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "base/types.h"
+#include "domain/volume/grid.h"
+#include "operators/calculus.h"
+
+namespace littoral {
+
+using Directions = Rows<float, 3>;  // nodes x 3
+
+/// G^T Y with G the forward differences along grid edges and Y at their midpoints, the mean of both
+/// ends: the weak form of -div Y whose natural boundary condition is that of eq. 3. Nodes; sums to
+/// 0.
+VecX grid_divergence(const Grid& grid, const Directions& Y);
+
+/// The same as assembled operators, for methods that multiply often: a cell at every node, whose
+/// gradient (three numbers) is that of the grid edges that leave the node along the axes, 0 where
+/// none does; cell and node have the volume of a cube of the grid.
+Calculus grid_calculus(const Grid& grid);
+
+/// Bytes of that for so many nodes, with what `sharpen` needs on it.
+double grid_sharpening_memory(double nodes);
+
+/// Values at points from values at the nodes, linear along each axis. One row per grid cell that
+/// holds points: the mean over these points by weight, so that rows are independent (a point of
+/// which a cell has many would be held by many rows, and the cell would lock). Points outside the
+/// box are left out.
+struct GridRows {
+  SpMat A;      // rows x nodes, row sums 1
+  VecX weight;  // rows: sum of the points' weights
+};
+GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights);
+
+/// A unit vector at each node from one that is dear to evaluate and smooth far from the sources.
+///
+/// Evaluates on a lattice that is as coarse as `sample` allows and halves its cells until the
+/// normalised linear interpolation agrees with the value at the middle of a cell (to 1 %), and
+/// everywhere within a cell's diagonal of the sources. Reports the share of nodes evaluated.
+/// `sample(x, distance)` gives the direction at x and the distance of x from the nearest source.
+Directions sample_directions(const Grid& grid,
+                             const std::function<Vec3(const Vec3&, double& distance)>& sample,
+                             const Task& task, Report& report);
+
+}  // namespace littoral

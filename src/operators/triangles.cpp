@@ -1,0 +1,349 @@
+#include "operators/triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "operators/sum_over_triangles.h"
+
+namespace littoral {
+
+namespace {
+
+using Triangulation = std::shared_ptr<const IntrinsicTriangulation>;
+constexpr std::size_t face_grain = 8192;
+
+/// Cotan Laplacian (eq. 10), lower triangle.
+SpMat cotan_laplacian(const IntrinsicTriangulation& T, const Task& task) {
+  return sum_over_triangles<double>(
+      T.n_vertices, T.faces,
+      [&](int f) {
+        const auto cot = T.shape(f).cot;
+        TriangleTerms<double> terms;
+        for (int k = 0; k < 3; ++k) {
+          terms.diagonal[k] = 0.5 * (cot[(k + 1) % 3] + cot[(k + 2) % 3]);
+          terms.beside[k] = -0.5 * cot[(k + 2) % 3];
+        }
+        return terms;
+      },
+      task);
+}
+
+/// Gradient of the hat function of corner k: the opposite side turned inward, over twice the area.
+Complex hat_gradient(const IntrinsicTriangulation& T, const TriangleShape& t, int f, int k) {
+  const Complex opposite = t.p[(k + 2) % 3] - t.p[(k + 1) % 3];
+  return Complex(0, T.orientation[f]) * opposite / (2 * t.area);
+}
+
+/// Three complex numbers of every face, kept where that takes little memory.
+template <class Compute>
+class PerFace {
+ public:
+  PerFace(const IntrinsicTriangulation& T, Compute compute) : compute_(std::move(compute)) {
+    constexpr int most_kept = 2'000'000;
+    if (T.n_faces() > most_kept) return;
+    kept_.resize(static_cast<std::size_t>(T.n_faces()));
+    parallel_for(kept_.size(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) kept_[f] = compute_(static_cast<int>(f));
+    });
+  }
+  std::array<Complex, 3> operator()(int f) const { return kept_.empty() ? compute_(f) : kept_[f]; }
+
+ private:
+  Compute compute_;
+  std::vector<std::array<Complex, 3>> kept_;
+};
+
+template <class Compute>
+auto per_face(const IntrinsicTriangulation& T, Compute compute) {
+  return std::make_shared<const PerFace<Compute>>(T, std::move(compute));
+}
+
+/// The same for all faces: rows 2 f and 2 f + 1 hold the parts of face f's gradient.
+SpRows gradient_matrix(const IntrinsicTriangulation& T) {
+  SpRows G(2 * T.n_faces(), T.n_vertices);
+  G.resizeNonZeros(6 * Eigen::Index{T.n_faces()});
+  int* begin = G.outerIndexPtr();
+  begin[2 * T.n_faces()] = 6 * T.n_faces();
+  parallel_for(T.n_faces(), face_grain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t s = first; s < end; ++s) {
+      const int f = static_cast<int>(s);
+      const TriangleShape t = T.shape(f);
+      std::array<int, 3> corner = {0, 1, 2};
+      std::sort(corner.begin(), corner.end(),
+                [&](int a, int b) { return T.faces(f, a) < T.faces(f, b); });
+      for (int d = 0; d < 2; ++d) begin[2 * f + d] = 6 * f + 3 * d;
+      for (int k = 0; k < 3; ++k) {
+        const Complex g = hat_gradient(T, t, f, corner[k]);
+        for (int d = 0; d < 2; ++d) {
+          G.innerIndexPtr()[6 * f + 3 * d + k] = T.faces(f, corner[k]);
+          G.valuePtr()[6 * f + 3 * d + k] = d == 0 ? g.real() : g.imag();
+        }
+      }
+    }
+  });
+  return G;
+}
+
+LinearMap gradient(Triangulation T) {
+  const auto hats = per_face(*T, [T](int f) {
+    const TriangleShape t = T->shape(f);
+    return std::array{hat_gradient(*T, t, f, 0), hat_gradient(*T, t, f, 1),
+                      hat_gradient(*T, t, f, 2)};
+  });
+  LinearMap G;
+  G.rows = 2 * T->n_faces();
+  G.cols = T->n_vertices;
+  G.apply = [T, hats](const VecX& u) {
+    VecX g(2 * T->n_faces());
+    parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const int f = static_cast<int>(s);
+        const auto hat = (*hats)(f);
+        Complex z = 0;
+        for (int k = 0; k < 3; ++k) z += u[T->faces(f, k)] * hat[k];
+        g[2 * f] = z.real();
+        g[2 * f + 1] = z.imag();
+      }
+    });
+    return g;
+  };
+  G.adjoint = [T, hats](const VecX& g) {
+    VecX u = VecX::Zero(T->n_vertices);
+    for (int f = 0; f < T->n_faces(); ++f) {
+      const auto hat = (*hats)(f);
+      for (int k = 0; k < 3; ++k) {
+        const Complex d = hat[k];
+        u[T->faces(f, k)] += d.real() * g[2 * f] + d.imag() * g[2 * f + 1];
+      }
+    }
+    return u;
+  };
+  G.matrix = [T] { return gradient_matrix(*T); };
+  return G;
+}
+
+/// Mean of the three edge vectors of a face, in the face's frame (section 6).
+LinearMap edges_to_faces(Triangulation T) {
+  const auto edges = per_face(*T, [T](int f) {
+    const TriangleShape t = T->shape(f);
+    return std::array<Complex, 3>{T->edge_in_face(t, f, 0), T->edge_in_face(t, f, 1),
+                                  T->edge_in_face(t, f, 2)};
+  });
+  LinearMap P;
+  P.rows = 2 * T->n_faces();
+  P.cols = 2 * T->n_edges();
+  P.apply = [T, edges](const VecX& X) {
+    VecX Y(2 * T->n_faces());
+    parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const int f = static_cast<int>(s);
+        const auto edge = (*edges)(f);
+        double x = 0, y = 0;
+        for (int k = 0; k < 3; ++k) {
+          const int e = T->side_edge(f, k);
+          const double re = X[2 * e], im = T->seam(f, k) ? -X[2 * e + 1] : X[2 * e + 1];
+          x += re * edge[k].real() - im * edge[k].imag();
+          y += re * edge[k].imag() + im * edge[k].real();
+        }
+        Y[2 * f] = x / 3;
+        Y[2 * f + 1] = y / 3;
+      }
+    });
+    return Y;
+  };
+  P.adjoint = [T](const VecX& Y) {
+    VecX X = VecX::Zero(2 * T->n_edges());
+    for (int f = 0; f < T->n_faces(); ++f) {
+      const TriangleShape t = T->shape(f);
+      for (int k = 0; k < 3; ++k) {
+        const Complex z = T->face_to_edge(t, f, k, {Y[2 * f] / 3, Y[2 * f + 1] / 3});
+        X[2 * T->side_edge(f, k)] += z.real();
+        X[2 * T->side_edge(f, k) + 1] += z.imag();
+      }
+    }
+    return X;
+  };
+  return P;
+}
+
+/// Calls put(row, col, r, seam_row, seam_col) for every entry of the lower triangle: the coupling
+/// of two edges of a face is r = -2 cot(angle between) conj(d_row) d_col, where d is the direction
+/// of the edge in the face's frame (eq. 9 with the rotations of eq. 8 written as their product),
+/// taken through the conjugations of the frames where there are seams; diagonals add up to eq. 6.
+template <class Put>
+void connection_entries(const IntrinsicTriangulation& T, int f, const Put& put) {
+  const TriangleShape t = T.shape(f);
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;  // sides k and l meet at corner l
+    const double w = 2 * t.cot[l];
+    int a = k, b = l;
+    put(T.side_edge(f, a), T.side_edge(f, a), Complex(w), false, false);
+    put(T.side_edge(f, b), T.side_edge(f, b), Complex(w), false, false);
+    if (T.side_edge(f, a) < T.side_edge(f, b)) std::swap(a, b);
+    const Complex r = -w * std::conj(T.edge_in_face(t, f, a)) * T.edge_in_face(t, f, b);
+    put(T.side_edge(f, a), T.side_edge(f, b), r, bool(T.seam(f, a)), bool(T.seam(f, b)));
+  }
+}
+
+SpMatC connection_laplacian(const IntrinsicTriangulation& T, const Task& task) {
+  return sum_over_triangles<Complex>(
+      T.n_edges(), T.side_edge,
+      [&](int f) {
+        TriangleTerms<Complex> terms{};
+        int n = 0;  // entries come in threes: both diagonals and what is beside them
+        connection_entries(T, f, [&](int, int, Complex r, bool, bool) {
+          const int k = n / 3;
+          const int part = n++ % 3;
+          if (part < 2)
+            terms.diagonal[(k + part) % 3] += r;
+          else
+            terms.beside[k] = r;
+        });
+        return terms;
+      },
+      task);
+}
+
+/// The same as 2 x 2 real blocks S_row R S_col with R the rotation-scaling of r and S = diag(1, -1)
+/// at a seam: conjugation is linear over the reals only.
+SpMat connection_laplacian_real(const IntrinsicTriangulation& T) {
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(T.n_faces()) * 27);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    connection_entries(T, f, [&](int row, int col, Complex r, bool seam_row, bool seam_col) {
+      const double s = seam_row ? -1 : 1, c = seam_col ? -1 : 1;
+      const double block[2][2] = {{r.real(), -r.imag() * c}, {s * r.imag(), s * r.real() * c}};
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+          if (row != col || i == j) entries.emplace_back(2 * row + i, 2 * col + j, block[i][j]);
+    });
+  }
+  SpMat L(2 * T.n_edges(), 2 * T.n_edges());
+  L.setFromTriplets(entries.begin(), entries.end());
+  return L;
+}
+
+/// Pieces of edges connected through faces, and the vertices where several of them touch.
+void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
+  DisjointSets edges(T.n_edges());
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 1; k < 3; ++k) edges.join(T.side_edge(f, 0), T.side_edge(f, k));
+  V.piece = edges.numbered(V.n_pieces, {T.edge_use.begin(), T.edge_use.end()});
+  if (V.n_pieces == T.n_components) return;  // nothing touches at vertices only
+
+  std::vector<std::pair<int, int>> corners;  // (vertex, face), for vertices of several pieces
+  std::vector<int> seen(T.n_vertices, -1);
+  std::vector<char> pinched(T.n_vertices, 0);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int v = T.faces(f, k), p = V.piece[T.side_edge(f, 0)];
+      if (seen[v] >= 0 && seen[v] != p) pinched[v] = 1;
+      seen[v] = p;
+    }
+  std::vector<std::array<int, 4>> list;  // vertex, piece, face, corner
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (pinched[T.faces(f, k)]) list.push_back({T.faces(f, k), V.piece[T.side_edge(f, 0)], f, k});
+  std::sort(list.begin(), list.end());
+  for (std::size_t i = 0; i < list.size();) {
+    std::vector<PointInFace> where;
+    std::size_t j = i;
+    for (; j < list.size() && list[j][0] == list[i][0] && list[j][1] == list[i][1]; ++j) {
+      PointInFace corner{list[j][2], {0, 0, 0}};
+      corner.b[list[j][3]] = 1;
+      where.push_back(corner);
+    }
+    Pinch pinch{list[i][0], list[i][1], {}};
+    add_radial_measure(T, where, 1, pinch.radial);
+    V.pinches.push_back(std::move(pinch));
+    i = j;
+  }
+}
+
+}  // namespace
+
+void add_radial_measure(const IntrinsicTriangulation& T, std::span<const PointInFace> where,
+                        double weight, std::vector<std::pair<int, Complex>>& out) {
+  const std::size_t first = out.size();
+  double Theta = 0;
+  for (const auto& [f, b] : where) {
+    const TriangleShape t = T.shape(f);
+    const Complex x = b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
+    for (int k = 0; k < 3; ++k) {
+      if (b[(k + 2) % 3] == 0) continue;  // the point lies on side k: it subtends no angle
+      const Complex u = t.p[k] - x, w = t.p[(k + 1) % 3] - x;
+      if (u == 0.0 || w == 0.0) continue;
+      const double angle = std::abs(std::arg(w / u));
+      Theta += angle;
+      // The integral of e^{i theta} over the sector: along its bisector, 2 sin(angle / 2) long.
+      const Complex bisector = u / std::abs(u) + w / std::abs(w);
+      if (std::abs(bisector) == 0) continue;
+      const Complex S = bisector / std::abs(bisector) * (2 * std::sin(angle / 2));
+      for (int l = 0; l < 3; ++l)
+        if (l == k || b[(l + 2) % 3] == 0)
+          out.emplace_back(T.side_edge(f, l), T.face_to_edge(t, f, l, S));
+    }
+  }
+  for (std::size_t i = first; i < out.size(); ++i) out[i].second *= weight / Theta;
+}
+
+VecX Calculus::divergence(const VecX& Y) const {
+  VecX AY(Y.size());
+  const Eigen::Index dim = A.size() > 0 ? Y.size() / A.size() : 0;  // 2, or 3 in tets
+  for (Eigen::Index c = 0; c < A.size(); ++c)
+    AY.segment(dim * c, dim) = A[c] * Y.segment(dim * c, dim);
+  return G.adjoint(AY);
+}
+
+Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                           const Task& task) {
+  Calculus C;
+  C.L = cotan_laplacian(*T, task);
+  C.G = gradient(T);
+  C.A.resize(T->n_faces());
+  C.M = VecX::Zero(T->n_vertices);
+  for (int f = 0; f < T->n_faces(); ++f) {
+    C.A[f] = area_of_lengths(T->length(f, 0), T->length(f, 1), T->length(f, 2));
+    for (int k = 0; k < 3; ++k) C.M[T->faces(f, k)] += C.A[f] / 3;
+  }
+  C.h = T->mean_edge_length;
+  C.component = T->component;
+  C.n_components = T->n_components;
+  C.boundary.assign(T->n_vertices, 0);
+  for (int e = 0; e < T->n_edges(); ++e)
+    if (T->edge_use[e] == 1) C.boundary[T->edges(e, 0)] = C.boundary[T->edges(e, 1)] = 1;
+  return C;
+}
+
+Operators triangle_operators(const IntrinsicTriangulation& T) {
+  return triangle_operators(std::make_shared<const IntrinsicTriangulation>(T));
+}
+
+Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>& T,
+                             const Task& task) {
+  Operators ops;
+  ops.domain = "triangle mesh";
+  ops.unit = T->unit;
+  ops.scalar = triangle_calculus(T, task);
+  VectorDiffusion& V = ops.vector;
+  V.n = T->n_edges();
+  V.ends = T->edges;
+  V.M = VecX::Zero(V.n);
+  for (int f = 0; f < T->n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) V.M[T->side_edge(f, k)] += ops.scalar.A[f] / 3;  // eq. 7
+  if (T->has_seams)
+    V.L_real = connection_laplacian_real(*T);
+  else
+    V.L = connection_laplacian(*T, task);
+  V.to_cells = edges_to_faces(T);
+  V.h = T->mean_edge_length / 2;
+  task.checkpoint();
+  find_pieces(*T, V);
+  return ops;
+}
+
+}  // namespace littoral

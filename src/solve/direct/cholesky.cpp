@@ -1,0 +1,253 @@
+#include "solve/direct/cholesky.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/parallel_forest.h"
+#include "solve/direct/dense_kernels.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int narrow = 24;  // columns of a supernode up to which calls cost more than loops
+
+/// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
+/// cancelled between.
+template <class Scalar>
+void subtract_trapezoid(int rows, int m, int k, const Scalar* A, int lda, Scalar* C, int ldc,
+                        const Task& task) {
+  const double enough = 1e8;
+  const int width =
+      std::clamp(static_cast<int>(enough / (double(rows) * std::max(1, k) + 1)), 64, 1 << 20);
+  for (int j = 0; j < m; j += width) {
+    if (task.cancelled()) throw Cancelled();
+    const int w = std::min(width, m - j);
+    Scalar* D = C + j + static_cast<std::ptrdiff_t>(j) * ldc;
+    dense::subtract_square(w, k, A + j, lda, D, ldc);
+    dense::subtract_product(rows - j - w, w, k, A + j + w, lda, A + j, lda, D + w, ldc);
+  }
+}
+
+/// Factors the first `columns` columns of a front in place; false if a pivot is not positive.
+template <class Scalar>
+bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
+  constexpr int panel = 128;
+  for (int j = 0; j < columns; j += panel) {
+    const int w = std::min(panel, columns - j), rest = height - j - w;
+    Scalar* D = block + j + static_cast<std::ptrdiff_t>(j) * height;
+    if (!dense::cholesky(w, D, height)) return false;
+    dense::solve_right(rest, w, D, height, D + w, height);
+    subtract_trapezoid(rest, columns - j - w, w, D + w, height,
+                       D + w + static_cast<std::ptrdiff_t>(w) * height, height, task);
+  }
+  return true;
+}
+
+template <class Scalar>
+std::shared_ptr<Scalar[]> zeros(std::size_t n) {
+  return std::shared_ptr<Scalar[]>(new Scalar[n]());
+}
+
+}  // namespace
+
+template <class Scalar>
+Cholesky<Scalar>::Cholesky(const Matrix& lower, const Task& task, const Ordering& order)
+    : Cholesky(lower,
+               std::make_shared<const Elimination>(
+                   lower, order.empty() ? dissection(lower, task) : order, task),
+               task) {}
+
+template <class Scalar>
+Cholesky<Scalar>::Cholesky(const Matrix& lower, std::shared_ptr<const Elimination> structure,
+                           const Task& task, bool to_be_patched)
+    : structure_(std::move(structure)), to_be_patched_(to_be_patched) {
+  factor(lower, std::vector<char>(structure_->n_super, 1), task);
+}
+
+template <class Scalar>
+Cholesky<Scalar> Cholesky<Scalar>::patched(const Matrix& lower, const std::vector<int>& changed,
+                                           const Task& task) const {
+  const Elimination& E = *structure_;
+  std::vector<char> stale(E.n_super, 0);
+  for (int i : changed)
+    for (int s = E.super_of[E.new_of[i]]; s >= 0 && !stale[s]; s = E.parent[s]) stale[s] = 1;
+  Cholesky out = *this;
+  out.to_be_patched_ = false;
+  out.factor(lower, stale, task);
+  return out;
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::factor(const Matrix& lower, const std::vector<char>& stale,
+                              const Task& task) {
+  const FlushSubnormals flush;
+  const Elimination& E = *structure_;
+  supernodes_.resize(static_cast<std::size_t>(E.n_super));
+  task.checkpoint();
+  try {
+    parallel_forest(E.task_parent, Walk::from_leaves, [&](int t) {
+      for (int s = E.task_first[t]; s < E.task_first[t + 1]; ++s)
+        if (stale[s]) factor_supernode(lower, s, task);
+    });
+  } catch (const std::bad_alloc&) {
+    supernodes_.clear();
+    throw SolveError("not enough memory to factor a matrix of order " + std::to_string(E.n));
+  }
+  if (!to_be_patched_)
+    for (Supernode& node : supernodes_) node.update.reset();
+  task.checkpoint();
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& task) {
+  if (task.cancelled()) throw Cancelled();
+  const Elimination& E = *structure_;
+  const int columns = E.columns(s), below = E.below(s), height = columns + below;
+  Supernode& node = supernodes_[s];
+  node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
+  node.update = zeros<Scalar>(static_cast<std::size_t>(below) * static_cast<std::size_t>(below));
+  Scalar* block = node.block.get();
+  Scalar* update = node.update.get();
+  const Scalar* values = lower.valuePtr();
+  for (int k = 0; k < columns; ++k)
+    for (int e = E.entry_begin[E.first[s] + k]; e < E.entry_begin[E.first[s] + k + 1]; ++e) {
+      const int from = E.entry_from[e];
+      block[E.entry_row[e] + static_cast<std::ptrdiff_t>(k) * height] +=
+          from >= 0 ? values[from] : Eigen::numext::conj(values[~from]);
+    }
+  for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
+    const int child = E.children[c], m = E.below(child);
+    const int* place = E.at_parent.data() + E.rows_begin[child];
+    const Scalar* passed_on = supernodes_[child].update.get();
+    for (int j = 0; j < m; ++j, passed_on += m) {
+      const std::ptrdiff_t p = place[j];
+      Scalar* column = p < columns ? block + p * height : update + (p - columns) * below - columns;
+      for (int i = j; i < m; ++i) column[place[i]] += passed_on[i];
+    }
+    if (!to_be_patched_) supernodes_[child].update.reset();
+  }
+  if (!factor_columns(height, columns, block, task))
+    throw SolveError("the matrix is not positive definite (near unknown " +
+                     std::to_string(E.old_of[E.first[s]]) + ")");
+  subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
+}
+
+template <class Scalar>
+typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
+                                                         const std::vector<char>& wanted) const {
+  const FlushSubnormals flush;
+  const Elimination& E = *structure_;
+  // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
+  std::vector<char> nonzero(static_cast<std::size_t>(E.n_super), 0), needed = nonzero;
+  auto mark_up = [&](std::vector<char>& marks, int s) {
+    for (; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
+  };
+  Dense x(b.rows(), b.cols());
+  for (Eigen::Index k = 0; k < b.cols(); ++k)
+    for (int s = 0; s < E.n_super; ++s) {
+      bool any = false;
+      for (int i = E.first[s]; i < E.first[s + 1]; ++i) {
+        x(i, k) = b(E.old_of[i], k);
+        any = any || x(i, k) != Scalar(0);
+      }
+      if (any) mark_up(nonzero, s);
+    }
+  if (wanted.empty()) {
+    needed.assign(needed.size(), 1);
+  } else {
+    for (int s = 0; s < E.n_super; ++s)
+      for (int i = E.first[s]; i < E.first[s + 1] && !needed[s]; ++i)
+        if (wanted[E.old_of[i]]) mark_up(needed, s);
+  }
+  std::vector<Dense> passed_on(static_cast<std::size_t>(E.n_tasks()));
+  parallel_forest(E.task_parent, Walk::from_leaves,
+                  [&](int t) { forward(t, nonzero, x, passed_on); });
+  parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, needed, x); });
+  Dense out(b.rows(), b.cols());
+  for (Eigen::Index k = 0; k < b.cols(); ++k)
+    for (int i = 0; i < E.n; ++i) out(E.old_of[i], k) = x(i, k);
+  return out;
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
+                               std::vector<Dense>& passed_on) const {
+  // x := L^-1 x on the columns of the task; what that subtracts from later rows is passed on to the
+  // task that holds them, so that tasks may run side by side.
+  const Elimination& E = *structure_;
+  const int n_rhs = static_cast<int>(x.cols()), root = E.task_first[t + 1] - 1;
+  Dense& out = passed_on[t];
+  out = Dense::Zero(E.below(root), n_rhs);
+  auto subtract_at = [&](int target, int k) -> Scalar& {
+    return target >= 0 ? x(target, k) : out(~target, k);
+  };
+  Dense y;
+  for (int s = E.task_first[t]; s <= root; ++s) {
+    if (!active[s]) continue;
+    const int columns = E.columns(s), below = E.below(s), height = columns + below;
+    for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
+      const int child = E.children[c];
+      if (child >= E.task_first[t]) continue;
+      const Dense& in = passed_on[E.task_of[child]];
+      const int* place = E.at_parent.data() + E.rows_begin[child];
+      for (int k = 0; k < n_rhs; ++k)
+        for (int i = 0; i < E.below(child); ++i)
+          subtract_at(place[i] < columns ? E.first[s] + place[i]
+                                         : E.target[E.rows_begin[s] + place[i] - columns],
+                      k) += in(i, k);
+    }
+    const Scalar* block = supernodes_[s].block.get();
+    if (y.rows() < below || y.cols() != n_rhs)
+      y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
+    const int ldy = static_cast<int>(y.rows());
+    if (n_rhs == 1 && columns <= narrow) {
+      dense::forward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+    } else {
+      dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
+      dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
+                   ldy);
+    }
+    const int* target = E.target.data() + E.rows_begin[s];
+    for (int k = 0; k < n_rhs; ++k)
+      for (int i = 0; i < below; ++i) subtract_at(target[i], k) -= y(i, k);
+  }
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x) const {
+  const Elimination& E = *structure_;
+  const int n_rhs = static_cast<int>(x.cols());
+  Dense y;
+  for (int s = E.task_first[t + 1]; s-- > E.task_first[t];) {
+    if (!active[s]) continue;
+    const int columns = E.columns(s), below = E.below(s), height = columns + below;
+    const Scalar* block = supernodes_[s].block.get();
+    if (y.rows() < height || y.cols() != n_rhs)
+      y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
+    const int ldy = static_cast<int>(y.rows());
+    const int* rows = E.rows.data() + E.rows_begin[s];
+    if (n_rhs == 1 && columns <= narrow) {
+      Scalar* v = y.data();
+      Scalar* own = &x(E.first[s], 0);
+      std::copy(own, own + columns, v);
+      for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], 0);
+      dense::backward_narrow(columns, height, block, v);
+      std::copy(v, v + columns, own);
+      continue;
+    }
+    for (int k = 0; k < n_rhs; ++k)
+      for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
+    dense::subtract_adjoint(below, columns, n_rhs, block + columns, height, y.data(), ldy,
+                            &x(E.first[s], 0), E.n);
+    dense::backward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
+  }
+}
+
+template class Cholesky<double>;
+template class Cholesky<Complex>;
+
+}  // namespace littoral

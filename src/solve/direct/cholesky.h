@@ -1,0 +1,64 @@
+#pragma once
+// Sparse Cholesky factorization of symmetric (Hermitian) positive definite matrices.
+
+#include <memory>
+#include <vector>
+
+#include "base/task.h"
+#include "base/types.h"
+#include "solve/direct/elimination.h"
+
+namespace littoral {
+
+/// A factorization A = L L^* of a matrix given by its lower triangle: multifrontal, subtrees of the
+/// elimination tree side by side, with the same bits for any number of threads. Immutable; copies
+/// share the factor; `solve` may be called from several threads.
+template <class Scalar>
+class Cholesky {
+ public:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// Factors, in the given order of elimination (empty: dissection(lower)). Throws SolveError if
+  /// the matrix is not positive definite to working precision or memory runs out, Cancelled within
+  /// 0.2 s of a request.
+  Cholesky(const Matrix& lower, const Task& task, const Ordering& order = {});
+
+  /// The same for a matrix with the pattern that `structure` was made from. A factor that is to be
+  /// patched remembers what each supernode passed on, which takes about as much memory again.
+  Cholesky(const Matrix& lower, std::shared_ptr<const Elimination> structure, const Task& task,
+           bool to_be_patched = false);
+
+  /// The factor of a matrix that differs in some rows and columns only (old numbers): refactors
+  /// what depends on these and shares the rest. This factor must be one `to_be_patched`.
+  Cholesky patched(const Matrix& lower, const std::vector<int>& changed, const Task& task) const;
+
+  /// Solves A x = b for each column of b. Parts of the factor that only zeros of b would pass
+  /// through are left out; so are those that only unwanted unknowns need (wanted: per unknown;
+  /// empty: all), whose values are of no meaning.
+  Dense solve(const Dense& b, const std::vector<char>& wanted = {}) const;
+
+  double nonzeros() const { return static_cast<double>(structure_->values()); }  // of the factor
+  const std::shared_ptr<const Elimination>& structure() const { return structure_; }
+
+ private:
+  struct Supernode {
+    std::shared_ptr<Scalar[]> block;   // height x columns, lower
+    std::shared_ptr<Scalar[]> update;  // below x below, lower: what is left of the front
+  };
+
+  void factor(const Matrix& lower, const std::vector<char>& stale, const Task& task);
+  void factor_supernode(const Matrix& lower, int s, const Task& task);
+  void forward(int task, const std::vector<char>& active, Dense& x,
+               std::vector<Dense>& passed_on) const;
+  void backward(int task, const std::vector<char>& active, Dense& x) const;
+
+  std::shared_ptr<const Elimination> structure_;
+  std::vector<Supernode> supernodes_;
+  bool to_be_patched_ = false;
+};
+
+extern template class Cholesky<double>;
+extern template class Cholesky<Complex>;
+
+}  // namespace littoral

@@ -1,0 +1,199 @@
+#include "solve/direct/definite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "base/error.h"
+
+namespace littoral {
+
+VecX times_symmetric(const SpMat& lower, const VecX& x) {
+  return lower.selfadjointView<Eigen::Lower>() * x;
+}
+
+std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W) {
+  SpMat K = lower;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = R;
+  for (int r = 0; r < rows.outerSize(); ++r) {
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator a(rows, r); a; ++a) {
+      const auto column = a.col();
+      const int* begin = K.innerIndexPtr() + K.outerIndexPtr()[column];
+      const int* end = K.innerIndexPtr() + K.outerIndexPtr()[column + 1];
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator b(rows, r); b; ++b) {
+        if (b.col() < column) continue;
+        const int* at = std::lower_bound(begin, end, static_cast<int>(b.col()));
+        if (at == end || *at != b.col()) return std::nullopt;
+        K.valuePtr()[at - K.innerIndexPtr()] += W[r] * a.value() * b.value();
+      }
+    }
+  }
+  return K;
+}
+
+SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {
+  const SpMat WR = W.asDiagonal() * R;
+  const SpMat P = SpMat(R.transpose()) * WR;
+  SpMat K = lower;
+  K += SpMat(P.triangularView<Eigen::Lower>());
+  K.makeCompressed();
+  return K;
+}
+
+SpMat eliminated(const SpMat& K, const std::vector<char>& gone) {
+  SpMat P(K.rows(), K.cols());
+  Triplets entries;
+  entries.reserve(static_cast<std::size_t>(K.nonZeros()));
+  for (int j = 0; j < K.outerSize(); ++j) {
+    if (gone[j]) {
+      entries.emplace_back(j, j, 1);
+      continue;
+    }
+    for (SpMat::InnerIterator it(K, j); it; ++it)
+      if (!gone[it.row()]) entries.emplace_back(it.row(), j, it.value());
+  }
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
+}
+
+std::vector<int> unknowns_of(const SpMat& R) {
+  std::vector<int> out;
+  for (int j = 0; j < R.outerSize(); ++j)
+    if (SpMat::InnerIterator(R, j)) out.push_back(j);
+  return out;
+}
+
+DefiniteSystem::DefiniteSystem(const SpMat& lower, const Task& task)
+    : DefiniteSystem(
+          lower, std::make_shared<const Elimination>(lower, dissection(lower, task), task), task) {}
+
+DefiniteSystem::DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure,
+                               const Task& task, bool to_be_patched)
+    : A_(std::make_shared<const SpMat>(std::move(lower))) {
+  try {
+    factor_ = std::make_shared<const Cholesky<double>>(*A_, structure, task, to_be_patched);
+    patchable_ = to_be_patched;
+  } catch (const SolveError&) {
+    factor_lifted(task, structure);
+  }
+}
+
+void DefiniteSystem::factor_lifted(const Task& task,
+                                   const std::shared_ptr<const Elimination>& structure) {
+  for (double lift : {1e-14, 1e-12, 1e-10, 1e-8}) {
+    SpMat lifted = *A_;
+    lifted.diagonal() *= 1 + lift;
+    lift_ = lift;
+    try {
+      factor_ = std::make_shared<const Cholesky<double>>(lifted, structure, task);
+      return;
+    } catch (const SolveError&) {
+      if (lift == 1e-8) throw;
+    }
+  }
+}
+
+DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& changed,
+                                       const Task& task) const {
+  DefiniteSystem out;
+  out.A_ = std::make_shared<const SpMat>(std::move(lower));
+  try {
+    out.factor_ =
+        std::make_shared<const Cholesky<double>>(factor_->patched(*out.A_, changed, task));
+  } catch (const SolveError&) {
+    out.factor_lifted(task, factor_->structure());
+  }
+  return out;
+}
+
+struct DefiniteSystem::LazyMultigrid {
+  explicit LazyMultigrid(std::vector<int> stiff_unknowns) : stiff(std::move(stiff_unknowns)) {}
+
+  const BandedMultigrid& of(const SpMat& A, const Task& task) {
+    const std::lock_guard lock(mutex);
+    if (!multigrid) multigrid.emplace(A, stiff, task);
+    return *multigrid;
+  }
+
+  std::mutex mutex;
+  const std::vector<int> stiff;
+  std::optional<BandedMultigrid> multigrid;
+};
+
+double DefiniteSystem::nonzeros() const {
+  if (factor_) return factor_->nonzeros();
+  const std::lock_guard lock(multigrid_->mutex);
+  return multigrid_->multigrid ? multigrid_->multigrid->nonzeros() : 0;
+}
+
+DefiniteSystem DefiniteSystem::by_multigrid(SpMat lower, std::vector<int> stiff) {
+  DefiniteSystem out;
+  out.A_ = std::make_shared<const SpMat>(std::move(lower));
+  out.multigrid_ = std::make_shared<LazyMultigrid>(std::move(stiff));
+  return out;
+}
+
+MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
+  if (factor_) return factor_->solve(b);
+  MatX x(b.rows(), b.cols());
+  Report each;
+  for (Eigen::Index k = 0; k < b.cols(); ++k)
+    x.col(k) = multigrid_->of(*A_, task).solve(b.col(k), 1e-6, task, each);
+  return x;
+}
+
+VecX DefiniteSystem::improved(const VecX& x, const VecX& b, const Task& task) const {
+  constexpr double left = 0.03;  // in the energy norm
+  Report unread;
+  return x + multigrid_->of(*A_, task).solve(b - times_symmetric(*A_, x), left, task, unread);
+}
+
+double DefiniteSystem::relative_residual(const VecX& x, const VecX& b) const {
+  const double scale = b.norm();
+  return scale > 0 ? (b - times_symmetric(*A_, x)).norm() / scale : x.norm();
+}
+
+VecX DefiniteSystem::solve(const VecX& b) const {
+  Report unread;
+  return solve(b, {}, unread);
+}
+
+VecX DefiniteSystem::solve(const VecX& b, const Task& task, Report& report) const {
+  if (multigrid_) return multigrid_->of(*A_, task).solve(b, 1e-11, task, report);
+  // One step of conjugate gradients is iterative refinement.
+  constexpr int max_steps = 60;
+  constexpr double enough = 1e-14;
+  VecX x = VecX::Zero(b.size()), best = x, r = b, p;
+  const double scale = b.norm(), size = A_->size() ? A_->diagonal().maxCoeff() : 0;
+  if (!(scale > 0)) return x;
+  double best_norm = scale, rz = 0;
+  for (int step = 0; step < max_steps; ++step) {
+    const VecX z = factor_->solve(r);
+    const double rz_new = r.dot(z);
+    p = step == 0 ? z : VecX(z + (rz_new / rz) * p);
+    rz = rz_new;
+    const VecX Ap = times_symmetric(*A_, p);
+    const double curvature = p.dot(Ap);
+    if (!(curvature > 0)) break;
+    x += (rz / curvature) * p;
+    r = b - times_symmetric(*A_, x);
+    const double norm = r.norm();
+    if (!(norm < best_norm)) break;
+    const bool stalled = lift_ == 0 && norm > 0.1 * best_norm;
+    best = x;
+    best_norm = norm;
+    if (norm <= enough * (scale + size * x.norm()) || stalled) break;
+  }
+  if (!best.allFinite()) throw SolveError("the solution of a linear system is not finite");
+  return best;
+}
+
+VecX DefiniteSystem::solve_once(const VecX& b) const {
+  if (lift_ > 0 || !factor_) return solve(b);
+  VecX x = factor_->solve(b);
+  if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");
+  return x;
+}
+
+}  // namespace littoral

@@ -1,0 +1,48 @@
+#pragma once
+// The dense kernels of a sparse factorization, on column-major blocks: BLAS where the build has
+// one, Eigen's otherwise. `lda` and so on: distance between columns. Hermitian blocks: lower half.
+
+#include "base/types.h"
+
+namespace littoral::dense {
+
+/// A = L L^*, n x n, in place. Returns false if a pivot is not positive and finite.
+template <class Scalar>
+bool cholesky(int n, Scalar* A, int lda);
+
+/// B := B L^-*, B m x n.
+template <class Scalar>
+void solve_right(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb);
+
+/// C := C - A A^*, A n x k; lower half of C only.
+template <class Scalar>
+void subtract_square(int n, int k, const Scalar* A, int lda, Scalar* C, int ldc);
+
+/// C := C - A B^*, A m x k, B n x k.
+template <class Scalar>
+void subtract_product(int m, int n, int k, const Scalar* A, int lda, const Scalar* B, int ldb,
+                      Scalar* C, int ldc);
+
+/// x := L^-1 x and x := L^-* x, x n x k.
+template <class Scalar>
+void forward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
+template <class Scalar>
+void backward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
+
+/// One right-hand side on a narrow supernode, where calls would cost more than their work: L is the
+/// top of `block` (height x n), A what is below. x := L^-1 x, then y := A x; and, of v = (x, y)
+/// (height), x := L^-* (x - A^* y).
+template <class Scalar>
+void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y);
+template <class Scalar>
+void backward_narrow(int n, int height, const Scalar* block, Scalar* v);
+
+/// y := A x (A m x n, x n x k) and x := x - A^* y.
+template <class Scalar>
+void times(int m, int n, int k, const Scalar* A, int lda, const Scalar* x, int ldx, Scalar* y,
+           int ldy);
+template <class Scalar>
+void subtract_adjoint(int m, int n, int k, const Scalar* A, int lda, const Scalar* y, int ldy,
+                      Scalar* x, int ldx);
+
+}  // namespace littoral::dense

@@ -1,0 +1,232 @@
+// One right-hand side on a narrow supernode: most of the time of a repeated solve. Four doubles at
+// once where the processor can, which is asked when the program runs.
+
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "solve/direct/dense_kernels.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#define LITTORAL_AVX2 __attribute__((target("avx2,fma")))
+#endif
+
+namespace littoral::dense {
+
+namespace {
+
+template <class Scalar>
+using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+double product(double a, double b) { return a * b; }
+Complex product(const Complex& a, const Complex& b) {  // C++'s own looks for infinities
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// x := L^-1 x and x := L^-* x for the top of a block.
+template <class Scalar>
+void forward_top(int n, int height, const Scalar* block, Scalar* x) {
+  for (int j = 0; j < n; ++j, block += height) {
+    const Scalar xj = x[j] /= std::real(block[j]);
+    for (int i = j + 1; i < n; ++i) x[i] -= product(block[i], xj);
+  }
+}
+
+template <class Scalar>
+void backward_top(int n, int height, const Scalar* block, Scalar* x) {
+  block += static_cast<std::ptrdiff_t>(n) * height;
+  for (int j = n; j-- > 0;) {
+    block -= height;
+    Scalar sum = x[j];
+    for (int i = j + 1; i < n; ++i) sum -= product(Eigen::numext::conj(block[i]), x[i]);
+    x[j] = sum / std::real(block[j]);
+  }
+}
+
+/// y := A x and x := x - A^* y, A m x n.
+template <class Scalar>
+void times_plain(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* y) {
+  Eigen::Map<Column<Scalar>> out(y, m);
+  out.setZero();
+  for (int j = 0; j < n; ++j, A += lda) out += x[j] * Eigen::Map<const Column<Scalar>>(A, m);
+}
+
+template <class Scalar>
+void subtract_adjoint_plain(int m, int n, const Scalar* A, int lda, const Scalar* y, Scalar* x) {
+  const Eigen::Map<const Column<Scalar>> in(y, m);
+  for (int j = 0; j < n; ++j, A += lda) x[j] -= Eigen::Map<const Column<Scalar>>(A, m).dot(in);
+}
+
+#ifdef LITTORAL_AVX2
+
+bool has_avx2() {
+  static const bool has = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return has;
+}
+
+/// A mask of the first k of four doubles.
+LITTORAL_AVX2 inline __m256i first_of_four(int k) {
+  alignas(32) static constexpr long long bits[8] = {-1, -1, -1, -1, 0, 0, 0, 0};
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bits + 4 - k));
+}
+
+LITTORAL_AVX2 inline double sum(__m256d v) {
+  const __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+  return _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)));
+}
+
+LITTORAL_AVX2 void times(int m, int n, const double* A, int lda, const double* x, double* y) {
+  int i = 0;
+  for (; i + 8 <= m; i += 8) {
+    __m256d s = _mm256_setzero_pd(), t = s;
+    const double* a = A + i;
+    for (int j = 0; j < n; ++j, a += lda) {
+      const __m256d xj = _mm256_broadcast_sd(x + j);
+      s = _mm256_fmadd_pd(_mm256_loadu_pd(a), xj, s);
+      t = _mm256_fmadd_pd(_mm256_loadu_pd(a + 4), xj, t);
+    }
+    _mm256_storeu_pd(y + i, s);
+    _mm256_storeu_pd(y + i + 4, t);
+  }
+  for (; i < m; i += 4) {
+    const __m256i mask = first_of_four(std::min(4, m - i));
+    __m256d s = _mm256_setzero_pd();
+    const double* a = A + i;
+    for (int j = 0; j < n; ++j, a += lda)
+      s = _mm256_fmadd_pd(_mm256_maskload_pd(a, mask), _mm256_broadcast_sd(x + j), s);
+    _mm256_maskstore_pd(y + i, mask, s);
+  }
+}
+
+LITTORAL_AVX2 inline __m256d combined(__m256d re, __m256d im) {
+  return _mm256_addsub_pd(re, _mm256_permute_pd(im, 5));
+}
+
+/// The same for complex numbers as pairs: y is a x's real part plus a's swapped pairs, turned, by
+/// its imaginary part.
+LITTORAL_AVX2 void times(int m, int n, const Complex* A, int lda, const Complex* x, Complex* y) {
+  const auto* in = reinterpret_cast<const double*>(x);
+  int i = 0;
+  for (; i + 4 <= m; i += 4) {
+    __m256d s = _mm256_setzero_pd(), s_im = s, t = s, t_im = s;
+    const auto* a = reinterpret_cast<const double*>(A + i);
+    for (int j = 0; j < n; ++j, a += 2 * static_cast<std::ptrdiff_t>(lda)) {
+      const __m256d re = _mm256_broadcast_sd(in + 2 * j), im = _mm256_broadcast_sd(in + 2 * j + 1);
+      const __m256d u = _mm256_loadu_pd(a), v = _mm256_loadu_pd(a + 4);
+      s = _mm256_fmadd_pd(u, re, s);
+      s_im = _mm256_fmadd_pd(u, im, s_im);
+      t = _mm256_fmadd_pd(v, re, t);
+      t_im = _mm256_fmadd_pd(v, im, t_im);
+    }
+    auto* out = reinterpret_cast<double*>(y + i);
+    _mm256_storeu_pd(out, combined(s, s_im));
+    _mm256_storeu_pd(out + 4, combined(t, t_im));
+  }
+  for (; i < m; i += 2) {
+    const __m256i mask = first_of_four(2 * std::min(2, m - i));
+    __m256d s = _mm256_setzero_pd(), s_im = s;
+    const auto* a = reinterpret_cast<const double*>(A + i);
+    for (int j = 0; j < n; ++j, a += 2 * static_cast<std::ptrdiff_t>(lda)) {
+      const __m256d u = _mm256_maskload_pd(a, mask);
+      s = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j), s);
+      s_im = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j + 1), s_im);
+    }
+    _mm256_maskstore_pd(reinterpret_cast<double*>(y + i), mask, combined(s, s_im));
+  }
+}
+
+/// Up to four columns at once.
+template <int columns>
+LITTORAL_AVX2 void subtract_adjoint_of(int m, const double* A, std::ptrdiff_t lda, const double* y,
+                                       double* x) {
+  __m256d s[columns];
+  for (auto& each : s) each = _mm256_setzero_pd();
+  int i = 0;
+  for (; i + 4 <= m; i += 4) {
+    const __m256d in = _mm256_loadu_pd(y + i);
+    for (int j = 0; j < columns; ++j)
+      s[j] = _mm256_fmadd_pd(_mm256_loadu_pd(A + j * lda + i), in, s[j]);
+  }
+  if (i < m) {
+    const __m256i mask = first_of_four(m - i);
+    const __m256d in = _mm256_maskload_pd(y + i, mask);
+    for (int j = 0; j < columns; ++j)
+      s[j] = _mm256_fmadd_pd(_mm256_maskload_pd(A + j * lda + i, mask), in, s[j]);
+  }
+  for (int j = 0; j < columns; ++j) x[j] -= sum(s[j]);
+}
+
+template <int columns>
+LITTORAL_AVX2 void subtract_adjoint_of(int m, const Complex* A, std::ptrdiff_t lda,
+                                       const Complex* y, Complex* x) {
+  // conj(a) y = (a_re y_re + a_im y_im, a_re y_im - a_im y_re): sums of a y, and of a by y's
+  // swapped pairs.
+  __m256d s[columns], t[columns];
+  for (int j = 0; j < columns; ++j) s[j] = t[j] = _mm256_setzero_pd();
+  const auto* from = reinterpret_cast<const double*>(y);
+  int i = 0;
+  for (; i + 2 <= m; i += 2) {
+    const __m256d in = _mm256_loadu_pd(from + 2 * i), swapped = _mm256_permute_pd(in, 5);
+    for (int j = 0; j < columns; ++j) {
+      const __m256d a = _mm256_loadu_pd(reinterpret_cast<const double*>(A + j * lda + i));
+      s[j] = _mm256_fmadd_pd(a, in, s[j]);
+      t[j] = _mm256_fmadd_pd(a, swapped, t[j]);
+    }
+  }
+  if (i < m) {
+    const __m256i mask = first_of_four(2);
+    const __m256d in = _mm256_maskload_pd(from + 2 * i, mask), swapped = _mm256_permute_pd(in, 5);
+    for (int j = 0; j < columns; ++j) {
+      const __m256d a = _mm256_maskload_pd(reinterpret_cast<const double*>(A + j * lda + i), mask);
+      s[j] = _mm256_fmadd_pd(a, in, s[j]);
+      t[j] = _mm256_fmadd_pd(a, swapped, t[j]);
+    }
+  }
+  const __m256d minus_odd = _mm256_set_pd(-0.0, 0.0, -0.0, 0.0);
+  for (int j = 0; j < columns; ++j) x[j] -= Complex(sum(s[j]), sum(_mm256_xor_pd(t[j], minus_odd)));
+}
+
+/// v := L^-* (v - A^* of what is below), the last of n columns first, v being `height` long.
+template <int columns, class Scalar>
+LITTORAL_AVX2 void backward_columns(int j, int height, const Scalar* block, Scalar* v) {
+  const Scalar* A = block + j + static_cast<std::ptrdiff_t>(j) * height;
+  subtract_adjoint_of<columns>(height - j - columns, A + columns, height, v + j + columns, v + j);
+  backward_top(columns, height, A, v + j);
+}
+
+template <class Scalar>
+LITTORAL_AVX2 void backward(int n, int height, const Scalar* block, Scalar* v) {
+  for (; n >= 4; n -= 4) backward_columns<4>(n - 4, height, block, v);
+  if (n == 3) backward_columns<3>(0, height, block, v);
+  if (n == 2) backward_columns<2>(0, height, block, v);
+  if (n == 1) backward_columns<1>(0, height, block, v);
+}
+
+#endif
+
+}  // namespace
+
+template <class Scalar>
+void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
+  forward_top(n, height, block, x);
+#ifdef LITTORAL_AVX2
+  if (has_avx2()) return times(height - n, n, block + n, height, x, y);
+#endif
+  times_plain(height - n, n, block + n, height, x, y);
+}
+
+template <class Scalar>
+void backward_narrow(int n, int height, const Scalar* block, Scalar* v) {
+#ifdef LITTORAL_AVX2
+  if (has_avx2()) return backward(n, height, block, v);
+#endif
+  subtract_adjoint_plain(height - n, n, block + n, height, v + n, v);
+  backward_top(n, height, block, v);
+}
+
+template void forward_narrow(int, int, const double*, double*, double*);
+template void forward_narrow(int, int, const Complex*, Complex*, Complex*);
+template void backward_narrow(int, int, const double*, double*);
+template void backward_narrow(int, int, const Complex*, Complex*);
+
+}  // namespace littoral::dense

@@ -1,0 +1,42 @@
+#include "solve/direct/refined_cholesky.h"
+
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+
+namespace littoral {
+
+bool RefinedCholesky::factor(SpMat lower, const std::shared_ptr<const Elimination>& structure,
+                             const Task& task) {
+  lower_ = std::move(lower);
+  double lift = 0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    try {
+      factor_.emplace(lower_, structure, task);
+      return true;
+    } catch (const SolveError&) {  // not positive definite to working precision
+    }
+    const double next = lift == 0 ? 1e-13 : 100 * lift;
+    for (int j = 0; j < lower_.cols(); ++j)
+      lower_.valuePtr()[lower_.outerIndexPtr()[j]] *= (1 + next) / (1 + lift);
+    lift = next;
+  }
+  return false;
+}
+
+VecX RefinedCholesky::solve(const VecX& rhs, double allowed, const Task& task) const {
+  VecX x = factor_->solve(rhs);
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k) {
+    task.checkpoint();
+    const VecX residual = rhs - lower_.selfadjointView<Eigen::Lower>() * x;
+    const double size = residual.norm();
+    if (size <= allowed || size > 0.5 * last) break;
+    last = size;
+    x += factor_->solve(residual);
+  }
+  return x;
+}
+
+}  // namespace littoral

@@ -1,0 +1,127 @@
+#include "solve/direct/sparse_rows.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr std::size_t row_grain = 1 << 14;
+
+void counts_to_begins(int* begin, Eigen::Index rows) {
+  std::partial_sum(begin, begin + rows + 1, begin);
+}
+
+}  // namespace
+
+SpRows full_rows(const SpMat& lower) {
+  const Eigen::Index n = lower.cols();
+  SpRows A(n, n);
+  int* begin = A.outerIndexPtr();
+  std::fill(begin, begin + n + 1, 0);
+  for (int j = 0; j < n; ++j)
+    for (SpMat::InnerIterator it(lower, j); it; ++it) {
+      ++begin[it.row() + 1];
+      if (it.row() != j) ++begin[j + 1];
+    }
+  counts_to_begins(begin, n);
+  A.resizeNonZeros(begin[n]);
+  std::vector<int> at(begin, begin + n);
+  auto put = [&](Eigen::Index i, int j, double a) {
+    A.innerIndexPtr()[at[i]] = j;
+    A.valuePtr()[at[i]++] = a;
+  };
+  // Left of the diagonal from columns in ascending order, then the diagonal and what is right of
+  // it: every row comes out sorted.
+  for (int j = 0; j < n; ++j)
+    for (SpMat::InnerIterator it(lower, j); it; ++it)
+      if (it.row() != j) put(it.row(), j, it.value());
+  for (int j = 0; j < n; ++j)
+    for (SpMat::InnerIterator it(lower, j); it; ++it)
+      put(j, static_cast<int>(it.row()), it.value());
+  return A;
+}
+
+void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
+  y.resize(A.rows());
+  const int* begin = A.outerIndexPtr();
+  const int* to = A.innerIndexPtr();
+  const double* a = A.valuePtr();
+  const double* from = x.data();
+  parallel_for(static_cast<std::size_t>(A.rows()), row_grain, [&](std::size_t i, std::size_t end) {
+    if (task.cancelled()) throw Cancelled();
+    for (; i < end; ++i) {
+      double sum = 0;
+      for (int e = begin[i]; e < begin[i + 1]; ++e) sum += a[e] * from[to[e]];
+      y[static_cast<Eigen::Index>(i)] = sum;
+    }
+  });
+}
+
+SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
+  const auto n = static_cast<std::size_t>(A.rows());
+  // Pieces of rows, each with a marker of its own over the columns of B.
+  const std::size_t grain = std::max<std::size_t>(row_grain, (n + 31) / 32);
+  struct Piece {
+    std::vector<int> to;
+    std::vector<double> value;
+  };
+  std::vector<Piece> pieces((n + grain - 1) / grain);
+  SpRows C(A.rows(), B.cols());
+  int* begin = C.outerIndexPtr();
+  begin[0] = 0;
+  parallel_for(n, grain, [&](std::size_t first, std::size_t end) {
+    Piece& piece = pieces[first / grain];
+    std::vector<int> place(static_cast<std::size_t>(B.cols()), -1);
+    for (std::size_t i = first; i < end; ++i) {
+      if (i % 4096 == 0 && task.cancelled()) throw Cancelled();
+      const auto start = static_cast<int>(piece.to.size());
+      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+        const int k = A.innerIndexPtr()[e];
+        const double a = A.valuePtr()[e];
+        for (int g = B.outerIndexPtr()[k]; g < B.outerIndexPtr()[k + 1]; ++g) {
+          int& at = place[B.innerIndexPtr()[g]];
+          if (at < start) {
+            at = static_cast<int>(piece.to.size());
+            piece.to.push_back(B.innerIndexPtr()[g]);
+            piece.value.push_back(0);
+          }
+          piece.value[at] += a * B.valuePtr()[g];
+        }
+      }
+      begin[i + 1] = static_cast<int>(piece.to.size()) - start;
+    }
+  });
+  counts_to_begins(begin, C.rows());
+  C.resizeNonZeros(begin[C.rows()]);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    std::copy(pieces[p].to.begin(), pieces[p].to.end(), C.innerIndexPtr() + begin[p * grain]);
+    std::copy(pieces[p].value.begin(), pieces[p].value.end(), C.valuePtr() + begin[p * grain]);
+    pieces[p] = {};
+  }
+  return C;
+}
+
+SpRows transposed(const SpRows& A) {
+  SpRows T(A.cols(), A.rows());
+  int* begin = T.outerIndexPtr();
+  std::fill(begin, begin + T.rows() + 1, 0);
+  for (Eigen::Index e = 0; e < A.nonZeros(); ++e) ++begin[A.innerIndexPtr()[e] + 1];
+  counts_to_begins(begin, T.rows());
+  T.resizeNonZeros(A.nonZeros());
+  std::vector<int> at(begin, begin + T.rows());
+  for (int i = 0; i < A.rows(); ++i)
+    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+      const int k = at[A.innerIndexPtr()[e]]++;
+      T.innerIndexPtr()[k] = i;
+      T.valuePtr()[k] = A.valuePtr()[e];
+    }
+  return T;
+}
+
+}  // namespace littoral

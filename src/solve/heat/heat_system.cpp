@@ -1,0 +1,156 @@
+#include "solve/heat/heat_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/platform/memory.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double front = 1e-250;  // entries below this share of the largest: the next layer
+constexpr std::size_t largest_factor = 4'000'000'000;  // bytes, for many solves
+// Orders beyond which the factor's size is not even asked for.
+constexpr Eigen::Index largest_order = 8'000'000, largest_order_for_one_solve = 1'500'000;
+constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
+
+/// An order of the blocks, from the graph of their first unknowns.
+template <class Scalar>
+Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, const Task& task) {
+  if (block == 1) return dissection(lower, task);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()) / block, j / block, it.value());
+  const Eigen::Index n = lower.cols() / block;
+  Eigen::SparseMatrix<Scalar> blocks(n, n);
+  blocks.setFromTriplets(entries.begin(), entries.end());
+  return dissection(blocks, task);
+}
+
+}  // namespace
+
+template <class Scalar>
+HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect, const Task& task,
+                               Ordering order)
+    : A_(std::make_shared<const Matrix>(std::move(lower))),
+      block_(block),
+      order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
+      windows_(A_, block, std::move(size), order_) {
+  if (A_->rows() > (expect == Expect::one_solve ? largest_order_for_one_solve : largest_order))
+    return;
+  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
+  const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
+  if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
+}
+
+template <class Scalar>
+Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
+  return Cholesky<Scalar>(*A_, task, in_blocks(order_, block_));
+}
+
+template <class Scalar>
+LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
+                                               const Task& task, Report& report) const {
+  std::vector<double> largest;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0) continue;
+    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
+    largest[piece[i]] =
+        std::max(largest[piece[i]], block_magnitude(b, static_cast<Eigen::Index>(i), block_));
+  }
+  Vector r = Vector::Zero(b.size());
+  std::vector<int> reached(piece.size(), -1);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
+    const auto at = static_cast<Eigen::Index>(i) * block_;
+    r.segment(at, block_) = b.segment(at, block_) / largest[piece[i]];
+    reached[i] = piece[i];
+  }
+  if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
+  auto field = windows_.solve(r, reached, task, report);
+  return_freed_memory();
+  if (field) return std::move(*field);
+  return solve_in_passes(factored(task), std::move(r), reached, task, report);
+}
+
+template <class Scalar>
+LayeredField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
+                                                    const std::vector<int>& piece, const Task& task,
+                                                    Report& report) const {
+  return solve(windows_.source_that_holds(held, task), piece, task, report);
+}
+
+template <class Scalar>
+LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+                                                         const std::vector<int>& piece,
+                                                         const Task& task, Report& report) const {
+  const Eigen::Index n = r.size() / block_;
+  LayeredField<Scalar> field{
+      Vector::Zero(r.size()), std::vector<int>(static_cast<std::size_t>(n), -1), {1.0}};
+  Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
+
+  int passes = 0;
+  constexpr char older = 0, outside = 1, fresh = 2;  // unknowns of earlier layers, none, this one
+  std::vector<char> side(static_cast<std::size_t>(r.size()), outside);
+  while (left > 0) {
+    task.checkpoint();
+    const int p = passes++;  // side: all outside or older
+    const Vector z = factor.solve(r, side);
+    double top = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
+    if (!(top > 0) || !std::isfinite(top)) break;
+    Eigen::Index taken = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (field.layer[i] >= 0 || piece[i] < 0) continue;
+      field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
+      if (block_magnitude(z, i, block_) < front * top) continue;
+      field.layer[i] = p;
+      std::fill_n(side.begin() + i * block_, block_, fresh);
+      ++taken;
+    }
+    left -= taken;
+    if (left == 0 || taken == 0) break;
+
+    // b - A (x truncated to the layers so far): nonzero on both sides of the front only.
+    r.setZero();
+    for (int j = 0; j < A_->outerSize(); ++j) {
+      const char at_j = side[j];
+      for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+        const Eigen::Index i = it.row();
+        if ((side[i] ^ at_j) != (outside | fresh)) continue;  // not one outside, one fresh
+        const Scalar a = it.value(), a_transposed = Eigen::numext::conj(a);
+        if (at_j == fresh) {
+          r[i] -= a * field.x[j];
+          r[j] += a_transposed * field.x[i];
+        } else {
+          r[j] -= a_transposed * field.x[i];
+          r[i] += a * field.x[j];
+        }
+      }
+    }
+    for (char& s : side)
+      if (s == fresh) s = older;
+    double m = 0;
+    for (Eigen::Index i = 0; i < r.size(); ++i) m = std::max(m, magnitude(r[i]));
+    if (!(m > 0)) break;
+    r *= 1 / m;  // Eigen divides complex numbers by the square of m, which underflows
+    field.scale.push_back(m);
+  }
+  report.iterations.emplace_back("heat passes", passes);
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (field.layer[i] < 0) field.x.segment(i * block_, block_).setZero();
+  if (left > 0)
+    report.warn("heat did not reach " + std::to_string(left) +
+                " elements; their directions are left to the Poisson step");
+  return field;
+}
+
+template class HeatSystem<double>;
+template class HeatSystem<Complex>;
+
+}  // namespace littoral

@@ -1,0 +1,323 @@
+#include "solve/heat/heat_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "solve/direct/cholesky.h"
+
+namespace littoral {
+
+namespace {
+constexpr double window = 50;            // decay lengths kept of every window
+constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
+                                         // arrives at what is kept exp(-2 * overlap) times smaller
+constexpr double longest_overlap = 120;
+constexpr double around_held = 18;  // what lies beyond does not change a source that holds values
+constexpr double negligible = 1e-250;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// The same with several layers made one where the range of numbers allows it.
+template <class Scalar>
+LayeredField<Scalar> with_fewer_layers(LayeredField<Scalar> field, int block) {
+  constexpr double range = 1e-60;
+  std::vector<double> scale, unit;  // new layers; old layers in units of their new one
+  std::vector<int> layer;           // old layers: the new one
+  for (double s : field.scale) {
+    if (unit.empty() || unit.back() * s < range) {
+      scale.push_back(unit.empty() ? s : unit.back() * s);
+      unit.push_back(1);
+    } else {
+      unit.push_back(unit.back() * s);
+    }
+    layer.push_back(static_cast<int>(scale.size()) - 1);
+  }
+  for (std::size_t i = 0; i < field.layer.size(); ++i) {
+    int& p = field.layer[i];
+    if (p < 0) continue;
+    field.x.segment(static_cast<Eigen::Index>(i) * block, block) *= unit[p];
+    p = layer[p];
+  }
+  field.scale = std::move(scale);
+  return field;
+}
+
+}  // namespace
+
+VecX decay_lengths(const VecX& M, double t) { return (M.array().max(0.0) / t).sqrt(); }
+
+template <class Scalar>
+HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size,
+                                 const Ordering& order)
+    : A_(std::move(lower)), block_(block), size_(std::move(size)), position_(order.size()) {
+  for (std::size_t k = 0; k < order.size(); ++k) position_[order[k]] = static_cast<int>(k);
+  auto for_edges = [&](const auto& put) {
+    for (int j = 0; j < A_->outerSize(); j += block_)  // the first unknown's column names them all
+      for (typename Matrix::InnerIterator it(*A_, j); it; ++it)
+        if (it.row() % block_ == 0 && it.row() != j)
+          put(static_cast<int>(it.row()) / block_, j / block_);
+  };
+  begin_.assign(order.size() + 1, 0);
+  for_edges([&](int i, int j) {
+    ++begin_[i];
+    ++begin_[j];
+  });
+  int sum = 0;
+  for (int& b : begin_) sum += std::exchange(b, sum);
+  to_.resize(static_cast<std::size_t>(sum));
+  std::vector<int> at = begin_;
+  for_edges([&](int i, int j) {
+    to_[at[i]++] = j;
+    to_[at[j]++] = i;
+  });
+}
+
+template <class Scalar>
+std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from, double limit,
+                                                   const Task& task) const {
+  // Dijkstra's algorithm with buckets one decay length wide, settled in any order inside of one.
+  std::vector<double> d(position_.size(), infinity);
+  std::vector<std::vector<std::pair<double, int>>> buckets(1);
+  for (int i : from) {
+    d[i] = 0;
+    buckets[0].emplace_back(0, i);
+  }
+  for (std::size_t b = 0; b < buckets.size() && static_cast<double>(b) <= limit; ++b) {
+    if (task.cancelled()) throw Cancelled();
+    for (std::size_t k = 0; k < buckets[b].size(); ++k) {  // grows meanwhile
+      const auto [at, i] = buckets[b][k];
+      if (at > d[i]) continue;
+      for (int e = begin_[i]; e < begin_[i + 1]; ++e) {
+        const int j = to_[e];
+        const double next = at + 2 * std::asinh(0.25 * (size_[i] + size_[j]) + 1e-3);
+        if (!(next < d[j])) continue;
+        d[j] = next;
+        const auto bucket = static_cast<std::size_t>(next);
+        if (bucket >= buckets.size()) buckets.resize(bucket + 1);
+        buckets[bucket].emplace_back(next, j);
+      }
+    }
+    std::vector<std::pair<double, int>>().swap(buckets[b]);
+  }
+  return d;
+}
+
+template <class Scalar>
+typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
+    const std::vector<int>& blocks, const std::vector<char>& known, const Vector& x, Vector r,
+    std::vector<int>& local, const Task& task) const {
+  // Columns that hold entries of these rows: their own and those of known neighbours.
+  std::vector<int> columns = blocks;
+  for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = static_cast<int>(k);
+  std::vector<int> neighbours;
+  for (int i : blocks)
+    for (int e = begin_[i]; e < begin_[i + 1]; ++e)
+      if (known[to_[e]]) neighbours.push_back(to_[e]);
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  columns.insert(columns.end(), neighbours.begin(), neighbours.end());
+
+  const auto n = static_cast<Eigen::Index>(blocks.size()) * block_;
+  Matrix K(n, n);
+  auto for_entries = [&](const auto& put) {
+    for (int block_column : columns)
+      for (int j = block_column * block_; j < (block_column + 1) * block_; ++j)
+        for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+          const int i = static_cast<int>(it.row()), li = local[i / block_], lj = local[j / block_];
+          const int a = li < 0 ? -1 : li * block_ + i % block_;
+          const int b = lj < 0 ? -1 : lj * block_ + j % block_;
+          put(i, j, a, b, it.value());
+        }
+  };
+  int* begin = K.outerIndexPtr();
+  std::fill(begin, begin + n + 1, 0);
+  for_entries([&](int i, int j, int a, int b, const Scalar& z) {
+    if (a >= 0 && b >= 0) ++begin[std::min(a, b)];
+    if (a >= 0 && b < 0 && known[j / block_]) r[a] -= z * x[j];
+    if (b >= 0 && a < 0 && known[i / block_]) r[b] -= Eigen::numext::conj(z) * x[i];
+  });
+  int sum = 0;
+  for (Eigen::Index k = 0; k <= n; ++k) sum += std::exchange(begin[k], sum);
+  K.resizeNonZeros(sum);
+  std::vector<int> at(begin, begin + n);
+  for_entries([&](int, int, int a, int b, const Scalar& z) {
+    if (a < 0 || b < 0) return;
+    const int e = at[std::min(a, b)]++;
+    K.innerIndexPtr()[e] = std::max(a, b);
+    K.valuePtr()[e] = a >= b ? z : Eigen::numext::conj(z);
+  });
+  for (int i : blocks) local[i] = -1;
+  Ordering in_order(static_cast<std::size_t>(n));
+  std::iota(in_order.begin(), in_order.end(), 0);
+  return Cholesky<Scalar>(K, task, in_order).solve(r);
+}
+
+template <class Scalar>
+std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+                                                               const std::vector<int>& piece,
+                                                               const Task& task,
+                                                               Report& report) const {
+  const FlushSubnormals flush;
+  const auto n = static_cast<int>(position_.size());
+  std::vector<int> from;
+  for (int i = 0; i < n; ++i)
+    if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
+  const std::vector<double> d = distances(from, infinity, task);
+  std::vector<int> order;
+  for (int i = 0; i < n; ++i)
+    if (d[i] < infinity) order.push_back(i);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return d[i] != d[j] ? d[i] < d[j] : i < j; });
+
+  std::optional<LayeredField<Scalar>> best;
+  double least = 1e-9;  // more is not an answer
+  int best_windows = 0;
+  for (double overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
+    auto field = solve(b, d, order, overlap, task);
+    if (!field) break;
+    const double error = misfit(*field, b, task);
+    if (best && !(error < 0.1 * least)) break;  // round-off
+    if (!(error < least)) continue;
+    best_windows = static_cast<int>(field->scale.size());
+    best = std::move(field);
+    least = error;
+    if (error < 1e-13) break;
+  }
+  if (!best) return std::nullopt;
+  report.iterations.emplace_back("heat windows", best_windows);
+  report.residuals.emplace_back("heat, between windows", least);
+  return with_fewer_layers(std::move(*best), block_);
+}
+
+template <class Scalar>
+std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+                                                               const std::vector<double>& d,
+                                                               const std::vector<int>& order,
+                                                               double overlap,
+                                                               const Task& task) const {
+  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
+  std::vector<int> local(position_.size(), -1);
+  std::vector<char> known(position_.size(), 0);
+  int windows = 0;
+  for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
+    task.checkpoint(double(start) / double(order.size()));
+    const double reach = (windows + 1) * window;
+    std::size_t kept = start, end = start;
+    while (kept < order.size() && d[order[kept]] <= reach) ++kept;
+    for (end = kept; end < order.size() && d[order[end]] <= reach + overlap;) ++end;
+    if (kept == start) return std::nullopt;  // steps longer than a window
+    std::vector<int> blocks(order.begin() + static_cast<std::ptrdiff_t>(start),
+                            order.begin() + static_cast<std::ptrdiff_t>(end));
+    std::sort(blocks.begin(), blocks.end(),
+              [&](int i, int j) { return position_[i] < position_[j]; });
+    Vector r = Vector::Zero(static_cast<Eigen::Index>(blocks.size()) * block_);
+    if (windows == 0)
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+        r.segment(static_cast<Eigen::Index>(k) * block_, block_) =
+            b.segment(Eigen::Index(blocks[k]) * block_, block_);
+    const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
+    double top = 0;
+    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k)
+      if (d[blocks[k]] <= reach) top = std::max(top, block_magnitude(z, k, block_));
+    if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
+    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
+      const int i = blocks[k];
+      if (d[i] > reach) continue;
+      if (!(block_magnitude(z, k, block_) > negligible * top)) return std::nullopt;
+      field.x.segment(Eigen::Index(i) * block_, block_) = z.segment(k * block_, block_) / top;
+      field.layer[i] = windows;
+      known[i] = 1;
+    }
+    field.scale.push_back(top);
+    for (; before < start; ++before) known[order[before]] = 0;
+    start = kept;
+  }
+  return field;
+}
+
+template <class Scalar>
+double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vector& b,
+                                   const Task& task) const {
+  // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
+  // size of its terms; where b is 0, as it is away from the sources.
+  Vector sum = Vector::Zero(field.x.size());
+  VecX size = VecX::Zero(field.x.size());
+  std::vector<char> front(position_.size(), 0);
+  auto add = [&](Eigen::Index i, Eigen::Index j, const Scalar& a) {
+    const Eigen::Index bi = i / block_, bj = j / block_;
+    if (field.layer[bi] < 0 || field.layer[bj] < 0) return;
+    double unit = 1;
+    if (field.layer[bj] > field.layer[bi]) {
+      unit = field.scale[field.layer[bj]];
+      front[bi] = 1;
+    } else if (field.layer[bj] < field.layer[bi]) {
+      unit = 1 / field.scale[field.layer[bi]];
+    }
+    const Scalar term = a * field.x[j] * unit;
+    sum[i] += term;
+    size[i] += magnitude(term);
+  };
+  for (int j = 0; j < A_->outerSize(); ++j) {
+    if (j % 65536 == 0 && task.cancelled()) throw Cancelled();
+    for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+      add(it.row(), j, it.value());
+      if (it.row() != j) add(j, it.row(), Eigen::numext::conj(it.value()));
+    }
+  }
+  double worst = 0;
+  for (Eigen::Index i = 0; i < sum.size(); ++i)
+    if (front[i / block_] && size[i] > 0 && b[i] == Scalar(0))
+      worst = std::max(worst, magnitude(sum[i]) / size[i]);
+  return worst;
+}
+
+template <class Scalar>
+typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
+    const Vector& held, const Task& task) const {
+  const FlushSubnormals flush;
+  const auto n = static_cast<int>(position_.size());
+  std::vector<char> known(position_.size(), 0);
+  std::vector<int> from, blocks, local(position_.size(), -1);
+  for (int i = 0; i < n; ++i)
+    if (block_magnitude(held, i, block_) > 0) {
+      known[i] = 1;
+      from.push_back(i);
+    }
+  const std::vector<double> d = distances(from, around_held, task);
+  for (int i = 0; i < n; ++i)
+    if (!known[i] && d[i] <= around_held) blocks.push_back(i);
+  std::sort(blocks.begin(), blocks.end(),
+            [&](int i, int j) { return position_[i] < position_[j]; });
+  Vector x = held;
+  const Vector z =
+      solve_region(blocks, known, held,
+                   Vector::Zero(static_cast<Eigen::Index>(blocks.size()) * block_), local, task);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    x.segment(Eigen::Index(blocks[k]) * block_, block_) =
+        z.segment(static_cast<Eigen::Index>(k) * block_, block_);
+  // b = A x in the rows of held blocks, whose entries are in their own columns and their
+  // neighbours'.
+  std::vector<int> columns = from;
+  for (int i : from)
+    for (int e = begin_[i]; e < begin_[i + 1]; ++e)
+      if (!known[to_[e]]) columns.push_back(to_[e]);
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  Vector b = Vector::Zero(held.size());
+  for (int c : columns)
+    for (int j = c * block_; j < (c + 1) * block_; ++j)
+      for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+        const Eigen::Index i = it.row();
+        if (known[i / block_]) b[i] += it.value() * x[j];
+        if (i != j && known[c]) b[j] += Eigen::numext::conj(it.value()) * x[i];
+      }
+  return b;
+}
+
+template class HeatWindows<double>;
+template class HeatWindows<Complex>;
+
+}  // namespace littoral

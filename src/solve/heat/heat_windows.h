@@ -1,0 +1,62 @@
+#pragma once
+// (M + t L) x = b for small t without one big factorization: window by window, outward from b.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "solve/direct/ordering.h"
+#include "solve/heat/layered_field.h"
+
+namespace littoral {
+
+/// sqrt(M / t): the extent of the place a mass stands for, in units of the length over which heat
+/// decays in time t.
+VecX decay_lengths(const VecX& M, double t);
+
+/// A matrix whose inverse decays exponentially along its graph; immutable.
+template <class Scalar>
+class HeatWindows {
+ public:
+  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  /// lower: the matrix's lower triangle, unknowns in blocks of `block`. size: blocks; extent of a
+  /// block in decay lengths, sqrt(M / t): what a step between two blocks is taken to be long.
+  /// order: of elimination, of the blocks.
+  HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size, const Ordering& order);
+
+  /// Solves on the blocks up to some distance from the support of b, keeps all but the farthest,
+  /// whose values lack what lies beyond, and goes on from the kept ones, scaled to 1. Time and
+  /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
+  /// 1. Where neighbouring windows do not fit together to round-off, as `size` misjudges how heat
+  /// decays, they overlap by more; nothing if that does not help.
+  std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
+                                            const Task& task, Report& report) const;
+
+  /// The b, zero where nothing is held, for which A x = b has x = held on the blocks where that is
+  /// not zero: found next to these, as x decays away from them.
+  Vector source_that_holds(const Vector& held, const Task& task) const;
+
+ private:
+  std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
+  Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
+                      const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
+  std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
+                                            const std::vector<int>& order, double overlap,
+                                            const Task& task) const;
+  double misfit(const LayeredField<Scalar>& field, const Vector& b, const Task& task) const;
+
+  std::shared_ptr<const Matrix> A_;
+  int block_;
+  VecX size_;
+  std::vector<int> position_;    // blocks: place in the order of elimination
+  std::vector<int> begin_, to_;  // graph of the blocks
+};
+
+extern template class HeatWindows<double>;
+extern template class HeatWindows<Complex>;
+
+}  // namespace littoral

@@ -1,0 +1,134 @@
+#include "solve/multigrid/aggregation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace littoral {
+
+namespace {
+
+/// Which entries of A are strong couplings.
+std::vector<char> strong_couplings(const SpRows& A, double strength) {
+  const VecX d = A.diagonal();
+  std::vector<char> strong(static_cast<std::size_t>(A.nonZeros()), 0);
+  for (int i = 0; i < A.rows(); ++i)
+    for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+      const int j = A.innerIndexPtr()[e];
+      strong[e] = j != i && -A.valuePtr()[e] > strength * std::sqrt(d[i] * d[j]);
+    }
+  return strong;
+}
+
+/// Group of each unknown, -1 for those that are coupled to nothing; returns the number of groups.
+int find_groups(const SpRows& A, const std::vector<char>& strong, std::vector<int>& group,
+                const Task& task) {
+  const int n = static_cast<int>(A.rows());
+  const int* begin = A.outerIndexPtr();
+  const int* to = A.innerIndexPtr();
+  group.assign(static_cast<std::size_t>(n), -1);
+  int n_groups = 0;
+  auto checked = [&](int i) {
+    if (i % 65536 == 0) task.checkpoint();
+    return group[i] < 0;
+  };
+  // An unknown with all its strong neighbours, where none of them is taken yet.
+  for (int i = 0; i < n; ++i) {
+    if (!checked(i)) continue;
+    bool any = false, free = true;
+    for (int e = begin[i]; e < begin[i + 1] && free; ++e)
+      if (strong[e]) {
+        any = true;
+        free = group[to[e]] < 0;
+      }
+    if (!any || !free) continue;
+    group[i] = n_groups;
+    for (int e = begin[i]; e < begin[i + 1]; ++e)
+      if (strong[e]) group[to[e]] = n_groups;
+    ++n_groups;
+  }
+  // The others join the group that they are coupled to most, of those made so far.
+  std::vector<int> joined(group);
+  for (int i = 0; i < n; ++i) {
+    if (!checked(i)) continue;
+    double most = 0;
+    for (int e = begin[i]; e < begin[i + 1]; ++e)
+      if (strong[e] && group[to[e]] >= 0 && -A.valuePtr()[e] > most) {
+        most = -A.valuePtr()[e];
+        joined[i] = group[to[e]];
+      }
+  }
+  group = std::move(joined);
+  // What is left is strongly coupled to nothing that has a group.
+  for (int i = 0; i < n; ++i) {
+    if (!checked(i)) continue;
+    bool any = false;
+    for (int e = begin[i]; e < begin[i + 1]; ++e)
+      if (strong[e] && group[to[e]] < 0) {
+        any = true;
+        group[to[e]] = n_groups;
+      }
+    if (any) group[i] = n_groups++;
+  }
+  // Weakly coupled unknowns would be lost on the coarse level: they go with any neighbour.
+  for (int i = 0; i < n; ++i) {
+    if (!checked(i)) continue;
+    double most = 0;
+    for (int e = begin[i]; e < begin[i + 1]; ++e)
+      if (to[e] != i && group[to[e]] >= 0 && std::abs(A.valuePtr()[e]) > most) {
+        most = std::abs(A.valuePtr()[e]);
+        group[i] = group[to[e]];
+      }
+  }
+  return n_groups;
+}
+
+}  // namespace
+
+SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) {
+  constexpr double damping = 2.0 / 3;
+  const std::vector<char> strong = strong_couplings(A, strength);
+  std::vector<int> group;
+  const int n_groups = find_groups(A, strong, group, task);
+  // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D.
+  std::vector<int> begin(1, 0), columns;
+  std::vector<double> values;
+  begin.reserve(static_cast<std::size_t>(A.rows()) + 1);
+  std::vector<int> place(static_cast<std::size_t>(n_groups), -1);
+  for (int i = 0; i < A.rows(); ++i) {
+    if (i % 65536 == 0) task.checkpoint();
+    const auto start = static_cast<int>(columns.size());
+    auto at_group = [&](int g) -> double& {
+      if (place[g] < start) {
+        place[g] = static_cast<int>(columns.size());
+        columns.push_back(g);
+        values.push_back(0);
+      }
+      return values[place[g]];
+    };
+    if (group[i] >= 0) {
+      double D = 0;
+      at_group(group[i]) = 0;
+      for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
+        const int j = A.innerIndexPtr()[e];
+        if (strong[e] && group[j] >= 0)
+          at_group(group[j]) += A.valuePtr()[e];
+        else
+          D += A.valuePtr()[e];
+      }
+      const double scale = D > 0 ? -damping / D : 0;
+      for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
+      at_group(group[i]) += D > 0 ? 1 - damping : 1;
+    }
+    begin.push_back(static_cast<int>(columns.size()));
+  }
+  // Copied as they are: Eigen wants columns ascending where it copies.
+  SpRows P(A.rows(), n_groups);
+  P.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  std::copy(begin.begin(), begin.end(), P.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), P.innerIndexPtr());
+  std::copy(values.begin(), values.end(), P.valuePtr());
+  return P;
+}
+
+}  // namespace littoral

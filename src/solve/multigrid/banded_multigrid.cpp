@@ -1,0 +1,112 @@
+#include "solve/multigrid/banded_multigrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int band_width = 4;  // neighbours of neighbours of ... the stiff unknowns
+constexpr int max_iterations = 500;
+
+/// The unknowns within some steps of the given ones, ascending.
+std::vector<int> around(const SpRows& A, const std::vector<int>& from, int steps) {
+  std::vector<char> seen(static_cast<std::size_t>(A.rows()), 0);
+  std::vector<int> out = from;
+  for (int i : out) seen[i] = 1;
+  for (std::size_t begin = 0; steps-- > 0;) {
+    const std::size_t end = out.size();
+    for (; begin < end; ++begin)
+      for (SpRows::InnerIterator it(A, out[begin]); it; ++it)
+        if (!seen[it.col()]) {
+          seen[it.col()] = 1;
+          out.push_back(static_cast<int>(it.col()));
+        }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+SpMat lower_block(const SpRows& A, const std::vector<int>& unknowns) {
+  std::vector<int> local(static_cast<std::size_t>(A.rows()), -1);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) local[unknowns[k]] = static_cast<int>(k);
+  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  Triplets entries;
+  for (int i : unknowns)
+    for (SpRows::InnerIterator it(A, i); it && it.col() <= i; ++it)
+      if (local[it.col()] >= 0) entries.emplace_back(local[i], local[it.col()], it.value());
+  SpMat block(n, n);
+  block.setFromTriplets(entries.begin(), entries.end());
+  return block;
+}
+
+}  // namespace
+
+BandedMultigrid::BandedMultigrid(const SpMat& lower, const std::vector<int>& stiff,
+                                 const Task& task)
+    : multigrid_(lower, task) {
+  if (stiff.empty()) return;
+  band_ = around(multigrid_.matrix(), stiff, band_width);
+  band_factor_ = factor_for_preconditioning(lower_block(multigrid_.matrix(), band_), task);
+}
+
+double BandedMultigrid::nonzeros() const {
+  return multigrid_.nonzeros() + (band_factor_ ? band_factor_->nonzeros() : 0);
+}
+
+void BandedMultigrid::add_in_band(const VecX& r, VecX& x) const {
+  const VecX dx = band_factor_->solve(r);
+  for (std::size_t k = 0; k < band_.size(); ++k) x[band_[k]] += dx[static_cast<Eigen::Index>(k)];
+}
+
+VecX BandedMultigrid::precondition(const VecX& b, const Task& task) const {
+  if (band_.empty()) return multigrid_.cycle(b, task);
+  const SpRows& A = multigrid_.matrix();
+  VecX x = VecX::Zero(b.size()), r = b;
+  VecX in_band(static_cast<Eigen::Index>(band_.size()));
+  for (std::size_t k = 0; k < band_.size(); ++k)
+    in_band[static_cast<Eigen::Index>(k)] = b[band_[k]];
+  add_in_band(in_band, x);
+  for (int i : band_)
+    for (SpRows::InnerIterator it(A, i); it; ++it) r[it.col()] -= it.value() * x[i];
+  x += multigrid_.cycle(r, task);
+  for (std::size_t k = 0; k < band_.size(); ++k) {
+    double sum = b[band_[k]];
+    for (SpRows::InnerIterator it(A, band_[k]); it; ++it) sum -= it.value() * x[it.col()];
+    in_band[static_cast<Eigen::Index>(k)] = sum;
+  }
+  add_in_band(in_band, x);
+  return x;
+}
+
+VecX BandedMultigrid::solve(const VecX& b, double tolerance, const Task& task,
+                            Report& report) const {
+  const SpRows& A = multigrid_.matrix();
+  VecX x = VecX::Zero(b.size());
+  if (!(b.cwiseAbs().maxCoeff() > 0)) return x;
+  VecX r = b, z = precondition(r, task), p = z, Ap;
+  double rz = r.dot(z);
+  const double start = rz, enough = tolerance * tolerance * start;
+  int step = 0;
+  for (; step < max_iterations && rz > enough; ++step) {
+    task.checkpoint(std::clamp(std::log(start / rz) / std::log(start / enough), 0.0, 1.0));
+    multiply(A, p, Ap, task);
+    const double curvature = p.dot(Ap);
+    if (!(curvature > 0)) break;
+    x += (rz / curvature) * p;
+    r -= (rz / curvature) * Ap;
+    z = precondition(r, task);
+    const double before = rz;
+    rz = r.dot(z);
+    p = z + (rz / before) * p;
+  }
+  report.iterations.emplace_back("multigrid", step);
+  if (!x.allFinite()) throw SolveError("the solution of a linear system is not finite");
+  if (!(rz <= enough)) report.status = "not converged";
+  return x;
+}
+
+}  // namespace littoral

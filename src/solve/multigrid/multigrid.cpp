@@ -1,0 +1,123 @@
+#include "solve/multigrid/multigrid.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/platform/memory.h"
+#include "solve/multigrid/aggregation.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr Eigen::Index largest_coarsest = 20'000;  // unknowns that are factored
+constexpr double strength = 0.08;                  // halves with each level (Vanek et al., sec. 5)
+constexpr double lowest = 0.1;  // part of the spectrum that smoothing is for: [lowest, 1]
+constexpr int degree = 2;       // of the Chebyshev polynomial
+constexpr std::size_t grain = 1 << 15;
+
+VecX inverse_row_sums(const SpRows& A) {
+  VecX s(A.rows());
+  for (int i = 0; i < A.rows(); ++i) {
+    double sum = 0;
+    for (SpRows::InnerIterator it(A, i); it; ++it) sum += std::abs(it.value());
+    s[i] = sum > 0 ? 1 / sum : 0;
+  }
+  return s;
+}
+
+SpMat lower_triangle(const SpRows& A) {
+  Triplets entries;
+  for (int i = 0; i < A.rows(); ++i)
+    for (SpRows::InnerIterator it(A, i); it; ++it)
+      if (it.col() <= i) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+  SpMat lower(A.rows(), A.cols());
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+}  // namespace
+
+Multigrid::Multigrid(const SpMat& lower, const Task& task) {
+  levels_.push_back({full_rows(lower)});
+  double strong = strength;
+  while (levels_.back().A.rows() > largest_coarsest) {
+    Level& level = levels_.back();
+    level.P = smoothed_aggregation(level.A, strong, task);
+    if (static_cast<double>(level.P.cols()) > 0.7 * static_cast<double>(level.A.rows()))
+      break;  // next to nothing is coupled
+    level.R = transposed(level.P);
+    level.inverse_size = inverse_row_sums(level.A);
+    levels_.push_back({product(level.R, product(level.A, level.P, task), task)});
+    strong /= 2;
+  }
+  coarsest_ = factor_for_preconditioning(lower_triangle(levels_.back().A), task);
+  return_freed_memory();
+}
+
+std::shared_ptr<const Cholesky<double>> factor_for_preconditioning(SpMat lower, const Task& task) {
+  const auto structure = std::make_shared<const Elimination>(lower, dissection(lower, task));
+  const VecX d = lower.diagonal();
+  for (double lift = 1e-13;; lift *= 100) {
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      lower.coeffRef(i, i) = d[i] > 0 ? d[i] * (1 + lift) : 1;
+    try {
+      return std::make_shared<const Cholesky<double>>(lower, structure, task);
+    } catch (const SolveError&) {
+      if (lift > 1e-4) throw;
+    }
+  }
+}
+
+double Multigrid::nonzeros() const {
+  double sum = coarsest_->nonzeros();
+  for (const Level& level : levels_)
+    sum += static_cast<double>(level.A.nonZeros() + 2 * level.P.nonZeros());
+  return sum;
+}
+
+void Multigrid::smooth(const Level& level, const VecX& b, VecX& x, bool from_zero,
+                       const Task& task) const {
+  // Chebyshev iteration on [lowest, 1] (Saad, Iterative methods for sparse linear systems,
+  // algorithm 12.1), preconditioned by the row sums: as good on any number of threads.
+  constexpr double middle = 0.5 * (1 + lowest), half = 0.5 * (1 - lowest), sigma = middle / half;
+  VecX d(b.size()), Ax;
+  double rho = 1 / sigma;
+  if (from_zero) x.resize(b.size());
+  for (int k = 0; k < degree; ++k) {
+    const bool zero = from_zero && k == 0;
+    if (!zero) multiply(level.A, x, Ax, task);
+    const double rho_next = k == 0 ? rho : 1 / (2 * sigma - rho);
+    const double keep = k == 0 ? 0 : rho_next * rho;
+    const double step = k == 0 ? 1 / middle : 2 * rho_next / half;
+    rho = rho_next;
+    parallel_for(
+        static_cast<std::size_t>(b.size()), grain, [&](std::size_t begin, std::size_t end) {
+          for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
+            const double r = level.inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
+            d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
+            x[i] = zero ? d[i] : x[i] + d[i];
+          }
+        });
+  }
+}
+
+VecX Multigrid::cycle_at(std::size_t k, const VecX& b, const Task& task) const {
+  if (k + 1 == levels_.size()) return coarsest_->solve(b);
+  const Level& level = levels_[k];
+  VecX x, r, coarse;
+  smooth(level, b, x, true, task);
+  multiply(level.A, x, r, task);
+  r = b - r;
+  multiply(level.R, r, coarse, task);
+  coarse = cycle_at(k + 1, coarse, task);
+  multiply(level.P, coarse, r, task);
+  x += r;
+  smooth(level, b, x, false, task);
+  return x;
+}
+
+VecX Multigrid::cycle(const VecX& r, const Task& task) const { return cycle_at(0, r, task); }
+
+}  // namespace littoral

@@ -1,0 +1,45 @@
+#pragma once
+// Smoothed aggregation multigrid (Vanek, Mandel, Brezina 1996), as a preconditioner.
+
+#include <memory>
+#include <vector>
+
+#include "base/task.h"
+#include "base/types.h"
+#include "solve/direct/cholesky.h"
+#include "solve/direct/sparse_rows.h"
+
+namespace littoral {
+
+/// A hierarchy of coarser and coarser matrices for a symmetric positive definite matrix whose
+/// smooth vectors are nearly constant, as Laplacians' are. Memory and time per cycle grow like the
+/// number of unknowns. Immutable; the same bits for any number of threads.
+class Multigrid {
+ public:
+  /// lower: lower triangle. Throws Cancelled within 0.2 s of a request.
+  Multigrid(const SpMat& lower, const Task& task);
+
+  /// One symmetric V-cycle from zero: a positive definite approximation of A^-1 r.
+  VecX cycle(const VecX& r, const Task& task) const;
+
+  const SpRows& matrix() const { return levels_.front().A; }
+  double nonzeros() const;  // of all levels' matrices, prolongations and the coarsest factor
+
+ private:
+  struct Level {
+    SpRows A;
+    VecX inverse_size = {};  // 1 / sum_j |A_ij|: A scaled by it has eigenvalues in (0, 1]
+    SpRows P = {}, R = {};   // prolongation from the next level and its transpose
+  };
+
+  void smooth(const Level& level, const VecX& b, VecX& x, bool from_zero, const Task& task) const;
+  VecX cycle_at(std::size_t level, const VecX& r, const Task& task) const;
+
+  std::vector<Level> levels_;  // the last one is factored
+  std::shared_ptr<const Cholesky<double>> coarsest_;
+};
+
+/// The factor of a matrix or, where that is numerically singular, of one lifted on the diagonal.
+std::shared_ptr<const Cholesky<double>> factor_for_preconditioning(SpMat lower, const Task& task);
+
+}  // namespace littoral

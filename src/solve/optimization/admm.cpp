@@ -1,0 +1,210 @@
+#include "solve/optimization/admm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr std::size_t grain = 16384;
+
+constexpr int check_every = 5;
+
+class Admm {
+ public:
+  Admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state, const Task& task)
+      : p_(problem),
+        o_(options),
+        state_(state),
+        task_(task),
+        D_(problem.divergence()),
+        total_(problem.A.sum()) {
+    if (state_.empty()) {
+      state_.z = VecX::Zero(p_.dim * p_.A.size());
+      state_.w = state_.z;
+      state_.rho = o_.rho * p_.length();
+    }
+    pull_ = state_.z - state_.w;
+  }
+
+  AdmmResult run() {
+    AdmmResult result;
+    int changes_left = o_.penalty_changes;
+    for (int k = 1; k <= o_.max_iterations; ++k) {
+      task_.checkpoint(progress_);
+      const bool check = k == 1 || k % check_every == 0 || k == o_.max_iterations;
+      iterate(check);
+      result.iterations = k;
+      if (!check) continue;
+      residuals(result);
+      if (result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_) {
+        certify(result);
+        if (o_.gap <= 0 || result.gap <= o_.gap) {
+          result.converged = true;
+          break;
+        }
+      } else if (o_.gap > 0 && k % 20 == 0) {
+        certify(result);
+        if (result.gap <= o_.gap) {
+          result.converged = true;
+          break;
+        }
+      }
+      const double ratio =
+          std::max(result.primal / primal_tolerance_, result.dual / dual_tolerance_);
+      progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
+      if (changes_left > 0 && change_penalty(result, k)) --changes_left;
+    }
+    if (!result.converged) certify(result);
+    result.u = u_;
+    return result;
+  }
+
+ private:
+  /// body(c, i) for every cell c, whose first number is entry i.
+  template <class Body>
+  void for_cells(const Body& body) const {
+    parallel_for(static_cast<std::size_t>(p_.A.size()), grain, [&](std::size_t c, std::size_t end) {
+      for (; c < end; ++c)
+        body(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c) * p_.dim);
+    });
+  }
+
+  /// Sum over cells of A times term(c, i), the same for any number of threads.
+  template <class Term>
+  double sum_cells(const Term& term) const {
+    const auto cells = static_cast<std::size_t>(p_.A.size());
+    std::vector<double> part((cells + grain - 1) / grain, 0);
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      part[static_cast<std::size_t>(c) / grain] += p_.A[c] * term(c, i);
+    });
+    return std::accumulate(part.begin(), part.end(), 0.0);
+  }
+  double norm2(const VecX& z) const {
+    return sum_cells(
+        [&](Eigen::Index, Eigen::Index i) { return z.segment(i, p_.dim).squaredNorm(); });
+  }
+
+  void iterate(bool keep_old) {
+    VecX &z = state_.z, &w = state_.w;
+    if (keep_old) {
+      old_z_ = z;
+      old_w_ = w;
+    }
+    multiply(D_, pull_, force_, task_);
+    force_ = p_.b + state_.rho * force_;
+    u_ = p_.solve(force_, state_.rho);
+    multiply(p_.G, u_, g_, task_);
+    // Over-relaxation: G u is replaced by a mixture with the old z.
+    const double relax = o_.relaxation, rho = state_.rho;
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      double s[3];
+      for (int d = 0; d < p_.dim; ++d) s[d] = relax * g_[i + d] + (1 - relax) * z[i + d] + w[i + d];
+      p_.energy->prox(c, rho, s, z.data() + i);
+      for (int d = 0; d < p_.dim; ++d) {
+        w[i + d] = s[d] - z[i + d];
+        pull_[i + d] = z[i + d] - w[i + d];
+      }
+    });
+  }
+
+  double force_of(const VecX& z) {
+    multiply(D_, z, force_, task_);
+    return state_.rho * force_.norm() / total_;
+  }
+
+  /// Supplement 8, in units in which the total weight is 1.
+  void residuals(AdmmResult& r) {
+    r.primal = std::sqrt(sum_cells([&](Eigen::Index, Eigen::Index i) {
+                           return (g_ - state_.z).segment(i, p_.dim).squaredNorm();
+                         }) /
+                         total_);
+    r.dual = force_of(state_.z - old_z_);
+    primal_tolerance_ = std::sqrt(double(p_.dim) * double(p_.A.size())) * o_.absolute +
+                        o_.relative * std::sqrt(std::max(norm2(g_), norm2(state_.z)) / total_);
+    dual_tolerance_ =
+        std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(state_.w);
+    if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
+      throw SolveError("alternating directions left the range of numbers");
+  }
+
+  /// Section 3.4.1. Rarer and rarer, so that it ends.
+  bool change_penalty(const AdmmResult& r, int k) {
+    if (k < next_change_) return false;
+    const double primal = r.primal / primal_tolerance_, dual = r.dual / dual_tolerance_;
+    double factor = 1;
+    if (primal > 10 * dual) factor = 2;
+    if (dual > 10 * primal) factor = 0.5;
+    if (factor == 1) return false;
+    state_.rho *= factor;
+    state_.w /= factor;
+    pull_ = state_.z - state_.w;
+    next_change_ = k + 1 + k / 10;
+    return true;
+  }
+
+  /// Objective of a feasible u and a lower bound. By the u-step, y = rho (w + G u - z), z and w
+  /// from before it, satisfies P u + D y = b on the allowed directions; so by Fenchel's inequality
+  /// -1/2 u^T P u - sum A phi*(y) is a lower bound.
+  void certify(AdmmResult& r) const {
+    r.largest = 0;
+    for (Eigen::Index c = 0; c < p_.A.size(); ++c)
+      r.largest = std::max(r.largest, p_.energy->gauge(c, g_.data() + c * p_.dim));
+    const double shrink = 1 / std::max(1.0, r.largest);
+    const double uPu = p_.quadratic ? u_.dot(p_.quadratic(u_)) : 0;
+    const VecX y = state_.rho * (old_w_ + g_ - old_z_), g = shrink * g_;
+    const double phi = sum_cells(
+        [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
+    const double conjugate = sum_cells(
+        [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
+    r.objective = 0.5 * shrink * shrink * uPu - shrink * p_.b.dot(u_) + phi;
+    const double bound = -0.5 * uPu - conjugate;
+    r.gap = (r.objective - bound) / std::max(std::abs(r.objective), 1e-300);
+  }
+
+  const SplitProblem& p_;
+  const AdmmOptions& o_;
+  AdmmState& state_;
+  const Task& task_;
+  SpRows D_;
+  double total_;
+  VecX u_, g_, force_, pull_, old_z_, old_w_;  // pull: z - w
+  double primal_tolerance_ = 0, dual_tolerance_ = 0, progress_ = 0;
+  int next_change_ = 0;
+};
+
+}  // namespace
+
+SpRows SplitProblem::divergence() const {
+  SpRows D = transposed(G);
+  for (Eigen::Index e = 0; e < D.nonZeros(); ++e) D.valuePtr()[e] *= A[D.innerIndexPtr()[e] / dim];
+  return D;
+}
+
+double SplitProblem::length() const { return std::pow(A.sum(), 1.0 / dim); }
+
+AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
+                const Task& task) {
+  return Admm(problem, options, state, task).run();
+}
+
+void report_admm(const AdmmResult& result, Report& report) {
+  report.iterations.emplace_back("admm", result.iterations);
+  report.residuals.emplace_back("admm, primal", result.primal);
+  report.residuals.emplace_back("admm, dual", result.dual);
+  report.residuals.emplace_back("duality gap", result.gap);
+  report.residuals.emplace_back("largest gradient over 1", std::max(0.0, result.largest - 1));
+  if (!result.converged) {
+    report.status = "not converged";
+    report.warn("alternating directions stopped after " + std::to_string(result.iterations) +
+                " iterations above the tolerance");
+  }
+}
+
+}  // namespace littoral

@@ -1,0 +1,66 @@
+#pragma once
+// min 1/2 u^T P u - b^T u + sum_c A_c phi(c, (G u)_c) by alternating directions (Boyd et al.,
+// "Distributed optimization and statistical learning via the alternating direction method of
+// multipliers", 2011). Knows matrices only.
+
+#include <functional>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "base/types.h"
+#include "solve/direct/sparse_rows.h"
+#include "solve/optimization/cell_energy.h"
+
+namespace littoral {
+
+/// The problem, through the products and solves it takes.
+struct SplitProblem {
+  VecX b;       // unknowns
+  VecX A;       // cells, positive: the weights of the cells and of all norms over them
+  int dim = 2;  // numbers a cell
+  SpRows G;     // dim cells x unknowns
+  std::function<VecX(const VecX& u)> quadratic;          // P u; empty: P = 0
+  std::function<VecX(const VecX& b, double rho)> solve;  // argmin 1/2 u^T (P + rho G^T A G) u - b^T
+                                                         // u over the u that are allowed
+  const CellEnergy* energy = nullptr;
+
+  SpRows divergence() const;  // D = G^T A, unknowns x dim cells
+  double length() const;      // the dim-th root of the total weight: what penalties scale with
+};
+
+struct AdmmOptions {
+  double rho = 2;          // first penalty, times the length of the problem
+  double relative = 1e-2;  // eps^rel
+  double absolute = 5e-6;  // eps^abs
+  double gap = 0;          // > 0: stop only below this relative duality gap as well
+  int max_iterations = 10000;
+  double relaxation = 1.8;     // over-relaxation (3.4.3)
+  int penalty_changes = 1000;  // at most (3.4.1); 0 keeps rho
+};
+
+/// z and the scaled multiplier y / rho: what a later solve may start from.
+struct AdmmState {
+  VecX z, w;
+  double rho = 0;
+  bool empty() const { return z.size() == 0; }
+};
+
+struct AdmmResult {
+  VecX u;
+  double objective = 0;         // of u shrunk until G u is allowed everywhere
+  double gap = 0;               // objective minus a lower bound of it, over |objective|
+  double primal = 0, dual = 0;  // residuals, scale-free
+  double largest = 0;           // largest gauge of G u: 1.01 means a gradient 1 % too long
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Minimises; the last iterate comes back with converged = false when iterations run out. Starts
+/// from `state` if it is not empty and leaves its last state there.
+AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
+                const Task& task);
+
+/// Number of iterations, residuals, gap and status, for a report.
+void report_admm(const AdmmResult& result, Report& report);
+
+}  // namespace littoral

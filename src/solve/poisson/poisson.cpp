@@ -1,0 +1,206 @@
+#include "solve/poisson/poisson.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace littoral {
+
+namespace {
+
+double mean_diagonal(const SpMat& L) {
+  const VecX d = L.diagonal();
+  const double n = static_cast<double>((d.array() > 0).count());
+  return n > 0 ? d.sum() / n : 1;
+}
+
+std::vector<int> first_of_components(const std::vector<int>& component, int n_components) {
+  std::vector<int> first(n_components, -1);
+  for (std::size_t i = 0; i < component.size(); ++i)
+    if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = static_cast<int>(i);
+  return first;
+}
+
+/// L with an entry on the whole diagonal, so that every matrix made from it has one pattern with
+/// the diagonal first in every column.
+SpMat with_diagonal(const SpMat& L) {
+  SpMat I(L.rows(), L.cols());
+  I.setIdentity();
+  SpMat K = L + 0.0 * I;
+  K.makeCompressed();
+  return K;
+}
+
+std::shared_ptr<const Elimination> structure_of(const SpMat& L, const Ordering& order,
+                                                const Task& task) {
+  if (!order.empty()) return std::make_shared<const Elimination>(L, order, task);
+  return std::make_shared<const Elimination>(L, dissection(L, task), task);
+}
+
+// Beyond, the factor costs too much memory, or more time than the iterations of one solve.
+constexpr int largest_direct = 2'000'000, largest_for_one_solve = 400'000;
+
+DefiniteSystem solved_by(PoissonSolver solver, SpMat K, const Ordering& order, const Task& task) {
+  const int largest = solver == PoissonSolver::automatic ? largest_direct : largest_for_one_solve;
+  if (solver == PoissonSolver::multigrid || (solver != PoissonSolver::direct && K.rows() > largest))
+    return DefiniteSystem::by_multigrid(std::move(K), {});
+  auto structure = structure_of(K, order, task);
+  return {std::move(K), std::move(structure), task, true};
+}
+
+}  // namespace
+
+Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
+                 const Ordering& order, PoissonSolver solver)
+    : L_(with_diagonal(L)),
+      mean_diagonal_(mean_diagonal(L_)),
+      component_(std::move(component)),
+      first_(first_of_components(component_, n_components)),
+      free_(solved_by(solver, pinned(std::vector<char>(n_components, 0)), order, task)) {}
+
+SpMat Poisson::pinned(const std::vector<char>& held) const {
+  // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
+  // force if b sums to 0, and changes one entry of the matrix only.
+  SpMat K = L_;
+  const double d = mean_diagonal_;
+  const auto lift = [&](Eigen::Index i) { K.valuePtr()[K.outerIndexPtr()[i]] += d; };
+  for (Eigen::Index i = 0; i < K.rows(); ++i)
+    if (component_[i] < 0) lift(i);
+  for (std::size_t c = 0; c < first_.size(); ++c)
+    if (!held[c]) lift(first_[c]);
+  return K;
+}
+
+std::vector<char> Poisson::components_of(const SpMat& A) const {
+  std::vector<char> held(first_.size(), 0);
+  for (int j : unknowns_of(A))
+    if (component_[j] >= 0) held[component_[j]] = 1;
+  return held;
+}
+
+void Poisson::drop_constants(const std::vector<char>& held, VecX& x) const {
+  VecX constant = VecX::Zero(static_cast<Eigen::Index>(first_.size()));
+  for (std::size_t c = 0; c < first_.size(); ++c)
+    if (!held[c]) constant[static_cast<Eigen::Index>(c)] = x[first_[c]];
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    x[i] = component_[i] < 0 ? 0 : x[i] - constant[component_[i]];
+}
+
+VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
+  VecX x = free_.solve(b, task, report);
+  report.residuals.emplace_back("poisson", free_.relative_residual(x, b));
+  drop_constants(std::vector<char>(first_.size(), 0), x);
+  return x;
+}
+
+DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
+                                     const std::vector<char>& held, const Task& task) const {
+  if (free_.iterates())
+    return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A));
+  if (auto in_place = with_rows_in_place(K, A, weight)) {
+    if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
+    std::vector<int> changed = unknowns_of(A);
+    for (std::size_t c = 0; c < first_.size(); ++c)
+      if (held[c]) changed.push_back(first_[c]);
+    return free_.patched(std::move(*in_place), changed, task);
+  }
+  SpMat wider = with_rows(K, A, weight);
+  const auto structure =
+      std::make_shared<const Elimination>(wider, free_.structure()->old_of, task);
+  return {std::move(wider), structure, task};
+}
+
+VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
+                         Report& report) const {
+  const auto held = components_of(A);
+  const DefiniteSystem system = with_penalty(pinned(held), A, weight, held, task);
+  VecX x = system.solve(b, task, report);
+  report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
+  drop_constants(held, x);
+  return x;
+}
+
+VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& task,
+                           Report& report) const {
+  // Unknowns (x, c): rows A x - B c = 0, the constants of anchored groups left out.
+  std::vector<int> column(rows.anchor.size(), -1);
+  int n_free = 0;
+  for (std::size_t g = 0; g < rows.anchor.size(); ++g)
+    if (!rows.anchor[g]) column[g] = n_free++;
+  auto spread = [&](const MatX& c) {  // B c
+    MatX out = MatX::Zero(rows.A.rows(), c.cols());
+    for (std::size_t r = 0; r < rows.group.size(); ++r)
+      if (column[rows.group[r]] >= 0) out.row(r) = c.row(column[rows.group[r]]);
+    return out;
+  };
+  auto gather = [&](const MatX& y) {  // B^T y
+    MatX out = MatX::Zero(n_free, y.cols());
+    for (std::size_t r = 0; r < rows.group.size(); ++r)
+      if (column[rows.group[r]] >= 0) out.row(column[rows.group[r]]) += y.row(r);
+    return out;
+  };
+
+  // Augmented Lagrangian: every step solves with the factor of K = L + w A^T A, and c by what is
+  // left for it; dependent rows only make multipliers y that are not unique.
+  const double w = 1e7 * mean_diagonal_;
+  const auto held = components_of(rows.A);
+  const SpMat K0 = pinned(held);
+  const DefiniteSystem system =
+      with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), held, task);
+  const SpMat At = rows.A.transpose();
+  Eigen::LDLT<MatX> rest;
+  if (n_free > 0) {
+    MatX S(n_free, n_free);
+    constexpr int at_once = 16;
+    for (int g = 0; g < n_free; g += at_once) {
+      task.checkpoint();
+      const int k = std::min(at_once, n_free - g);
+      const MatX B = spread(MatX::Identity(n_free, n_free).middleCols(g, k));
+      S.middleCols(g, k) = w * gather(B - rows.A * system.approximate(MatX(w * (At * B)), task));
+    }
+    rest.compute(0.5 * (S + S.transpose()));
+  }
+  VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
+  VecX miss = y;  // A x - B c
+  double violation = 0, residual = 0;
+  constexpr int max_steps = 30;
+  int step = 0;
+  for (; step < max_steps; ++step) {
+    task.checkpoint();
+    const VecX force = y + w * miss;
+    VecX r = b - At * force;
+    if (step > 0) r -= times_symmetric(K0, x);
+    const VecX u = system.approximate(r, task);
+    VecX dx = u;
+    if (n_free > 0) {
+      const VecX dc = rest.solve(gather(VecX(force + w * (rows.A * u))));
+      dx += system.approximate(VecX(w * (At * spread(dc))), task);
+      c += dc;
+    }
+    x += dx;
+    miss = rows.A * x - spread(c);
+    y += w * miss;
+    const double before = violation, residual_before = residual;
+    const double range = std::max(x.maxCoeff() - x.minCoeff(), 1e-300);
+    violation = miss.size() ? miss.cwiseAbs().maxCoeff() / range : 0;
+    residual = dx.cwiseAbs().maxCoeff() / range;
+    if (!std::isfinite(residual)) throw SolveError("the constrained Poisson solve broke down");
+    const bool stalled = step > 0 && violation < 1e-9 && residual < 1e-8 &&
+                         (violation > 0.2 * before || residual > 0.2 * residual_before);
+    // The next step is as much shorter than this one as this one is than the last.
+    const double next = step > 0 ? residual * (residual / residual_before) : residual;
+    if ((violation < 1e-12 && std::min(residual, next) < 1e-9) || stalled) break;
+  }
+  report.iterations.emplace_back("constraint steps", step + 1);
+  report.residuals.emplace_back("constraints", violation);
+  if (violation > 1e-8) {
+    report.status = "not converged";
+    report.warn("the constraints could not be met exactly; the result is their least-squares fit");
+  }
+  drop_constants(held, x);
+  return x;
+}
+
+}  // namespace littoral

@@ -1,0 +1,64 @@
+#pragma once
+// min 1/2 x^T L x - b^T x for a positive semidefinite L whose null space is the constants of each
+// component, without and with linear constraints.
+
+#include <vector>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "base/types.h"
+#include "solve/direct/definite.h"
+
+namespace littoral {
+
+/// Rows of A x = B c with one unknown constant per group, c of the first group of every component
+/// being 0: x takes one value along all rows of a group.
+struct LevelRows {
+  SpMat A;                  // rows x unknowns
+  std::vector<int> group;   // per row
+  std::vector<int> anchor;  // per group: 1 if its constant is fixed at 0, else 0
+};
+
+/// How Poisson problems are solved: by a factor, which makes further solves cheap, or by multigrid,
+/// in memory and time that grow like the number of unknowns.
+enum class PoissonSolver { automatic, automatic_for_one_solve, direct, multigrid };
+
+/// Poisson problem of one operator; immutable. Constraints whose rows hold neighbours of L only (as
+/// values at points of a mesh do) change few columns of the factor: the rest is shared.
+class Poisson {
+ public:
+  /// L: lower triangle. component: per unknown, -1 for unknowns in no equation. order: of
+  /// elimination; dissection(L) if empty. Automatic: by multigrid above 2M unknowns, for one solve
+  /// above 400k.
+  Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
+          const Ordering& order = {}, PoissonSolver solver = PoissonSolver::automatic);
+
+  /// Minimiser that is 0 at the first unknown of every component; b must sum to 0 over each.
+  VecX solve(const VecX& b, Report& report, const Task& task = {}) const;
+
+  /// Minimiser subject to the rows. Every component must have an anchored group or no row.
+  /// Dependent rows are harmless.
+  VecX solve_levels(const VecX& b, const LevelRows& rows, const Task& task, Report& report) const;
+
+  /// Minimiser of 1/2 x^T L x - b^T x + 1/2 sum_r weight_r (A x)_r^2.
+  VecX solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
+                  Report& report) const;
+
+  double nonzeros() const { return free_.nonzeros(); }  // of the factor or the multigrid levels
+  bool iterates() const { return free_.iterates(); }
+
+ private:
+  SpMat pinned(const std::vector<char>& held) const;
+  std::vector<char> components_of(const SpMat& A) const;
+  void drop_constants(const std::vector<char>& held, VecX& x) const;
+  DefiniteSystem with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
+                              const std::vector<char>& held, const Task& task) const;
+
+  SpMat L_;
+  double mean_diagonal_;
+  std::vector<int> component_;
+  std::vector<int> first_;  // per component
+  DefiniteSystem free_;
+};
+
+}  // namespace littoral

@@ -1,0 +1,109 @@
+// Point clouds as oriented samples, with areas from neighbours.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "domain/cloud/cloud_normals.h"
+#include "sources/oriented_points.h"
+#include "spatial/point_tree.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int neighbours = 16;  // enough for the Voronoi cell
+
+using Polygon = std::vector<Vec2>;
+
+/// The part of a polygon nearer to the origin than to q.
+void clip_to_nearer(Polygon& polygon, const Vec2& q) {
+  Polygon kept;
+  const double limit = q.squaredNorm() / 2;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double da = a.dot(q) - limit, db = b.dot(q) - limit;
+    if (da <= 0) kept.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.emplace_back(a + (b - a) * (da / (da - db)));
+  }
+  polygon = std::move(kept);
+}
+
+double polygon_area(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+/// Area of the cell of point i in its tangent plane. Cells are cut off at a disc, for there is
+/// nothing that bounds them at the rim of a surface.
+double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, const Vec3& normal) {
+  const Vec3 p = points.row(i);
+  const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
+  for (int k = neighbours;; k *= 4) {
+    std::vector<Neighbour> near(static_cast<std::size_t>(k));
+    const int n = tree.nearest(p, k, near.data());
+    const double reach = std::sqrt(near[static_cast<std::size_t>(n - 1)].squared_distance);
+    int same = 0;  // points at this place, itself among them
+    while (same < n &&
+           near[static_cast<std::size_t>(same)].squared_distance <= 1e-20 * reach * reach)
+      ++same;
+    if (n - same < std::min<Eigen::Index>(6, tree.size() - same) && n < tree.size()) continue;
+    const int rim = same + (std::min(n - same, 6) + 1) / 2 - 1;
+    const double radius = std::sqrt(near[static_cast<std::size_t>(rim)].squared_distance);
+    Polygon cell;
+    for (int c = 0; c < 12; ++c) {
+      const double angle = 2 * M_PI * c / 12;
+      cell.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    for (int j = same; j < n; ++j) {
+      const Vec3 d = points.row(near[static_cast<std::size_t>(j)].point).transpose() - p;
+      const Vec2 q(d.dot(e1), d.dot(e2));
+      if (q.squaredNorm() > 1e-6 * d.squaredNorm()) clip_to_nearer(cell, q);
+    }
+    return polygon_area(cell) / same;
+  }
+}
+
+}  // namespace
+
+OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
+  if (cloud.points.rows() == 0) throw InputError("the point cloud has no points");
+  if (cloud.normals.rows() != cloud.points.rows())
+    throw InputError("the point cloud has no normals; --estimate-normals computes some");
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
+    const Vec3 n = cloud.normals.row(i);
+    if (n.allFinite() && n.stableNorm() > 0) kept.push_back(i);
+  }
+  if (kept.empty())
+    throw InputError("no point has a normal that is not zero; --estimate-normals computes some");
+  if (static_cast<Eigen::Index>(kept.size()) < cloud.points.rows())
+    report.warn(std::to_string(cloud.points.rows() - static_cast<Eigen::Index>(kept.size())) +
+                " points without a usable normal are left out");
+  OrientedPoints out;
+  out.points = cloud.points(kept, Eigen::all);
+  out.normals = cloud.normals(kept, Eigen::all);
+  for (auto n : out.normals.rowwise()) n.stableNormalize();
+  check_cloud(out.points);
+  out.areas.resize(out.size());
+  const PointTree tree(out.points);
+  parallel_for(kept.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      out.areas[i] = cell_area(out.points, tree, i, out.normals.row(i));
+  });
+  // Cells of collinear points may be empty; nothing may weigh nothing.
+  const double floor = 1e-6 * out.areas.mean();
+  if (!(floor > 0)) throw InputError("the points of the cloud are too close to each other");
+  out.areas = out.areas.cwiseMax(floor);
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,74 @@
+#include "sources/constraint_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace littoral {
+
+int SourceNodes::id(const SurfacePoint& p) {
+  const auto key = p.on == SurfacePoint::On::vertex
+                       ? std::make_tuple(0, p.element, std::array<double, 3>{1, 0, 0})
+                       : std::make_tuple(int(p.on), p.element, p.b);
+  const auto [it, added] = ids_.try_emplace(key, static_cast<int>(points.size()));
+  if (added) {
+    points.push_back(p);
+    weight.push_back(0);
+    joined_.add();
+  }
+  return it->second;
+}
+
+std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfacePoint& p) {
+  switch (p.on) {
+    case SurfacePoint::On::vertex:
+      return {{p.element, 1.0}};
+    case SurfacePoint::On::edge:
+      return {{mesh.edges()(p.element, 0), p.b[0]}, {mesh.edges()(p.element, 1), p.b[1]}};
+    case SurfacePoint::On::face:
+      break;
+  }
+  const auto c = mesh.face(p.element);
+  return {{c[0], p.b[0]}, {c[1], p.b[1]}, {c[2], p.b[2]}};
+}
+
+void ConstraintRows::end_run() {
+  double total = 0;
+  for (const Row& piece : run_) total += piece.weight;
+  const double block = total / std::max(1.0, std::round(total / 2.5));
+  double passed = 0;
+  int blocks = -1;
+  for (const Row& piece : run_) {
+    const int at = static_cast<int>((passed + 0.5 * piece.weight) / block);
+    if (at != blocks) rows_.push_back({{}, 0, piece.node});
+    blocks = at;
+    for (const auto& [v, value] : piece.entries)
+      rows_.back().entries.emplace_back(v, piece.weight * value);
+    rows_.back().weight += piece.weight;
+    passed += piece.weight;
+  }
+  run_.clear();
+}
+
+void ConstraintRows::write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceTerms& terms) {
+  end_run();
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    if (nodes.weight[i] > 0)
+      rows_.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
+  Triplets entries;
+  std::map<int, int> group_of_root;
+  terms.weight.resize(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    double sum = 0;  // a mean, whatever the coefficients were weighted with
+    for (const auto& [v, value] : rows_[r].entries) sum += value;
+    for (const auto& [v, value] : rows_[r].entries)
+      entries.emplace_back(static_cast<int>(r), v, value / sum);
+    terms.weight[static_cast<Eigen::Index>(r)] = rows_[r].weight;
+    const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), terms.n_groups);
+    if (added) ++terms.n_groups;
+    terms.group.push_back(it->second);
+  }
+  terms.A.resize(static_cast<Eigen::Index>(rows_.size()), mesh.n_vertices());
+  terms.A.setFromTriplets(entries.begin(), entries.end());
+}
+
+}  // namespace littoral

@@ -1,0 +1,168 @@
+#include "sources/pieces.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "sources/carry.h"
+#include "sources/trace.h"
+
+namespace littoral {
+
+namespace {
+
+/// Similar warnings about many curves: the first few in full, then a count.
+class Notes {
+ public:
+  void add(const std::string& text) {
+    if (++count_ <= shown) texts_.push_back(text);
+  }
+  void report_to(Report& report) const {
+    for (const std::string& text : texts_) report.warn(text);
+    if (count_ > shown)
+      report.warn("the same holds for " + std::to_string(count_ - shown) + " more curves");
+  }
+
+ private:
+  static constexpr int shown = 8;
+  int count_ = 0;
+  std::vector<std::string> texts_;
+};
+
+std::string counted(int n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+class Preparation {
+ public:
+  explicit Preparation(const SurfaceMesh& mesh) : mesh_(mesh), tracer_(mesh) {}
+
+  /// Appends one curve; `label` names it in messages.
+  void add_curve(const std::vector<SurfacePoint>& nodes, bool is_signed, const std::string& label,
+                 const Task& task) {
+    const int curve = out_.n_curves++;
+    std::vector<SurfacePoint> placed;
+    int gaps = 0, empty_steps = 0;
+    const std::size_t pieces_before = out_.pieces.size();
+    try {
+      placed.push_back(simplest(mesh_, nodes.front()));
+      for (std::size_t i = 1; i < nodes.size(); ++i) {
+        task.checkpoint();
+        const SurfacePoint next = simplest(mesh_, nodes[i]);
+        std::vector<SurfacePoint> way{placed.back(), next};
+        if (!share_face(mesh_, placed.back(), next)) {
+          way = tracer_.trace(placed.back(), next, task);
+          ++gaps;
+        }
+        for (std::size_t k = 1; k < way.size(); ++k) {
+          if (!add_piece(curve, is_signed, way[k - 1], way[k])) ++empty_steps;
+          placed.push_back(way[k]);
+        }
+      }
+    } catch (const InputError& error) {
+      throw InputError(label + ": " + error.what());
+    }
+    out_.nodes.push_back(std::move(placed));
+    if (gaps > 0)
+      traced_.add(counted(gaps, "gap of ", "gaps of ") + label + (gaps == 1 ? " was" : " were") +
+                  " traced across the mesh");
+    if (empty_steps > 0)
+      dropped_.add(counted(empty_steps, "zero-length step of ", "zero-length steps of ") + label +
+                   (empty_steps == 1 ? " was" : " were") + " left out");
+    if (out_.pieces.size() == pieces_before)
+      vanished_.add(label + " has no length on the mesh and was left out");
+  }
+
+  void add_point(const SurfacePoint& point, std::size_t number) {
+    try {
+      out_.points.push_back(simplest(mesh_, point));
+    } catch (const InputError& error) {
+      throw InputError("point source " + std::to_string(number) + ": " + error.what());
+    }
+  }
+
+  PreparedSources finish(Report& report) {
+    traced_.report_to(report);
+    dropped_.report_to(report);
+    vanished_.report_to(report);
+    if (out_.pieces.empty() && out_.points.empty())
+      throw InputError(
+          "the sources hold nothing to measure distance from: no point and no curve of positive "
+          "length");
+    return std::move(out_);
+  }
+
+ private:
+  /// Appends the piece between two points that share a face; false if it has no length.
+  bool add_piece(int curve, bool is_signed, const SurfacePoint& from, const SurfacePoint& to) {
+    CurvePiece piece;
+    piece.curve = curve;
+    piece.is_signed = is_signed;
+    piece.length = (mesh_.position(to) - mesh_.position(from)).stableNorm();
+    if (!(piece.length > 0)) return false;
+    piece.edge = common_edge(mesh_, from, to);
+    piece.face = piece.edge >= 0 ? face_beside(piece.edge) : common_face(mesh_, from, to);
+    piece.a = barycentrics_in(mesh_, from, piece.face).value();
+    piece.b = barycentrics_in(mesh_, to, piece.face).value();
+    out_.pieces.push_back(piece);
+    return true;
+  }
+
+  int face_beside(int edge) const {
+    for (int f : mesh_.edge_faces(edge))
+      if (has_distinct_corners(mesh_, f)) return f;
+    return mesh_.edge_faces(edge)[0];
+  }
+
+  const SurfaceMesh& mesh_;
+  Tracer tracer_;
+  PreparedSources out_;
+  Notes traced_, dropped_, vanished_;
+};
+
+std::string curve_label(std::size_t index, const std::string& origin) {
+  std::string label = "curve " + std::to_string(index + 1);
+  if (!origin.empty()) label += " (" + origin + ")";
+  return label;
+}
+
+}  // namespace
+
+PreparedSources prepare(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip,
+                        Report& report, const Task& task) {
+  if (!sources.chains.empty())
+    throw UnsupportedError(sources.chains[0].origin +
+                           ": chains of faces say where winding numbers jump; distance is measured "
+                           "from curves and points");
+  Preparation preparation(mesh);
+  auto check_count = [](Eigen::Index nodes, const std::string& label) {
+    if (nodes < 2)
+      throw InputError(label + " has " + (nodes == 1 ? "one node" : "no nodes") +
+                       "; a curve needs at least two");
+  };
+  std::size_t index = 0;
+  for (const SurfaceCurve& curve : sources.curves) {
+    const std::string label = curve_label(index++, curve.origin);
+    check_count(static_cast<Eigen::Index>(curve.nodes.size()), label);
+    std::vector<SurfacePoint> nodes = curve.nodes;
+    if (flip && curve.is_signed) std::reverse(nodes.begin(), nodes.end());
+    preparation.add_curve(nodes, curve.is_signed, label, task);
+  }
+  std::optional<CurveCarrier> carrier;
+  for (const SpaceCurve& curve : sources.space_curves) {
+    const std::string label = curve_label(index++, curve.origin);
+    check_count(curve.points.rows(), label);
+    if (!carrier) carrier.emplace(mesh);
+    SpaceCurve directed = curve;
+    if (flip && curve.is_signed) directed.points = curve.points.colwise().reverse().eval();
+    const CarriedCurve carried = carrier->carry(directed, report, task);
+    for (const SurfaceCurve& part : carried.curves)
+      preparation.add_curve(part.nodes, part.is_signed, label, task);
+  }
+  for (std::size_t i = 0; i < sources.points.size(); ++i)
+    preparation.add_point(sources.points[i], i + 1);
+  return preparation.finish(report);
+}
+
+}  // namespace littoral

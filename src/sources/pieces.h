@@ -1,0 +1,42 @@
+#pragma once
+// Sources on a surface, cut into straight pieces that operators can integrate.
+
+#include <array>
+#include <vector>
+
+#include "base/report.h"
+#include "base/task.h"
+#include "domain/mesh/surface_mesh.h"
+#include "sources/surface_sources.h"
+
+namespace littoral {
+
+/// A straight part of a curve inside one face or along one edge, in the direction of travel.
+struct CurvePiece {
+  int curve = 0;                   // row of PreparedSources::nodes
+  bool is_signed = true;           // phi > 0 to the left of travel
+  int face = 0;                    // contains the piece; along an edge, one of the edge's faces
+  std::array<double, 3> a{}, b{};  // start and end: barycentrics in `face`, in its corner order
+  int edge = -1;                   // the edge the piece runs along (third barycentric exactly 0)
+  double length = 0;               // [length], positive
+};
+
+/// Sources ready to be turned into right-hand sides and constraints.
+struct PreparedSources {
+  std::vector<CurvePiece> pieces;                // by curve, in the direction of travel
+  std::vector<SurfacePoint> points;              // isolated points, in their simplest form
+  std::vector<std::vector<SurfacePoint>> nodes;  // per curve; consecutive nodes share a face
+  int n_curves = 0;                              // = nodes.size()
+};
+
+/// Traces gaps across the mesh, carries space curves onto it and cuts all curves into pieces.
+///
+/// Surface curves come first, in order, then space curves (one split between components counts as
+/// several). `flip` reverses every signed curve. Warnings with counts tell of traced gaps,
+/// zero-length steps left out and curves that vanish. Throws UnsupportedError if the mesh has faces
+/// that are not triangles; InputError if an index is out of range, a curve has fewer than two nodes
+/// or spans two components (naming curve and element), or nothing remains.
+PreparedSources prepare(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip,
+                        Report& report, const Task& task = {});
+
+}  // namespace littoral

@@ -1,0 +1,91 @@
+#include "sources/triangle_sources.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/error.h"
+#include "sources/surface_points.h"
+
+namespace littoral {
+
+std::vector<PointInFace> triangles_around(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                          const SurfacePoint& p, const std::vector<int>& without) {
+  std::vector<PointInFace> where;
+  for (int face : faces_at(mesh, p)) {
+    const int t = T.triangle_of_face[face];
+    if (t < 0 || std::find(without.begin(), without.end(), t) != without.end()) continue;
+    if (const auto b = barycentrics_in(mesh, p, face)) where.push_back({t, *b});
+  }
+  return where;
+}
+
+std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
+                                                  const IntrinsicTriangulation& T,
+                                                  const CurvePiece& piece) {
+  if (piece.edge < 0) return {{T.triangle_of_face[piece.face], piece.a, piece.b, piece.is_signed}};
+  const auto corners = mesh.face(piece.face);
+  auto on_edge = [&](const std::array<double, 3>& b) {
+    double head = 0;
+    for (int k = 0; k < 3; ++k)
+      if (corners[k] == mesh.edges()(piece.edge, 1)) head = b[k];
+    return simplest(mesh, SurfacePoint::on_edge(piece.edge, head));
+  };
+  const SurfacePoint p = on_edge(piece.a), q = on_edge(piece.b);
+  std::vector<TriangleSources::Segment> all;
+  for (int face : mesh.edge_faces(piece.edge)) {
+    const int t = T.triangle_of_face[face];
+    if (t < 0) continue;
+    const auto a = barycentrics_in(mesh, p, face), b = barycentrics_in(mesh, q, face);
+    if (a && b) all.push_back({t, *a, *b, piece.is_signed});
+  }
+  return all;
+}
+
+namespace {
+
+TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                   std::vector<SurfacePoint> points, std::vector<char>& reached) {
+  auto key = [](const SurfacePoint& p) {
+    return std::tuple(static_cast<int>(p.on), p.element,
+                      p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
+  };
+  for (SurfacePoint& p : points) p = simplest(mesh, p);
+  std::sort(points.begin(), points.end(),
+            [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) < key(q); });
+  const auto same = [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) == key(q); };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  TriangleSources::Points out;
+  for (const SurfacePoint& p : points) {
+    const std::vector<PointInFace> where = triangles_around(mesh, T, p);
+    if (where.empty()) continue;
+    reached[T.component[T.faces(where.front().face, 0)]] = 1;
+    if (p.on == SurfacePoint::On::vertex)
+      out.vertices.push_back(p.element);
+    else
+      out.inside.insert(out.inside.end(), where.begin(), where.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                 const PreparedSources& sources) {
+  TriangleSources out;
+  out.reached.assign(T.n_components, 0);
+  std::vector<SurfacePoint> nodes;
+  for (const CurvePiece& piece : sources.pieces) {
+    if (T.triangle_of_face[piece.face] < 0) continue;
+    for (const TriangleSources::Segment& segment : segments_of(mesh, T, piece))
+      out.segments.push_back(segment);
+    for (const auto& b : {piece.a, piece.b})
+      nodes.push_back(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
+  }
+  out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);
+  out.isolated = sorted_out(mesh, T, sources.points, out.reached);
+  if (std::find(out.reached.begin(), out.reached.end(), 1) == out.reached.end())
+    throw InputError("no source lies on a face with three different vertices");
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,39 @@
+#include "spatial/cluster_tree.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace littoral {
+
+ClusterTree cluster(const MatX3& centres, int leaf_size) {
+  ClusterTree tree;
+  tree.order.resize(static_cast<std::size_t>(centres.rows()));
+  std::iota(tree.order.begin(), tree.order.end(), 0);
+  tree.clusters.push_back({0, static_cast<int>(centres.rows()), -1});
+  for (std::size_t at = 0; at < tree.clusters.size(); ++at) {
+    const auto [begin, end, none] = tree.clusters[at];
+    if (end - begin <= leaf_size) continue;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (int i = begin; i < end; ++i) {
+      const Vec3 c = centres.row(tree.order[static_cast<std::size_t>(i)]);
+      low = low.cwiseMin(c);
+      high = high.cwiseMax(c);
+    }
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    // A multiple of the leaf size keeps leaves full.
+    const int middle = begin + std::max(1, (end - begin) / 2 / leaf_size) * leaf_size;
+    std::nth_element(tree.order.begin() + begin, tree.order.begin() + middle,
+                     tree.order.begin() + end, [&](int a, int b) {
+                       return centres(a, axis) < centres(b, axis) ||
+                              (centres(a, axis) == centres(b, axis) && a < b);
+                     });
+    tree.clusters[at].child = static_cast<int>(tree.clusters.size());
+    tree.clusters.push_back({begin, middle, -1});
+    tree.clusters.push_back({middle, end, -1});
+  }
+  return tree;
+}
+
+}  // namespace littoral

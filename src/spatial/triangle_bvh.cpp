@@ -1,0 +1,277 @@
+#include "spatial/triangle_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "spatial/closest_on_triangle.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int bins = 12;
+constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
+constexpr int stack_size = 8 * 80;
+constexpr int farthest_exponent = 200;  // squares of 2^200 are far from overflow
+
+Vec3 scaled(const Vec3& v, int exponent) {
+  return {std::ldexp(v[0], exponent), std::ldexp(v[1], exponent), std::ldexp(v[2], exponent)};
+}
+
+int exponent_of(double magnitude) { return magnitude > 0 ? std::ilogb(magnitude) + 1 : 0; }
+
+/// Half the area of a box's surface.
+double half_area(const Vec3& low, const Vec3& high) {
+  const Vec3 d = high - low;
+  return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+}  // namespace
+
+TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
+  double magnitude = 0;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    bool finite = true;
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const int v = faces(f, k);
+      if (v < 0 || v >= points.rows())
+        throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
+                         ", there are " + std::to_string(points.rows()));
+      finite = finite && points.row(v).allFinite();
+      if (finite) largest = std::max(largest, points.row(v).cwiseAbs().maxCoeff());
+    }
+    if (!finite) continue;
+    faces_.push_back(static_cast<int>(f));
+    magnitude = std::max(magnitude, largest);
+  }
+  if (faces_.empty())
+    throw InputError("closest points need a face with three finite corners; there is none among " +
+                     std::to_string(faces.rows()));
+  exponent_ = exponent_of(magnitude);
+  std::vector<std::array<Vec3, 3>> corners;
+  corners.reserve(faces_.size());
+  std::vector<Box> boxes;
+  boxes.reserve(faces_.size());
+  for (int f : faces_) {
+    std::array<Vec3, 3> c;
+    for (int k = 0; k < 3; ++k) c[k] = scaled(points.row(faces(f, k)), -exponent_);
+    corners.push_back(c);
+    boxes.push_back({c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
+  }
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const std::vector<Split> splits = split(boxes, order);
+
+  std::vector<int> sorted(faces_.size()), rows(3 * faces_.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  MatX3 all(static_cast<Eigen::Index>(rows.size()), 3);  // corners in the order of the tree
+  corners_.resize(corners.size());
+  place_.assign(static_cast<std::size_t>(faces.rows()), -1);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted[i] = faces_[order[i]];
+    corners_[i] = corners[order[i]];
+    place_[sorted[i]] = static_cast<int>(i);
+    for (std::size_t k = 0; k < 3; ++k)
+      all.row(static_cast<Eigen::Index>(3 * i + k)) = corners_[i][k];
+  }
+  faces_ = std::move(sorted);
+  std::vector<Lanes> held;
+  add_node(splits, 0, held);
+  parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at)
+      for (int c = 0; c < width; ++c) {
+        const auto [from, to] = held[at][static_cast<std::size_t>(c)];
+        if (from == to)
+          set_empty(nodes_[at], c);
+        else
+          set_bounds(all, rows.data() + 3 * from, rows.data() + 3 * to, nodes_[at], c);
+      }
+  });
+}
+
+std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes,
+                                                   std::vector<int>& order) {
+  const int n = static_cast<int>(boxes.size());
+  std::vector<Vec3> centre(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) centre[i] = 0.5 * (boxes[i].low + boxes[i].high);
+  std::vector<Split> splits;
+  struct Job {
+    int node, begin, end, depth;
+  };
+  std::vector<Job> jobs{{0, 0, n, 0}};
+  splits.reserve(2 * boxes.size());
+  splits.resize(1);
+  while (!jobs.empty()) {
+    const Job job = jobs.back();
+    jobs.pop_back();
+    Box box = boxes[order[job.begin]];
+    Box centres{centre[order[job.begin]], centre[order[job.begin]]};
+    for (int i = job.begin; i < job.end; ++i) {
+      box.low = box.low.cwiseMin(boxes[order[i]].low);
+      box.high = box.high.cwiseMax(boxes[order[i]].high);
+      centres.low = centres.low.cwiseMin(centre[order[i]]);
+      centres.high = centres.high.cwiseMax(centre[order[i]]);
+    }
+    const int count = job.end - job.begin;
+    splits[job.node] = {box, job.begin, job.end, -1};
+    if (count == 1) continue;
+
+    int axis = 0;
+    const double extent = (centres.high - centres.low).maxCoeff(&axis);
+    int middle = job.begin;
+    if (extent > 0 && job.depth < deepest_by_area) {
+      const double low = centres.low[axis];
+      auto bin_of = [&](int i) {
+        const double x = (centre[i][axis] - low) / extent;  // in [0, 1]
+        return std::min(bins - 1, static_cast<int>(x * bins));
+      };
+      std::array<int, bins> number{};
+      std::array<Box, bins> bin;
+      const double inf = std::numeric_limits<double>::infinity();
+      bin.fill({Vec3::Constant(inf), Vec3::Constant(-inf)});
+      for (int i = job.begin; i < job.end; ++i) {
+        const int b = bin_of(order[i]);
+        ++number[b];
+        bin[b].low = bin[b].low.cwiseMin(boxes[order[i]].low);
+        bin[b].high = bin[b].high.cwiseMax(boxes[order[i]].high);
+      }
+      // Cost of cutting after bin b: (triangles x area) on the left plus the same on the right.
+      std::array<double, bins> left_cost{};
+      auto sweep = [&](bool from_left) {
+        Box sum{Vec3::Constant(inf), Vec3::Constant(-inf)};
+        int total = 0;
+        std::array<double, bins> cost{};
+        for (int s = 0; s < bins; ++s) {
+          const int b = from_left ? s : bins - 1 - s;
+          total += number[b];
+          sum.low = sum.low.cwiseMin(bin[b].low);
+          sum.high = sum.high.cwiseMax(bin[b].high);
+          cost[b] = total ? total * half_area(sum.low, sum.high) : inf;
+        }
+        return cost;
+      };
+      left_cost = sweep(true);
+      const std::array<double, bins> right_cost = sweep(false);
+      int cut = -1;
+      double cheapest = inf;
+      for (int b = 0; b + 1 < bins; ++b) {
+        const double cost = left_cost[b] + right_cost[b + 1];
+        if (cost < cheapest) {
+          cheapest = cost;
+          cut = b;
+        }
+      }
+      if (cut >= 0)
+        middle = static_cast<int>(std::stable_partition(order.begin() + job.begin,
+                                                        order.begin() + job.end,
+                                                        [&](int i) { return bin_of(i) <= cut; }) -
+                                  order.begin());
+    }
+    if (middle == job.begin || middle == job.end) {  // coincident centres, or too deep
+      middle = job.begin + count / 2;
+      std::nth_element(order.begin() + job.begin, order.begin() + middle, order.begin() + job.end,
+                       [&](int i, int j) {
+                         const double x = centre[i][axis], y = centre[j][axis];
+                         return x < y || (x == y && i < j);
+                       });
+    }
+    const int left = static_cast<int>(splits.size());
+    splits[job.node].child = left;
+    splits.resize(splits.size() + 2);
+    jobs.push_back({left + 1, middle, job.end, job.depth + 1});
+    jobs.push_back({left, job.begin, middle, job.depth + 1});
+  }
+
+  return splits;
+}
+
+int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held) {
+  // The boxes of most triangles under the root are opened as long as there is room.
+  std::vector<int> members{root};
+  const auto size = [&](int at) {
+    const Split& s = splits[at];
+    return s.child < 0 ? 0 : s.end - s.begin;
+  };
+  while (members.size() < width) {
+    const auto largest = std::max_element(members.begin(), members.end(),
+                                          [&](int a, int b) { return size(a) < size(b); });
+    const int child = splits[*largest].child;
+    if (child < 0) break;
+    *largest = child;
+    members.push_back(child + 1);
+  }
+  const auto at = nodes_.size();
+  nodes_.emplace_back();
+  held.emplace_back();
+  for (std::size_t c = 0; c < members.size(); ++c) {
+    const Split& s = splits[members[c]];
+    held[at][c] = {s.begin, s.end};
+    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], held);
+    nodes_[at].child[c] = child;
+  }
+  return static_cast<int>(at);
+}
+
+ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
+  if (!query.allFinite())
+    throw InputError("the query point of a closest-point search is not finite");
+  // `shift` is extra down-scaling for queries so far away that squares would overflow.
+  const int query_exponent = exponent_of(query.cwiseAbs().maxCoeff());
+  const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
+  const Vec3 q = scaled(query, -exponent_ - shift);
+
+  double best = infinity;
+  TriangleFoot best_foot;
+  int best_at = -1;
+  const auto look_at = [&](int i) {
+    const auto& c = corners_[i];
+    const TriangleFoot foot = closest_on_triangle(c[0] - q, c[1] - q, c[2] - q);
+    if (best_at < 0 || foot.squared < best ||
+        (foot.squared == best && faces_[i] < faces_[best_at])) {
+      best = foot.squared;
+      best_foot = foot;
+      best_at = i;
+    }
+  };
+  if (hint >= 0 && hint < static_cast<int>(place_.size()) && place_[hint] >= 0)
+    look_at(place_[hint]);
+
+  std::array<BoundEntry, stack_size> stack;  // a node adds at most eight
+  BoundKernel* const bounds = bound_kernel();
+  int top = 0;
+  stack[top++] = {0, 0};
+  while (top > 0) {
+    const BoundEntry entry = stack[--top];
+    if (entry.squared > best) continue;
+    if (entry.child < 0) {
+      look_at(-1 - entry.child);
+      continue;
+    }
+    const BoundNode& node = nodes_[entry.child];
+    // Bounds hold for computed feet, too, so that pruning never changes which of several equally
+    // near faces wins.
+    alignas(64) double bound[width];
+    bounds(node, q.data(), bound);
+    top = push_children(node, bound, best, stack.data(), top);
+  }
+
+  ClosestPoint answer;
+  answer.face = faces_[best_at];
+  answer.barycentric = best_foot.barycentric;
+  const auto& c = corners_[best_at];
+  Vec3 point = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) point += best_foot.barycentric[k] * c[k];
+  answer.point = scaled(point, exponent_);
+  answer.distance = std::min(std::ldexp(best_foot.offset.stableNorm(), exponent_ + shift),
+                             std::numeric_limits<double>::max());
+  return answer;
+}
+
+}  // namespace littoral

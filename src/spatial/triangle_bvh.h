@@ -1,0 +1,63 @@
+#pragma once
+// Closest point on a triangle soup: a bounding-volume hierarchy in flat arrays.
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/types.h"
+#include "spatial/bound_node.h"
+
+namespace littoral {
+
+/// Answer of a closest-point query.
+struct ClosestPoint {
+  int face = -1;
+  std::array<double, 3> barycentric{1, 0, 0};  // per corner of the face, in [0, 1], sum 1
+  Vec3 point = Vec3::Zero();                   // on the face
+  double distance = 0;                         // |point - query|
+};
+
+/// Bounding-volume hierarchy over triangles; immutable, queries may run from several threads.
+///
+/// Triangles may be degenerate, repeated or unconnected; those with a non-finite corner are left
+/// out. Coordinates are scaled by a power of two inside, so any magnitude up to 1e300 works.
+/// Split by surface area (Wald, "On fast construction of SAH-based bounding volume hierarchies",
+/// 2007: binned), by count where that fails to divide; then eight boxes and disks to a node, down
+/// to single triangles.
+class TriangleBvh {
+ public:
+  /// points: n x 3; faces: m x 3, rows index points. Throws InputError if an index is out of range
+  /// (naming the face) or no face has three finite corners.
+  TriangleBvh(const MatX3& points, const MatX3i& faces);
+
+  /// Nearest point over all faces, the lowest face where several are equally near. A query beyond
+  /// 1e60 times the size of the coordinates sees only the direction of the faces. `hint` is a face
+  /// that may be near, such as that of the query before, or -1: it changes the time, not the
+  /// answer. Throws InputError if the query is not finite.
+  ClosestPoint closest_point(const Vec3& query, int hint = -1) const;
+
+ private:
+  struct Box {
+    Vec3 low, high;
+  };
+  struct Split {
+    Box box;
+    int begin = 0, end = 0;  // into `order`
+    int child = -1;          // the left one, the right one follows it; -1: one triangle
+  };
+  static constexpr int width = bound_lanes;
+  static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
+  /// Stored triangles [begin, end) of the children of a node; none in empty lanes.
+  using Lanes = std::array<std::pair<int, int>, width>;
+  int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held);
+
+  int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
+  std::vector<BoundNode> nodes_;              // child: another node, or -1 - (stored triangle)
+  std::vector<int> faces_;                    // original number of each stored triangle
+  std::vector<int> place_;                    // where each original one is stored, or -1
+  std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the tree
+};
+
+}  // namespace littoral

@@ -1,0 +1,78 @@
+#pragma once
+// Generalized winding number of triangles or oriented points in space.
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "base/types.h"
+#include "spatial/cluster_tree.h"
+#include "spatial/winding_kernels.h"
+
+namespace littoral {
+
+/// Sum of signed solid angles over 4 pi: 1 inside a closed surface whose normals point outward, 0
+/// outside, in between where it is broken. Far clusters are expanded to second order (Barill et
+/// al., "Fast winding numbers for soups and clouds", 2018); near triangles count exactly (van
+/// Oosterom and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several
+/// threads.
+class WindingNumber {
+ public:
+  /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
+  /// corner that is not finite count as nothing.
+  WindingNumber(const MatX3& points, const MatX3i& faces);
+
+  /// points, normals: n x 3, normals of unit length; areas: n. All finite.
+  WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas);
+
+  /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 3 keeps
+  /// the error below 1e-3, 2.3 below 3e-3; infinity sums exactly.
+  double operator()(const Vec3& query, double accuracy = 3) const;
+
+ private:
+  // Moments of the vector area about the centre, contracted as the expansion needs them.
+  struct Moments {
+    Vec3 centre;
+    double radius = 0;
+    Vec3 area = Vec3::Zero();        // sum of vector areas a
+    double trace = 0;                // of the first moment, sum of a d^T
+    std::array<double, 6> first{};   // its symmetric part: xx yy zz xy yz zx
+    Vec3 second = Vec3::Zero();      // 2 sum Q_iik + sum Q_kjj, Q = sum of a (d d^T)
+    std::array<double, 10> cubic{};  // Q r r r by monomial
+  };
+  using Triangle = std::array<Vec3, 3>;
+
+  // Up to eight clusters of the binary tree under one of their ancestors.
+  struct Node {
+    ClusterLanes moments;
+    std::array<int, winding_lanes> child;  // another node, -1 - leaf, or `none`
+  };
+  static constexpr int none = std::numeric_limits<int>::min();
+
+  // Items in the order of the tree; coordinates are relative to origin_, in units of unit_.
+  struct Items {
+    ClusterTree tree;
+    std::vector<Triangle> triangles;  // empty for points
+    std::vector<Vec3> centres, areas;
+  };
+
+  void set_frame(const MatX3& centres);
+  void build(Items items);
+  int add_leaf(const Items& items, const Cluster& cluster);
+  int add_node(const Items& items, const std::vector<Moments>& moments, int root);
+  double leaf_sum(int leaf, const double* q) const;
+
+  Vec3 origin_ = Vec3::Zero();
+  double unit_ = 1;
+  Vec3 total_ = Vec3::Zero();  // vector area
+  int root_ = none;
+  std::vector<Node> nodes_;
+  std::vector<TriangleLanes> triangle_leaves_;  // one of the two
+  std::vector<DipoleLanes> dipole_leaves_;
+};
+
+/// The same, one solid angle after the other in extended precision: what the fast sum is tested
+/// against.
+double winding_number_brute_force(const MatX3& points, const MatX3i& faces, const Vec3& query);
+
+}  // namespace littoral

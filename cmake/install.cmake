@@ -4,8 +4,7 @@ set(littoral_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/littoral)
 
 install(TARGETS littoral_cli RUNTIME)
 install(TARGETS littoral EXPORT littoral_targets)
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/littoral
-        FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY include/littoral DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES python/torus_fit.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/littoral)
 install(EXPORT littoral_targets NAMESPACE littoral:: DESTINATION ${littoral_config_dir})
 

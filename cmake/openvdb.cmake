@@ -32,7 +32,7 @@ endif()
 add_library(littoral_vdb MODULE src/vdb/write_vdb.cpp)
 # Symbols stay visible: OpenVDB's templates keep state that the library and its user must share.
 set_target_properties(littoral_vdb PROPERTIES PREFIX "" SUFFIX ".so")
-target_include_directories(littoral_vdb PRIVATE src)
+target_include_directories(littoral_vdb PRIVATE src include)
 target_include_directories(littoral_vdb SYSTEM PRIVATE ${OpenVDB_INCLUDE_DIR})
 target_link_libraries(littoral_vdb PRIVATE Eigen3::Eigen ${OpenVDB_LIBRARIES})
 target_compile_definitions(littoral_vdb PRIVATE LITTORAL_VERSION="${PROJECT_VERSION}" EIGEN_MPL2_ONLY)

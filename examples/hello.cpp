@@ -23,9 +23,9 @@ int main() {
   const littoral::SurfaceMesh mesh(std::move(soup));
 
   // Up the middle, with a gap: positive distances lie to the left.
-  littoral::SurfaceSources sources;
+  littoral::Sources sources;
   for (const auto& [from, to] : {std::pair(0, 8), std::pair(12, n)}) {
-    littoral::SurfaceCurve curve;
+    littoral::Curve curve;
     for (int j = from; j <= to; ++j)
       curve.nodes.push_back(littoral::SurfacePoint::at_vertex(j * (n + 1) + n / 2));
     sources.curves.push_back(curve);

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "base/error.h"
 #include "domain/mesh/surface_mesh.h"
 #include "io/read.h"
+#include "littoral/error.h"
 
 namespace {
 
@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::optional<int> base = choice < 2 ? std::optional<int>(choice) : std::nullopt;
   try {
     littoral::Report report;
-    const littoral::SurfaceSources sources = littoral::io::read_sources_bytes(
+    const littoral::Sources sources = littoral::io::read_sources_bytes(
         bytes, formats[data[0] % 4], "input", mesh(), base, report);
     if (sources.empty()) std::abort();
     for (const auto& curve : sources.curves) {

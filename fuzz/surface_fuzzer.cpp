@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
 #include "domain/mesh/surface_mesh.h"
 #include "io/read.h"
+#include "littoral/error.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
 #include "io/tet/tets.h"
+#include "littoral/error.h"
 
 namespace {
 

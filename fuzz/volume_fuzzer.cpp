@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    const littoral::VolumeField field =
+    const littoral::Volume field =
         littoral::io::read_volume_bytes(bytes, LITTORAL_FUZZ_EXTENSION, "input");
     const littoral::Grid& grid = field.grid;
     const bool sound = static_cast<std::size_t>(field.values.size()) == grid.n_nodes() &&

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/error.h"
 #include "io/volume/read_voxels.h"
+#include "littoral/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -34,7 +34,7 @@ def findings(root: Path) -> list[str]:
             continue
         lines = content.decode("utf-8", errors="replace").splitlines()
         if path.suffix in SOURCES and len(lines) > LONGEST:
-            found.append(f"{path}: {len(lines)} lines; make two rooms of it (at most {LONGEST})")
+            found.append(f"{path}: {len(lines)} lines; split this file (at most {LONGEST})")
         for number, line in enumerate(lines, 1):
             if match := MACHINE_PATH.search(line):
                 found.append(f"{path}:{number}: a path of one machine: {match[0]}...")

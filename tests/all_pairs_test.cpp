@@ -10,20 +10,20 @@
 
 #include "api/surface/distance.h"
 #include "api/surface/pairs.h"
-#include "base/error.h"
 #include "base/parallel.h"
 #include "geodesic_helpers.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-MatX pairs_on(const SurfaceMesh& mesh, AllPairsOptions options, Report& report) {
+MatX pairs_on(const SurfaceMesh& mesh, Symmetric options, Report& report) {
   return all_pairs(triangle_operators(intrinsic_triangulation(mesh, report)), options, {}, report);
 }
 MatX pairs_on(const SurfaceMesh& mesh, double alpha, double tolerance = 1e-3) {
-  AllPairsOptions options;
+  Symmetric options;
   options.alpha = alpha;
   options.tolerance = tolerance;
   Report report;
@@ -33,7 +33,7 @@ MatX pairs_on(const SurfaceMesh& mesh, double alpha, double tolerance = 1e-3) {
 }
 
 PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
-                      std::vector<int> vertices = {}, const OptionTexts& options = {}) {
+                      std::vector<int> vertices = {}, const OptionValues& options = {}) {
   Report report;
   return pair_distances(mesh, {method, options, std::move(vertices)}, {}, report);
 }
@@ -96,13 +96,13 @@ TEST(AllPairs, SameWhateverUnitThreadsAndPrecision) {
     EXPECT_LT((pairs_on(SurfaceMesh(scaled), 0.05) / scale - U).cwiseAbs().maxCoeff(),
               1e-3 * U.maxCoeff());
   }
-  AllPairsOptions options;
+  Symmetric options;
   Report report;
   set_thread_count(1);
   const MatX one = pairs_on(SurfaceMesh(soup), options, report);
   set_thread_count(0);
   EXPECT_EQ((one - U).cwiseAbs().maxCoeff(), 0);
-  options.storage = static_cast<int>(Storage::single);
+  options.storage = Storage::single;
   const MatX single = pairs_on(SurfaceMesh(soup), options, report);
   EXPECT_LT((single - U).cwiseAbs().maxCoeff(), 2e-3 * U.maxCoeff());
   EXPECT_GT((single - U).cwiseAbs().maxCoeff(), 0);
@@ -123,7 +123,7 @@ TEST(AllPairs, AgreesWithTheAuthors) {
 TEST(AllPairs, MemoryIsForeseen) {
   EXPECT_GE(all_pairs_memory(2000, 4000, 8), 8. * 2000 * 2000 * 8);
   Report report;
-  AllPairsOptions options;
+  Symmetric options;
   options.max_iterations = 2;
   pairs_on(SurfaceMesh(test::octasphere_soup(1)), options, report);
   EXPECT_EQ(report.status, "not converged");

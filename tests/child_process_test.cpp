@@ -11,8 +11,8 @@
 #include <fstream>
 #include <thread>
 
-#include "base/error.h"
 #include "base/platform/temporary_folder.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "api/space/sampled_distance.h"
-#include "base/error.h"
 #include "field_helpers.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {
@@ -121,8 +121,8 @@ TEST(Combined, InfiniteValuesAndBadRadii) {
 }
 
 /// x + 2 y - z, which trilinear interpolation meets exactly, moved to 1 at the box's lower corner.
-VolumeField linear_field() {
-  VolumeField field;
+Volume linear_field() {
+  Volume field;
   field.grid = {{3, 4, 5}, Vec3(-1, 0, 2), Vec3(0.5, 0.25, 0.125)};
   field.values.resize(60);
   for (int k = 0; k < 5; ++k)
@@ -152,7 +152,7 @@ TEST(SampledDistance, IsLinearInsideAndGrowsOutside) {
 }
 
 TEST(SampledDistance, BadVolumesAreNamed) {
-  VolumeField bad = linear_field();
+  Volume bad = linear_field();
   bad.values[7] = std::nan("");
   EXPECT_THROW(SampledDistance{bad}, InputError);
   bad = linear_field();

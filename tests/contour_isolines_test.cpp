@@ -6,8 +6,8 @@
 #include <map>
 #include <random>
 
-#include "base/error.h"
 #include "contour/isolines.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

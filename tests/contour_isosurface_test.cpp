@@ -6,9 +6,9 @@
 #include <random>
 
 #include "api/surface/mesh_info.h"
-#include "base/error.h"
 #include "base/parallel.h"
 #include "contour/isosurface.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 #include "volume_helpers.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 using test::sampled;
 
-PolygonSoup contour(const VolumeField& f, double level = 0, bool close = false) {
+PolygonSoup contour(const Volume& f, double level = 0, bool close = false) {
   Report report;
   return isosurface(f.grid, f.values, level, {.close = close}, report);
 }
@@ -184,7 +184,7 @@ TEST(Isosurface, TopologyOfTheTrilinearInterpolant) {
 
 // Two opposite corners above: joined by a tube if the middle is above, too.
 TEST(Isosurface, TubeThroughACell) {
-  VolumeField cell{box_grid(2), VecX::Constant(8, -1), "distance"};
+  Volume cell{box_grid(2), VecX::Constant(8, -1), "distance"};
   cell.values[0] = cell.values[7] = 2;
   const PolygonSoup discs = contour(cell);
   EXPECT_EQ(info(discs, "components"), 2);
@@ -213,7 +213,7 @@ TEST(Isosurface, ScaleAndTranslation) {
   const auto field = sampled(box_grid(15), torus);
   const PolygonSoup base = contour(field);
   for (double scale : {1e-3, 1e3}) {
-    VolumeField moved = field;
+    Volume moved = field;
     moved.values *= scale;
     moved.grid.spacing *= scale;
     moved.grid.origin = scale * (field.grid.origin + Vec3(10, -3, 2));
@@ -235,7 +235,7 @@ TEST(Isosurface, HugeAndTinyValues) {
 TEST(Isosurface, BadInputIsRefused) {
   auto field = sampled(box_grid(5), sphere);
   Report report;
-  const auto refused = [&](const VolumeField& f, double level, const std::string& why) {
+  const auto refused = [&](const Volume& f, double level, const std::string& why) {
     try {
       isosurface(f.grid, f.values, level, {}, report);
       ADD_FAILURE() << "accepted: " << why;
@@ -244,7 +244,7 @@ TEST(Isosurface, BadInputIsRefused) {
     }
   };
   refused(field, std::nan(""), "level");
-  VolumeField bad = field;
+  Volume bad = field;
   bad.values[1 + 5 * (2 + 5 * 3)] = std::numeric_limits<double>::infinity();
   refused(bad, 0, "node (1, 2, 3) is inf");
   bad.values = VecX::Zero(7);

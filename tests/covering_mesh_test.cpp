@@ -9,12 +9,12 @@
 #include <set>
 
 #include "api/surface/distance.h"
-#include "base/error.h"
 #include "domain/mesh/triangulate.h"
 #include "heat_helpers.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "shared_data.h"
-#include "sources/carried_sources.h"
+#include "sources/retriangulate_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -56,7 +56,7 @@ double size_named(const Report& report, const std::string& name) {
   return -1;
 }
 
-VecX distance(const SurfaceMesh& mesh, const SurfaceSources& sources, const std::string& method,
+VecX distance(const SurfaceMesh& mesh, const Sources& sources, const std::string& method,
               bool intrinsic, Report& report) {
   DistanceRequest request{method, {}};
   if (intrinsic) request.options.emplace_back("intrinsic-delaunay", "on");
@@ -95,7 +95,7 @@ TEST(CoveringMesh, CarriesPointsToAllSheets) {
                                             SurfacePoint::on_edge(of_three, 0.25)};
   const std::size_t sheets[] = {1, 2, 3};
   for (int i = 0; i < 3; ++i) {
-    PreparedSources sources;
+    PlacedSources sources;
     sources.points = {points[i]};
     const auto on = covering_sources(mesh, T, cover, sources).points;
     EXPECT_EQ(on.size(), sheets[i]);
@@ -108,7 +108,7 @@ TEST(CoveringMesh, MakesDistanceInABookBetter) {
   const SurfaceMesh mesh(book(12));
   for (const SurfacePoint& source :
        {SurfacePoint::at_vertex(6), SurfacePoint::in_face(70, 0.2, 0.3, 0.5)}) {
-    SurfaceSources sources;
+    Sources sources;
     sources.points = {source};
     Report report;
     const VecX exact = distance(mesh, sources, "exact", false, report);
@@ -134,13 +134,13 @@ TEST(CoveringMesh, IsNotForVectors) {
   line << 0.05, 0.2, 0, 0.95, 0.7, 0;
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const PreparedSources sources = prepare(mesh, test::space_curve(line), false, report);
+  const PlacedSources sources = place_sources(mesh, test::space_curve(line), false, report);
   const CoveringMesh cover = covering_mesh(mesh, T);
   const auto error = [&](const SurfaceMesh& on, const IntrinsicTriangulation& triangles,
-                         const PreparedSources& placed) {
+                         const PlacedSources& placed) {
     const auto ops = std::make_shared<const Operators>(triangle_operators(triangles));
-    const SourceTerms terms = source_terms(on, triangles, placed);
-    const VecX phi = SignedHeat(ops, 1).solve(terms, {}, {}, report);
+    const SourceSystem terms = source_system(on, triangles, placed);
+    const VecX phi = SignedHeatSolver(ops, 1).solve(terms, {}, {}, report);
     const Vec3 d = (line.row(1) - line.row(0)).normalized();
     double sum = 0;
     for (int v = 0; v < mesh.n_vertices(); ++v) {
@@ -156,7 +156,7 @@ TEST(CoveringMesh, IsNotForVectors) {
 TEST(FixedEdges, AreSplitUntilTheyAreDelaunay) {
   for (const PolygonSoup& soup : {book(12), test::jittered_grid_soup(40, 3, 0.2)}) {
     const SurfaceMesh mesh(soup);
-    SurfaceSources curve;
+    Sources curve;
     curve.curves.emplace_back();
     for (int v : {2, 3, 4}) curve.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
     Report report;
@@ -187,7 +187,7 @@ TEST(PolygonOptions, RunOnTriangles) {
               1);
   }
   // Sources on the elements of the polygons find their places.
-  SurfaceSources points;
+  Sources points;
   points.points = {SurfacePoint::on_edge(mesh.find_edge(20, 33), 0.25),
                    SurfacePoint::in_face(100, 0.3, 0.2, 0.5)};
   Report report;
@@ -213,7 +213,7 @@ void expect_all_end(const std::string& folder, int most) {
       const SurfaceMesh read(io::read_surface(entry.path().string()));
       if (read.n_faces() == 0 || read.n_faces() > most) continue;
       const SurfaceMesh mesh(triangulate(read.soup()));
-      SurfaceSources source = test::vertex_points({mesh.face(0)[0]});
+      Sources source = test::vertex_points({mesh.face(0)[0]});
       Report report;
       const VecX phi = distance(mesh, source, "unsigned-heat", true, report);
       EXPECT_EQ(phi.size(), mesh.n_vertices());

@@ -6,23 +6,22 @@
 #include <set>
 
 #include "api/surface/distance.h"
-#include "base/error.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/error.h"
 #include "methods/heat/discontinuous.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-SurfaceSources vertex_loop(std::vector<int> vertices) {
-  SurfaceSources sources;
-  SurfaceCurve& curve = sources.curves.emplace_back();
+Sources vertex_loop(std::vector<int> vertices) {
+  Sources sources;
+  Curve& curve = sources.curves.emplace_back();
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   return sources;
 }
 
-SurfaceResult distance(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                       OptionTexts options) {
+SurfaceResult distance(const SurfaceMesh& mesh, const Sources& sources, OptionValues options) {
   Report report;
   return solve_distance(mesh, sources, {"signed-heat", std::move(options), false}, {}, report);
 }
@@ -50,7 +49,7 @@ TEST(DiscontinuousDistance, LeavesIntegrableFieldsAlone) {
 
 TEST(DiscontinuousDistance, AgreesWithTheContinuousOneWhereACurveBounds) {
   const SurfaceMesh mesh(test::octasphere_soup(4));
-  SurfaceSources sources;
+  Sources sources;
   MatX3 ring(61, 3);
   for (int i = 0; i <= 60; ++i) {
     const double a = 2 * std::acos(-1.0) * (i % 60) / 60;
@@ -95,7 +94,7 @@ TEST(DiscontinuousDistance, LeavesOutWhatBoundsNothing) {
   for (int j = 2; j < 8; ++j) disk.push_back(14 * nv + j);
   for (int i = 14; i > 8; --i) disk.push_back(i * nv + 8);
   for (int j = 8; j >= 2; --j) disk.push_back(8 * nv + j);
-  SurfaceSources both = vertex_loop(tube);
+  Sources both = vertex_loop(tube);
   both.curves.push_back(vertex_loop(disk).curves[0]);
   const VecX filtered = distance(mesh, both, {{"bounding-only", "on"}}).values;
   const VecX alone = distance(mesh, vertex_loop(disk), {}).values;

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -23,7 +23,7 @@ class OnEveryDomain : public testing::TestWithParam<Domain> {
   static Shape sphere() { return test::sphere(GetParam(), n); }
 
   /// The circle 60 degrees from the north pole, positive to its north.
-  static SurfaceSources parallel(bool is_signed = true) {
+  static Sources parallel(bool is_signed = true) {
     return test::space_curve(test::circle(0, 0, 0.5, std::sin(pi / 3), 200), is_signed);
   }
   static double colatitude(const Shape& s, int v) {
@@ -47,9 +47,9 @@ class OnEveryDomain : public testing::TestWithParam<Domain> {
 
 TEST_P(OnEveryDomain, SignedCircleWithEveryConstraint) {
   const Shape s = sphere();
-  for (const OptionTexts& options :
-       {OptionTexts{{"constraint", "none"}}, OptionTexts{{"constraint", "zero-set"}},
-        OptionTexts{{"constraint", "level-sets"}}, OptionTexts{{"soft", "100"}}}) {
+  for (const OptionValues& options :
+       {OptionValues{{"constraint", "none"}}, OptionValues{{"constraint", "zero-set"}},
+        OptionValues{{"constraint", "level-sets"}}, OptionValues{{"soft", "100"}}}) {
     const VecX phi = s.distance(parallel(), "signed-heat", options);
     EXPECT_LE(mean_error(s, phi, [](double t) { return pi / 3 - t; }), tolerance());
   }
@@ -83,7 +83,7 @@ TEST_P(OnEveryDomain, MotionScaleAndOrientation) {
     move(moved.soup.points);
     moved.soup.normals = (moved.soup.normals * R.transpose()).eval();
     moved.face_normals = (moved.face_normals * R.transpose()).eval();
-    SurfaceSources sources = parallel();
+    Sources sources = parallel();
     move(sources.space_curves[0].points);
     const VecX psi = moved.distance(sources, "signed-heat");
     EXPECT_LE((psi - scale * phi).cwiseAbs().maxCoeff(), 1e-6 * scale * size) << scale;
@@ -104,7 +104,7 @@ TEST_P(OnEveryDomain, Relabelling) {
     if (s.soup.normals.rows()) other.soup.normals.row(name[v]) = s.soup.normals.row(v);
   }
   for (int& v : other.soup.corners) v = name[v];
-  SurfaceSources from, to;
+  Sources from, to;
   for (int v : {topmost(s), 5}) {
     from.points.push_back(SurfacePoint::at_vertex(v));
     to.points.push_back(SurfacePoint::at_vertex(name[v]));
@@ -118,7 +118,7 @@ TEST_P(OnEveryDomain, FarFromTheOrigin) {
   Shape moved = s;
   const Eigen::RowVector3d shift(2e6, -3e6, 1e6);
   moved.soup.points.rowwise() += shift;
-  SurfaceSources sources = parallel();
+  Sources sources = parallel();
   sources.space_curves[0].points.rowwise() += shift;
   const VecX phi = s.distance(parallel(), "signed-heat"),
              psi = moved.distance(sources, "signed-heat");
@@ -173,11 +173,11 @@ Shape twins(const Shape& s) {
 TEST_P(OnEveryDomain, ComponentsAreProblemsOfTheirOwn) {
   const Shape s = sphere(), two = twins(s);
   const int half = s.soup.n_vertices();
-  SurfaceSources both = parallel();
+  Sources both = parallel();
   both.space_curves.push_back(both.space_curves[0]);
   both.space_curves[1].points.rowwise() += Eigen::RowVector3d(5, 0, 0);
   for (const char* constraint : {"none", "zero-set", "level-sets"}) {
-    const OptionTexts options{{"constraint", constraint}};
+    const OptionValues options{{"constraint", constraint}};
     const VecX phi = s.distance(parallel(), "signed-heat", options);
     const VecX psi = two.distance(both, "signed-heat", options);
     EXPECT_LE((psi.head(half) - phi).cwiseAbs().maxCoeff(), 1e-6) << constraint;
@@ -217,7 +217,7 @@ TEST_P(WithFaces, PointsInFacesAndOnEdges) {
   const int f = mesh.n_faces() / 3, e = mesh.n_edges() / 2;
   for (const SurfacePoint& p :
        {SurfacePoint::in_face(f, 0.3, 0.3, 0.4), SurfacePoint::on_edge(e, 0.3)}) {
-    SurfaceSources sources;
+    Sources sources;
     sources.points.push_back(p);
     const Vec3 at = mesh.position(p).normalized();
     for (const char* method : {"signed-heat", "unsigned-heat"}) {
@@ -243,7 +243,7 @@ TEST_P(InThePlane, StraightLineAcrossFacesAndBoundary) {
   line << 0.31, 0, 0, 0.55, 1, 0;
   const Vec3 along = (line.row(1) - line.row(0)).normalized(), left(-along.y(), along.x(), 0);
   for (const bool is_signed : {true, false}) {
-    const SurfaceSources sources = test::space_curve(line, is_signed);
+    const Sources sources = test::space_curve(line, is_signed);
     const VecX phi = s.distance(sources, "signed-heat");
     double sum = 0;
     for (int v = 0; v < phi.size(); ++v) {

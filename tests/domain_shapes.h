@@ -25,9 +25,8 @@ struct Shape {
   PolygonSoup soup;
   MatX3 face_normals{0, 3};
 
-  VecX distance(const SurfaceSources& sources, const std::string& method,
-                const OptionTexts& options = {}, Report* report = nullptr,
-                bool flip = false) const {
+  VecX distance(const Sources& sources, const std::string& method, const OptionValues& options = {},
+                Report* report = nullptr, bool flip = false) const {
     Report own;
     return surface_distance(SurfaceMesh(soup), sources, {method, options, flip}, {},
                             report ? *report : own, face_normals.rows() ? &face_normals : nullptr);

@@ -5,24 +5,24 @@
 #include <cmath>
 
 #include "api/surface/winding.h"
-#include "base/error.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-WindingAnswer dual(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip = false,
-                   OptionTexts options = {}) {
+WindingAnswer dual(const SurfaceMesh& mesh, const Sources& sources, bool flip = false,
+                   OptionValues options = {}) {
   Report report;
   options.emplace_back("formulation", "dual");
   return surface_winding(mesh, sources, {options, flip}, {}, report);
 }
 
-SurfaceSources chain_of(std::vector<std::vector<int>> chains) {
-  SurfaceSources sources;
+Sources chain_of(std::vector<std::vector<int>> chains) {
+  Sources sources;
   for (auto& faces : chains) sources.chains.push_back({faces, "test"});
   return sources;
 }
@@ -119,7 +119,7 @@ TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
   constexpr int n = 6;
   const SurfaceMesh mesh(book(n));
   // At the spine, page 2 is above pages 0 and 1.
-  SurfaceSources sources;
+  Sources sources;
   for (int j = 0; j < n; ++j) {
     const auto at_spine = [&](int page) { return 2 * (page * n * n + j) + 1; };
     sources.chains.push_back({{at_spine(0), at_spine(2)}, "a"});

@@ -6,22 +6,22 @@
 #include <numbers>
 #include <random>
 
-#include "base/error.h"
 #include "geodesic_helpers.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-SurfaceSources from(std::vector<SurfacePoint> points) {
-  SurfaceSources sources;
+Sources from(std::vector<SurfacePoint> points) {
+  Sources sources;
   sources.points = std::move(points);
   return sources;
 }
 
-void expect_euclidean(const SurfaceMesh& mesh, const SurfaceSources& sources,
+void expect_euclidean(const SurfaceMesh& mesh, const Sources& sources,
                       const std::vector<Vec3>& at) {
   const VecX d = test::exact(mesh, sources);
   for (int v = 0; v < mesh.n_vertices(); ++v) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "geodesic_helpers.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -73,7 +73,7 @@ TEST(FastMarching, PointsInFacesAndOnEdges) {
   const SurfaceMesh mesh(test::jittered_grid_soup(24, 24, 0.2));
   for (const SurfacePoint& p :
        {SurfacePoint::in_face(600, 0.2, 0.3, 0.5), SurfacePoint::on_edge(800, 0.4)}) {
-    SurfaceSources sources;
+    Sources sources;
     sources.points = {p};
     const Vec3 at = mesh.position(p);
     EXPECT_LT(worst_error(mesh, test::marched(mesh, sources),

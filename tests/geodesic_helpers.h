@@ -16,16 +16,17 @@
 namespace littoral::test {
 
 template <class Method>
-VecX geodesic(Method method, const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report,
+VecX geodesic(Method method, const SurfaceMesh& mesh, const Sources& sources, Report& report,
               const Task& task = {}) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return method(T, triangle_sources(mesh, T, prepare(mesh, sources, false, report)), task, report);
+  return method(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)), task,
+                report);
 }
-inline VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+inline VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   return geodesic(exact_polyhedral, mesh, sources, report);
 }
-inline VecX marched(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+inline VecX marched(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   return geodesic(fast_marching, mesh, sources, report);
 }

@@ -28,8 +28,8 @@ bool finite_or_infinite(const VecX& phi) {
                      [](double v) { return std::isfinite(v) || v == infinity; });
 }
 
-SurfaceCurve vertex_curve(std::initializer_list<int> vertices, bool is_signed = true) {
-  SurfaceCurve curve;
+Curve vertex_curve(std::initializer_list<int> vertices, bool is_signed = true) {
+  Curve curve;
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   curve.is_signed = is_signed;
   return curve;
@@ -41,9 +41,7 @@ MatX3 segment(double x0, double y0, double x1, double y1) {
   return line;
 }
 
-SignedHeatOptions zero_set(double time_scale = 1) {
-  return {time_scale, static_cast<int>(Constraint::zero_set)};
-}
+SignedHeat zero_set(double time_scale = 1) { return {time_scale, Constraint::zero_set}; }
 
 TEST(HeatDomains, BookOfThreePages) {
   // Three unit squares glued along x = 0: distance to the spine is the distance in each page.
@@ -70,7 +68,7 @@ TEST(HeatDomains, BookOfThreePages) {
     }
   }
   const SurfaceMesh mesh(book);
-  SurfaceSources sources;
+  Sources sources;
   sources.curves.push_back(vertex_curve({0, n * (n + 1)}, false));
   Report report;
   const VecX u = test::unsigned_heat(mesh, sources, report);
@@ -137,7 +135,7 @@ TEST(HeatDomains, DegenerateAndRepeatedFacesDoNotMatterMuch) {
 
 TEST(HeatDomains, ACurveAndItsReverseCancel) {
   const SurfaceMesh mesh(test::grid_soup(8, 8));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves.push_back(vertex_curve({36, 37, 38, 39}));
   sources.curves.push_back(vertex_curve({39, 38, 37, 36}));
   Report report;
@@ -148,7 +146,7 @@ TEST(HeatDomains, ACurveAndItsReverseCancel) {
 
 TEST(HeatDomains, ACurveDrawnTwiceIsTheCurve) {
   const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.3));
-  SurfaceSources once = test::space_curve(segment(0.3, 0.2, 0.6, 0.8)), twice = once;
+  Sources once = test::space_curve(segment(0.3, 0.2, 0.6, 0.8)), twice = once;
   twice.space_curves.push_back(once.space_curves[0]);
   Report report;
   const VecX phi = test::signed_heat(mesh, once, zero_set(), report);
@@ -158,7 +156,7 @@ TEST(HeatDomains, ACurveDrawnTwiceIsTheCurve) {
 
 TEST(HeatDomains, CrossingAndMixedSourcesStayFinite) {
   const SurfaceMesh mesh(test::jittered_grid_soup(14, 14, 0.3));
-  SurfaceSources sources = test::space_curve(segment(0.1, 0.1, 0.9, 0.85));
+  Sources sources = test::space_curve(segment(0.1, 0.1, 0.9, 0.85));
   sources.space_curves.push_back({segment(0.1, 0.9, 0.9, 0.12), true, "test"});
   sources.space_curves.push_back({segment(0.5, 0.05, 0.8, 0.1), false, "test"});
   sources.space_curves.push_back({test::circle(0.2, 0.5, 0, 0.1, 32), true, "test"});
@@ -181,7 +179,7 @@ TEST(HeatDomains, PointsAtVerticesOnEdgesAndInFacesAgree) {
   for (const SurfacePoint& p :
        {SurfacePoint::at_vertex(12 + 12 * 25), SurfacePoint::on_edge(mesh.find_edge(312, 313), 0.4),
         SurfacePoint::in_face(600, 0.3, 0.3, 0.4)}) {
-    SurfaceSources sources;
+    Sources sources;
     sources.points.push_back(p);
     const Vec3 at = mesh.position(p);
     const VecX phi = test::signed_heat(mesh, sources, zero_set(16), report);
@@ -210,7 +208,7 @@ TEST(HeatDomainsSlow, FarEndOfAStrip) {
   strip.points.col(0) *= 4000;
   strip.points.col(1) *= 2;
   const SurfaceMesh mesh(strip);
-  SurfaceSources sources;
+  Sources sources;
   sources.curves.push_back(vertex_curve({4001 * 2, 4001, 0}));  // down the left end: phi = x
   Report report;
   const VecX phi = test::signed_heat(mesh, sources, zero_set(), report);
@@ -233,7 +231,7 @@ TEST(HeatDomainsSlow, BrokenMeshesGiveDistancesOrTypedErrors) {
       try {
         const SurfaceMesh mesh(io::read_surface(entry.path()));
         if (!mesh.is_triangle_mesh() || mesh.n_faces() == 0 || mesh.n_faces() > 20000) continue;
-        const SurfaceSources sources = test::vertex_points({mesh.face(mesh.n_faces() / 2)[0]});
+        const Sources sources = test::vertex_points({mesh.face(mesh.n_faces() / 2)[0]});
         Report report;
         EXPECT_TRUE(finite_or_infinite(test::signed_heat(mesh, sources, zero_set(16), report)));
         EXPECT_TRUE(finite_or_infinite(test::unsigned_heat(mesh, sources, report)));

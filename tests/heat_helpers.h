@@ -10,45 +10,45 @@
 #include "methods/heat/unsigned_heat.h"
 #include "operators/triangles.h"
 #include "sources/pieces.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 
 namespace littoral::test {
 
 struct Problem {
   IntrinsicTriangulation T;
   std::shared_ptr<const Operators> ops;
-  SourceTerms terms;
+  SourceSystem terms;
 };
 
-inline Problem problem(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report,
+inline Problem problem(const SurfaceMesh& mesh, const Sources& sources, Report& report,
                        bool flip = false) {
   Problem p{intrinsic_triangulation(mesh, report), nullptr, {}};
   p.ops = std::make_shared<const Operators>(triangle_operators(p.T));
-  p.terms = source_terms(mesh, p.T, prepare(mesh, sources, flip, report));
+  p.terms = source_system(mesh, p.T, place_sources(mesh, sources, flip, report));
   return p;
 }
 
-inline VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                        SignedHeatOptions options, Report& report, bool flip = false) {
+inline VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, SignedHeat options,
+                        Report& report, bool flip = false) {
   const Problem p = problem(mesh, sources, report, flip);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(p.terms);
-  return SignedHeat(p.ops, options.time_scale, {}, needed_diffusions(p.terms, options))
+  return SignedHeatSolver(p.ops, options.time_scale, {}, needed_diffusions(p.terms, options))
       .solve(p.terms, options, {}, report);
 }
 
-inline VecX unsigned_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report) {
+inline VecX unsigned_heat(const SurfaceMesh& mesh, const Sources& sources, Report& report) {
   const Problem p = problem(mesh, sources, report);
-  return UnsignedHeat(p.ops, {}).solve(p.terms, {}, report);
+  return UnsignedHeatSolver(p.ops, {}).solve(p.terms, {}, report);
 }
 
-inline SurfaceSources space_curve(const MatX3& points, bool is_signed = true) {
-  SurfaceSources sources;
+inline Sources space_curve(const MatX3& points, bool is_signed = true) {
+  Sources sources;
   sources.space_curves.push_back({points, is_signed, "test"});
   return sources;
 }
 
-inline SurfaceSources vertex_points(std::initializer_list<int> vertices) {
-  SurfaceSources sources;
+inline Sources vertex_points(std::initializer_list<int> vertices) {
+  Sources sources;
   for (int v : vertices) sources.points.push_back(SurfacePoint::at_vertex(v));
   return sources;
 }

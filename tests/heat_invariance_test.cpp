@@ -20,10 +20,10 @@ class HeatInvariance : public testing::TestWithParam<Kind> {
 
   /// Two loops of vertices: edges between vertices with z > 0.5 and the rest are awkward to name,
   /// so a chain of vertices found by walking, one signed curve and its vertices' numbers.
-  static SurfaceSources sources(const std::function<int(int)>& name = [](int v) { return v; }) {
+  static Sources sources(const std::function<int(int)>& name = [](int v) { return v; }) {
     const SurfaceMesh mesh(soup());
-    SurfaceSources out;
-    SurfaceCurve curve;
+    Sources out;
+    Curve curve;
     const int equator[] = {0, 2, 1, 3, 0};  // traced along the great circle
     for (int k = 0; k < 4; ++k) {
       const Vec3 a = mesh.point(equator[k]), b = mesh.point(equator[k + 1]);
@@ -40,14 +40,13 @@ class HeatInvariance : public testing::TestWithParam<Kind> {
     return out;
   }
 
-  static VecX solve(const PolygonSoup& s, const SurfaceSources& from, bool flip = false) {
+  static VecX solve(const PolygonSoup& s, const Sources& from, bool flip = false) {
     const SurfaceMesh mesh(s);
     Report report;
     if (GetParam() == Kind::unsigned_heat) return test::unsigned_heat(mesh, from, report);
-    SignedHeatOptions options{1, static_cast<int>(Constraint::zero_set)};
-    if (GetParam() == Kind::none) options.constraint = static_cast<int>(Constraint::none);
-    if (GetParam() == Kind::level_sets)
-      options.constraint = static_cast<int>(Constraint::level_sets);
+    SignedHeat options{1, Constraint::zero_set};
+    if (GetParam() == Kind::none) options.constraint = Constraint::none;
+    if (GetParam() == Kind::level_sets) options.constraint = Constraint::level_sets;
     if (GetParam() == Kind::soft) options.soft = 100;
     return test::signed_heat(mesh, from, options, report, flip);
   }

@@ -11,20 +11,20 @@
 namespace littoral {
 namespace {
 
-SurfaceSources points_at(const std::vector<SurfacePoint>& points) {
-  SurfaceSources sources;
+Sources points_at(const std::vector<SurfacePoint>& points) {
+  Sources sources;
   sources.points = points;
   return sources;
 }
 
-double nearest(const SurfaceMesh& mesh, const SurfaceSources& sources, const Vec3& p) {
+double nearest(const SurfaceMesh& mesh, const Sources& sources, const Vec3& p) {
   double d = 1e300;
   for (const SurfacePoint& s : sources.points) d = std::min(d, (mesh.position(s) - p).norm());
   return d;
 }
 
 /// Distance by both methods; signed heat at the automatic time scale.
-std::vector<VecX> both(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+std::vector<VecX> both(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   return {test::unsigned_heat(mesh, sources, report), test::signed_heat(mesh, sources, {}, report)};
 }
@@ -33,7 +33,7 @@ struct Errors {
   double mean = 0, largest = 0;
 };
 
-Errors errors(const SurfaceMesh& mesh, const SurfaceSources& sources, const VecX& u) {
+Errors errors(const SurfaceMesh& mesh, const Sources& sources, const VecX& u) {
   Errors e;
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const double d = std::abs(u[v] - nearest(mesh, sources, mesh.point(v)));
@@ -57,7 +57,7 @@ TEST(HeatPoints, MidwayBetweenTwoPoints) {
   const int middle = n / 2 + n / 2 * (n + 1);
   for (const SurfaceMesh& mesh : squares())
     for (int k : {1, 2, 4, 8}) {  // 2 k edges apart
-      const SurfaceSources sources = test::vertex_points({middle - k, middle + k});
+      const Sources sources = test::vertex_points({middle - k, middle + k});
       for (const VecX& u : both(mesh, sources)) {
         EXPECT_NEAR(u[middle - k], 0, 1e-9);
         EXPECT_NEAR(u[middle + k], 0, 1e-9);
@@ -71,7 +71,7 @@ TEST(HeatPoints, MidwayBetweenTwoPoints) {
 TEST(HeatPoints, ManyPointsAreAsAccurateAsOne) {
   const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.3));
   std::mt19937 random(7);
-  SurfaceSources one = test::vertex_points({n / 2 + n / 2 * (n + 1)}), many;
+  Sources one = test::vertex_points({n / 2 + n / 2 * (n + 1)}), many;
   for (int i = 0; i < 60; ++i)
     many.points.push_back(
         SurfacePoint::at_vertex(static_cast<int>(random() % ((n + 1) * (n + 1)))));
@@ -90,7 +90,7 @@ TEST(HeatPoints, TwoPointsOnASphere) {
     if (b < 0 ||
         std::abs(std::acos(mesh.point(v).z()) - 0.3) < std::abs(std::acos(mesh.point(b).z()) - 0.3))
       b = v;
-  const SurfaceSources sources = test::vertex_points({a, b});
+  const Sources sources = test::vertex_points({a, b});
   for (const VecX& u : both(mesh, sources)) {
     double mean = 0;
     for (int v = 0; v < mesh.n_vertices(); ++v) {
@@ -111,13 +111,13 @@ TEST(HeatPoints, CornersAndSidesOfASquare) {
   // of a side.
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
   for (int source : {0, n, n / 2, (n / 2) * (n + 1)}) {
-    const SurfaceSources sources = test::vertex_points({source});
+    const Sources sources = test::vertex_points({source});
     for (const VecX& u : both(mesh, sources)) {
       EXPECT_LT(errors(mesh, sources, u).mean, 0.012);
       EXPECT_LT(errors(mesh, sources, u).largest, 0.055);
     }
   }
-  const SurfaceSources on_side = points_at({SurfacePoint::on_edge(mesh.find_edge(7, 8), 0.3)});
+  const Sources on_side = points_at({SurfacePoint::on_edge(mesh.find_edge(7, 8), 0.3)});
   for (const VecX& u : both(mesh, on_side)) EXPECT_LT(errors(mesh, on_side, u).mean, 0.02);
 }
 
@@ -156,7 +156,7 @@ TEST(HeatPoints, UnevenFansAndAHalfDisk) {
 TEST(HeatPoints, ExactOnTheTrianglesThatHoldThePoint) {
   const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.3));
   Report report;
-  const SurfaceSources sources =
+  const Sources sources =
       points_at({SurfacePoint::at_vertex(30), SurfacePoint::in_face(150, 0.2, 0.3, 0.5),
                  SurfacePoint::on_edge(200, 0.4)});
   const auto p = test::problem(mesh, sources, report);
@@ -171,8 +171,8 @@ TEST(HeatPoints, ExactOnTheTrianglesThatHoldThePoint) {
 
 TEST(HeatPoints, PointsBesideCurvesKeepTheCurveAtZero) {
   const SurfaceMesh mesh(test::grid_soup(12, 12, 1));
-  SurfaceSources sources;
-  SurfaceCurve curve;
+  Sources sources;
+  Curve curve;
   for (int j = 0; j <= 12; ++j) curve.nodes.push_back(SurfacePoint::at_vertex(6 + 13 * j));
   sources.curves.push_back(curve);
   sources.points = {SurfacePoint::at_vertex(7 + 13 * 6), SurfacePoint::at_vertex(2 + 13 * 6)};

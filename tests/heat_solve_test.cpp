@@ -159,7 +159,7 @@ TEST(HeatTask, ProgressNeverFallsAndEndsAtOne) {
   std::vector<double> seen;
   Task task(CancelToken(), [&](double fraction, const std::string&) { seen.push_back(fraction); });
   const Task build = task.stage(0.5, "build"), solve = task.stage(0.5, "solve");
-  const SignedHeat heat(p.ops, 1, build);
+  const SignedHeatSolver heat(p.ops, 1, build);
   heat.solve(p.terms, {1}, solve, report);
   task.checkpoint(1);
   ASSERT_GT(seen.size(), 4u);
@@ -174,9 +174,9 @@ TEST(HeatTask, CancelledBeforeItStarts) {
   const auto p = test::problem(mesh, test::vertex_points({3}), report);
   const CancelToken cancel;
   cancel.cancel();
-  EXPECT_THROW(SignedHeat(p.ops, 1, Task(cancel)), Cancelled);
-  EXPECT_THROW(SignedHeat(p.ops, 1).solve(p.terms, {1}, Task(cancel), report), Cancelled);
-  EXPECT_THROW(UnsignedHeat(p.ops, {}, Task(cancel)), Cancelled);
+  EXPECT_THROW(SignedHeatSolver(p.ops, 1, Task(cancel)), Cancelled);
+  EXPECT_THROW(SignedHeatSolver(p.ops, 1).solve(p.terms, {1}, Task(cancel), report), Cancelled);
+  EXPECT_THROW(UnsignedHeatSolver(p.ops, {}, Task(cancel)), Cancelled);
 }
 
 TEST(HeatTask, CancelledFromAnotherThread) {
@@ -190,7 +190,7 @@ TEST(HeatTask, CancelledFromAnotherThread) {
   });
   EXPECT_THROW(
       {
-        for (;;) SignedHeat(p.ops, 1, Task(cancel)).solve(p.terms, {1}, Task(cancel), report);
+        for (;;) SignedHeatSolver(p.ops, 1, Task(cancel)).solve(p.terms, {1}, Task(cancel), report);
       },
       Cancelled);
   other.join();
@@ -218,7 +218,7 @@ TEST(HeatParallel, CoversTheRangeOnceAndRethrowsTheFirstError) {
 
 TEST(HeatOptions, ErrorsNameTheOption) {
   using testing::HasSubstr;
-  SignedHeatOptions options;
+  SignedHeat options;
   const auto& table = signed_heat_options();
   const auto message = [&](const char* name, const char* value) -> std::string {
     try {
@@ -236,7 +236,7 @@ TEST(HeatOptions, ErrorsNameTheOption) {
     EXPECT_THAT(message("time-scale", bad), HasSubstr("outside 0 to")) << bad;
   EXPECT_THAT(message("constraint", "hard"), HasSubstr("level-sets"));
   EXPECT_THAT(message("preserve-normals", "maybe"), HasSubstr("on or off"));
-  EXPECT_EQ(options.time_scale, SignedHeatOptions().time_scale);
+  EXPECT_EQ(options.time_scale, SignedHeat().time_scale);
   EXPECT_EQ(message("time-scale", "2.5"), "accepted");
   EXPECT_EQ(options.time_scale, 2.5);
 }

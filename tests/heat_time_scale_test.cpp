@@ -30,11 +30,11 @@ SurfaceMesh refined(const PolygonSoup& soup, std::vector<int>* curve = nullptr) 
   return SurfaceMesh(test::quartered(test::quartered(soup, curve), curve));
 }
 
-VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return exact_polyhedral(T, triangle_sources(mesh, T, prepare(mesh, sources, false, report)), {},
-                          report);
+  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)),
+                          {}, report);
 }
 
 /// Mean error over the largest distance.
@@ -57,7 +57,7 @@ constexpr int pole = 4;  // a vertex of the octasphere
 
 TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
   const SurfaceMesh mesh = refined(sheared_ellipsoid());
-  const SurfaceSources sources = test::vertex_points({pole});
+  const Sources sources = test::vertex_points({pole});
   const VecX truth = exact(mesh, sources);
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     SCOPED_TRACE(method);
@@ -68,8 +68,8 @@ TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
     const VecX right = surface_distance(mesh, sources, {method, {}}, {}, chosen);
     EXPECT_GT(mean_error(wrong, truth), 0.2);
     EXPECT_LT(mean_error(right, truth), 0.02);
-    EXPECT_GT(share_against(given), tolerable_share);
-    EXPECT_LT(share_against(chosen), tolerable_share);
+    EXPECT_GT(misaligned_fraction(given), tolerable_share);
+    EXPECT_LT(misaligned_fraction(chosen), tolerable_share);
     EXPECT_FALSE(raised(given));
     EXPECT_FALSE(given.warnings.empty());
     EXPECT_TRUE(raised(chosen));
@@ -82,8 +82,8 @@ TEST(HeatTimeScale, RisesForCurvesToo) {
   const VecX from_pole = exact(SurfaceMesh(coarse), test::vertex_points({pole}));
   std::vector<int> loop = test::loop_at(coarse, from_pole, 0.15 * from_pole.maxCoeff());
   const SurfaceMesh mesh = refined(coarse, &loop);
-  SurfaceSources sources;
-  SurfaceCurve curve;
+  Sources sources;
+  Curve curve;
   for (int v : loop) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   sources.curves.push_back(curve);
   const VecX truth = exact(mesh, sources);
@@ -100,7 +100,7 @@ TEST(HeatTimeScale, StaysWhereCellsAreEven) {
   const SurfaceMesh mesh(test::octasphere_soup(4));
   Report report;
   surface_distance(mesh, test::vertex_points({pole}), {"signed-heat", {}}, {}, report);
-  EXPECT_LT(share_against(report), tolerable_share);
+  EXPECT_LT(misaligned_fraction(report), tolerable_share);
   EXPECT_EQ(used(report, "time-scale"), "16");
   EXPECT_TRUE(report.warnings.empty());
 }
@@ -112,18 +112,18 @@ TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirections) {
   const Calculus C = triangle_operators(T).scalar;
   const VecX x = mesh.points().col(0) / T.unit;
   VecX Y = C.G.apply(x);
-  EXPECT_EQ(share_against(C, x, Y), 0);
-  EXPECT_EQ(share_against(C, -x, Y), 1);
+  EXPECT_EQ(misaligned_fraction(C, x, Y), 0);
+  EXPECT_EQ(misaligned_fraction(C, -x, Y), 1);
   Y.segment<2>(0) *= -1;  // one of 32 equal cells
-  EXPECT_NEAR(share_against(C, x, Y), 1.0 / 32, 1e-12);
+  EXPECT_NEAR(misaligned_fraction(C, x, Y), 1.0 / 32, 1e-12);
   Y.segment<2>(0).setZero();  // not reached: not counted
-  EXPECT_EQ(share_against(C, x, Y), 0);
+  EXPECT_EQ(misaligned_fraction(C, x, Y), 0);
 }
 
 TEST(TimeScale, OfCurvesIsLargerOnFinerMeshesUpToFourTimes) {
-  SourceTerms curves, points;
+  SourceSystem curves, points;
   points.only_points = true;
-  const auto automatic = [](const SourceTerms& terms, int cells, bool at_nodes) {
+  const auto automatic = [](const SourceSystem& terms, int cells, bool at_nodes) {
     Operators ops;
     ops.scalar.A = VecX::Zero(cells);
     ops.vector.at_nodes = at_nodes;

@@ -10,14 +10,14 @@ namespace {
 
 const double turn = 2 * std::acos(-1.0);
 
-SurfaceCurve curve_at(const std::vector<int>& vertices, bool is_signed = true) {
-  SurfaceCurve curve;
+Curve curve_at(const std::vector<int>& vertices, bool is_signed = true) {
+  Curve curve;
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   curve.is_signed = is_signed;
   return curve;
 }
 
-SignedHeatOptions with(Constraint constraint) { return {1, static_cast<int>(constraint)}; }
+SignedHeat with(Constraint constraint) { return {1, static_cast<int>(constraint)}; }
 
 TEST(HeatTopology, TwoParallelLoopsBoundABandOnATorus) {
   // Loops the long way round, outside (v = 0) and inside (v = pi): distance is r times the smaller
@@ -30,7 +30,7 @@ TEST(HeatTopology, TwoParallelLoopsBoundABandOnATorus) {
     outer.push_back(i % nu * nv);
     inner.push_back((nu - i) % nu * nv + nv / 2);
   }
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_at(outer), curve_at(inner)};
   for (Constraint constraint : {Constraint::none, Constraint::zero_set, Constraint::level_sets}) {
     Report report;
@@ -52,7 +52,7 @@ TEST(HeatTopology, TwoMeridiansBoundHalfATorus) {
     near.push_back((nv - j) % nv);        // at u = 0, left is towards growing u
     far.push_back(nu / 2 * nv + j % nv);  // at u = pi, left is towards falling u
   }
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_at(near), curve_at(far)};
   Report report;
   const VecX phi = test::signed_heat(mesh, sources, with(Constraint::zero_set), report);
@@ -95,7 +95,7 @@ TEST(HeatTopology, OpenCurveOnAMoebiusBand) {
   const SurfaceMesh mesh(soup);
   std::vector<int> core;
   for (int i = 20; i <= 60; ++i) core.push_back(vertex(i, nw / 2));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_at(core)};
   Report report;
   const VecX phi = test::signed_heat(mesh, sources, with(Constraint::zero_set), report);
@@ -154,7 +154,7 @@ int vertex_at(const SurfaceMesh& mesh, const Vec3& p) {
 TEST(HeatTopology, TwoCubesThatShareAVertex) {
   const SurfaceMesh mesh = two_cubes(10, Vec3(1, 1, 1));
   const Vec3 shared(1, 1, 1);
-  const SurfaceSources sources = test::vertex_points({vertex_at(mesh, shared)});
+  const Sources sources = test::vertex_points({vertex_at(mesh, shared)});
   Report report;
   for (const VecX& u :
        {test::unsigned_heat(mesh, sources, report), test::signed_heat(mesh, sources, {}, report)})
@@ -173,7 +173,7 @@ TEST(HeatTopology, TwoCubesThatShareAnEdge) {
   const SurfaceMesh mesh = two_cubes(n, Vec3(1, 1, 0));
   std::vector<int> edge;
   for (int k = 0; k <= n; ++k) edge.push_back(vertex_at(mesh, Vec3(1, 1, double(k) / n)));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_at(edge, false)};
   Report report;
   for (const VecX& u : {test::unsigned_heat(mesh, sources, report),

@@ -8,7 +8,7 @@
 namespace littoral {
 namespace {
 
-TEST(UnsignedHeat, TheBoundaryIsAsAccurateAsTheInterior) {
+TEST(UnsignedHeatSolver, TheBoundaryIsAsAccurateAsTheInterior) {
   const int n = 40;
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
   Report report;

@@ -4,7 +4,7 @@
 
 #include "api/surface/distance.h"
 #include "heat_helpers.h"
-#include "sources/carried_sources.h"
+#include "sources/retriangulate_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -39,14 +39,14 @@ class Retriangulating : public testing::TestWithParam<std::tuple<Case, double>> 
   Retriangulating()
       : mesh(std::get<0>(GetParam()).soup),
         T(intrinsic_triangulation(mesh, report)),
-        sources(prepare(mesh, drawn(), false, report)),
+        sources(place_sources(mesh, drawn(), false, report)),
         after(retriangulated(mesh, T, sources, {std::get<1>(GetParam()), 3}, report, {})) {}
 
-  static SurfaceSources drawn() {
+  static Sources drawn() {
     MatX3 line(3, 3);
     line << 0.6, 0.1, 0, 1.6, 0.55, 0, 2.5, 0.9, 0;
-    SurfaceSources out = test::space_curve(line);
-    SurfaceCurve along;
+    Sources out = test::space_curve(line);
+    Curve along;
     for (int v : {61, 62, 63, 124}) along.nodes.push_back(SurfacePoint::at_vertex(v));
     along.is_signed = false;
     out.curves.push_back(along);
@@ -62,7 +62,7 @@ class Retriangulating : public testing::TestWithParam<std::tuple<Case, double>> 
   Report report;
   SurfaceMesh mesh;
   IntrinsicTriangulation T;
-  PreparedSources sources;
+  PlacedSources sources;
   Retriangulated after;
 };
 

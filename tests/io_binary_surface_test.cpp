@@ -6,9 +6,9 @@
 #include <bit>
 #include <sstream>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "surface_bytes.h"
 
 namespace littoral::io {

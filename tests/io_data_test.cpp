@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/error.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 
 namespace littoral::io {
@@ -47,7 +47,7 @@ fs::path mesh_of(const fs::path& curve) {
   return fs::exists(own) ? own : curve.parent_path() / "sphere_cap.obj";
 }
 
-SurfaceSources read_curves(const fs::path& path, const SurfaceMesh& mesh) {
+Sources read_curves(const fs::path& path, const SurfaceMesh& mesh) {
   Report report;
   return read_sources(path, mesh, {}, report);
 }
@@ -192,9 +192,9 @@ std::vector<int> faces_at(const SurfaceMesh& mesh, const SurfacePoint& p) {
 
 // Fraction of consecutive nodes that lie in one face; an edge numbering other than the files' would
 // scatter the nodes over the mesh.
-double adjacent_fraction(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+double adjacent_fraction(const SurfaceMesh& mesh, const Sources& sources) {
   int together = 0, all = 0;
-  for (const SurfaceCurve& curve : sources.curves) {
+  for (const Curve& curve : sources.curves) {
     for (std::size_t k = 1; k < curve.nodes.size(); ++k, ++all) {
       const auto a = faces_at(mesh, curve.nodes[k - 1]), b = faces_at(mesh, curve.nodes[k]);
       std::vector<int> common;
@@ -217,12 +217,12 @@ TEST(IoData, ConsecutiveNodesShareFaces) {
     const fs::path& path = entry.path();
     if (path.extension() != ".txt" || path.filename() == "ducky-star.txt") continue;  // on a cloud
     const SurfaceMesh mesh(read_surface(mesh_of(path)));
-    const SurfaceSources sources = read_curves(path, mesh);
+    const Sources sources = read_curves(path, mesh);
     EXPECT_GE(adjacent_fraction(mesh, sources), .98) << path;
     const auto expected = segments.find(path.filename().string());
     if (expected != segments.end()) {
       std::size_t found = 0;
-      for (const SurfaceCurve& curve : sources.curves) found += curve.nodes.size() - 1;
+      for (const Curve& curve : sources.curves) found += curve.nodes.size() - 1;
       EXPECT_EQ(found, expected->second) << path << ": every segment once";
     }
     ++files;
@@ -235,7 +235,7 @@ TEST(IoData, FlagAndFormatsSayTheSameCurve) {
   const fs::path folder = test::shared() / "data/generated/curves";
   const SurfaceMesh mesh(read_surface(folder / "sphere_cap.obj"));
   const auto nodes = [&](const char* file) {
-    const SurfaceSources sources = read_curves(folder / file, mesh);
+    const Sources sources = read_curves(folder / file, mesh);
     EXPECT_EQ(sources.curves.size(), 1u) << file;
     std::vector<int> vertices;
     for (const SurfacePoint& p : sources.curves.at(0).nodes) {
@@ -283,7 +283,7 @@ TEST(IoData, NodesAreThoseOfTheReferenceProgram) {
   for (const auto& entry : fs::directory_iterator(test::shared() / "reference/shm_surface")) {
     if (!fs::exists(entry.path() / "mesh.obj")) continue;  // a point cloud
     const SurfaceMesh mesh(read_surface(entry.path() / "mesh.obj"));
-    const SurfaceSources sources = read_curves(entry.path() / "input_source.txt", mesh);
+    const Sources sources = read_curves(entry.path() / "input_source.txt", mesh);
     std::size_t next_curve = 0, next_point = 0;
     for (const ReferenceSource& expected : reference_sources(entry.path() / "source.txt")) {
       std::vector<SurfacePoint> nodes;

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
@@ -22,8 +22,8 @@ const char* const mesh_text =
 
 SurfaceMesh mesh() { return SurfaceMesh(read_surface_bytes(mesh_text, ".obj", "m.obj")); }
 
-SurfaceSources read(const std::string& text, const std::string& extension = ".txt",
-                    std::optional<int> base = {}) {
+Sources read(const std::string& text, const std::string& extension = ".txt",
+             std::optional<int> base = {}) {
   Report report;
   return read_sources_bytes(text, extension, "a" + extension, mesh(), base, report);
 }
@@ -57,7 +57,7 @@ std::vector<std::string> text_of(const std::vector<SurfacePoint>& nodes) {
 }
 
 TEST(IoSources, ReadsSignedHeatText) {
-  const SurfaceSources s = read(
+  const Sources s = read(
       "# c\nsigned_curve\r\nv 0 # c\ne 1 0.25\ne 2 1 .25\nf 0 .5 .25 .25\nf 1 0.5 0.5\n"
       "signed_curve 1\nv 3\nl 1 2\nunsigned_curve 0\n\nl 1 2 4\nunsigned_point\n#v 99\nv 4\nv 5\n");
   ASSERT_EQ(s.curves.size(), 3u);
@@ -84,14 +84,13 @@ TEST(IoSources, TheIndexBaseOverridesTheFormats) {
 }
 
 TEST(IoSources, JoinsTheSegmentsOfWindingText) {
-  const SurfaceSources s =
-      read("v 1\nv 2\ne 2 .5\nn 1\nv 4\n#l 1 4\nv 2\nl 2 3\nl 1 2 # c\nl 4 5\n");
+  const Sources s = read("v 1\nv 2\ne 2 .5\nn 1\nv 4\n#l 1 4\nv 2\nl 2 3\nl 1 2 # c\nl 4 5\n");
   ASSERT_EQ(s.curves.size(), 3u);  // the second point and the fifth are one place, where three meet
   EXPECT_THAT(text_of(s.curves[0].nodes), ElementsAre("v1", "e1 0.5"));
   EXPECT_THAT(text_of(s.curves[1].nodes), ElementsAre("v0", "v1"));
   EXPECT_THAT(text_of(s.curves[2].nodes), ElementsAre("v3", "v1"));
   EXPECT_EQ(s.curves[2].origin, "a.txt:5");
-  const SurfaceSources joined = read("v 1\nv 2\ne 2 .5\nl 2 3\nl 1 2\n");
+  const Sources joined = read("v 1\nv 2\ne 2 .5\nl 2 3\nl 1 2\n");
   ASSERT_EQ(joined.curves.size(), 1u);
   EXPECT_THAT(text_of(joined.curves[0].nodes), ElementsAre("v0", "v1", "e1 0.5"));
 }
@@ -161,12 +160,12 @@ TEST(IoSources, SaysWhatIsWrongInText) {
 }
 
 TEST(IoSources, PutsRoundingInBarycentricsRight) {
-  const SurfaceSources s = read("unsigned_point\nf 0 1.0000005 -1e-10 0\n");
+  const Sources s = read("unsigned_point\nf 0 1.0000005 -1e-10 0\n");
   EXPECT_EQ(s.points[0].b, (std::array<double, 3>{1, 0, 0}));
 }
 
 TEST(IoSources, ReadsJson) {
-  const SurfaceSources s = read(
+  const Sources s = read(
       R"({"curves":[{"signed":false,"closed":true,"points":[[0,0,0],[1,0,0],[1,1.5,0]]},
           {"nodes":[{"v":0},{"e":[2,1],"t":0.25},{"f":0,"b":[0.5,0.25,0.25]}],"closed":true}],
           "points":[{"v":4}]})",
@@ -214,16 +213,16 @@ TEST(IoSources, SaysWhatIsWrongInJson) {
 }
 
 TEST(IoSources, LinesOfTheMeshItselfAreCurvesOnIt) {
-  const SurfaceSources own = read(std::string(mesh_text) + "l 1 2 4\nl 4 5\n", ".obj");
+  const Sources own = read(std::string(mesh_text) + "l 1 2 4\nl 4 5\n", ".obj");
   ASSERT_EQ(own.curves.size(), 2u);
   EXPECT_THAT(text_of(own.curves[0].nodes), ElementsAre("v0", "v1", "v3"));
   EXPECT_TRUE(own.curves[0].is_signed);
 
-  const SurfaceSources edges = read(std::string(mesh_text) + "l 2 4\nl 1 2\n", ".obj");
+  const Sources edges = read(std::string(mesh_text) + "l 2 4\nl 1 2\n", ".obj");
   ASSERT_EQ(edges.curves.size(), 1u) << "single segments are joined";
   EXPECT_THAT(text_of(edges.curves[0].nodes), ElementsAre("v0", "v1", "v3"));
 
-  const SurfaceSources free = read("v 5 0 0\nv 6 0 0\nl 1 2\n", ".obj");
+  const Sources free = read("v 5 0 0\nv 6 0 0\nl 1 2\n", ".obj");
   ASSERT_EQ(free.space_curves.size(), 1u);
   EXPECT_EQ(free.space_curves[0].points.row(1), Eigen::RowVector3d(6, 0, 0));
 

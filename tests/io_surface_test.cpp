@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "surface_bytes.h"
 
 namespace littoral::io {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/tet/tets.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"

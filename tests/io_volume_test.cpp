@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/read.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 #include "volume_helpers.h"
 
 namespace littoral {
@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-VolumeField example() {
+Volume example() {
   const Grid grid{{3, 4, 5}, Vec3(-1.5, 0.1, 1e6), Vec3(0.1, 0.25, 1.0 / 3)};
-  VolumeField field =
+  Volume field =
       test::sampled(grid, [](const Vec3& p) { return std::sin(7 * p[0] + p[1]) * p[2]; });
   field.values[7] = std::numeric_limits<double>::infinity();
   field.values[8] = -0.0;
@@ -34,10 +34,10 @@ struct VolumeFile : testing::TestWithParam<const char*> {
 };
 
 TEST_P(VolumeFile, ReadsBackWhatWasWritten) {
-  const VolumeField out = example();
+  const Volume out = example();
   io::write_volume(path, out);
   EXPECT_TRUE(io::is_volume(path));
-  const VolumeField in = io::read_volume(path);
+  const Volume in = io::read_volume(path);
   EXPECT_EQ(in.grid.n, out.grid.n);
   for (Eigen::Index i = 0; i < out.values.size(); ++i) EXPECT_EQ(in.values[i], out.values[i]);
   if (path.extension() == ".npy") {
@@ -57,7 +57,7 @@ TEST_P(VolumeFile, DamagedFilesAreRefusedOrRead) {
   const std::string bytes = io::read_bytes(path);
   const auto attempt = [&](const std::string& damaged, bool must_fail) {
     try {
-      const VolumeField field = io::read_volume_bytes(damaged, GetParam(), "damaged");
+      const Volume field = io::read_volume_bytes(damaged, GetParam(), "damaged");
       EXPECT_EQ(static_cast<std::size_t>(field.values.size()), field.grid.n_nodes());
       EXPECT_FALSE(must_fail);
     } catch (const InputError& e) {
@@ -90,7 +90,7 @@ std::string vti(const std::string& array, const std::string& attributes = "",
          array + "</PointData></Piece></ImageData>\n" + rest + "</VTKFile>\n";
 }
 
-void expect_counting(const VolumeField& field) {
+void expect_counting(const Volume& field) {
   ASSERT_EQ(field.values.size(), 8);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(field.values[i], i);
   EXPECT_EQ(field.grid.origin, Vec3(2, 2, 3));
@@ -192,7 +192,7 @@ TEST(ReadNpy, RowMajorArraysAndOtherTypes) {
     return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(118) + '\0' + header + data;
   };
   const std::string bytes("\0\1\2\3\4\5\6\7", 8);
-  const VolumeField field = io::read_volume_bytes(
+  const Volume field = io::read_volume_bytes(
       npy("{'descr': '|u1', 'fortran_order': False, 'shape': (1, 2, 4), }", bytes), ".npy", "a");
   EXPECT_EQ(field.grid.n, (std::array<int, 3>{1, 2, 4}));
   EXPECT_EQ(field.values[static_cast<Eigen::Index>(field.grid.node(0, 1, 2))], 6);
@@ -208,7 +208,7 @@ TEST(ReadNpy, RowMajorArraysAndOtherTypes) {
 }
 
 TEST(WriteVolume, Refuses) {
-  VolumeField field = example();
+  Volume field = example();
   EXPECT_THROW(io::write_volume("x.obj", field), UnsupportedError);
   EXPECT_THROW(io::write_volume("/nonexistent/x.vti", field), IoError);
   field.values.conservativeResize(5);
@@ -218,7 +218,7 @@ TEST(WriteVolume, Refuses) {
 TEST(WriteVolume, VdbIsALevelSet) {
   const fs::path path = fs::path(testing::TempDir()) / "littoral_volume.vdb";
   const Grid grid{{20, 20, 20}, Vec3::Constant(-1), Vec3::Constant(2.0 / 19)};
-  const VolumeField sphere = test::sampled(grid, [](const Vec3& p) { return p.norm() - 0.7; });
+  const Volume sphere = test::sampled(grid, [](const Vec3& p) { return p.norm() - 0.7; });
   if (!io::has_openvdb()) {
     EXPECT_THROW(io::write_volume(path, sphere), UnsupportedError);
     GTEST_SKIP() << "built without OpenVDB";

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/read.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {

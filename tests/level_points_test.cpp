@@ -7,15 +7,15 @@
 #include <functional>
 #include <limits>
 
-#include "api/space/shapes.h"
-#include "base/error.h"
+#include "api/space/csg.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {
 
-VolumeField sampled(int n, const std::function<double(const Vec3&)>& f, double half = 1.5) {
-  VolumeField field;
+Volume sampled(int n, const std::function<double(const Vec3&)>& f, double half = 1.5) {
+  Volume field;
   field.grid = {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
   field.values.resize(static_cast<Eigen::Index>(field.grid.n_nodes()));
   for (int k = 0; k < n; ++k)
@@ -55,7 +55,7 @@ TEST(LevelPoints, LieOnTheLevelSetToThirdOrder) {
 }
 
 TEST(LevelPoints, AreAsManyAsTheSurfaceHasCellsAndNotClose) {
-  const VolumeField field = sampled(28, steep);
+  const Volume field = sampled(28, steep);
   const PolygonSoup cloud = level_points(field, 0, {});
   const double h = field.grid.spacing[0], cells = 4 * std::acos(-1.0) / (h * h);
   EXPECT_GT(cloud.n_vertices(), cells);
@@ -81,7 +81,7 @@ TEST(LevelPoints, SameForAnyUnitOfValuesSpacingAndThreads) {
 }
 
 TEST(LevelPoints, NormalsOfStretchedGridsAreThoseOfTheFunction) {
-  VolumeField field = sampled(20, [](const Vec3& x) { return x[0] + x[1] - 0.1; });
+  Volume field = sampled(20, [](const Vec3& x) { return x[0] + x[1] - 0.1; });
   field.grid.spacing[0] *= 3;  // now 1/3 x + y about the origin of x
   const PolygonSoup cloud = level_points(field, 0, {});
   const Vec3 n = Vec3(1.0 / 3, 1, 0).normalized();
@@ -91,7 +91,7 @@ TEST(LevelPoints, NormalsOfStretchedGridsAreThoseOfTheFunction) {
 
 TEST(LevelPoints, BadVolumesAreNamedAndHolesArePassedOver) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  VolumeField field = sampled(24, steep);
+  Volume field = sampled(24, steep);
   EXPECT_THROW(level_points(field, 1e9, {}), InputError);
   EXPECT_THROW(level_points(field, nan, {}), InputError);
   for (Eigen::Index v = 0; v < field.values.size(); v += 7)
@@ -111,7 +111,7 @@ TEST(LevelPoints, BadVolumesAreNamedAndHolesArePassedOver) {
 }
 
 TEST(LevelPoints, MakeADistanceOfAnImplicitFunction) {
-  Shapes shapes;
+  CsgShapes shapes;
   shapes.all.resize(1);
   shapes.all[0].surface = level_points(sampled(48, steep), 0, {});
   shapes.all[0].request.method = "tori";

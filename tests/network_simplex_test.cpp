@@ -8,7 +8,7 @@
 
 #include <random>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "solve/network/spanning_tree.h"
 
 namespace littoral {

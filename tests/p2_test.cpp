@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "methods/quadratic/quadratic_program.h"
 #include "test_meshes.h"
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <sstream>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "io/render/scene_style.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -11,16 +11,17 @@
 
 namespace littoral::test {
 
-inline QuadraticField<2> quadratic(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                                   const QuadraticOptions& options, Report& report) {
+inline QuadraticField<2> quadratic(const SurfaceMesh& mesh, const Sources& sources,
+                                   const Quadratic& options, Report& report) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const auto points = p2_sources(mesh, T, prepare(mesh, sources, false, report), options.spacing);
-  const Quadratic<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
+  const auto points =
+      p2_sources(mesh, T, place_sources(mesh, sources, false, report), options.spacing);
+  const QuadraticSolver<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
   return method.solve(points, options, {}, report);
 }
 
-inline SurfaceSources point_source(const SurfacePoint& p) {
-  SurfaceSources sources;
+inline Sources point_source(const SurfacePoint& p) {
+  Sources sources;
   sources.points.push_back(p);
   return sources;
 }

@@ -4,8 +4,8 @@
 
 #include <random>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "quadratic_helpers.h"
 #include "test_meshes.h"
 
@@ -43,7 +43,7 @@ PolygonSoup star_soup(unsigned seed) {
   return soup;
 }
 
-TEST(Quadratic, FlatStarsAreExactForSourcesInTheKernel) {
+TEST(QuadraticSolver, FlatStarsAreExactForSourcesInTheKernel) {
   for (unsigned seed = 0; seed < 24; ++seed) {
     const SurfaceMesh mesh(star_soup(seed));
     // The centre itself, or a point near it on an edge or in a face.
@@ -52,7 +52,7 @@ TEST(Quadratic, FlatStarsAreExactForSourcesInTheKernel) {
     const double t = mesh.side_along(f, 0) ? 0.1 : 0.9;
     if (seed % 3 == 1) p = SurfacePoint::on_edge(mesh.side_edge(f, 0), t);
     if (seed % 3 == 2) p = SurfacePoint::in_face(f, 0.8, 0.15, 0.05);
-    QuadraticOptions options;
+    Quadratic options;
     options.tolerance = 1e-6;
     Report report;
     const auto field = quadratic(mesh, point_source(p), options, report);
@@ -64,7 +64,7 @@ TEST(Quadratic, FlatStarsAreExactForSourcesInTheKernel) {
   }
 }
 
-TEST(Quadratic, FlatConvexIsExactForAnySourceAndTriangulation) {
+TEST(QuadraticSolver, FlatConvexIsExactForAnySourceAndTriangulation) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   for (unsigned seed = 0; seed < 8; ++seed) {
@@ -73,7 +73,7 @@ TEST(Quadratic, FlatConvexIsExactForAnySourceAndTriangulation) {
     if (a + b > 1) a = 1 - a, b = 1 - b;
     const SurfacePoint p =
         SurfacePoint::in_face(static_cast<int>(uniform(random) * mesh.n_faces()), 1 - a - b, a, b);
-    QuadraticOptions options;
+    Quadratic options;
     options.tolerance = 1e-6;
     Report report;
     const auto field = quadratic(mesh, point_source(p), options, report);
@@ -87,7 +87,7 @@ TEST(Quadratic, FlatConvexIsExactForAnySourceAndTriangulation) {
   }
 }
 
-TEST(Quadratic, OrderOnTheSphere) {
+TEST(QuadraticSolver, OrderOnTheSphere) {
   double last = 0;
   for (int level : {2, 3, 4}) {
     const SurfaceMesh mesh(test::octasphere_soup(level));
@@ -106,7 +106,7 @@ TEST(Quadratic, OrderOnTheSphere) {
   EXPECT_LT(last, 6e-3);
 }
 
-TEST(Quadratic, ScaleAndThreadsDoNotMatter) {
+TEST(QuadraticSolver, ScaleAndThreadsDoNotMatter) {
   const PolygonSoup soup = test::octasphere_soup(2);
   const auto solve = [](PolygonSoup s, double scale) {
     s.points *= scale;
@@ -123,7 +123,7 @@ TEST(Quadratic, ScaleAndThreadsDoNotMatter) {
     EXPECT_LT((solve(soup, scale) / scale - one).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-TEST(Quadratic, ComponentsWithoutSourceAreInfiniteAndListed) {
+TEST(QuadraticSolver, ComponentsWithoutSourceAreInfiniteAndListed) {
   PolygonSoup soup = test::grid_soup(2, 2);
   const int n = soup.n_vertices();
   soup.points.conservativeResize(n + 4, 3);
@@ -140,7 +140,7 @@ TEST(Quadratic, ComponentsWithoutSourceAreInfiniteAndListed) {
   EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
 }
 
-TEST(Quadratic, ThreePagesOfABookAreFlatTwoByTwo) {
+TEST(QuadraticSolver, ThreePagesOfABookAreFlatTwoByTwo) {
   PolygonSoup soup;  // three half squares around the edge 0-1
   soup.points.resize(8, 3);
   soup.points << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, -1, 1, 0, 0, 0, 1, 0, 1, 1;
@@ -157,12 +157,12 @@ TEST(Quadratic, ThreePagesOfABookAreFlatTwoByTwo) {
   for (int v = 0; v < 8; ++v) EXPECT_NEAR(d[v], exact[v], 2e-3) << v;
 }
 
-TEST(Quadratic, StraightCurvesAcrossAFlatDomain) {
+TEST(QuadraticSolver, StraightCurvesAcrossAFlatDomain) {
   const SurfaceMesh mesh(test::jittered_grid_soup(7, 7, 0.2, 5));
-  SurfaceSources sources;
+  Sources sources;
   sources.space_curves.push_back(
       {(MatX3(2, 3) << 0.37, 0, 0, 0.37, 1, 0).finished(), false, "test"});
-  QuadraticOptions options;
+  Quadratic options;
   options.tolerance = 1e-6;
   Report report;
   const auto field = quadratic(mesh, sources, options, report);
@@ -176,7 +176,7 @@ TEST(Quadratic, StraightCurvesAcrossAFlatDomain) {
   EXPECT_EQ(report.status, "converged");
 }
 
-TEST(Quadratic, NeedlesAreMollifiedAndHaveABoundedEffect) {
+TEST(QuadraticSolver, NeedlesAreMollifiedAndHaveABoundedEffect) {
   PolygonSoup soup = test::grid_soup(4, 4);
   const int n = soup.n_vertices();
   soup.points.conservativeResize(n + 1, 3);
@@ -190,20 +190,20 @@ TEST(Quadratic, NeedlesAreMollifiedAndHaveABoundedEffect) {
   EXPECT_FALSE(report.warnings.empty());
 }
 
-TEST(Quadratic, CancelsAndReportsWhenIterationsRunOut) {
+TEST(QuadraticSolver, CancelsAndReportsWhenIterationsRunOut) {
   const SurfaceMesh mesh(test::octasphere_soup(3));
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const Quadratic<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
+  const QuadraticSolver<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
   const auto points = p2_sources(
-      mesh, T, prepare(mesh, point_source(SurfacePoint::at_vertex(0)), false, report), 0.5);
+      mesh, T, place_sources(mesh, point_source(SurfacePoint::at_vertex(0)), false, report), 0.5);
   CancelToken token;
   int calls = 0;
   Task task(token, [&](double, const std::string&) {
     if (++calls == 6) token.cancel();
   });
   EXPECT_THROW(method.solve(points, {}, task, report), Cancelled);
-  QuadraticOptions few;
+  Quadratic few;
   few.max_iterations = 3;
   const auto field = method.solve(points, few, {}, report);
   EXPECT_EQ(report.status, "not converged");

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "api/tet/tet_distance.h"
-#include "base/error.h"
+#include "littoral/error.h"
 #include "methods/quadratic/quadratic.h"
 #include "operators/p2_tets.h"
 #include "test_meshes.h"
@@ -47,10 +47,10 @@ TEST(QuadraticTets, ConvexDomainsAreExactFromAnyPoint) {
           if (b[i] > 0 && mesh.tets(tet, i) == mesh.tets(e, k)) inside[k] = b[i], found += b[i];
       if (found > 1 - 1e-12) at.where.push_back({e, inside});
     }
-    QuadraticOptions options;
+    Quadratic options;
     options.tolerance = 1e-6;
     Report report;
-    const Quadratic<3> method(std::make_shared<const P2Elements<3>>(P.elements));
+    const QuadraticSolver<3> method(std::make_shared<const P2Elements<3>>(P.elements));
     const VecX d = method.solve({at}, options, {}, report).at_vertices();
     EXPECT_EQ(report.status, "converged");
     for (int v = 0; v < mesh.n_vertices(); ++v)

@@ -8,8 +8,8 @@
 
 #include "api/surface/distance.h"
 #include "api/surface/pairs.h"
-#include "base/error.h"
 #include "domain/volume/voxels.h"
+#include "littoral/error.h"
 #include "operators/tet_operators.h"
 #include "regularized_helpers.h"
 #include "sources/boundary_curves.h"
@@ -41,14 +41,14 @@ PolygonSoup quads(int n) {
 }
 
 /// Every vertex of the side x = 0.
-SurfaceSources left_side(const SurfaceMesh& mesh) {
-  SurfaceSources sources;
+Sources left_side(const SurfaceMesh& mesh) {
+  Sources sources;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.point(v).x() == 0) sources.points.push_back(SurfacePoint::at_vertex(v));
   return sources;
 }
 
-VecX by_name(const SurfaceMesh& mesh, const SurfaceSources& sources, OptionTexts options,
+VecX by_name(const SurfaceMesh& mesh, const Sources& sources, OptionValues options,
              const MatX3* normals = nullptr) {
   options.emplace_back("tolerance", "1e-4");
   Report report;
@@ -74,14 +74,14 @@ TEST(RegularizedDomains, IntervalOnTets) {
   const TetMesh mesh = test::tet_box(8);
   auto ops = std::make_shared<Operators>();
   ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
-  SourceTerms terms;
+  SourceSystem terms;
   terms.reached = {1};
   Triplets rows;
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.points(v, 0) == 0) rows.emplace_back(static_cast<int>(rows.size()), v, 1);
   terms.A.resize(static_cast<Eigen::Index>(rows.size()), mesh.n_vertices());
   terms.A.setFromTriplets(rows.begin(), rows.end());
-  const Regularized method(ops, Regularizer::dirichlet, {}, {});
+  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, {});
   for (const double alpha : {0.0, 0.3}) {
     Report report;
     const VecX u = method.solve(terms, with_alpha(alpha), {}, report);
@@ -95,11 +95,11 @@ TEST(RegularizedDomains, TetsTendToTheDistance) {
   const TetMesh mesh = test::tet_box(8);
   auto ops = std::make_shared<Operators>();
   ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
-  SourceTerms terms;
+  SourceSystem terms;
   terms.reached = {1};
   terms.A.resize(1, mesh.n_vertices());
   terms.A.insert(0, 0) = 1;  // a corner of the cube
-  const Regularized method(ops, Regularizer::dirichlet, {}, {});
+  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, {});
   double before = 1e9;
   for (const double alpha : {0.4, 0.1, 0.0}) {
     Report report;
@@ -179,7 +179,7 @@ TEST(RegularizedDomains, CloudsAndVoxelsTendToTheDistance) {
 TEST(RegularizedDomains, SaysWhatADomainDoesNotHave) {
   Report report;
   const SurfaceMesh mesh(quads(3)), triangles(test::grid_soup(3, 3));
-  const auto asked = [&](const SurfaceMesh& on, const OptionTexts& options) {
+  const auto asked = [&](const SurfaceMesh& on, const OptionValues& options) {
     return surface_distance(on, test::vertex_points({0}), {"regularized", options}, {}, report);
   };
   EXPECT_THROW(asked(mesh, {{"regularizer", "hessian"}}), UnsupportedError);
@@ -193,7 +193,7 @@ TEST(RegularizedDomains, SaysWhatADomainDoesNotHave) {
 TEST(RegularizedDomains, PairsWithQuadraticElements) {
   const SurfaceMesh mesh(test::octasphere_soup(1));
   Report report;
-  const OptionTexts options = {{"elements", "quadratic"}, {"tolerance", "1e-4"}};
+  const OptionValues options = {{"elements", "quadratic"}, {"tolerance", "1e-4"}};
   const MatX rows = pair_distances(mesh, {"regularized", options, {3}}, {}, report).distances;
   const VecX alone = by_name(mesh, test::vertex_points({3}), {{"elements", "quadratic"}});
   EXPECT_LT((rows.row(0).transpose() - alone).cwiseAbs().maxCoeff(), 1e-9);
@@ -201,16 +201,16 @@ TEST(RegularizedDomains, PairsWithQuadraticElements) {
 
 TEST(BoundaryCurves, LoopsAreClosedAndDistanceGrowsInward) {
   const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
-  const std::vector<SurfaceCurve> loops = boundary_curves(mesh);
+  const std::vector<Curve> loops = boundary_curves(mesh);
   ASSERT_EQ(loops.size(), 1U);
   EXPECT_EQ(loops[0].nodes.size(), 49U);
   EXPECT_EQ(loops[0].nodes.front().element, loops[0].nodes.back().element);
   EXPECT_FALSE(loops[0].is_signed);
-  SurfaceSources boundary;
+  Sources boundary;
   boundary.curves = loops;
   for (const char* method : {"regularized", "exact", "fast-marching"}) {
     Report report;
-    OptionTexts options;
+    OptionValues options;
     if (*method == 'r') options = {{"alpha", "0"}, {"tolerance", "1e-4"}};
     const VecX u = surface_distance(mesh, boundary, {method, options}, {}, report);
     for (int v = 0; v < mesh.n_vertices(); ++v) {
@@ -233,8 +233,7 @@ TEST(BoundaryCurves, LoopsThatTouchAndFacesThatRepeatAVertex) {
   int edges = 0, seen = 0;
   for (int e = 0; e < mesh.n_edges(); ++e)
     edges += mesh.edge_faces(e).size() == 1 && mesh.edges()(e, 0) != mesh.edges()(e, 1);
-  for (const SurfaceCurve& curve : boundary_curves(mesh))
-    seen += static_cast<int>(curve.nodes.size()) - 1;
+  for (const Curve& curve : boundary_curves(mesh)) seen += static_cast<int>(curve.nodes.size()) - 1;
   EXPECT_EQ(seen, edges);
 }
 

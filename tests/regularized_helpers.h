@@ -15,15 +15,14 @@ struct Solved {
   Report report;
 };
 
-inline RegularizedOptions with_alpha(double alpha, double tolerance = 1e-4) {
-  RegularizedOptions options;
+inline Regularized with_alpha(double alpha, double tolerance = 1e-4) {
+  Regularized options;
   options.alpha = alpha;
   options.tolerance = tolerance;
   return options;
 }
 
-inline Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                    const RegularizedOptions& options,
+inline Solved solve(const SurfaceMesh& mesh, const Sources& sources, const Regularized& options,
                     Regularizer regularizer = Regularizer::dirichlet, VecX V = {}) {
   Solved out;
   const Problem p = problem(mesh, sources, out.report);
@@ -31,8 +30,8 @@ inline Solved solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
   data.V = std::move(V);
   if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
   if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
-  out.u =
-      Regularized(p.ops, regularizer, std::move(data), {}).solve(p.terms, options, {}, out.report);
+  out.u = RegularizedSolver(p.ops, regularizer, std::move(data), {})
+              .solve(p.terms, options, {}, out.report);
   return out;
 }
 

@@ -22,7 +22,7 @@ double difference(const VecX& u, const std::filesystem::path& file) {
 
 constexpr const char* spot = "reference/rgd/spot_rr";
 
-TEST(Regularized, ReferenceDirichletSlow) {
+TEST(RegularizedSolver, ReferenceDirichletSlow) {
   LITTORAL_NEEDS_SHARED(spot);
   const auto folder = test::shared() / spot;
   const SurfaceMesh mesh = test::one_based_mesh(folder);
@@ -30,7 +30,7 @@ TEST(Regularized, ReferenceDirichletSlow) {
   EXPECT_LT(difference(u, folder / "u_D_alpha0.05_tight.txt"), 1e-3);
 }
 
-TEST(Regularized, ReferenceHessianSlow) {
+TEST(RegularizedSolver, ReferenceHessianSlow) {
   LITTORAL_NEEDS_SHARED(spot);
   const auto folder = test::shared() / spot;
   const SurfaceMesh mesh = test::one_based_mesh(folder);
@@ -39,7 +39,7 @@ TEST(Regularized, ReferenceHessianSlow) {
   EXPECT_LT(difference(u, folder / "u_H_a0.001.txt"), 0.02);
 }
 
-TEST(Regularized, ReferenceAlignedSlow) {
+TEST(RegularizedSolver, ReferenceAlignedSlow) {
   LITTORAL_NEEDS_SHARED(spot);
   const auto folder = test::shared() / spot;
   const SurfaceMesh mesh = test::one_based_mesh(folder);
@@ -54,7 +54,7 @@ TEST(Regularized, ReferenceAlignedSlow) {
     V[2 * f] = z.real();
     V[2 * f + 1] = z.imag();
   }
-  RegularizedOptions options = with_alpha(0.05, 2e-3);
+  Regularized options = with_alpha(0.05, 2e-3);
   options.beta = 200;  // the authors' program weighs alignment twice as much as eq. 8 says
   const VecX u = solve(mesh, test::vertex_points({2272}), options, Regularizer::align, V).u;
   EXPECT_LT(difference(u, folder / "u_vfa_a0.05_b100.txt"), 0.02);

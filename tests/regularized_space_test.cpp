@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "api/tet/tet_distance.h"
-#include "base/error.h"
+#include "littoral/error.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
 
 namespace littoral {
 namespace {
 
-VecX through_tets(const TetMesh& mesh, const TetSources& sources, OptionTexts options,
+VecX through_tets(const TetMesh& mesh, const TetSources& sources, OptionValues options,
                   Report& report, const std::string& method = "regularized") {
   SpaceRequest request;
   request.method = method;
@@ -37,7 +37,7 @@ TEST(RegularizedInSpace, IntervalFromVerticesAndFromASurfaceBetweenThem) {
   square.surface = test::square_at(1e-9, n);  // not at vertices: rows of many unknowns
   Report report;
   for (const double alpha : {0.0, 0.3}) {
-    const OptionTexts options = {{"alpha", std::to_string(alpha)}};
+    const OptionValues options = {{"alpha", std::to_string(alpha)}};
     const VecX u = through_tets(mesh, side, options, report);
     const VecX w = through_tets(mesh, square, options, report);
     EXPECT_EQ(report.status, "converged");
@@ -64,7 +64,7 @@ TEST(RegularizedInSpace, FromTheBoundaryTheMiddleOfACubeIsHalfWay) {
   boundary.boundary = true;
   Report report;
   const VecX u = through_tets(mesh, boundary, {}, report, "belyaev-fayolle");
-  // Next to a corner of the cube slope 1 allows h / sqrt(3), not h = 1/8.
+  // Next to a corner of the cube unit gradient allows h / sqrt(3), not h = 1/8.
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const Vec3 x = mesh.points.row(v);
     EXPECT_NEAR(u[v], std::min(x.minCoeff(), 1 - x.maxCoeff()), 0.055) << v;
@@ -81,14 +81,15 @@ TEST(RegularizedInSpace, ComponentsWithoutASourceAreInfiniteAndOptionsAreChecked
   EXPECT_TRUE(u.head(n).allFinite());
   EXPECT_TRUE((u.tail(n).array() == std::numeric_limits<double>::infinity()).all());
   EXPECT_EQ(report.unreachable_components.size(), 1U);
-  for (const auto& option : OptionTexts{{"regularizer", "hessian"}, {"elements", "quadratic"}})
+  for (const auto& option : OptionValues{{"regularizer", "hessian"}, {"elements", "quadratic"}})
     EXPECT_THROW(through_tets(mesh, {{}, {3}}, {option}, report), UnsupportedError);
   EXPECT_THROW(through_tets(mesh, {{}, {3}}, {{"alpha", "-1"}}, report), InputError);
   EXPECT_THROW(through_tets(mesh, {{}, {-1}}, {}, report), InputError);
 }
 
 TEST(RegularizedInSpaceSlow, BallOnAGrid) {
-  // From the sphere of radius 1, inside: slope 1 down to r = 3 alpha, where 3 alpha u' = -r begins.
+  // From the sphere of radius 1, inside: unit gradient down to r = 3 alpha, where 3 alpha u' = -r
+  // begins.
   const Grid grid = test::cube_grid(19, 1.2);
   const double length = 19.0 / 18 * 2.4;  // the cube root of the volume of the nodes
   for (const double alpha : {0.0, 0.15}) {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "api/surface/distance.h"
-#include "base/error.h"
+#include "littoral/error.h"
 #include "operators/curved_hessian.h"
 #include "operators/line_field.h"
 #include "regularized_helpers.h"
@@ -21,9 +21,9 @@ using test::solve;
 using test::Solved;
 using test::with_alpha;
 
-SurfaceSources across_ring(int n) { return test::vertex_points({0, n, 2 * n, 3 * n}); }
+Sources across_ring(int n) { return test::vertex_points({0, n, 2 * n, 3 * n}); }
 
-TEST(Regularized, CircleWithDirichletEnergy) {
+TEST(RegularizedSolver, CircleWithDirichletEnergy) {
   const int n = 120;
   const SurfaceMesh mesh = test::ring(n, 3, 0.1);
   const double root = std::sqrt(2 * std::numbers::pi * 0.3), pi = std::numbers::pi;
@@ -43,14 +43,14 @@ TEST(Regularized, CircleWithDirichletEnergy) {
   }
 }
 
-TEST(Regularized, IntervalWithHessianEnergy) {
+TEST(RegularizedSolver, IntervalWithHessianEnergy) {
   // Supplement 4, on (0, 2 pi): a strip held at both ends, so that the kink at the source is free.
   const int n = 100;
   const double pi = std::numbers::pi, alpha = 0.4, c = std::cbrt(3 * alpha);
   PolygonSoup soup = test::grid_soup(n, 3);
   soup.points.col(0) *= 2 * pi;
   soup.points.col(1) *= 0.3;
-  SurfaceSources ends;
+  Sources ends;
   for (int j = 0; j <= 3; ++j)
     for (int i : {0, n}) ends.points.push_back(SurfacePoint::at_vertex(j * (n + 1) + i));
   const VecX u = solve(SurfaceMesh(soup), ends,
@@ -88,10 +88,10 @@ SurfaceMesh disk(int rings) {
   return SurfaceMesh(soup);
 }
 
-TEST(Regularized, DiskFromItsBoundary) {
+TEST(RegularizedSolver, DiskFromItsBoundary) {
   const int rings = 16;
   const SurfaceMesh mesh = disk(rings);
-  SurfaceSources boundary;
+  Sources boundary;
   for (int i = 0; i < 6 * rings; ++i)
     boundary.points.push_back(SurfacePoint::at_vertex(1 + (rings - 1) * 6 * rings + i));
   const double alpha = 0.2;
@@ -103,7 +103,7 @@ TEST(Regularized, DiskFromItsBoundary) {
   }
 }
 
-TEST(Regularized, TendsToTheGeodesicDistance) {
+TEST(RegularizedSolver, TendsToTheGeodesicDistance) {
   const SurfaceMesh mesh(test::octasphere_soup(3));
   double before = 1e9;
   for (const double alpha : {0.4, 0.1, 0.025, 0.0}) {
@@ -117,7 +117,7 @@ TEST(Regularized, TendsToTheGeodesicDistance) {
   EXPECT_LT(before, 0.25);  // first order in the edge length at a point source
 }
 
-TEST(Regularized, SameWhateverTheUnit) {
+TEST(RegularizedSolver, SameWhateverTheUnit) {
   PolygonSoup soup = test::torus_soup(20, 12);
   for (const Regularizer regularizer : {Regularizer::dirichlet, Regularizer::hessian}) {
     const auto u =
@@ -133,7 +133,7 @@ TEST(Regularized, SameWhateverTheUnit) {
   }
 }
 
-TEST(Regularized, HessianDoesNotSeeTheBoundary) {
+TEST(RegularizedSolver, HessianDoesNotSeeTheBoundary) {
   // A square: the gradient of the Dirichlet distance turns along the boundary, the Hessian one's
   // stays that of the plane.
   const SurfaceMesh mesh(test::grid_soup(16, 16, 1));
@@ -154,7 +154,7 @@ TEST(Regularized, HessianDoesNotSeeTheBoundary) {
   EXPECT_LT(error[1], 0.6 * error[0]);
 }
 
-TEST(Regularized, AlignmentTurnsIsolines) {
+TEST(RegularizedSolver, AlignmentTurnsIsolines) {
   const SurfaceMesh mesh(test::grid_soup(20, 20, 1));
   VecX V(2 * mesh.n_faces());
   Report report;
@@ -171,7 +171,7 @@ TEST(Regularized, AlignmentTurnsIsolines) {
   EXPECT_LT(spread(u), 0.25 * spread(plain));
 }
 
-TEST(Regularized, MaxNormFollowsTheAxes) {
+TEST(RegularizedSolver, MaxNormFollowsTheAxes) {
   // On the plane z = 0 the max norm of a gradient along an axis is 1, along a diagonal 1/sqrt(2):
   // rotated by 45 degrees the answer changes.
   PolygonSoup soup = test::grid_soup(12, 12, 1);
@@ -194,11 +194,11 @@ TEST(Regularized, MaxNormFollowsTheAxes) {
   EXPECT_LT((u - q).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(Regularized, GapClosesAndBoundsTheObjective) {
+TEST(RegularizedSolver, GapClosesAndBoundsTheObjective) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
   for (const Regularizer regularizer :
        {Regularizer::dirichlet, Regularizer::hessian, Regularizer::max_norm}) {
-    RegularizedOptions options = with_alpha(0.05, 1e-3);
+    Regularized options = with_alpha(0.05, 1e-3);
     options.gap = 1e-4;
     const Solved s = solve(mesh, test::vertex_points({4}), options, regularizer);
     EXPECT_EQ(s.report.status, "converged");
@@ -208,10 +208,10 @@ TEST(Regularized, GapClosesAndBoundsTheObjective) {
   }
 }
 
-TEST(Regularized, ManySourcesAgreeHoweverTheyAreHeld) {
+TEST(RegularizedSolver, ManySourcesAgreeHoweverTheyAreHeld) {
   // 64 rows go through the shared factor, more by elimination: adding a duplicate changes nothing.
   const SurfaceMesh mesh(test::grid_soup(30, 10));
-  SurfaceSources few, many;
+  Sources few, many;
   for (int i = 0; i < 60; ++i) few.points.push_back(SurfacePoint::at_vertex(i));
   many = few;
   for (int i = 0; i < 20; ++i) many.points.push_back(SurfacePoint::at_vertex(i + 1));
@@ -224,12 +224,12 @@ TEST(Regularized, ManySourcesAgreeHoweverTheyAreHeld) {
     EXPECT_NEAR(c[v], std::max(0.0, mesh.point(v).y() - 0.3), 0.01);
 }
 
-TEST(Regularized, SourcesInsideFacesAndOnEdges) {
+TEST(RegularizedSolver, SourcesInsideFacesAndOnEdges) {
   // Barycentre of a face, middle of an edge: near the source the distance is that of the plane.
   const SurfaceMesh mesh(test::grid_soup(16, 16, 1));
   for (const SurfacePoint& p :
        {SurfacePoint::in_face(250, 0.5, 0.25, 0.25), SurfacePoint::on_edge(200, 0.25)}) {
-    SurfaceSources sources;
+    Sources sources;
     sources.points.push_back(p);
     const Vec3 at = mesh.position(p);
     const VecX u = solve(mesh, sources, with_alpha(0, 1e-4)).u;
@@ -239,7 +239,7 @@ TEST(Regularized, SourcesInsideFacesAndOnEdges) {
   }
 }
 
-TEST(Regularized, CurvesThroughFaces) {
+TEST(RegularizedSolver, CurvesThroughFaces) {
   const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.3));
   MatX3 line(2, 3);
   line << 0, 0.52, 0, 1, 0.52, 0;
@@ -250,7 +250,7 @@ TEST(Regularized, CurvesThroughFaces) {
   EXPECT_LT(sum / mesh.n_vertices(), 0.03);  // edges of 1/20
 }
 
-TEST(Regularized, RobustToNoiseAndMeshing) {
+TEST(RegularizedSolver, RobustToNoiseAndMeshing) {
   // Figures 9, 10: the same alpha on a regular, a jittered, a coarse-and-fine and a noisy mesh.
   PolygonSoup graded = test::grid_soup(20, 20, 1), noisy = graded;
   for (int v = 0; v < graded.n_vertices(); ++v) {
@@ -272,7 +272,7 @@ TEST(Regularized, RobustToNoiseAndMeshing) {
   EXPECT_NEAR(at_middle(noisy), regular, 0.06 * regular);
 }
 
-TEST(Regularized, SmoothAtTheCutLocusInFewEigenfunctions) {
+TEST(RegularizedSolver, SmoothAtTheCutLocusInFewEigenfunctions) {
   // Supplement 10.2 in one dimension: on a ring the share of the energy above frequency 8 falls.
   const int n = 96;
   const SurfaceMesh mesh = test::ring(n, 3, 0.1);
@@ -289,7 +289,7 @@ TEST(Regularized, SmoothAtTheCutLocusInFewEigenfunctions) {
   EXPECT_LT(tail(0.3), 0.75 * tail(0));
 }
 
-TEST(Regularized, BadInputSaysWhatIsWrong) {
+TEST(RegularizedSolver, BadInputSaysWhatIsWrong) {
   const SurfaceMesh mesh(test::grid_soup(3, 3));
   EXPECT_THROW(solve(mesh, test::vertex_points({0}), with_alpha(0.1), Regularizer::align),
                InputError);
@@ -315,7 +315,7 @@ TEST(Regularized, BadInputSaysWhatIsWrong) {
   EXPECT_THROW(surface_distance(mesh, test::vertex_points({0}),
                                 {"belyaev-fayolle", {{"alpha", "1"}}, false}, {}, report),
                InputError);
-  RegularizedOptions options = with_alpha(0.05, 1e-9);
+  Regularized options = with_alpha(0.05, 1e-9);
   options.max_iterations = 3;
   EXPECT_EQ(solve(mesh, test::vertex_points({0}), options).report.status, "not converged");
 }

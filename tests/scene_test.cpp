@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/error.h"
 #include "io/render/scene_style.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -75,7 +75,7 @@ TEST(Scene, PolygonsBecomeFansThatRememberTheirSides) {
 
 TEST(Scene, SourcesAreAdded) {
   const SurfaceMesh mesh(test::grid_soup(2, 2));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves.push_back(
       {{SurfacePoint::at_vertex(0), SurfacePoint::on_edge(0, 0.5)}, false, ""});
   sources.points.push_back(SurfacePoint::at_vertex(8));

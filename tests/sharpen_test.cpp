@@ -1,4 +1,4 @@
-// Sharpened signed distance: slope 1, the signs it had, nearer to exact.
+// Sharpened signed distance: unit gradient, the signs it had, nearer to exact.
 
 #include "methods/heat/sharpen.h"
 
@@ -9,8 +9,8 @@
 
 #include "api/space/sdf.h"
 #include "api/surface/distance.h"
-#include "base/error.h"
 #include "heat_helpers.h"
+#include "littoral/error.h"
 #include "operators/grid.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
@@ -25,11 +25,11 @@ struct Sharpened {
   Report report;
 };
 
-Sharpened sharpened(const SurfaceMesh& mesh, const SurfaceSources& sources, double time_scale,
+Sharpened sharpened(const SurfaceMesh& mesh, const Sources& sources, double time_scale,
                     SharpenOptions how = {}) {
   Sharpened s;
   s.problem = test::problem(mesh, sources, s.report);
-  SignedHeatOptions options;
+  SignedHeat options;
   options.time_scale = time_scale;
   s.before = test::signed_heat(mesh, sources, options, s.report);
   s.after = sharpen(*s.problem.ops, s.problem.terms, s.before, how, {}, s.report);
@@ -73,8 +73,8 @@ TEST(Sharpen, BrokenCurvesKeepTheirSigns) {
 
 TEST(Sharpen, StraightLineOnThePlaneIsExactByBothSolvers) {
   const SurfaceMesh mesh(test::grid_soup(12, 12, 1));
-  SurfaceSources line;
-  SurfaceCurve curve;
+  Sources line;
+  Curve curve;
   for (int i = 0; i <= 12; ++i) curve.nodes.push_back(SurfacePoint::at_vertex(6 * 13 + i));
   line.curves.push_back(curve);
   SharpenOptions how;
@@ -117,7 +117,7 @@ TEST(Sharpen, TetsFromAPlane) {
   Operators ops;
   ops.scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
   const Eigen::Index nv = mesh.n_vertices();
-  SourceTerms terms;
+  SourceSystem terms;
   terms.reached = {1};
   Triplets rows;
   VecX phi0(nv);

@@ -29,7 +29,7 @@ std::filesystem::path folder_of(const std::string& name) {
 struct Example {
   std::filesystem::path folder;
   SurfaceMesh mesh;
-  SurfaceSources sources;
+  Sources sources;
 
   explicit Example(const std::string& name)
       : folder(test::shared() / folder_of(name)), mesh(io::read_surface(folder / "mesh.obj")) {
@@ -70,8 +70,8 @@ TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
-  SignedHeatOptions options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
-  options.points = static_cast<int>(PointVectors::radial);  // as theirs
+  SignedHeat options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
+  options.points = PointVectors::radial;  // as theirs
   const VecX phi = test::signed_heat(example.mesh, example.sources, options, report);
   VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());

@@ -6,14 +6,14 @@
 #include <functional>
 
 #include "api/surface/distance.h"
-#include "base/error.h"
 #include "heat_helpers.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-SurfaceResult solve(const SurfaceMesh& mesh, const SurfaceSources& sources, Report& report,
+SurfaceResult solve(const SurfaceMesh& mesh, const Sources& sources, Report& report,
                     bool flip = false, const std::string& subdivide = "1") {
   const DistanceRequest request{
       "quadratic", {{"signed", "on"}, {"tolerance", "1e-6"}, {"subdivide", subdivide}}, flip};
@@ -49,7 +49,7 @@ TEST(SignedQuadratic, StraightCurvesAcrossFlatDomainsAreExact) {
 
 TEST(SignedQuadratic, ABrokenLineIsCompletedAndExactBesideItsParts) {
   const SurfaceMesh mesh(test::grid_soup(12, 12, 1));
-  SurfaceSources sources;
+  Sources sources;
   for (const auto& [from, to] : {std::pair(0.0, 0.3), std::pair(0.7, 1.0)})
     sources.space_curves.push_back(
         {(MatX3(2, 3) << 0.54, from, 0, 0.54, to, 0).finished(), true, "test"});

@@ -11,10 +11,10 @@
 #include <random>
 #include <thread>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
 #include "heat_helpers.h"
+#include "littoral/error.h"
 #include "solve/poisson/poisson.h"
 #include "test_meshes.h"
 

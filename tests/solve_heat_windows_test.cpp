@@ -24,8 +24,8 @@ VecXc as_complex(const VecX& X) {
   return z;
 }
 
-VecX directions(const VectorDiffusion& V, const LayeredField<Complex>& field) {
-  LayeredField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
+VecX directions(const VectorDiffusion& V, const ScaledField<Complex>& field) {
+  ScaledField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
   for (Eigen::Index i = 0; i < field.x.size(); ++i) {
     pairs.x[2 * i] = field.x[i].real();
     pairs.x[2 * i + 1] = field.x[i].imag();
@@ -53,7 +53,7 @@ Both solve_both(const VectorDiffusion& V, const VecX& X0, double time_scale) {
   if (!field) return both;
   both.n_windows = report.iterations.back().second;
   both.windows = directions(V, *field);
-  const HeatSystem<Complex> system(*A, 1, size, Expect::many_solves, {}, order);
+  const HeatSystem<Complex> system(*A, 1, size, SolveHint::many_rhs, {}, order);
   both.passes = directions(V, system.solve(as_complex(X0), V.piece, {}, report));
   both.n_passes = report.iterations.back().second;
   return both;
@@ -104,11 +104,11 @@ TEST(HeatWindows, NoticeMisjudgedDistances) {
 TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {
   const SurfaceMesh mesh(test::octasphere_soup(5));
   Report report;
-  SurfaceSources loops = test::space_curve(test::circle(0, 0, 0.99, 0.14, 60));
+  Sources loops = test::space_curve(test::circle(0, 0, 0.99, 0.14, 60));
   loops.space_curves.push_back({test::circle(0, 0, -0.99, 0.14, 60), true, "other"});
-  SurfaceSources mixed = test::space_curve(test::circle(0, 0, 0.6, 0.8, 100));
+  Sources mixed = test::space_curve(test::circle(0, 0, 0.6, 0.8, 100));
   mixed.points.push_back(SurfacePoint::at_vertex(5));
-  for (const SurfaceSources& sources : {loops, mixed, test::vertex_points({0, 1, 77, 400})}) {
+  for (const Sources& sources : {loops, mixed, test::vertex_points({0, 1, 77, 400})}) {
     const auto p = test::problem(mesh, sources, report);
     const Both both = solve_both(p.ops->vector, p.terms.X0 + p.terms.X0_points, 1);
     const auto [largest, mean] = difference(both.windows, both.passes);
@@ -144,7 +144,7 @@ TEST(HeatWindows, HeldVectorsAreHeld) {
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const VecX size = decay_lengths(V.M, t);
-  const HeatSystem<Complex> system(*A, 1, size, Expect::many_solves, {});
+  const HeatSystem<Complex> system(*A, 1, size, SolveHint::many_rhs, {});
   const auto field = system.solve_held(held, V.piece, {}, report);
   double worst = 0, residual = 0;
   int one = 0;  // the field has one layer, in units of its own: make a held vector one long

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "heat_helpers.h"
+#include "littoral/error.h"
 #include "solve/multigrid/banded_multigrid.h"
 #include "solve/poisson/poisson.h"
 #include "test_meshes.h"

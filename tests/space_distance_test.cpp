@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "api/space/sdf.h"
-#include "base/error.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 
@@ -25,7 +25,7 @@ SpaceRequest by(const std::string& method) {
 }
 
 VecX on_grid(const PolygonSoup& input, const Grid& grid, const std::string& method,
-             const OptionTexts& options = {}) {
+             const OptionValues& options = {}) {
   Report report;
   SpaceRequest request = by(method);
   request.options = options;

@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "methods/heat/convolve.h"
 #include "methods/heat/signed_heat_grid.h"
 #include "solve/multigrid/cosine_transform.h"
-#include "solve/poisson/held_poisson.h"
+#include "solve/poisson/constrained_poisson.h"
 #include "space_helpers.h"
 
 namespace littoral {
@@ -221,7 +221,7 @@ TEST(SignedHeatGridSlow, SphereErrorFallsWithTheSpacing) {
   // Observed order over two halvings, samples refined along with the grid.
   const auto error = [](int n, int level, SpaceConstraint constraint) {
     const Grid grid = test::cube_grid(n, 2);
-    SpaceHeatOptions options;
+    SpaceSignedHeat options;
     options.constraint = static_cast<int>(constraint);
     Report report;
     const VecX phi = signed_heat_grid(grid, test::sphere_samples(level), options, Task(), report);
@@ -258,7 +258,7 @@ TEST(SignedHeatGrid, SoftConstraintLiesBetweenNoneAndZeroSet) {
   planes.areas = VecX::Constant(planes.points.rows(), 0.01);
   const Grid grid = test::cube_grid(21, 1);
   const auto spread = [&](SpaceConstraint constraint, double soft) {
-    SpaceHeatOptions options;
+    SpaceSignedHeat options;
     options.constraint = static_cast<int>(constraint);
     options.soft = soft;
     Report report;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.h"
-#include "domain/volume/grid.h"
+#include "littoral/error.h"
+#include "littoral/volume.h"
 #include "sources/oriented_points.h"
 #include "test_meshes.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "domain/cloud/cloud_normals.h"
+#include "littoral/error.h"
 #include "space_helpers.h"
 
 namespace littoral {

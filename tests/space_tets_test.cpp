@@ -7,8 +7,8 @@
 #include <map>
 
 #include "api/space/sdf.h"
-#include "base/error.h"
 #include "domain/tet/tet_lattice.h"
+#include "littoral/error.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
 

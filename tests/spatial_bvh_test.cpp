@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 #include "spatial/brute_force.h"
 #include "spatial/triangle_bvh.h"
 #include "test_meshes.h"
@@ -44,7 +44,7 @@ Soup random_soup(std::mt19937& random, Kind kind, int n) {
   return soup;
 }
 
-void expect_consistent(const Soup& soup, const ClosestPoint& hit, const Vec3& query) {
+void expect_consistent(const Soup& soup, const NearestPoint& hit, const Vec3& query) {
   ASSERT_GE(hit.face, 0);
   double sum = 0;
   Vec3 point = Vec3::Zero();
@@ -61,11 +61,11 @@ void expect_consistent(const Soup& soup, const ClosestPoint& hit, const Vec3& qu
 }
 
 /// The lowest face among the nearest, each face asked on its own: the same arithmetic, no pruning.
-ClosestPoint one_by_one(const Soup& soup, const Vec3& query) {
-  ClosestPoint best;
+NearestPoint one_by_one(const Soup& soup, const Vec3& query) {
+  NearestPoint best;
   for (int f = 0; f < soup.faces.rows(); ++f) {
     const MatX3i face = soup.faces.row(f);
-    ClosestPoint hit = TriangleBvh(soup.points, face).closest_point(query);
+    NearestPoint hit = TriangleBvh(soup.points, face).closest_point(query);
     hit.face = f;
     if (best.face < 0 || hit.distance < best.distance) best = hit;
   }
@@ -84,9 +84,9 @@ TEST(SpatialBvh, AgreesWithBruteForceOnSoups) {
         Vec3 query(u(random), u(random), u(random));
         if (i % 3 == 1) query = soup.points.row(static_cast<int>(random() % soup.points.rows()));
         if (i % 3 == 2 && kind == Kind::lattice) query = (query * 4).array().round() / 4;
-        const ClosestPoint hit = bvh.closest_point(query);
+        const NearestPoint hit = bvh.closest_point(query);
         expect_consistent(soup, hit, query);
-        const ClosestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
+        const NearestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
         EXPECT_NEAR(hit.distance, oracle.distance, 1e-15 * 8);
       }
     }
@@ -101,12 +101,12 @@ TEST(SpatialBvh, PruningNeverChangesTheWinner) {
     const TriangleBvh bvh(soup.points, soup.faces);
     for (int i = 0; i < 80; ++i) {
       const Vec3 query = (Vec3(u(random), u(random), u(random)) * 4).array().round() / 4;
-      const ClosestPoint hit = bvh.closest_point(query), slow = one_by_one(soup, query);
+      const NearestPoint hit = bvh.closest_point(query), slow = one_by_one(soup, query);
       EXPECT_EQ(hit.face, slow.face);
       EXPECT_EQ(hit.distance, slow.distance);
       EXPECT_EQ(hit.barycentric, slow.barycentric);
       for (const int hint : {0, 77, 149, 150, 1000000}) {
-        const ClosestPoint hinted = bvh.closest_point(query, hint);
+        const NearestPoint hinted = bvh.closest_point(query, hint);
         EXPECT_EQ(hinted.face, slow.face);
         EXPECT_EQ(hinted.barycentric, slow.barycentric);
       }
@@ -124,8 +124,8 @@ TEST(SpatialBvh, PropertyDistanceMatchesOracleAtAnyScaleAndOffset) {
     soup.points = (soup.points.array() + offset) * scale;
     std::uniform_real_distribution<double> u(-2, 2);
     const Vec3 query = (Vec3(u(random), u(random), u(random)).array() + offset) * scale;
-    const ClosestPoint hit = TriangleBvh(soup.points, soup.faces).closest_point(query);
-    const ClosestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
+    const NearestPoint hit = TriangleBvh(soup.points, soup.faces).closest_point(query);
+    const NearestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
     RC_ASSERT(std::abs(hit.distance - oracle.distance) <= 1e-14 * scale);
     RC_ASSERT((hit.point - query).norm() <= hit.distance + 1e-15 * 8 * scale * (1 + offset));
   }));
@@ -160,7 +160,7 @@ TEST(SpatialBvh, KnownAnswers) {
   MatX3i face(1, 3);
   face << 0, 1, 2;
   const TriangleBvh bvh(points, face);
-  const ClosestPoint inside = bvh.closest_point({0.25, 0.25, 2});
+  const NearestPoint inside = bvh.closest_point({0.25, 0.25, 2});
   EXPECT_DOUBLE_EQ(inside.distance, 2);
   EXPECT_TRUE(inside.point.isApprox(Vec3(0.25, 0.25, 0), 1e-15));
   EXPECT_TRUE(bvh.closest_point({1, 1, 0}).point.isApprox(Vec3(0.5, 0.5, 0), 1e-15));
@@ -173,10 +173,10 @@ TEST(SpatialBvh, ExtremeMagnitudes) {
     const PolygonSoup sphere = test::octasphere_soup(2);
     const MatX3 points = sphere.points * scale;
     const TriangleBvh bvh(points, triangles_of(sphere));
-    const ClosestPoint hit = bvh.closest_point(Vec3(3, 0, 0) * scale);
+    const NearestPoint hit = bvh.closest_point(Vec3(3, 0, 0) * scale);
     EXPECT_NEAR(hit.distance / scale, 2, 1e-14);
     EXPECT_NEAR(hit.point[0] / scale, 1, 1e-14);
-    const ClosestPoint far = bvh.closest_point({0, 1e308, 0});
+    const NearestPoint far = bvh.closest_point({0, 1e308, 0});
     EXPECT_NEAR(far.distance / 1e308, scale < 1e300 ? 1 : 1 - 1e-8, 1e-7);
     EXPECT_TRUE(far.point.allFinite());
   }
@@ -213,7 +213,7 @@ TEST(SpatialBvh, ManyCoincidentAndNestedTrianglesBuildFast) {
   for (int f = 0; f < copies; ++f) faces.row(f) << 0, 1, 2;
   for (int i = 1; i <= nested; ++i) faces.row(copies + i - 1) << 3 * i, 3 * i + 1, 3 * i + 2;
   const TriangleBvh bvh(points, faces);
-  const ClosestPoint hit = bvh.closest_point({0.1, 0.2, 0.5});
+  const NearestPoint hit = bvh.closest_point({0.1, 0.2, 0.5});
   EXPECT_EQ(hit.face, 0);
   EXPECT_DOUBLE_EQ(hit.distance, 0.5);
   EXPECT_EQ(bvh.closest_point({-1, 0, 0}).face, 0);

@@ -10,10 +10,10 @@
 #include <limits>
 
 #include "api/space/traced_scene.h"
-#include "base/error.h"
 #include "base/parallel.h"
 #include "field_helpers.h"
 #include "io/render/picture.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {
@@ -98,15 +98,15 @@ PolygonSoup torus_cloud(int n) {
   return cloud;
 }
 
-Shapes shapes_of(PolygonSoup cloud) {
-  Shapes shapes;
+CsgShapes shapes_of(PolygonSoup cloud) {
+  CsgShapes shapes;
   shapes.all.resize(1);
   shapes.all[0].surface = std::move(cloud);
   shapes.all[0].request.method = "tori";
   return shapes;
 }
 
-io::Scene scene_of(const Shapes& shapes, const TracedView& view, int resolution = 24) {
+io::Scene scene_of(const CsgShapes& shapes, const TracedView& view, int resolution = 24) {
   GridRequest request;
   request.resolution = resolution;
   request.padding = 0.15;
@@ -160,12 +160,12 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
                                    .up = Vec3::UnitY(),
                                    .supersampling = 1,
                                    .colour_bar = false};
-  Shapes shapes = shapes_of(torus_cloud(1500));
+  CsgShapes shapes = shapes_of(torus_cloud(1500));
   const int whole = inked(draw_picture(scene_of(shapes, {}), options));
-  Shapes bitten = shapes;
+  CsgShapes bitten = shapes;
   bitten.all.push_back(shapes.all[0]);
   bitten.all[1].surface.points.col(0).array() += 0.8;
-  bitten.how.with = {Boolean::subtract};
+  bitten.csg.operations = {Boolean::subtract};
   GridRequest request;
   request.bounds = std::array<double, 6>{-1.2, -1.2, -0.4, 1.2, 1.2, 0.4};
   request.resolution = 24;
@@ -190,7 +190,7 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
 }
 
 TEST(TracedScene, BadRequestsAreNamed) {
-  const Shapes shapes = shapes_of(torus_cloud(500));
+  const CsgShapes shapes = shapes_of(torus_cloud(500));
   TracedView view;
   view.level = 100;
   EXPECT_THROW(scene_of(shapes, view), InputError);
@@ -199,13 +199,13 @@ TEST(TracedScene, BadRequestsAreNamed) {
   view.level = 0;
   view.position = 99;
   EXPECT_THROW(scene_of(shapes, view), InputError);
-  Shapes two = shapes;
+  CsgShapes two = shapes;
   two.all.push_back(shapes.all[0]);
-  two.how.with = {Boolean::unite};
+  two.csg.operations = {Boolean::unite};
   TracedView page;
   page.for_page = true;
   EXPECT_THROW(scene_of(two, page), UnsupportedError);
-  Shapes planar = shapes;
+  CsgShapes planar = shapes;
   planar.all[0].request.method = "planar";
   EXPECT_THROW(scene_of(planar, page), UnsupportedError);
   EXPECT_EQ(scene_of(shapes, page).trace->tori.rows(), 500);

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/types.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "base/error.h"
 #include "io/read.h"
+#include "littoral/error.h"
 
 namespace littoral::test {
 

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "api/surface/winding.h"
-#include "base/error.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "operators/jump_calculus.h"
 #include "shared_data.h"
 #include "test_meshes.h"
@@ -18,14 +18,14 @@
 namespace littoral {
 namespace {
 
-SurfaceCurve curve_of(std::vector<int> vertices) {
-  SurfaceCurve curve;
+Curve curve_of(std::vector<int> vertices) {
+  Curve curve;
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   return curve;
 }
 
-WindingAnswer winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                      OptionTexts options = {}, bool flip = false) {
+WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources, OptionValues options = {},
+                      bool flip = false) {
   Report report;
   return surface_winding(mesh, sources, {std::move(options), flip}, {}, report);
 }
@@ -57,10 +57,10 @@ bool in_quads(int face, int i0, int i1, int j0, int j1) {
   return i >= i0 && i < i1 && j >= j0 && j < j1;
 }
 
-TEST(SurfaceWinding, AClosedCurveOnASphereGivesExactIntegers) {
+TEST(WindingSolver, AClosedCurveOnASphereGivesExactIntegers) {
   const SurfaceMesh mesh(test::octasphere_soup(3));
   // The boundary of the northern cap z > 0.5, faces on its left.
-  SurfaceSources sources;
+  Sources sources;
   std::vector<char> inside(mesh.n_faces());
   for (int f = 0; f < mesh.n_faces(); ++f) {
     double z = 0;
@@ -82,14 +82,14 @@ TEST(SurfaceWinding, AClosedCurveOnASphereGivesExactIntegers) {
   // The other way round it is -1 inside; twice along, 2.
   const WindingAnswer reversed = winding(mesh, sources, {}, true);
   EXPECT_EQ(reversed.region, -answer.region);
-  SurfaceSources twice = sources;
+  Sources twice = sources;
   twice.curves.insert(twice.curves.end(), sources.curves.begin(), sources.curves.end());
   EXPECT_EQ(winding(mesh, twice).region, 2 * answer.region);
 }
 
-TEST(SurfaceWinding, ALoopThatBoundsNothingIsFound) {
+TEST(WindingSolver, ALoopThatBoundsNothingIsFound) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_of(meridian(3)), curve_of(disk(8, 12, 2, 6))};
   const WindingAnswer answer = winding(mesh, sources);
   for (int f = 0; f < mesh.n_faces(); ++f) {
@@ -104,9 +104,9 @@ TEST(SurfaceWinding, ALoopThatBoundsNothingIsFound) {
   EXPECT_NE(naive.region, answer.region);
 }
 
-TEST(SurfaceWinding, TwoLoopsThatBoundTogetherAreKept) {
+TEST(WindingSolver, TwoLoopsThatBoundTogetherAreKept) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv));
-  SurfaceSources sources;
+  Sources sources;
   std::vector<int> back = meridian(9);
   std::reverse(back.begin(), back.end());
   sources.curves = {curve_of(meridian(3)), curve_of(back)};
@@ -119,13 +119,13 @@ TEST(SurfaceWinding, TwoLoopsThatBoundTogetherAreKept) {
     ASSERT_EQ(answer.region[f], in_quads(f, 3, 9, 0, nv) ? sign : 0);
 }
 
-TEST(SurfaceWinding, AGapChangesNoLabel) {
+TEST(WindingSolver, AGapChangesNoLabel) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv));
   std::vector<int> loop = disk(6, 14, 2, 10), tube = meridian(20), length = longitude(13);
   loop.erase(loop.end() - 3, loop.end());
   loop.erase(loop.begin(), loop.begin() + 1);
   tube.erase(tube.end() - 3, tube.end());
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_of(loop), curve_of(tube)};
   const WindingAnswer answer = winding(mesh, sources);
   double wrong = 0;
@@ -141,11 +141,11 @@ TEST(SurfaceWinding, AGapChangesNoLabel) {
   EXPECT_LT(wrong / mesh.n_faces(), 0.02);
 }
 
-TEST(SurfaceWinding, DependsNeitherOnNumberingNorScaleNorPlace) {
+TEST(WindingSolver, DependsNeitherOnNumberingNorScaleNorPlace) {
   const PolygonSoup soup = test::torus_soup(nu, nv);
   std::vector<int> loop = disk(6, 14, 2, 10), tube = meridian(20);
   loop.pop_back();
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {curve_of(loop), curve_of(tube)};
   const WindingAnswer before = winding(SurfaceMesh(soup), sources);
   std::mt19937 random(5);
@@ -162,7 +162,7 @@ TEST(SurfaceWinding, DependsNeitherOnNumberingNorScaleNorPlace) {
     const auto corners = soup.face(f);
     test::add_triangle(other, vertex[corners[1]], vertex[corners[2]], vertex[corners[0]]);
   }
-  for (SurfaceCurve& curve : sources.curves)
+  for (Curve& curve : sources.curves)
     for (SurfacePoint& node : curve.nodes) node.element = vertex[node.element];
   const WindingAnswer after = winding(SurfaceMesh(other), sources);
   for (int f = 0; f < soup.n_faces(); ++f) EXPECT_EQ(after.region[f], before.region[face[f]]);
@@ -186,12 +186,12 @@ SurfaceMesh quartered(const SurfaceMesh& mesh) {
   return SurfaceMesh(soup);
 }
 
-TEST(SurfaceWinding, RefinementChangesNoRegion) {
+TEST(WindingSolver, RefinementChangesNoRegion) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv)), fine = quartered(mesh);
   std::vector<int> loop = disk(6, 14, 2, 10), tube = meridian(20);
   for (const bool broken : {false, true}) {
     if (broken) loop.resize(loop.size() - 3), tube.resize(tube.size() - 2);
-    SurfaceSources coarse_sources, fine_sources;
+    Sources coarse_sources, fine_sources;
     coarse_sources.curves = fine_sources.curves = {curve_of(loop), curve_of(tube)};
     const VecXi coarse = winding(mesh, coarse_sources).region;
     const VecXi refined = winding(fine, fine_sources).region;
@@ -201,9 +201,9 @@ TEST(SurfaceWinding, RefinementChangesNoRegion) {
   }
 }
 
-TEST(SurfaceWinding, CurvesThroughFacesCutTheMeshAndMapBack) {
+TEST(WindingSolver, CurvesThroughFacesCutTheMeshAndMapBack) {
   const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.3));
-  SurfaceSources sources;
+  Sources sources;
   MatX3 ring(41, 3);
   for (int i = 0; i <= 40; ++i) {
     const double a = 2 * std::acos(-1.0) * (i % 40) / 40;
@@ -232,7 +232,7 @@ TEST(SurfaceWinding, CurvesThroughFacesCutTheMeshAndMapBack) {
   EXPECT_EQ(answer.region.size(), mesh.n_faces());
 }
 
-TEST(SurfaceWinding, CrossingSegmentsGetACommonVertex) {
+TEST(WindingSolver, CrossingSegmentsGetACommonVertex) {
   PolygonSoup soup;
   soup.points.resize(3, 3);
   soup.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
@@ -259,16 +259,16 @@ TEST(SurfaceWinding, CrossingSegmentsGetACommonVertex) {
       EXPECT_GE(cut.mesh.find_edge(path[i], path[i + 1]), 0);
 }
 
-TEST(SurfaceWinding, RefusesWhatHasNoSides) {
+TEST(WindingSolver, RefusesWhatHasNoSides) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
-  SurfaceSources sources;
+  Sources sources;
   sources.points.push_back(SurfacePoint::at_vertex(3));
   EXPECT_THROW(winding(mesh, sources), InputError);
   PolygonSoup book = test::grid_soup(1, 1);
   book.points.conservativeResize(5, 3);
   book.points.row(4) << 0.5, 0.5, 1;
   test::add_triangle(book, 0, 3, 4);  // three faces at the diagonal
-  SurfaceSources line;
+  Sources line;
   line.curves = {curve_of({0, 1})};
   EXPECT_THROW(winding(SurfaceMesh(book), line), UnsupportedError);
 }
@@ -278,7 +278,7 @@ double wrong_share(const std::string& mesh_name, const std::string& curve,
   const auto folder = test::shared() / "data/generated/curves";
   const SurfaceMesh mesh(io::read_surface(folder / (mesh_name + ".obj")));
   Report report;
-  const SurfaceSources sources = io::read_sources(folder / curve, mesh, {}, report);
+  const Sources sources = io::read_sources(folder / curve, mesh, {}, report);
   const WindingAnswer answer = winding(mesh, sources);
   std::ifstream in(folder / truth);
   double wrong = 0, total = 0;
@@ -315,7 +315,7 @@ TEST(SurfaceWindingData, ALoopThatBoundsNothingBesideADisk) {
   const SurfaceMesh mesh(io::read_surface(folder / "torus_disc.obj"));
   Report report;
   const auto curves = io::read_sources(folder / "torus_meridian_and_disc.txt", mesh, {}, report);
-  SurfaceSources disk, meridian;
+  Sources disk, meridian;
   meridian.curves = {curves.curves[0]};
   disk.curves = {curves.curves[1]};
   const WindingAnswer both = winding(mesh, curves), alone = winding(mesh, disk);

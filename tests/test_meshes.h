@@ -7,7 +7,7 @@
 #include <random>
 
 #include "domain/mesh/surface_mesh.h"
-#include "domain/tet/tet_mesh.h"
+#include "littoral/tet_mesh.h"
 
 namespace littoral::test {
 

@@ -1,8 +1,8 @@
 #pragma once
 // Tet meshes with known distances.
 
-#include "domain/mesh/polygon_soup.h"
-#include "domain/tet/tet_mesh.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/tet_mesh.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -1,4 +1,4 @@
-// Distance through tets that somebody else made.
+// Distance through a tet mesh of your own.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-VecX distance(const TetMesh& mesh, const TetSources& sources, const OptionTexts& options = {}) {
+VecX distance(const TetMesh& mesh, const TetSources& sources, const OptionValues& options = {}) {
   SpaceRequest request;
   request.options = options;
   Report report;

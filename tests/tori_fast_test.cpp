@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
 #include "field_helpers.h"
+#include "littoral/error.h"
 #include "methods/tori/tori.h"
 #include "sources/likely_outliers.h"
 #include "torus_helpers.h"
@@ -26,14 +26,14 @@ OrientedPoints torus_cloud(int n, unsigned seed) {
   return test::torus_cloud(n, random);
 }
 
-Tori fitted(const OrientedPoints& cloud, const TorusFit& fit = {},
-            ToriPrecision precision = ToriPrecision::full,
-            ToriOutliers outliers = ToriOutliers::keep) {
+ToriDistance fitted(const OrientedPoints& cloud, const TorusFit& fit = {},
+                    ToriPrecision precision = ToriPrecision::full,
+                    ToriOutliers outliers = ToriOutliers::keep) {
   Report report;
-  return Tori(cloud, fit, {}, report, precision, outliers);
+  return ToriDistance(cloud, fit, {}, report, precision, outliers);
 }
 
-double mean_error(const Tori& tori) {
+double mean_error(const ToriDistance& tori) {
   double sum = 0;
   const auto at = places(2000, 3, 1.5);
   for (const Vec3& x : at) sum += std::abs(tori.value(x) - on_torus(x));
@@ -57,7 +57,7 @@ TEST(ToriFast, SumsAsPlainSumsDo) {
   for (const bool damaged : {false, true}) {
     const OrientedPoints cloud = damaged ? damaged_cloud() : torus_cloud(3000, 1);
     const double rounding = damaged ? 1e-4 : 2e-6;  // more where tori contradict each other
-    const Tori full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
+    const ToriDistance full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
     for (const double reach : {1.5, 1e3})
       for (const Vec3& x : places(3000, 2, reach)) {
         const double plain = full.value_by_plain_sums(x);
@@ -70,7 +70,7 @@ TEST(ToriFast, SumsAsPlainSumsDo) {
 TEST(ToriFast, FewPointsAndPlacesOnPoints) {
   for (const int n : {1, 2, 3, 11, 12, 13}) {
     const OrientedPoints cloud = torus_cloud(n, 7);
-    const Tori full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
+    const ToriDistance full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
     for (int i = 0; i < n; ++i) {
       const Vec3 x = cloud.points.row(i);
       EXPECT_NEAR(full.value(x), 0, 0.3);
@@ -82,7 +82,7 @@ TEST(ToriFast, FewPointsAndPlacesOnPoints) {
 }
 
 TEST(ToriFast, StableFarAwayAndInside) {
-  const Tori tori = fitted(torus_cloud(2000, 8));
+  const ToriDistance tori = fitted(torus_cloud(2000, 8));
   for (const double distance : {1e2, 1e4, 1e8, 1e12}) {
     const Vec3 x = distance * Vec3(0.6, 0.48, 0.64);
     EXPECT_NEAR(tori.value(x) / distance, on_torus(x) / distance, 1e-3 / distance + 1e-12);
@@ -95,7 +95,7 @@ TEST(ToriFast, StableFarAwayAndInside) {
 }
 
 TEST(ToriFast, GradientAndLaplacianAreDerivatives) {
-  const Tori tori = fitted(torus_cloud(2000, 9));
+  const ToriDistance tori = fitted(torus_cloud(2000, 9));
   int asked = 0, agree = 0;
   const double step = 1e-7;
   for (const Vec3& x : places(600, 10, 1.5)) {
@@ -168,7 +168,7 @@ TEST(LearnedFit, ComesWithTheLibraryAndFitsAsWell) {
   EXPECT_LT(mean_error(fitted(cloud, learned)), 0.7 * mean_error(fitted(cloud)));
   // Fewer points than it looks at: the closed form.
   const OrientedPoints few = torus_cloud(10, 16);
-  const Tori a = fitted(few, learned), b = fitted(few);
+  const ToriDistance a = fitted(few, learned), b = fitted(few);
   for (const Vec3& x : places(20, 17, 1.5)) EXPECT_EQ(a.value(x), b.value(x));
 }
 
@@ -180,7 +180,7 @@ TEST(LearnedFit, RotationAndScaleDoNotMatter) {
   OrientedPoints turned = cloud;
   turned.points = 1e3 * cloud.points * turn.transpose();
   turned.normals = cloud.normals * turn.transpose();
-  const Tori a = fitted(cloud, learned), b = fitted(turned, learned);
+  const ToriDistance a = fitted(cloud, learned), b = fitted(turned, learned);
   for (const Vec3& x : places(100, 19, 1.5))
     EXPECT_NEAR(b.value(1e3 * turn * x) / 1e3, a.value(x), 1e-5);
 }
@@ -213,9 +213,9 @@ TEST(LearnedFit, BadWeightsAreNamed) {
 
 TEST(ToriBadInput, NormalsOfAnyLength) {
   OrientedPoints cloud = torus_cloud(500, 20);
-  const Tori expected = fitted(cloud);
+  const ToriDistance expected = fitted(cloud);
   for (int i = 0; i < 500; ++i) cloud.normals.row(i) *= i % 2 ? 1e-200 : 1e200;
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   for (const Vec3& x : places(100, 21, 1.5)) EXPECT_NEAR(tori.value(x), expected.value(x), 1e-9);
 }
 
@@ -239,7 +239,7 @@ TEST(ToriBadInput, CollinearPointsWithNormalsAllAround) {
   }
   for (const auto& fit :
        {TorusFit::exact(), TorusFit::noisy(), TorusFit::by(LearnedFit::built_in())}) {
-    const Tori tori = fitted(line, fit);
+    const ToriDistance tori = fitted(line, fit);
     for (const Vec3& x : places(200, 23, 3)) {
       const auto [value, gradient] = tori.at(x);
       EXPECT_TRUE(std::isfinite(value) && gradient.allFinite());
@@ -255,13 +255,13 @@ TEST(ToriBadInput, AMillionCoincidentPoints) {
   many.normals.col(1).setOnes();
   many.points.row(17) << 2, 2, 3;  // and another one
   Report report;
-  const Tori tori(many, {}, {}, report);
+  const ToriDistance tori(many, {}, {}, report);
   EXPECT_EQ(tori.size(), 2);
   EXPECT_NE(report.warnings.at(0).find("999998 points coincide"), std::string::npos);
   EXPECT_NEAR(tori.value(Vec3(2, 2.25, 2)), 0.25, 1e-12);
   many.points.row(17) << 2, 2, 2;  // normals that cancel all over
   many.normals.topRows(500000) *= -1;
-  EXPECT_THROW(Tori(many, {}, {}, report), InputError);
+  EXPECT_THROW(ToriDistance(many, {}, {}, report), InputError);
 }
 
 }  // namespace

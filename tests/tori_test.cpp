@@ -10,8 +10,8 @@
 #include <random>
 
 #include "api/space/tori_cloud.h"
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "torus_helpers.h"
 
 namespace littoral {
@@ -43,9 +43,9 @@ MatX3 sphere_points(int n) {
   return points;
 }
 
-Tori fitted(const OrientedPoints& cloud, const TorusFit& fit = {}) {
+ToriDistance fitted(const OrientedPoints& cloud, const TorusFit& fit = {}) {
   Report report;
-  return Tori(cloud, fit, {}, report);
+  return ToriDistance(cloud, fit, {}, report);
 }
 
 TEST(Torus, IsTheTorusOfItsCurvatures) {
@@ -93,7 +93,7 @@ TEST(Tori, FitIsExactOnPlanes) {
     cloud.points.row(i) = a * s + b * t + 0.25 * n;
     cloud.normals.row(i) = n;
   }
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   for (double height : {-0.4, 0.0, 0.02, 0.3}) {
     const Vec3 x = 0.1 * s - 0.2 * t + (0.25 + height) * n;
     const auto [phi, gradient] = tori.at(x);
@@ -110,7 +110,7 @@ TEST(Tori, FitIsExactOnSpheres) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   for (const Torus& torus : tori.tori()) {
     EXPECT_NEAR(torus.k1, -1, 2e-3);  // the ridge pulls curvatures a little towards 0
     EXPECT_NEAR(torus.k2, -1, 2e-3);
@@ -122,7 +122,7 @@ TEST(Tori, FitIsExactOnSpheres) {
 /// Mean error over queries near a torus of radii 1 and 0.4, sampled by n points at random.
 double mean_error_on_torus(int n) {
   std::mt19937 random(11);
-  const Tori tori = fitted(test::torus_cloud(n, random));
+  const ToriDistance tori = fitted(test::torus_cloud(n, random));
   double error = 0;
   const auto at = queries(2000, 12);
   for (const Vec3& x : at) error += std::abs(tori.value(x) - torus_exact(x, 1, test::tube));
@@ -140,7 +140,7 @@ TEST(Tori, GradientIsTheDerivative) {
   cloud.points = sphere_points(200);
   cloud.normals = cloud.points;
   for (int i = 0; i < 200; ++i) cloud.points.row(i) *= 1 + 0.2 * cloud.points(i, 0);
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   int compared = 0;
   for (const Vec3& x : queries(100, 13)) {
     const auto [value, gradient] = tori.at(x);
@@ -187,7 +187,7 @@ TEST(Tori, SidesAreRightFarBehindAcuteEdges) {
     wedge.points.row(static_cast<Eigen::Index>(i)) = points[i];
     wedge.normals.row(static_cast<Eigen::Index>(i)) = normals[i];
   }
-  const Tori tori = fitted(wedge);
+  const ToriDistance tori = fitted(wedge);
   int wrong = 0, far = 0;
   for (const Vec3& q : queries(4000, 17)) {
     const Vec3 x = q + Vec3(0, 0, 0.5);
@@ -212,7 +212,7 @@ TEST(Tori, FlippedPatchesDoNotReachFar) {
       ++flipped;
     }
   ASSERT_GT(flipped, 20);  // more than have a say at a place
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   for (const double x : {1.4, 2.0, 5.0}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
   for (const double x : {0.6, 0.2}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
 }
@@ -236,17 +236,17 @@ TEST(Tori, ScaleAndMotionDoNotMatter) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   for (double scale : {1e-3, 1e3}) {
     OrientedPoints other = cloud;
     other.points *= scale;
-    const Tori scaled = fitted(other);
+    const ToriDistance scaled = fitted(other);
     for (const Vec3& x : queries(50, 15))
       EXPECT_NEAR(scaled.value(scale * x) / scale, tori.value(x), 1e-9);
   }
   OrientedPoints flipped = cloud;
   flipped.normals *= -1;
-  const Tori inward = fitted(flipped);
+  const ToriDistance inward = fitted(flipped);
   for (const Vec3& x : queries(50, 16)) EXPECT_NEAR(inward.value(x), -tori.value(x), 1e-9);
 }
 
@@ -254,10 +254,10 @@ TEST(Tori, CloudsOfToriGiveThemBack) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const Tori tori = fitted(cloud);
+  const ToriDistance tori = fitted(cloud);
   PolygonSoup file = cloud_of_tori(tori.points(), tori.tori());
   ASSERT_TRUE(has_tori(file));
-  const Tori again(file.points, tori_of_cloud(file));
+  const ToriDistance again(file.points, tori_of_cloud(file));
   for (const Vec3& x : queries(50, 18)) EXPECT_NEAR(again.value(x), tori.value(x), 1e-12);
   file.scalars.at("torus_rho")[4] = 0;
   EXPECT_THROW(tori_of_cloud(file), InputError);
@@ -287,7 +287,7 @@ TEST(Tori, FewDegenerateAndCoincidentPoints) {
   many.normals = MatX3::Zero(10000, 3);
   many.normals.col(1).setOnes();
   Report report;
-  const Tori tori(many, {}, {}, report);
+  const ToriDistance tori(many, {}, {}, report);
   EXPECT_EQ(tori.size(), 1);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].find("9999 points coincide"), std::string::npos);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "sources/trace.h"
 #include "test_meshes.h"
 

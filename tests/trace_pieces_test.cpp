@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "sources/pieces.h"
 #include "sources/surface_points.h"
 #include "test_meshes.h"
@@ -18,8 +18,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using P = SurfacePoint;
 
-SurfaceSources one_curve(std::vector<SurfacePoint> nodes, bool is_signed = true) {
-  SurfaceSources sources;
+Sources one_curve(std::vector<SurfacePoint> nodes, bool is_signed = true) {
+  Sources sources;
   sources.curves.push_back({std::move(nodes), is_signed, "file.txt:9"});
   return sources;
 }
@@ -29,7 +29,7 @@ Vec3 place(const SurfaceMesh& mesh, int face, const std::array<double, 3>& b) {
 }
 
 /// What every prepared set must satisfy.
-void expect_sound(const SurfaceMesh& mesh, const PreparedSources& prepared) {
+void expect_sound(const SurfaceMesh& mesh, const PlacedSources& prepared) {
   const double size = mesh.points().cwiseAbs().maxCoeff();
   ASSERT_EQ(prepared.n_curves, static_cast<int>(prepared.nodes.size()));
   for (std::size_t i = 0; i < prepared.pieces.size(); ++i) {
@@ -61,7 +61,7 @@ void expect_sound(const SurfaceMesh& mesh, const PreparedSources& prepared) {
       EXPECT_TRUE(share_face(mesh, nodes[i], nodes[i + 1]));
 }
 
-double total_length(const PreparedSources& prepared) {
+double total_length(const PlacedSources& prepared) {
   double sum = 0;
   for (const CurvePiece& piece : prepared.pieces) sum += piece.length;
   return sum;
@@ -91,7 +91,7 @@ TEST(TracePieces, SimplestForms) {
 TEST(TracePieces, AlongEdgesAndInsideFaces) {
   const SurfaceMesh mesh{test::grid_soup(2, 2)};
   Report report;
-  const auto prepared = prepare(
+  const auto prepared = place_sources(
       mesh, one_curve({P::at_vertex(0), P::at_vertex(1), P::in_face(2, 0, 0, 1)}), false, report);
   expect_sound(mesh, prepared);
   ASSERT_EQ(prepared.pieces.size(), 2u);
@@ -99,7 +99,7 @@ TEST(TracePieces, AlongEdgesAndInsideFaces) {
   EXPECT_EQ(prepared.pieces[1].edge, mesh.find_edge(1, mesh.face(2)[2]));
   EXPECT_TRUE(report.warnings.empty());
 
-  const auto crossing = prepare(
+  const auto crossing = place_sources(
       mesh, one_curve({P::in_face(0, 0.2, 0.6, 0.2), P::on_edge(mesh.find_edge(0, 4), 0.5)}, false),
       false, report);
   ASSERT_EQ(crossing.pieces.size(), 1u);
@@ -111,9 +111,9 @@ TEST(TracePieces, AlongEdgesAndInsideFaces) {
 TEST(TracePieces, GapsAreTracedAndCounted) {
   const SurfaceMesh mesh{test::octasphere_soup(3)};
   Report report;
-  const auto prepared =
-      prepare(mesh, one_curve({P::at_vertex(0), P::at_vertex(2), P::at_vertex(1), P::at_vertex(0)}),
-              false, report);
+  const auto prepared = place_sources(
+      mesh, one_curve({P::at_vertex(0), P::at_vertex(2), P::at_vertex(1), P::at_vertex(0)}), false,
+      report);
   expect_sound(mesh, prepared);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_EQ(report.warnings[0], "3 gaps of curve 1 (file.txt:9) were traced across the mesh");
@@ -123,15 +123,15 @@ TEST(TracePieces, GapsAreTracedAndCounted) {
 
 TEST(TracePieces, FlipReversesSignedCurvesOnly) {
   const SurfaceMesh mesh{test::grid_soup(4, 4)};
-  SurfaceSources sources = one_curve({P::at_vertex(0), P::at_vertex(24)});
+  Sources sources = one_curve({P::at_vertex(0), P::at_vertex(24)});
   sources.curves.push_back({{P::at_vertex(4), P::at_vertex(20)}, false, ""});
   SpaceCurve space;
   space.points.resize(2, 3);
   space.points << 0.1, 0.2, 0, 0.9, 0.2, 0;
   sources.space_curves.push_back(space);
   Report report;
-  const auto straight = prepare(mesh, sources, false, report);
-  const auto flipped = prepare(mesh, sources, true, report);
+  const auto straight = place_sources(mesh, sources, false, report);
+  const auto flipped = place_sources(mesh, sources, true, report);
   expect_sound(mesh, flipped);
   ASSERT_EQ(flipped.n_curves, 3);
   EXPECT_EQ(flipped.nodes[0].front().element, 24);
@@ -146,21 +146,20 @@ TEST(TracePieces, RepeatedNodesAreDroppedWithACount) {
   soup.points.row(4) = soup.points.row(1);  // coincident vertices: an edge without length
   const SurfaceMesh mesh{soup};
   Report report;
-  const auto prepared = prepare(mesh,
-                                one_curve({P::at_vertex(0), P::at_vertex(0), P::at_vertex(1),
-                                           P::at_vertex(4), P::at_vertex(5)}),
-                                false, report);
+  const auto prepared = place_sources(mesh,
+                                      one_curve({P::at_vertex(0), P::at_vertex(0), P::at_vertex(1),
+                                                 P::at_vertex(4), P::at_vertex(5)}),
+                                      false, report);
   expect_sound(mesh, prepared);
   EXPECT_EQ(prepared.pieces.size(), 2u);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0], HasSubstr("2 zero-length steps of curve 1 (file.txt:9)"));
 }
 
-void expect_refused(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                    const std::string& say) {
+void expect_refused(const SurfaceMesh& mesh, const Sources& sources, const std::string& say) {
   Report report;
   try {
-    prepare(mesh, sources, false, report);
+    place_sources(mesh, sources, false, report);
     ADD_FAILURE() << "accepted: " << say;
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(say));
@@ -186,10 +185,10 @@ TEST(TracePieces, BadSourcesAreRefused) {
   expect_refused(mesh, one_curve({P::in_face(8, 1, 0, 0), P::at_vertex(0)}), "face 8");
   expect_refused(mesh, one_curve({P::in_face(1, 0.5, 0, 0), P::at_vertex(0)}), "sum");
   expect_refused(mesh, one_curve({P::in_face(1, inf, -inf, 1), P::at_vertex(0)}), "face 1");
-  SurfaceSources point;
+  Sources point;
   point.points.push_back(P::at_vertex(77));
   expect_refused(mesh, point, "vertex 77");
-  SurfaceSources space;
+  Sources space;
   space.space_curves.resize(1);
   space.space_curves[0].points.resize(2, 3);
   space.space_curves[0].points << 0, 0, 0, nan, 0, 0;
@@ -201,9 +200,9 @@ TEST(TracePieces, BadSourcesAreRefused) {
   const int corners[] = {0, 1, 3, 2};
   quad.add_face(corners);
   Report report;
-  EXPECT_THROW(
-      prepare(SurfaceMesh{quad}, one_curve({P::at_vertex(0), P::at_vertex(1)}), false, report),
-      UnsupportedError);
+  EXPECT_THROW(place_sources(SurfaceMesh{quad}, one_curve({P::at_vertex(0), P::at_vertex(1)}),
+                             false, report),
+               UnsupportedError);
 }
 
 TEST(TracePieces, PropertyRandomSourcesAreSound) {
@@ -228,9 +227,9 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
                                    : P::in_face(f, a, b, 1 - a - b));
     }
     Report report;
-    PreparedSources prepared;
+    PlacedSources prepared;
     try {
-      prepared = prepare(mesh, one_curve(nodes), false, report);
+      prepared = place_sources(mesh, one_curve(nodes), false, report);
     } catch (const InputError&) {
       RC_ASSERT(mesh.n_components() > 1);  // the only reason to refuse these
       return;
@@ -238,7 +237,7 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
     expect_sound(mesh, prepared);
     RC_ASSERT(!testing::Test::HasFailure());
     Report other;
-    const PreparedSources again = prepare(mesh, one_curve(prepared.nodes[0]), false, other);
+    const PlacedSources again = place_sources(mesh, one_curve(prepared.nodes[0]), false, other);
     RC_ASSERT(again.pieces.size() == prepared.pieces.size());  // nothing left to trace
     const double length = total_length(prepared);
     RC_ASSERT(std::abs(total_length(again) - length) <= 1e-12 * length);  // added in another order

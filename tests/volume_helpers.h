@@ -1,13 +1,13 @@
 #pragma once
 // Functions in space, sampled on grids.
 
-#include "domain/volume/volume_field.h"
+#include "littoral/volume.h"
 
 namespace littoral::test {
 
 template <class F>
-VolumeField sampled(const Grid& grid, const F& f) {
-  VolumeField field{grid, VecX(static_cast<Eigen::Index>(grid.n_nodes())), "distance"};
+Volume sampled(const Grid& grid, const F& f) {
+  Volume field{grid, VecX(static_cast<Eigen::Index>(grid.n_nodes())), "distance"};
   for (int k = 0; k < grid.n[2]; ++k)
     for (int j = 0; j < grid.n[1]; ++j)
       for (int i = 0; i < grid.n[0]; ++i)

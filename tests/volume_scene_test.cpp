@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "base/error.h"
 #include "io/render/picture.h"
 #include "io/render/scene_style.h"
+#include "littoral/error.h"
 #include "volume_helpers.h"
 
 namespace littoral {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-VolumeField ball(int n) {
+Volume ball(int n) {
   const Grid grid{{n, n, n}, Vec3::Constant(-1), Vec3::Constant(2.0 / (n - 1))};
   return test::sampled(grid, [](const Vec3& p) { return p.norm() - 0.6; });
 }
@@ -41,14 +41,14 @@ TEST(VolumeScene, SliceAndTheSurfaceBeforeIt) {
 }
 
 TEST(VolumeScene, LevelsAndSwitches) {
-  const VolumeField volume = ball(11);
+  const Volume volume = ball(11);
   EXPECT_EQ(io::make_volume_scene(volume).volume->level, 0);
-  VolumeField above = volume;
+  Volume above = volume;
   above.values.array() += 5;
   const auto known = io::make_volume_scene(above).volume;
   EXPECT_NEAR(known->level, 0.5 * (known->low + known->high), 1e-12);
   EXPECT_EQ(io::make_volume_scene(volume, {.isosurface = false}).triangles.rows(), 200);
-  VolumeField infinite = volume;
+  Volume infinite = volume;
   infinite.values[0] = inf;
   EXPECT_EQ(io::make_volume_scene(infinite).triangles.rows(), 200);
   EXPECT_TRUE(io::field_style(io::make_volume_scene(infinite)).infinite);
@@ -59,17 +59,17 @@ TEST(VolumeScene, PagesGetAThinnedCopyOfTheSameBox) {
   const auto plane = [](const Vec3& p) { return 2 * p[0] - p[1] + p[2] - 2; };
   const auto thin = io::make_volume_scene(test::sampled(grid, plane)).volume->thin;
   EXPECT_EQ(thin.grid.n, (std::array<int, 3>{64, 5, 2}));
-  const VolumeField exact = test::sampled(thin.grid, plane);
+  const Volume exact = test::sampled(thin.grid, plane);
   EXPECT_LT((thin.values - exact.values).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_NEAR(thin.grid.point(63, 4, 1)[0], grid.point(129, 4, 1)[0], 1e-12);
 }
 
 TEST(VolumeScene, Refuses) {
-  const VolumeField volume = ball(5);
+  const Volume volume = ball(5);
   EXPECT_THROW(io::make_volume_scene(volume, {.axis = 3}), InputError);
   EXPECT_THROW(io::make_volume_scene(volume, {.position = 1.5}), InputError);
   EXPECT_THROW(io::make_volume_scene(volume, {.level = inf}), InputError);
-  VolumeField bad = volume;
+  Volume bad = volume;
   bad.values[3] = std::nan("");
   EXPECT_THROW(io::make_volume_scene(bad), InputError);
   bad.values.setConstant(inf);

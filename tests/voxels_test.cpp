@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
 #include "domain_shapes.h"
 #include "io/volume/read_voxels.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral {
 namespace {
@@ -49,7 +49,7 @@ TEST(VoxelFiles, DamagedVolumesAreErrors) {
 }
 
 TEST(VoxelFiles, VolumesOfNumbersAreMasks) {
-  VolumeField field;
+  Volume field;
   field.grid = {{3, 3, 3}, Vec3(1, 2, 3), Vec3::Constant(0.5)};
   field.values = VecX::Zero(27);
   field.values[static_cast<Eigen::Index>(field.grid.node(1, 0, 2))] = 7;
@@ -64,7 +64,7 @@ TEST(VoxelFiles, VolumesOfNumbersAreMasks) {
       EXPECT_EQ(mask.grid.spacing, field.grid.spacing);
       EXPECT_EQ(mask.grid.origin, field.grid.origin);
     }
-    VolumeField bad = field;
+    Volume bad = field;
     bad.values[3] = -1;
     io::write_volume(path, bad);
     EXPECT_THROW(io::read_voxels(path), InputError);

@@ -53,9 +53,9 @@ Case load(const std::string& name, bool clamp) {
   return c;
 }
 
-WindingNumbers solve(const Case& c, const WindingOptions& options = {}) {
+WindingNumbers solve(const Case& c, const SurfaceWinding& options = {}) {
   Report report;
-  return SurfaceWinding(std::make_shared<const JumpCalculus>(c.J))
+  return WindingSolver(std::make_shared<const JumpCalculus>(c.J))
       .solve(c.curve, options, {}, report);
 }
 
@@ -108,7 +108,7 @@ TEST(WindingReferences, ResidualsAreNoLonger) {
   for (const char* name : {"asymmetric-torus", "double-torus"}) {
     SCOPED_TRACE(name);
     const Case c = load(name, false);
-    const WindingOptions options;
+    const SurfaceWinding options;
     const WindingNumbers ours = solve(c, options);
     // Both as jumps of corner values, measured alike.
     const auto length = [&](const MatX3& v) {

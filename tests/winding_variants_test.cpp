@@ -8,22 +8,22 @@
 #include <numbers>
 
 #include "api/surface/winding.h"
-#include "base/error.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/error.h"
 #include "methods/winding/residual_paths.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-WindingAnswer winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                      OptionTexts options = {}, bool flip = false) {
+WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources, OptionValues options = {},
+                      bool flip = false) {
   Report report;
   return surface_winding(mesh, sources, {std::move(options), flip}, {}, report);
 }
 
-SurfaceCurve through_vertices(const std::vector<int>& vertices) {
-  SurfaceCurve curve;
+Curve through_vertices(const std::vector<int>& vertices) {
+  Curve curve;
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   return curve;
 }
@@ -61,7 +61,7 @@ std::vector<int> upward(int column, int from, int to) {
 
 TEST(FreeBoundary, IsNearTheAngleInThePlane) {
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {through_vertices(upward(n - 6, 14, 28))};
   const double s = (n - 6.0) / n, a = 14.0 / n, b = 28.0 / n;
   const double natural = error_of_angle(mesh, winding(mesh, sources), s, a, b);
@@ -76,7 +76,7 @@ TEST(FreeBoundary, ChangesNothingForCurvesThatBound) {
   for (int i = 19; i >= 10; --i) loop.push_back(20 * (n + 1) + i);
   for (int j = 19; j >= 10; --j) loop.push_back(j * (n + 1) + 10);
   for (int i = 11; i <= 20; ++i) loop.push_back(10 * (n + 1) + i);
-  SurfaceSources sources;
+  Sources sources;
   // A loop, and a line from boundary to boundary: it bounds relative to it.
   sources.curves = {through_vertices(loop), through_vertices(upward(30, 0, n))};
   for (const std::string boundary : {"natural", "free"}) {
@@ -92,14 +92,14 @@ TEST(FreeBoundary, ChangesNothingForCurvesThatBound) {
 }
 
 /// A circle of latitude at height z, eastward: north on its left.
-SurfaceSources latitude(double z, int segments = 100) {
+Sources latitude(double z, int segments = 100) {
   SpaceCurve curve;
   curve.points.resize(segments + 1, 3);
   for (int i = 0; i <= segments; ++i) {
     const double angle = 2 * std::numbers::pi * (i % segments) / segments, r = std::sqrt(1 - z * z);
     curve.points.row(i) << r * std::cos(angle), r * std::sin(angle), z;
   }
-  SurfaceSources sources;
+  Sources sources;
   sources.space_curves = {curve};
   return sources;
 }
@@ -107,7 +107,7 @@ SurfaceSources latitude(double z, int segments = 100) {
 TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
   for (const int level : {3, 4, 5}) {
     const SurfaceMesh mesh(test::octasphere_soup(level));
-    const SurfaceSources sources = latitude(0.37);
+    const Sources sources = latitude(0.37);
     const WindingAnswer answer = winding(mesh, sources, {{"formulation", "nonconforming"}});
     EXPECT_EQ(answer.cut.mesh.n_vertices(), mesh.n_vertices());
     ASSERT_EQ(answer.bounding.size(), 1u);
@@ -132,7 +132,7 @@ TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
 
 TEST(NonconformingWinding, AlongEdgesBothSidesGetHalf) {
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {through_vertices(upward(25, 0, n))};
   const WindingAnswer answer = winding(mesh, sources, {{"formulation", "nonconforming"}});
   for (int f = 0; f < mesh.n_faces(); ++f)
@@ -149,7 +149,7 @@ TEST(NonconformingWinding, AlongEdgesBothSidesGetHalf) {
 
 TEST(NonconformingWinding, SaysWhatItCannot) {
   const SurfaceMesh mesh(test::torus_soup(24, 16));
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {through_vertices({0, 1, 17, 16, 0})};
   Report report;
   surface_winding(mesh, sources, {{{"formulation", "nonconforming"}}, false}, {}, report);
@@ -198,7 +198,7 @@ TEST(ResidualPaths, FindTheSameNonboundingLoops) {
   for (int i = 8; i < 14; ++i) patch.push_back(i * nv + 2);
   for (int j = 2; j < 9; ++j) patch.push_back(14 * nv + j);
   for (int i = 14; i > 9; --i) patch.push_back(i * nv + 9);
-  SurfaceSources sources;
+  Sources sources;
   sources.curves = {through_vertices(tube), through_vertices(patch)};
   const WindingAnswer whole = winding(mesh, sources);
   const WindingAnswer reduced = winding(mesh, sources, {{"residual", "paths"}});

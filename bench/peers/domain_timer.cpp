@@ -20,7 +20,7 @@
 #include "io/read.h"
 #include "methods/heat/signed_heat.h"
 #include "operators/nodal.h"
-#include "sources/nodal_source_terms.h"
+#include "sources/nodal_source_system.h"
 #include "sources/refined_sources.h"
 
 namespace littoral {
@@ -37,29 +37,29 @@ int run(char** argv) {
   const SurfaceMesh mesh(io::read_surface(argv[1]));
   const int repeats = std::atoi(argv[3]);
   Report report;
-  const SurfaceSources given = io::read_sources(argv[2], mesh, 0, report);
-  std::unique_ptr<SignedHeat> method;
-  SourceTerms terms;
-  SignedHeatOptions options;
+  const Sources given = io::read_sources(argv[2], mesh, 0, report);
+  std::unique_ptr<SignedHeatSolver> method;
+  SourceSystem terms;
+  SignedHeat options;
   options.time_scale = 1;
-  options.constraint = static_cast<int>(Constraint::zero_set);
+  options.constraint = Constraint::zero_set;
   VecX phi;
-  auto solve_first = [&](Expect expect) {
+  auto solve_first = [&](SolveHint expect) {
     const NodalSurface S = mesh.n_faces()
                                ? polygon_surface(mesh, report)
                                : cloud_surface(mesh.points(), mesh.soup().normals, report);
     const auto ops = std::make_shared<const Operators>(nodal_operators(S));
-    terms = nodal_source_terms(
-        S, prepare(*S.refined, refined_sources(mesh, *S.refined, S.face_offsets, given), false,
-                   report));
-    method = std::make_unique<SignedHeat>(ops, 1, Task(), Diffusions{true, false}, expect);
+    terms = nodal_source_system(
+        S, place_sources(*S.refined, refined_sources(mesh, *S.refined, S.face_offsets, given),
+                         false, report));
+    method = std::make_unique<SignedHeatSolver>(ops, 1, Task(), Diffusions{true, false}, expect);
     phi = method->solve(terms, options, {}, report);
   };
-  std::printf("{\n \"first\": %.6g,\n", cpu_seconds([&] { solve_first(Expect::one_solve); }));
+  std::printf("{\n \"first\": %.6g,\n", cpu_seconds([&] { solve_first(SolveHint::single_rhs); }));
   std::ofstream(argv[4], std::ios::binary)
       .write(reinterpret_cast<const char*>(phi.data()),
              static_cast<std::streamsize>(sizeof(double)) * phi.size());
-  if (repeats > 0) solve_first(Expect::many_solves);
+  if (repeats > 0) solve_first(SolveHint::many_rhs);
   const struct {
     const char* name;
     Constraint constraint;

@@ -21,7 +21,7 @@
 #include "methods/heat/signed_heat.h"
 #include "operators/triangles.h"
 #include "sources/pieces.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 
 namespace littoral {
 namespace {
@@ -47,8 +47,8 @@ double median(std::vector<double> v) {
 
 double peak_megabytes() { return peak_memory() / (1 << 20); }
 
-SignedHeatOptions constrained(Constraint constraint) {
-  SignedHeatOptions options;
+SignedHeat constrained(Constraint constraint) {
+  SignedHeat options;
   options.time_scale = 1;
   options.constraint = static_cast<int>(constraint);
   return options;
@@ -60,8 +60,8 @@ int run(char** argv) {
   const SurfaceMesh mesh(io::read_surface(argv[1]));
   const int repeats = std::atoi(argv[4]);
   Report report;
-  const SurfaceSources sources = io::read_sources(argv[2], mesh, 0, report);
-  const SurfaceSources others = io::read_sources(argv[3], mesh, 0, report);
+  const Sources sources = io::read_sources(argv[2], mesh, 0, report);
+  const Sources others = io::read_sources(argv[3], mesh, 0, report);
   auto say = [](const char* name, double value) { std::printf(" \"%s\": %.6g,\n", name, value); };
   std::printf("{\n");
   say("faces", mesh.n_faces());
@@ -70,8 +70,8 @@ int run(char** argv) {
   say("first", seconds([&] {
         const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
         const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-        const auto terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
-        const SignedHeat method(ops, 1, {}, {true, false}, Expect::one_solve);
+        const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
+        const SignedHeatSolver method(ops, 1, {}, {true, false}, SolveHint::single_rhs);
         phi = method.solve(terms, constrained(Constraint::zero_set), {}, report);
       }));
   say("first_peak_mb", peak_megabytes());
@@ -81,11 +81,11 @@ int run(char** argv) {
   if (repeats > 0) {
     const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
     const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-    const SignedHeat method(ops, 1, {}, {true, false});
-    const auto terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
+    const SignedHeatSolver method(ops, 1, {}, {true, false});
+    const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
     struct Case {
       const char* name;
-      SignedHeatOptions options;
+      SignedHeat options;
     };
     std::vector<Case> cases = {{"none", constrained(Constraint::none)},
                                {"zero_set", constrained(Constraint::zero_set)},
@@ -101,9 +101,9 @@ int run(char** argv) {
         const double t = seconds([&] { method.solve(terms, cases[c].options, {}, report); });
         if (round > 0) times[c].push_back(t);
       }
-      const SurfaceSources& next = round % 2 ? sources : others;
+      const Sources& next = round % 2 ? sources : others;
       const double t = seconds([&] {
-        const auto fresh = source_terms(mesh, T, prepare(mesh, next, false, report));
+        const auto fresh = source_system(mesh, T, place_sources(mesh, next, false, report));
         method.solve(fresh, cases[1].options, {}, report);
       });
       if (round > 0) moved.push_back(t);

@@ -201,7 +201,7 @@ def spectrum(path: Path) -> None:
 
 
 def objective(points: Floats, faces: Ints, u: Floats, alpha_hat: float) -> tuple[float, float]:
-    """Eq. 11 with the Dirichlet energy, of u shrunk to slope 1, and u's longest gradient."""
+    """Eq. 11 with the Dirichlet energy, of u shrunk to unit gradient, and u's longest gradient."""
     p, q, r = (points[faces[:, k]] for k in range(3))
     normal = np.cross(q - p, r - p)
     double = np.linalg.norm(normal, axis=1)

@@ -15,7 +15,7 @@
 #include "methods/heat/signed_heat.h"
 #include "operators/triangles.h"
 #include "sources/pieces.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 
 namespace littoral {
 namespace {
@@ -45,28 +45,30 @@ int run(int n_meshes, char** meshes) {
     Report report;
     const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
     const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-    const SignedHeat method(ops, 1);
-    auto distance = [&](const SurfaceSources& sources) {
-      const SourceTerms terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
+    const SignedHeatSolver method(ops, 1);
+    auto distance = [&](const Sources& sources) {
+      const SourceSystem terms =
+          source_system(mesh, T, place_sources(mesh, sources, false, report));
       return method.solve(terms, {}, {}, report);
     };
     std::vector<double> error(n_damages, 0.0), area(n_damages, 0.0);
     const auto functions = eigenfunctions(*ops, 5);
     for (std::size_t k = 0; k < functions.size(); ++k) {
-      const SurfaceSources curves = whole(isolines(mesh, functions[k], 0));
+      const Sources curves = whole(isolines(mesh, functions[k], 0));
       const VecX phi = distance(curves);
       const double range = phi.maxCoeff() - phi.minCoeff();
       for (std::size_t d = 0; d < n_damages; ++d) {
-        SurfaceSources input = damaged(curves, damages[d].drop, damages[d].reverse, unsigned(k));
+        Sources input = damaged(curves, damages[d].drop, damages[d].reverse, unsigned(k));
         if (damages[d].offset > 0) {
           const double level = damages[d].offset * T.mean_edge_length * T.unit;
           const auto copy = damaged(whole(isolines(mesh, phi, level)), damages[d].drop,
                                     damages[d].reverse, unsigned(k) + 100);
           input.curves.insert(input.curves.end(), copy.curves.begin(), copy.curves.end());
         }
-        SignedHeatOptions options;
-        options.constraint = static_cast<int>(Constraint::none);
-        const SourceTerms terms = source_terms(mesh, T, prepare(mesh, input, false, report));
+        SignedHeat options;
+        options.constraint = Constraint::none;
+        const SourceSystem terms =
+            source_system(mesh, T, place_sources(mesh, input, false, report));
         const VecX broken = method.solve(terms, options, {}, report);
         const VecX& M = ops->scalar.M;
         double e = 0, wrong = 0;

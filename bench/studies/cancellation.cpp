@@ -16,9 +16,9 @@
 #include <thread>
 
 #include "api/surface/distance.h"
-#include "base/error.h"
 #include "base/parallel.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "subdivided_meshes.h"
 
 namespace littoral {
@@ -36,8 +36,8 @@ struct Outcome {
   std::string stage;
 };
 
-Outcome solve(const SurfaceMesh& mesh, const SurfaceSources& sources,
-              const DistanceRequest& request, double stop_after) {
+Outcome solve(const SurfaceMesh& mesh, const Sources& sources, const DistanceRequest& request,
+              double stop_after) {
   clockid_t processor{};
   pthread_getcpuclockid(pthread_self(), &processor);
   const CancelToken token;
@@ -85,7 +85,7 @@ int run(int argc, char** argv) {
   std::vector<int> curve = test::loop_at(soup, height, 0.3 * height.maxCoeff());
   for (int k = 0; k < std::atoi(argv[3]); ++k) soup = test::quartered(soup, &curve);
   const SurfaceMesh mesh(soup);
-  SurfaceSources sources;
+  Sources sources;
   sources.curves.emplace_back();
   for (int v : curve) sources.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
   DistanceRequest request;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "contour/isolines.h"
+#include "littoral/sources.h"
 #include "operators/calculus.h"
 #include "solve/poisson/poisson.h"
-#include "sources/surface_sources.h"
 
 namespace littoral {
 
@@ -38,10 +38,10 @@ inline std::vector<VecX> eigenfunctions(const Operators& ops, int count) {
 }
 
 /// Isolines as signed curves.
-inline SurfaceSources whole(const std::vector<Polyline>& lines) {
-  SurfaceSources sources;
+inline Sources whole(const std::vector<Polyline>& lines) {
+  Sources sources;
   for (const Polyline& line : lines) {
-    SurfaceCurve curve{line.nodes, true, "nodal line"};
+    Curve curve{line.nodes, true, "nodal line"};
     if (line.closed) curve.nodes.push_back(curve.nodes.front());
     if (curve.nodes.size() > 1) sources.curves.push_back(std::move(curve));
   }
@@ -49,20 +49,19 @@ inline SurfaceSources whole(const std::vector<Polyline>& lines) {
 }
 
 /// Cuts every curve into runs of 4 to 12 segments, drops a share of them and reverses another.
-inline SurfaceSources damaged(const SurfaceSources& sources, double drop, double reverse,
-                              unsigned seed) {
+inline Sources damaged(const Sources& sources, double drop, double reverse, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> u(0, 1);
-  SurfaceSources out;
-  for (const SurfaceCurve& curve : sources.curves) {
+  Sources out;
+  for (const Curve& curve : sources.curves) {
     for (std::size_t i = 0; i + 1 < curve.nodes.size();) {
       const std::size_t end = std::min(curve.nodes.size() - 1, i + 4 + random() % 9);
       const bool first = out.curves.empty() && end + 1 == curve.nodes.size();  // keep at least one
       const bool dropped = u(random) < drop && !first, reversed = u(random) < reverse;
-      SurfaceCurve run{{curve.nodes.begin() + static_cast<std::ptrdiff_t>(i),
-                        curve.nodes.begin() + static_cast<std::ptrdiff_t>(end) + 1},
-                       true,
-                       curve.origin};
+      Curve run{{curve.nodes.begin() + static_cast<std::ptrdiff_t>(i),
+                 curve.nodes.begin() + static_cast<std::ptrdiff_t>(end) + 1},
+                true,
+                curve.origin};
       if (reversed) std::reverse(run.nodes.begin(), run.nodes.end());
       if (!dropped) out.curves.push_back(std::move(run));
       i = end;

@@ -15,7 +15,7 @@ using test::Domain;
 const double pi = std::acos(-1.0);
 
 /// A closed circle about the z axis, positive to its upper side where it runs counter-clockwise.
-void add_circle(SurfaceSources& sources, double radius, double z, bool reversed) {
+void add_circle(Sources& sources, double radius, double z, bool reversed) {
   constexpr int n = 400;
   SpaceCurve circle;
   circle.points.resize(n + 1, 3);
@@ -42,7 +42,7 @@ struct Error {
 Error error(const Case& c, Domain domain, int n) {
   const test::Shape shape = c.shape(domain, n);
   const bool sphere = c.name.front() == 's';
-  SurfaceSources sources;
+  Sources sources;
   Vec3 top = Vec3::UnitZ();
   if (c.point) {
     Eigen::Index v = 0;

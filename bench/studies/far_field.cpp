@@ -21,7 +21,7 @@
 #include "methods/heat/time_scale.h"
 #include "operators/triangles.h"
 #include "sources/pieces.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 #include "sources/triangle_sources.h"
 #include "subdivided_meshes.h"
 #include "test_meshes.h"
@@ -32,30 +32,29 @@ namespace {
 constexpr int fifths = 5;
 double given_scale = 0;  // 0: automatic
 
-VecX signed_heat(const SurfaceMesh& mesh, const SurfaceSources& sources, double& scale,
-                 Report& report) {
+VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, double& scale, Report& report) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-  const SourceTerms terms = source_terms(mesh, T, prepare(mesh, sources, false, report));
-  SignedHeatOptions options;
+  const SourceSystem terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
+  SignedHeat options;
   options.time_scale = given_scale > 0 ? given_scale : automatic_time_scale(terms, *ops);
-  SignedHeat method(ops, options.time_scale, {}, needed_diffusions(terms, options),
-                    Expect::one_solve);
+  SignedHeatSolver method(ops, options.time_scale, {}, needed_diffusions(terms, options),
+                          SolveHint::single_rhs);
   scale = options.time_scale;
   if (given_scale > 0) return method.solve(terms, options, {}, report);
   return solve_raising(
       method, scale,
-      [&](const SignedHeat& heat, const Task& task, Report& r) {
+      [&](const SignedHeatSolver& heat, const Task& task, Report& r) {
         return heat.solve(terms, options, task, r);
       },
       {}, report);
 }
 
-VecX exact(const SurfaceMesh& mesh, const SurfaceSources& sources) {
+VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return exact_polyhedral(T, triangle_sources(mesh, T, prepare(mesh, sources, false, report)), {},
-                          report);
+  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)),
+                          {}, report);
 }
 
 /// Mean error in each fifth of the distance and the largest, in % of the largest distance.
@@ -89,7 +88,7 @@ void octasphere(int level) {
   VecX angle(x.rows());  // from vertex 4, the pole
   for (Eigen::Index i = 0; i < x.rows(); ++i)
     angle[i] = std::atan2(std::hypot(x(i, 0), x(i, 1)), x(i, 2));
-  SurfaceSources around, pole;
+  Sources around, pole;
   constexpr int n = 720;
   SpaceCurve circle{MatX3(n + 1, 3), true, "circle"};
   for (int k = 0; k <= n; ++k) {
@@ -108,9 +107,9 @@ void octasphere(int level) {
   print_row(name, mesh.n_faces(), "point", scale, from_pole, angle);
 }
 
-SurfaceSources curve_through(const std::vector<int>& nodes) {
-  SurfaceSources sources;
-  SurfaceCurve curve;
+Sources curve_through(const std::vector<int>& nodes) {
+  Sources sources;
+  Curve curve;
   for (int v : nodes) curve.nodes.push_back(SurfacePoint::at_vertex(v));
   sources.curves.push_back(std::move(curve));
   return sources;
@@ -119,7 +118,7 @@ SurfaceSources curve_through(const std::vector<int>& nodes) {
 void real_mesh(const char* path, int times) {
   PolygonSoup soup = io::read_surface(path);
   const SurfaceMesh coarse(soup);
-  SurfaceSources point;
+  Sources point;
   point.points.push_back(SurfacePoint::at_vertex(soup.corners.front()));
   const VecX from_point = exact(coarse, point);
   double most = 0;

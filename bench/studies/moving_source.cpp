@@ -13,17 +13,17 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "methods/quadratic/quadratic_program.h"
 #include "sources/pieces.h"
 
 namespace littoral {
 namespace {
 
-using Solver = ParabolicSolver<6, 2>;
+using Solver = ParaboloidSolver<6, 2>;
 
 double seconds() {
   timespec t{};
@@ -81,13 +81,13 @@ void run(int steps, const std::string& path, double tolerance) {
     Total total;
     std::optional<VecX> last;
     for (const SurfacePoint& place : places) {
-      SurfaceSources sources;
+      Sources sources;
       sources.points.push_back(place);
-      const auto points = p2_sources(mesh, T, prepare(mesh, sources, false, report), 0);
+      const auto points = p2_sources(mesh, T, place_sources(mesh, sources, false, report), 0);
       double spent = -seconds();
       const QuadraticProgram<2> program(E, part, points, 1e-4 * E.h);
       const VecX start = last && before > 0 ? VecX(before * *last) : program.start();
-      const ParabolicResult result = kept->solve(
+      const ParaboloidResult result = kept->solve(
           program.program(), start, {tolerance, 100},
           [&](const VecX& u, double share) { return program.violated(u, share * 100 * tolerance); },
           Task());

@@ -55,7 +55,7 @@ const std::vector<Shape>& shapes() {
 struct Way {
   std::string name;
   std::string method;
-  OptionTexts options;
+  OptionValues options;
   bool tets = false;
 };
 

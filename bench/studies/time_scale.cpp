@@ -15,7 +15,7 @@
 #include "methods/heat/signed_heat.h"
 #include "operators/triangles.h"
 #include "sources/pieces.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 #include "sources/triangle_sources.h"
 
 namespace littoral {
@@ -25,21 +25,21 @@ constexpr double scales[] = {0.25, 1, 2, 4, 8, 16, 64};
 
 struct Case {
   const char* kind;
-  SurfaceSources whole, given;
+  Sources whole, given;
 };
 
 std::vector<Case> cases(const SurfaceMesh& mesh, const Operators& ops) {
   std::vector<Case> out;
   const auto u = eigenfunctions(ops, 4);
   for (std::size_t k : {1, 3}) {
-    const SurfaceSources smooth = whole(isolines(mesh, u[k], 0));
-    const SurfaceSources corners = whole(isolines(mesh, u[k].cwiseMax(u[k - 1]), 0));
+    const Sources smooth = whole(isolines(mesh, u[k], 0));
+    const Sources corners = whole(isolines(mesh, u[k].cwiseMax(u[k - 1]), 0));
     out.push_back({"smooth curves", smooth, smooth});
     out.push_back({"curves with corners", corners, corners});
     out.push_back({"broken curves", smooth, damaged(smooth, 0.4, 0, static_cast<unsigned>(k))});
   }
   for (const int n : {1, 10}) {
-    SurfaceSources points;
+    Sources points;
     for (int i = 0; i < n; ++i) {
       const int corner = static_cast<int>((i + 0.5) / n * 3 * mesh.n_faces());
       points.points.push_back(SurfacePoint::at_vertex(mesh.soup().corners[corner]));
@@ -56,15 +56,15 @@ void study(const char* path) {
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
   const auto all = cases(mesh, *ops);
   std::vector<VecX> truth;
-  std::vector<SourceTerms> terms;
+  std::vector<SourceSystem> terms;
   for (const Case& c : all) {
-    const auto sources = triangle_sources(mesh, T, prepare(mesh, c.whole, false, report));
+    const auto sources = triangle_sources(mesh, T, place_sources(mesh, c.whole, false, report));
     truth.push_back(exact_polyhedral(T, sources, {}, report));
-    terms.push_back(source_terms(mesh, T, prepare(mesh, c.given, false, report)));
+    terms.push_back(source_system(mesh, T, place_sources(mesh, c.given, false, report)));
   }
   const VecX& M = ops->scalar.M;
   for (const double scale : scales) {
-    const SignedHeat method(ops, scale);
+    const SignedHeatSolver method(ops, scale);
     for (std::size_t c = 0; c < all.size(); ++c) {
       const VecX phi = method.solve(terms[c], {}, {}, report);
       double sum = 0, area = 0, most = 0, worst = 0;

@@ -55,14 +55,14 @@ void row(int n) {
   const double before = memory();
   double built = 0;
   const auto make = [&](ToriPrecision precision) {
-    std::unique_ptr<const Tori> out;
+    std::unique_ptr<const ToriDistance> out;
     built = microseconds(
-        n, [&] { out = std::make_unique<const Tori>(cloud.points, fitted, precision); });
+        n, [&] { out = std::make_unique<const ToriDistance>(cloud.points, fitted, precision); });
     return out;
   };
-  const std::unique_ptr<const Tori> full = make(ToriPrecision::full);
+  const std::unique_ptr<const ToriDistance> full = make(ToriPrecision::full);
   const double bytes = (memory() - before) / n;
-  const std::unique_ptr<const Tori> single = make(ToriPrecision::single);
+  const std::unique_ptr<const ToriDistance> single = make(ToriPrecision::single);
   std::printf("| %d | %.2f | %.2f | %.2f | %.0f |", n, fit, by_net, built, bytes);
   for (const double reach : {1.0, 8.0, 0.0}) {  // spacings from a point; 0: anywhere in a box
     std::vector<Vec3> places;

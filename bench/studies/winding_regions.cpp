@@ -271,16 +271,16 @@ int main(int argc, char** argv) {
       }
       for (const Chain& loop : handle_loops(*J, mesh, loops, random))
         add_broken(loop, missing, random, curve);
-      const SurfaceWinding winding(J);
-      WindingOptions options;
+      const WindingSolver winding(J);
+      SurfaceWinding options;
       const auto share = [&] {
         return wrong_share(*J, winding.solve(curve, options, {}, report).region, truth);
       };
       round.share.push_back(share());
-      options.labels = static_cast<int>(Labels::cut);
+      options.labels = Labels::cut;
       cut.share.push_back(share());
-      options.labels = static_cast<int>(Labels::round);
-      options.residual = static_cast<int>(Residual::paths);
+      options.labels = Labels::round;
+      options.residual = Residual::paths;
       paths.share.push_back(share());
       options.keep_nonbounding = true;
       naive.share.push_back(share());

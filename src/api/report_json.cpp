@@ -96,22 +96,24 @@ std::string info_json(const std::vector<InfoEntry>& entries) {
   return dump(out);
 }
 
-std::string methods_json(const std::vector<MethodInfo>& methods) {
+std::string methods_json(const std::vector<MethodFamily>& families) {
   Json out = Json::array();
-  for (const MethodInfo& method : methods) {
-    Json options = Json::array();
-    for (const OptionInfo& info : method.options)
-      options.push_back({{"name", info.name},
-                         {"unit", info.unit},
-                         {"range", option_range_text(info)},
-                         {"default", option_value(info.fallback)},
-                         {"help", info.help}});
-    out.push_back({{"name", method.name},
-                   {"summary", method.summary},
-                   {"domains", method.domains},
-                   {"options", options},
-                   {"reference", method.reference}});
-  }
+  for (const MethodFamily& family : families)
+    for (const MethodInfo& method : family.methods) {
+      Json options = Json::array();
+      for (const OptionInfo& info : method.options)
+        options.push_back({{"name", info.name},
+                           {"unit", info.unit},
+                           {"range", info.range()},
+                           {"default", option_value(info.fallback)},
+                           {"help", info.help}});
+      out.push_back({{"name", method.name},
+                     {"for", family.title},
+                     {"summary", method.summary},
+                     {"domains", method.domains},
+                     {"options", options},
+                     {"reference", method.reference}});
+    }
   return dump(out);
 }
 

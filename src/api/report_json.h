@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "api/registry.h"
 #include "api/surface/mesh_info.h"
-#include "base/report.h"
+#include "littoral/methods.h"
+#include "littoral/report.h"
 
 namespace littoral {
 
@@ -19,6 +19,6 @@ std::string report_json(const Report& report);
 std::string info_json(const std::vector<InfoEntry>& entries);
 
 /// A list of objects: name, summary, domains, options, reference.
-std::string methods_json(const std::vector<MethodInfo>& methods);
+std::string methods_json(const std::vector<MethodFamily>& families);
 
 }  // namespace littoral

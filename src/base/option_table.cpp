@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "littoral/error.h"
+
 namespace littoral {
 
 std::string number_text(double value) {
@@ -11,19 +13,29 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
-std::string option_range_text(const OptionInfo& info) {
-  if (info.is_switch) return "on or off";
-  if (info.is_text) return "any text";
-  if (info.choices.empty()) return number_text(info.low) + " to " + number_text(info.high);
+std::string OptionInfo::range() const {
+  switch (kind) {
+    case Kind::toggle:
+      return "on or off";
+    case Kind::text:
+      return "any text";
+    case Kind::number:
+    case Kind::integer:
+      return number_text(low) + " to " + number_text(high);
+    case Kind::choice:
+      break;
+  }
   std::string text;
-  for (const auto& choice : info.choices) text += (text.empty() ? "" : ", ") + choice;
+  for (const auto& word : choices) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
 namespace {
 [[noreturn]] void throw_bad_value(const OptionInfo& info, const std::string& text) {
-  throw InputError("option " + info.name + ": '" + text +
-                   "' is not one of: " + option_range_text(info));
+  throw InputError("option " + info.name + ": '" + text + "' is not one of: " + info.range());
+}
+[[noreturn]] void throw_out_of_range(const OptionInfo& info, const std::string& value) {
+  throw InputError("option " + info.name + ": " + value + " is outside " + info.range());
 }
 }  // namespace
 
@@ -32,10 +44,19 @@ double parse_option_number(const OptionInfo& info, const std::string& text) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size())
     throw InputError("option " + info.name + ": '" + text + "' is not a number");
-  if (!(value >= info.low && value <= info.high))
-    throw InputError("option " + info.name + ": " + text + " is outside " +
-                     option_range_text(info));
+  if (!(value >= info.low && value <= info.high)) throw_out_of_range(info, text);
   return value;
+}
+
+int parse_option_integer(const OptionInfo& info, const std::string& text) {
+  const double value = parse_option_number(info, text);
+  if (value != std::floor(value))
+    throw InputError("option " + info.name + ": " + text + " is not a whole number");
+  return static_cast<int>(value);
+}
+
+void check_option_range(const OptionInfo& info, double value) {
+  if (!(value >= info.low && value <= info.high)) throw_out_of_range(info, number_text(value));
 }
 
 int parse_option_choice(const OptionInfo& info, const std::string& text) {

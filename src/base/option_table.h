@@ -1,105 +1,137 @@
 #pragma once
 // One descriptor table per options struct: it feeds flags, keywords, the viewer and the docs.
 
+#include <functional>
+#include <limits>
 #include <string>
-#include <variant>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "littoral/methods.h"
 
 namespace littoral {
 
-/// What the world may know about one option.
-struct OptionInfo {
-  std::string name;                  // as typed: "time-scale"
-  std::string unit;                  // "", "[length]", "multiple of h^2"
-  double low = 0, high = 0;          // numbers: allowed range, inclusive
-  std::vector<std::string> choices;  // words: allowed values
-  std::string fallback;              // default, as text
-  std::string help;                  // one sentence
-  bool is_switch = false;
-  bool is_text = false;  // any text, e.g. the name of a file
-};
-
 /// Parses a finite number in [low, high]; throws InputError naming the option and its range.
 double parse_option_number(const OptionInfo& info, const std::string& text);
+/// The same for a whole number.
+int parse_option_integer(const OptionInfo& info, const std::string& text);
 /// Position of a word among the choices; throws InputError listing them.
 int parse_option_choice(const OptionInfo& info, const std::string& text);
 bool parse_option_switch(const OptionInfo& info, const std::string& text);
-std::string option_range_text(const OptionInfo& info);
 std::string number_text(double value);
+/// Throws InputError unless the number is in [low, high].
+void check_option_range(const OptionInfo& info, double value);
 [[noreturn]] void throw_unknown_option(const std::string& name,
                                        const std::vector<OptionInfo>& known);
 
-/// Binds option names to the members of a plain struct S (numbers, switches, enumerations as int,
-/// texts).
+/// Binds option names to the members of a plain struct S.
 template <class S>
 class OptionTable {
  public:
-  using Member = std::variant<double S::*, bool S::*, int S::*, std::string S::*>;
-
   OptionTable& number(double S::*m, std::string name, std::string unit, double low, double high,
                       std::string help) {
-    OptionInfo info{std::move(name), std::move(unit), low, high, {}, {}, std::move(help), false};
-    info.fallback = number_text(S{}.*m);
-    return add(std::move(info), m);
+    OptionInfo info = described(OptionInfo::Kind::number, std::move(name), std::move(help));
+    info.unit = std::move(unit);
+    info.low = low;
+    info.high = high;
+    return add(
+        std::move(info),
+        [m](S& s, const OptionInfo& i, const std::string& text) {
+          s.*m = parse_option_number(i, text);
+        },
+        [m](const S& s, const OptionInfo&) { return number_text(s.*m); },
+        [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
+  }
+  OptionTable& integer(int S::*m, std::string name, std::string unit, int low, int high,
+                       std::string help) {
+    OptionInfo info = described(OptionInfo::Kind::integer, std::move(name), std::move(help));
+    info.unit = std::move(unit);
+    info.low = low;
+    info.high = high;
+    return add(
+        std::move(info),
+        [m](S& s, const OptionInfo& i, const std::string& text) {
+          s.*m = parse_option_integer(i, text);
+        },
+        [m](const S& s, const OptionInfo&) { return std::to_string(s.*m); },
+        [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
   }
   OptionTable& toggle(bool S::*m, std::string name, std::string help) {
-    OptionInfo info{std::move(name), "", 0, 1, {}, S{}.*m ? "on" : "off", std::move(help), true};
-    return add(std::move(info), m);
+    return add(
+        described(OptionInfo::Kind::toggle, std::move(name), std::move(help)),
+        [m](S& s, const OptionInfo& i, const std::string& text) {
+          s.*m = parse_option_switch(i, text);
+        },
+        [m](const S& s, const OptionInfo&) { return std::string(s.*m ? "on" : "off"); }, nullptr);
   }
-  OptionTable& choice(int S::*m, std::string name, std::vector<std::string> choices,
+  /// E: an enum class whose values count from 0 in the order of `choices`.
+  template <class E>
+  OptionTable& choice(E S::*m, std::string name, std::vector<std::string> choices,
                       std::string help) {
-    OptionInfo info{std::move(name), "", 0, 0, std::move(choices), "", std::move(help), false};
-    info.fallback = info.choices.at(static_cast<std::size_t>(S{}.*m));
-    return add(std::move(info), m);
+    static_assert(std::is_enum_v<E>);
+    OptionInfo info = described(OptionInfo::Kind::choice, std::move(name), std::move(help));
+    info.choices = std::move(choices);
+    return add(
+        std::move(info),
+        [m](S& s, const OptionInfo& i, const std::string& text) {
+          s.*m = static_cast<E>(parse_option_choice(i, text));
+        },
+        [m](const S& s, const OptionInfo& i) {
+          return i.choices.at(static_cast<std::size_t>(s.*m));
+        },
+        nullptr);
   }
-
   OptionTable& text(std::string S::*m, std::string name, std::string unit, std::string help) {
-    OptionInfo info{std::move(name), std::move(unit), 0, 0, {}, "none", std::move(help), false};
-    info.is_text = true;
-    return add(std::move(info), m);
+    OptionInfo info = described(OptionInfo::Kind::text, std::move(name), std::move(help));
+    info.unit = std::move(unit);
+    return add(
+        std::move(info), [m](S& s, const OptionInfo&, const std::string& text) { s.*m = text; },
+        [m](const S& s, const OptionInfo&) { return (s.*m).empty() ? "none" : s.*m; }, nullptr);
   }
 
   const std::vector<OptionInfo>& infos() const { return infos_; }
 
   /// Sets one option from text; throws InputError for an unknown name or a value out of range.
   void set(S& options, const std::string& name, const std::string& text) const {
-    for (std::size_t i = 0; i < infos_.size(); ++i) {
-      if (infos_[i].name != name) continue;
-      if (auto m = std::get_if<double S::*>(&members_[i])) {
-        options.** m = parse_option_number(infos_[i], text);
-      } else if (auto b = std::get_if<bool S::*>(&members_[i])) {
-        options.** b = parse_option_switch(infos_[i], text);
-      } else if (auto t = std::get_if<std::string S::*>(&members_[i])) {
-        options.** t = text;
-      } else {
-        options.*std::get<int S::*>(members_[i]) = parse_option_choice(infos_[i], text);
-      }
-      return;
-    }
+    for (std::size_t i = 0; i < infos_.size(); ++i)
+      if (infos_[i].name == name) return access_[i].set(options, infos_[i], text);
     throw_unknown_option(name, infos_);
   }
-
   std::string get(const S& options, std::size_t i) const {
-    if (auto m = std::get_if<double S::*>(&members_[i])) return number_text(options.**m);
-    if (auto b = std::get_if<bool S::*>(&members_[i])) return options.**b ? "on" : "off";
-    if (auto t = std::get_if<std::string S::*>(&members_[i])) {
-      const std::string& text = options.**t;
-      return text.empty() ? infos_[i].fallback : text;
-    }
-    const int at = options.*std::get<int S::*>(members_[i]);
-    return infos_[i].choices.at(static_cast<std::size_t>(at));
+    return access_[i].get(options, infos_[i]);
+  }
+  /// Throws InputError naming the first option whose value is out of range.
+  void check(const S& options) const {
+    for (std::size_t i = 0; i < infos_.size(); ++i)
+      if (access_[i].check) access_[i].check(options, infos_[i]);
   }
 
  private:
-  OptionTable& add(OptionInfo info, Member member) {
+  struct Access {
+    std::function<void(S&, const OptionInfo&, const std::string&)> set;
+    std::function<std::string(const S&, const OptionInfo&)> get;
+    std::function<void(const S&, const OptionInfo&)> check;  // none: every value will do
+  };
+  static OptionInfo described(OptionInfo::Kind kind, std::string name, std::string help) {
+    OptionInfo info;
+    info.kind = kind;
+    info.name = std::move(name);
+    info.help = std::move(help);
+    return info;
+  }
+  template <class Set, class Get, class Check>
+  OptionTable& add(OptionInfo info, Set set, Get get, Check check) {
+    info.fallback = get(S{}, info);
     infos_.push_back(std::move(info));
-    members_.push_back(member);
+    Access access{std::move(set), std::move(get), {}};
+    if constexpr (std::is_invocable_v<Check, const S&, const OptionInfo&>)
+      access.check = std::move(check);
+    access_.push_back(std::move(access));
     return *this;
   }
   std::vector<OptionInfo> infos_;
-  std::vector<Member> members_;
+  std::vector<Access> access_;
 };
 
 }  // namespace littoral

@@ -1,4 +1,4 @@
-#include "base/report.h"
+#include "littoral/report.h"
 
 namespace littoral {
 

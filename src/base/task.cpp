@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -6,12 +6,12 @@
 #include <iostream>
 #include <new>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "cli/input/method_options.h"
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs/verbs.h"
+#include "littoral/error.h"
 
 namespace {
 
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   cli::add_view(program, session);
   cli::add_render(program, session);
   try {
-    std::vector<std::string> arguments = cli::with_words(argc, argv);
+    std::vector<std::string> arguments = cli::expand_optional_values(argc, argv);
     std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 

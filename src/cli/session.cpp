@@ -10,9 +10,9 @@
 #include <iostream>
 
 #include "api/report_json.h"
-#include "base/error.h"
 #include "base/option_table.h"
 #include "io/render/scene.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 
 namespace littoral::cli {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "base/types.h"
 #include "contour/cell_topology.h"
+#include "littoral/types.h"
 
 namespace littoral::cell {
 

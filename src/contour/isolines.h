@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "base/types.h"
 #include "domain/mesh/surface_mesh.h"
-#include "domain/mesh/surface_point.h"
+#include "littoral/surface_point.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

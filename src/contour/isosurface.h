@@ -1,12 +1,12 @@
 #pragma once
 // Level sets of functions in space, as triangle meshes.
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/tet/tet_mesh.h"
-#include "domain/volume/grid.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/tet_mesh.h"
+#include "littoral/types.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 

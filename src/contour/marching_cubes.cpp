@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "contour/cell_surface.h"
 #include "contour/isosurface.h"
 #include "contour/rough_surface.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -118,7 +118,7 @@ class Marcher {
     RoughSurface rough;
     const auto slices = static_cast<std::size_t>(s_.n[2]);
     rough.points.resize(start_[slices]);
-    rough.apart.resize(start_[slices]);
+    rough.separated_points.resize(start_[slices]);
     rough.node.resize(start_[slices]);
     place_points(rough);
     std::vector<Layer> layers(slices - 1);

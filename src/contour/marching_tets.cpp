@@ -105,7 +105,7 @@ PolygonSoup isosurface(const TetMesh& mesh, const VecX& values, double level, Re
 
   RoughSurface rough;
   rough.points.resize(edges.size());
-  rough.apart.resize(edges.size());
+  rough.separated_points.resize(edges.size());
   rough.node.resize(edges.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto [low, high] = edges[e];

@@ -148,7 +148,8 @@ void Merger::merge(int u, int v) {
   const int su = slot_[u], sv = slot_[v];
   const double total = merged_[su] + merged_[sv];
   r_.points[u] = (merged_[su] * r_.points[u] + merged_[sv] * r_.points[v]) / total;
-  r_.apart[u] = (merged_[su] * r_.apart[u] + merged_[sv] * r_.apart[v]) / total;
+  r_.separated_points[u] =
+      (merged_[su] * r_.separated_points[u] + merged_[sv] * r_.separated_points[v]) / total;
   merged_[su] += merged_[sv];
   merged_[sv] = 0;
   for (int t : faces_[sv]) {
@@ -194,7 +195,7 @@ void Merger::merge(const Task& task) {
   }
   for (const Cluster& cluster : clusters_) {
     if (cluster.size() < 2) continue;
-    for (int v : cluster) r_.points[v] = r_.apart[v];
+    for (int v : cluster) r_.points[v] = r_.separated_points[v];
   }
 }
 

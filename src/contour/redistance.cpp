@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 #include "spatial/triangle_bvh.h"
 
 namespace littoral {
@@ -41,14 +41,14 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
       const Vec3 first = grid.point(low[0], low[1], low[2]);
       const Vec3 last = grid.point(high[0] - 1, high[1] - 1, high[2] - 1);
       const Vec3 middle = 0.5 * first + 0.5 * last;
-      const ClosestPoint found = bvh.closest_point(middle);
+      const NearestPoint found = bvh.closest_point(middle);
       if (found.distance > reach + (last - middle).norm()) continue;
       int before = found.face;
       for (int k = low[2]; k < high[2]; ++k) {
         for (int j = low[1]; j < high[1]; ++j) {
           for (int i = low[0]; i < high[0]; ++i) {
             double& d = distance[static_cast<Eigen::Index>(grid.node(i, j, k))];
-            const ClosestPoint foot = bvh.closest_point(grid.point(i, j, k), before);
+            const NearestPoint foot = bvh.closest_point(grid.point(i, j, k), before);
             before = foot.face;
             const double near = std::min(reach, foot.distance);
             d = d > 0 ? near : -near;

@@ -3,9 +3,9 @@
 // closing.
 
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/volume/grid.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/types.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 

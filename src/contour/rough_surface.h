@@ -6,11 +6,11 @@
 #include <limits>
 #include <vector>
 
-#include "base/error.h"
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/error.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 
 namespace littoral {
 
@@ -18,7 +18,8 @@ struct RoughSurface {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::int64_t> node;  // the node (or vertex) that a point is close to, or -1
-  std::vector<Vec3> apart;         // the same points, no closer than 1/1000 of an edge to a node
+  std::vector<Vec3>
+      separated_points;  // the same points, no closer than 1/1000 of an edge to a node
 };
 
 inline constexpr double close_to_node = 0.05, apart_from_node = 1e-3;  // of an edge
@@ -31,7 +32,7 @@ inline void check_count(std::size_t count) {
 /// A point that belongs to no edge.
 inline void add_point(RoughSurface& rough, const Vec3& p) {
   rough.points.push_back(p);
-  rough.apart.push_back(p);
+  rough.separated_points.push_back(p);
   rough.node.push_back(-1);
 }
 
@@ -39,13 +40,13 @@ inline void add_point(RoughSurface& rough, const Vec3& p) {
 template <class At>
 void place_crossing(RoughSurface& rough, std::size_t c, double t, std::int64_t node, const At& at) {
   rough.points[c] = at(t);
-  rough.apart[c] = at(std::min(1 - apart_from_node, std::max(apart_from_node, t)));
+  rough.separated_points[c] = at(std::min(1 - apart_from_node, std::max(apart_from_node, t)));
   rough.node[c] = std::min(t, 1 - t) <= close_to_node ? node : -1;
 }
 
 /// Merges points close to the same node along edges of the mesh, where the mesh stays manifold;
-/// points that remain together at one node are moved apart. Components that have collapsed to a
-/// point are dropped.
+/// points that remain together at one node are moved separated_points. Components that have
+/// collapsed to a point are dropped.
 PolygonSoup merge_close_points(RoughSurface rough, const Task& task);
 
 /// Counts the edges with one face and warns of them: the level set has met the boundary.

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "base/report.h"
-#include "domain/mesh/polygon_soup.h"
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
 
 namespace littoral::io {
 
@@ -45,15 +45,15 @@ PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extens
 ///       otherwise free polylines in space. Single segments are joined head to tail.
 ///
 /// `index_base` (0 or 1) overrides the bases of .txt and .json. Warnings go to the report.
-SurfaceSources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                            std::optional<int> index_base, Report& report);
-SurfaceSources read_sources_bytes(std::string_view bytes, const std::string& extension,
-                                  const std::string& name, const SurfaceMesh& mesh,
-                                  std::optional<int> index_base, Report& report);
+Sources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                     std::optional<int> index_base, Report& report);
+Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
+                           const std::string& name, const SurfaceMesh& mesh,
+                           std::optional<int> index_base, Report& report);
 
 /// The polylines of a mesh file's own `l` lines, as signed curves on its vertices. A file of single
 /// segments has them joined head to tail. Throws InputError for a line through a non-finite vertex.
-SurfaceSources sources_from_lines(const PolygonSoup& soup, const std::string& name);
+Sources sources_from_lines(const PolygonSoup& soup, const std::string& name);
 
 /// Whole file; throws IoError naming it (missing, unreadable, a directory).
 std::string read_bytes(const std::filesystem::path& path);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <system_error>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <system_error>
 
-#include "base/error.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

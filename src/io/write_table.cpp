@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <sstream>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/text_scan.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

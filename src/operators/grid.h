@@ -3,10 +3,10 @@
 
 #include <functional>
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/volume/grid.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
+#include "littoral/volume.h"
 #include "operators/calculus.h"
 
 namespace littoral {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "base/types.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "solve/direct/sparse_rows.h"
 
 namespace littoral {

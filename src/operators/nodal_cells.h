@@ -38,7 +38,7 @@ class NodalCells {
   Interpolation P_;                // vertices x nodes; the first rows are those of the identity
   MatX3i corner_;                  // cells x 3, vertices
   MatX3 slope_;                    // cells x 3: gradients of the hat functions of corners 1 and 2
-                                   // are (slope 0, slope 1) and (0, slope 2)
+                                   // are (slope 0, unit gradient) and (0, slope 2)
   VecXc to_frame_;                 // cells: from the frame of the patch to that of the cell
   std::vector<int> cell_offsets_;  // patches + 1
   std::vector<int> node_offsets_;  // patches + 1, into:

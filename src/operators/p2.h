@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/types.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/types.h"
 #include "operators/calculus.h"
 
 namespace littoral {

@@ -1,7 +1,7 @@
 #pragma once
 // Piecewise quadratic functions on a tet mesh.
 
-#include "domain/tet/tet_mesh.h"
+#include "littoral/tet_mesh.h"
 #include "operators/p2.h"
 #include "operators/tet_operators.h"
 

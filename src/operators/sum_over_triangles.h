@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/error.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

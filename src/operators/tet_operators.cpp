@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

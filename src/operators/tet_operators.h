@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/types.h"
-#include "domain/tet/tet_mesh.h"
+#include "littoral/tet_mesh.h"
+#include "littoral/types.h"
 #include "operators/calculus.h"
 
 namespace littoral {

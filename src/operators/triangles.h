@@ -13,8 +13,8 @@ namespace littoral {
 Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
                            const Task& task = {});
 
-/// The operators of a triangle mesh (signed heat method, section 5). Carriers are edges, nodes are
-/// vertices, cells are faces. The triangulation is shared, or copied.
+/// The operators of a triangle mesh (signed heat method, section 5). VectorDofs are edges, nodes
+/// are vertices, cells are faces. The triangulation is shared, or copied.
 Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>& T,
                              const Task& task = {});
 Operators triangle_operators(const IntrinsicTriangulation& T);

@@ -4,7 +4,7 @@
 
 namespace littoral {
 
-std::vector<SurfaceCurve> boundary_curves(const SurfaceMesh& mesh) {
+std::vector<Curve> boundary_curves(const SurfaceMesh& mesh) {
   std::vector<std::vector<int>> at(static_cast<std::size_t>(mesh.n_vertices()));  // edges
   std::vector<int> on_boundary;
   for (int e = 0; e < mesh.n_edges(); ++e) {
@@ -13,10 +13,10 @@ std::vector<SurfaceCurve> boundary_curves(const SurfaceMesh& mesh) {
     for (int k = 0; k < 2; ++k) at[mesh.edges()(e, k)].push_back(e);
   }
   std::vector<char> walked(static_cast<std::size_t>(mesh.n_edges()), 0);
-  std::vector<SurfaceCurve> curves;
+  std::vector<Curve> curves;
   for (int first : on_boundary) {
     if (walked[first]) continue;
-    SurfaceCurve curve;
+    Curve curve;
     curve.is_signed = false;
     curve.origin = "boundary loop " + std::to_string(curves.size());
     int v = mesh.edges()(first, 0);

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/sources.h"
 
 namespace littoral {
 
 /// One closed, unsigned curve for each loop of edges that have one face, through vertices; where
 /// loops touch at a vertex, any way of telling them apart. Empty for closed surfaces.
-std::vector<SurfaceCurve> boundary_curves(const SurfaceMesh& mesh);
+std::vector<Curve> boundary_curves(const SurfaceMesh& mesh);
 
 }  // namespace littoral

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "domain/cloud/cloud_normals.h"
+#include "littoral/error.h"
 #include "sources/oriented_points.h"
 #include "spatial/point_tree.h"
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool any_signed(const PreparedSources& sources) {
+bool any_signed(const PlacedSources& sources) {
   return std::any_of(sources.pieces.begin(), sources.pieces.end(),
                      [](const CurvePiece& piece) { return piece.is_signed; });
 }
@@ -23,7 +23,7 @@ bool any_signed(const PreparedSources& sources) {
 /// The given sources, seen from nearby.
 class Nearby {
  public:
-  Nearby(const SurfaceMesh& mesh, const PreparedSources& sources) : mesh_(mesh) {
+  Nearby(const SurfaceMesh& mesh, const PlacedSources& sources) : mesh_(mesh) {
     std::map<std::tuple<int, int, double, double, double>, int> ends;
     const auto key = [](const SurfacePoint& p) {
       const bool vertex = p.on == SurfacePoint::On::vertex;
@@ -87,9 +87,9 @@ class Nearby {
 
 }  // namespace
 
-PreparedSources completed_curves(const SurfaceMesh& mesh, const PreparedSources& sources,
-                                 const VecX& phi) {
-  PreparedSources out = sources;
+PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sources,
+                               const VecX& phi) {
+  PlacedSources out = sources;
   if (!any_signed(sources)) return out;
   const Nearby given(mesh, sources);
   for (const Polyline& line : isolines(mesh, phi, 0)) {
@@ -120,7 +120,7 @@ PreparedSources completed_curves(const SurfaceMesh& mesh, const PreparedSources&
 }
 
 CurveSides::CurveSides(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                       const PreparedSources& sources, const VecX& phi)
+                       const PlacedSources& sources, const VecX& phi)
     : T_(T), phi_(phi), first_(static_cast<std::size_t>(T.n_faces()) + 1, 0) {
   for (const CurvePiece& piece : sources.pieces)
     if (piece.is_signed && T.triangle_of_face[piece.face] >= 0)

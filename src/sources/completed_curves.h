@@ -15,16 +15,16 @@ namespace littoral {
 /// it fills gaps: pieces beside a curve are left out, those beyond its ends and far from all curves
 /// stay. They follow the given pieces, as curves of their own. Nothing is added if no curve is
 /// signed.
-PreparedSources completed_curves(const SurfaceMesh& mesh, const PreparedSources& sources,
-                                 const VecX& phi);
+PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sources,
+                               const VecX& phi);
 
 /// Signs: to the left (+1) or right (-1) of the nearest signed piece in triangles that hold one, of
 /// phi elsewhere, and +1 everywhere if no curve is signed.
 class CurveSides {
  public:
   /// `sources` as given, without completions.
-  CurveSides(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-             const PreparedSources& sources, const VecX& phi);
+  CurveSides(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const PlacedSources& sources,
+             const VecX& phi);
 
   /// At a point of a triangle.
   double at(int triangle, const P2Shape<2>::Point& b) const;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -41,7 +41,7 @@ bool halve_lonely(const CutMesh& cut, const VecX& times, std::vector<CutSegment>
 
 }  // namespace
 
-std::vector<CurvePiece> signed_pieces(const PreparedSources& sources, Report& report) {
+std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report) {
   std::vector<CurvePiece> pieces;
   for (const CurvePiece& piece : sources.pieces)
     if (piece.is_signed) pieces.push_back(piece);

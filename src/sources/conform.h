@@ -16,7 +16,7 @@ struct ConformingCurves {
 
 /// The pieces that have sides: of signed curves. Others are left out with a warning. Throws
 /// InputError if none remains.
-std::vector<CurvePiece> signed_pieces(const PreparedSources& sources, Report& report);
+std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report);
 
 /// Signed curves as a chain of edges. Parts of one edge that no other follows are halved, because
 /// ends of curves carry no jump.

@@ -31,7 +31,7 @@ std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfaceP
   return {{c[0], p.b[0]}, {c[1], p.b[1]}, {c[2], p.b[2]}};
 }
 
-void ConstraintRows::end_run() {
+void ConstraintRowBuilder::end_run() {
   double total = 0;
   for (const Row& piece : run_) total += piece.weight;
   const double block = total / std::max(1.0, std::round(total / 2.5));
@@ -49,7 +49,7 @@ void ConstraintRows::end_run() {
   run_.clear();
 }
 
-void ConstraintRows::write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceTerms& terms) {
+void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& terms) {
   end_run();
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
     if (nodes.weight[i] > 0)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.h"
-#include "sources/source_terms.h"
+#include "sources/source_system.h"
 #include "sources/surface_points.h"
 
 namespace littoral {
@@ -35,10 +35,10 @@ std::vector<std::pair<int, double>> hats(const SurfaceMesh& mesh, const SurfaceP
 /// through faces holds means over stretches of about 2.5 edge lengths: as many conditions as
 /// crossed edges would leave a linear function on the crossed triangles no choice but zero at all
 /// their corners.
-class ConstraintRows {
+class ConstraintRowBuilder {
  public:
   /// h: mean edge length.
-  explicit ConstraintRows(double h) : h_(h) {}
+  explicit ConstraintRowBuilder(double h) : h_(h) {}
 
   /// A piece inside a face: hat functions at its middle, its length, one of its nodes.
   void add_piece(const std::vector<std::pair<int, double>>& middle, double length, int node) {
@@ -48,7 +48,7 @@ class ConstraintRows {
   void end_run();
   /// Ends the last stretch, adds the nodes that have weight and writes A, weight, group and
   /// n_groups.
-  void write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceTerms& terms);
+  void write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& terms);
 
  private:
   struct Row {

@@ -1,7 +1,7 @@
 #pragma once
 // Clouds as methods want them: every point once, with a normal.
 
-#include "base/report.h"
+#include "littoral/report.h"
 #include "sources/oriented_points.h"
 
 namespace littoral {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -36,7 +36,7 @@ void cubic_weights(double t, double w[4], double dw[4]) {
 /// The values around one cell, 4 x 4 x 4 nodes, minus the level; the cell is the middle one.
 class CellCubic {
  public:
-  CellCubic(const VolumeField& field, const std::array<int, 3>& cell, double level) {
+  CellCubic(const Volume& field, const std::array<int, 3>& cell, double level) {
     const auto& n = field.grid.n;
     for (int k = 0; k < 4; ++k) {
       for (int j = 0; j < 4; ++j) {
@@ -140,7 +140,7 @@ struct LevelPoint {
 
 /// The point of a cell, moved along the slope onto the level set; false where there is none in or
 /// right beside the cell, or no slope.
-bool find_point(const VolumeField& field, const std::array<int, 3>& cell, double level,
+bool find_point(const Volume& field, const std::array<int, 3>& cell, double level,
                 LevelPoint& found) {
   const Grid& grid = field.grid;
   // Most cells end here.
@@ -174,7 +174,7 @@ bool find_point(const VolumeField& field, const std::array<int, 3>& cell, double
   return found.point.allFinite() && found.normal.allFinite() && found.normal.norm() > 0.5;
 }
 
-void check(const VolumeField& field, double level) {
+void check(const Volume& field, double level) {
   for (int n : field.grid.n)
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");
   if (static_cast<std::size_t>(field.values.size()) != field.grid.n_nodes())
@@ -188,7 +188,7 @@ void check(const VolumeField& field, double level) {
 
 }  // namespace
 
-PolygonSoup level_points(const VolumeField& field, double level, const Task& task) {
+PolygonSoup level_points(const Volume& field, double level, const Task& task) {
   check(field, level);
   const Grid& grid = field.grid;
   const int layers = grid.n[2] - 1;

@@ -3,8 +3,8 @@
 // function (thesis, section 5.2, figure 5.10).
 
 #include "base/task.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/volume/volume_field.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 
@@ -16,6 +16,6 @@ namespace littoral {
 ///
 /// Throws InputError for a grid of fewer than two nodes along an axis, a wrong number of values, a
 /// level that is not finite, or if the level set meets no cell.
-PolygonSoup level_points(const VolumeField& field, double level, const Task& task);
+PolygonSoup level_points(const Volume& field, double level, const Task& task);
 
 }  // namespace littoral

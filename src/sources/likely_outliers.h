@@ -1,8 +1,8 @@
 #pragma once
 // Points of a cloud that its other points do not bear out.
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "sources/oriented_points.h"
 
 namespace littoral {

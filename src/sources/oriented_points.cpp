@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -1,10 +1,10 @@
 #pragma once
 // What distance in space is measured from: meshes, soups and clouds become the same thing.
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "sources/surface_points.h"
 #include "sources/triangle_sources.h"
 
@@ -98,7 +98,7 @@ void sample(std::span<const CurvePiece> pieces, double step, Builder& out) {
 }  // namespace
 
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                    const PreparedSources& sources, double spacing) {
+                                    const PlacedSources& sources, double spacing) {
   Builder out(mesh, T);
   for (const SurfacePoint& p : sources.points) out.add_point(p);
   const std::span<const CurvePiece> pieces = sources.pieces;

@@ -25,6 +25,6 @@ struct P2Source {
 /// included, independent of the triangulation (quadratic-order geodesics, section 6.4). Throws
 /// InputError if no source lies on a face with three different vertices.
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                    const PreparedSources& sources, double spacing);
+                                    const PlacedSources& sources, double spacing);
 
 }  // namespace littoral

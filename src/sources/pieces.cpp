@@ -1,11 +1,10 @@
 #include "sources/pieces.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 
-#include "base/error.h"
-#include "sources/carry.h"
+#include "littoral/error.h"
+#include "sources/project_curves.h"
 #include "sources/trace.h"
 
 namespace littoral {
@@ -82,7 +81,7 @@ class Preparation {
     }
   }
 
-  PreparedSources finish(Report& report) {
+  PlacedSources finish(Report& report) {
     traced_.report_to(report);
     dropped_.report_to(report);
     vanished_.report_to(report);
@@ -117,7 +116,7 @@ class Preparation {
 
   const SurfaceMesh& mesh_;
   Tracer tracer_;
-  PreparedSources out_;
+  PlacedSources out_;
   Notes traced_, dropped_, vanished_;
 };
 
@@ -129,8 +128,8 @@ std::string curve_label(std::size_t index, const std::string& origin) {
 
 }  // namespace
 
-PreparedSources prepare(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip,
-                        Report& report, const Task& task) {
+PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
+                            const Task& task) {
   if (!sources.chains.empty())
     throw UnsupportedError(sources.chains[0].origin +
                            ": chains of faces say where winding numbers jump; distance is measured "
@@ -142,22 +141,18 @@ PreparedSources prepare(const SurfaceMesh& mesh, const SurfaceSources& sources, 
                        "; a curve needs at least two");
   };
   std::size_t index = 0;
-  for (const SurfaceCurve& curve : sources.curves) {
+  for (const Curve& curve : sources.curves) {
     const std::string label = curve_label(index++, curve.origin);
     check_count(static_cast<Eigen::Index>(curve.nodes.size()), label);
-    std::vector<SurfacePoint> nodes = curve.nodes;
-    if (flip && curve.is_signed) std::reverse(nodes.begin(), nodes.end());
-    preparation.add_curve(nodes, curve.is_signed, label, task);
+    preparation.add_curve(curve.nodes, curve.is_signed, label, task);
   }
-  std::optional<CurveCarrier> carrier;
+  std::optional<CurveProjector> projector;
   for (const SpaceCurve& curve : sources.space_curves) {
     const std::string label = curve_label(index++, curve.origin);
     check_count(curve.points.rows(), label);
-    if (!carrier) carrier.emplace(mesh);
-    SpaceCurve directed = curve;
-    if (flip && curve.is_signed) directed.points = curve.points.colwise().reverse().eval();
-    const CarriedCurve carried = carrier->carry(directed, report, task);
-    for (const SurfaceCurve& part : carried.curves)
+    if (!projector) projector.emplace(mesh);
+    const ProjectedCurve projected = projector->project(curve, report, task);
+    for (const Curve& part : projected.curves)
       preparation.add_curve(part.nodes, part.is_signed, label, task);
   }
   for (std::size_t i = 0; i < sources.points.size(); ++i)

@@ -4,16 +4,16 @@
 #include <array>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
 
 namespace littoral {
 
 /// A straight part of a curve inside one face or along one edge, in the direction of travel.
 struct CurvePiece {
-  int curve = 0;                   // row of PreparedSources::nodes
+  int curve = 0;                   // row of PlacedSources::nodes
   bool is_signed = true;           // phi > 0 to the left of travel
   int face = 0;                    // contains the piece; along an edge, one of the edge's faces
   std::array<double, 3> a{}, b{};  // start and end: barycentrics in `face`, in its corner order
@@ -22,7 +22,7 @@ struct CurvePiece {
 };
 
 /// Sources ready to be turned into right-hand sides and constraints.
-struct PreparedSources {
+struct PlacedSources {
   std::vector<CurvePiece> pieces;                // by curve, in the direction of travel
   std::vector<SurfacePoint> points;              // isolated points, in their simplest form
   std::vector<std::vector<SurfacePoint>> nodes;  // per curve; consecutive nodes share a face
@@ -32,11 +32,11 @@ struct PreparedSources {
 /// Traces gaps across the mesh, carries space curves onto it and cuts all curves into pieces.
 ///
 /// Surface curves come first, in order, then space curves (one split between components counts as
-/// several). `flip` reverses every signed curve. Warnings with counts tell of traced gaps,
+/// several). Warnings with counts tell of traced gaps,
 /// zero-length steps left out and curves that vanish. Throws UnsupportedError if the mesh has faces
 /// that are not triangles; InputError if an index is out of range, a curve has fewer than two nodes
 /// or spans two components (naming curve and element), or nothing remains.
-PreparedSources prepare(const SurfaceMesh& mesh, const SurfaceSources& sources, bool flip,
-                        Report& report, const Task& task = {});
+PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
+                            const Task& task = {});
 
 }  // namespace littoral

@@ -38,13 +38,12 @@ SurfacePoint refined_point(const SurfaceMesh& input, const SurfaceMesh& refined,
 
 }  // namespace
 
-SurfaceSources refined_sources(const SurfaceMesh& input, const SurfaceMesh& refined,
-                               const std::vector<int>& face_offsets,
-                               const SurfaceSources& sources) {
-  SurfaceSources out = sources;
+Sources refined_sources(const SurfaceMesh& input, const SurfaceMesh& refined,
+                        const std::vector<int>& face_offsets, const Sources& sources) {
+  Sources out = sources;
   if (face_offsets.empty()) return out;  // the input has nothing but nodes
   const auto move = [&](SurfacePoint& p) { p = refined_point(input, refined, face_offsets, p); };
-  for (SurfaceCurve& curve : out.curves)
+  for (Curve& curve : out.curves)
     for (SurfacePoint& p : curve.nodes) move(p);
   for (SurfacePoint& p : out.points) move(p);
   return out;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/sources.h"
 
 namespace littoral {
 
@@ -13,7 +13,7 @@ namespace littoral {
 /// triangle of the input is itself; no offsets: the input has nothing but vertices). Points inside
 /// polygons are given by coordinates on the first three corners, and go to the nearest point of the
 /// polygon's triangles. Throws InputError where an element does not exist.
-SurfaceSources refined_sources(const SurfaceMesh& input, const SurfaceMesh& refined,
-                               const std::vector<int>& face_offsets, const SurfaceSources& sources);
+Sources refined_sources(const SurfaceMesh& input, const SurfaceMesh& refined,
+                        const std::vector<int>& face_offsets, const Sources& sources);
 
 }  // namespace littoral

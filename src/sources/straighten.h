@@ -5,7 +5,7 @@
 
 #include "base/task.h"
 #include "domain/mesh/surface_mesh.h"
-#include "domain/mesh/surface_point.h"
+#include "littoral/surface_point.h"
 
 namespace littoral {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "domain/mesh/surface_point.h"
+#include "littoral/surface_point.h"
 
 namespace littoral {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "sources/straighten.h"
 
 namespace littoral {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "sources/surface_points.h"
 
 namespace littoral {
@@ -70,7 +70,7 @@ TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTrian
 }  // namespace
 
 TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                 const PreparedSources& sources) {
+                                 const PlacedSources& sources) {
   TriangleSources out;
   out.reached.assign(T.n_components, 0);
   std::vector<SurfacePoint> nodes;

@@ -30,7 +30,7 @@ struct TriangleSources {
 
 /// Throws InputError if no source lies on a face with three different vertices.
 TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                 const PreparedSources& sources);
+                                 const PlacedSources& sources);
 
 /// Triangles around a point in its simplest form, with its barycentrics in each; `without` lists
 /// triangles to leave out.

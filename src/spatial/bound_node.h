@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -13,11 +13,11 @@ namespace littoral {
 /// Nearest point over all faces by looking at each, in extended precision; the lowest face among
 /// equals. points: n x 3; faces: m x 3. Faces with a non-finite corner are left out; `face` is -1
 /// where none remains. Time O(m).
-inline ClosestPoint closest_point_brute_force(const MatX3& points, const MatX3i& faces,
+inline NearestPoint closest_point_brute_force(const MatX3& points, const MatX3i& faces,
                                               const Vec3& query) {
   using Real = long double;
   using Triple = Eigen::Matrix<Real, 3, 1>;
-  ClosestPoint best;
+  NearestPoint best;
   Real best_squared = 0;
   auto offer = [&](int face, const Triple* corner, const std::array<Real, 3>& b) {
     const Triple foot = b[0] * corner[0] + b[1] * corner[1] + b[2] * corner[2];

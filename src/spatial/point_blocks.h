@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "spatial/cluster_tree.h"
 
 namespace littoral {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "spatial/bound_node.h"
 #include "spatial/point_kernels.h"
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <string>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "spatial/closest_on_triangle.h"
 
 namespace littoral {
@@ -219,7 +219,7 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vecto
   return static_cast<int>(at);
 }
 
-ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
+NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (!query.allFinite())
     throw InputError("the query point of a closest-point search is not finite");
   // `shift` is extra down-scaling for queries so far away that squares would overflow.
@@ -262,7 +262,7 @@ ClosestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
     top = push_children(node, bound, best, stack.data(), top);
   }
 
-  ClosestPoint answer;
+  NearestPoint answer;
   answer.face = faces_[best_at];
   answer.barycentric = best_foot.barycentric;
   const auto& c = corners_[best_at];

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "spatial/bound_node.h"
 
 namespace littoral {
 
 /// Answer of a closest-point query.
-struct ClosestPoint {
+struct NearestPoint {
   int face = -1;
   std::array<double, 3> barycentric{1, 0, 0};  // per corner of the face, in [0, 1], sum 1
   Vec3 point = Vec3::Zero();                   // on the face
@@ -36,7 +36,7 @@ class TriangleBvh {
   /// 1e60 times the size of the coordinates sees only the direction of the faces. `hint` is a face
   /// that may be near, such as that of the query before, or -1: it changes the time, not the
   /// answer. Throws InputError if the query is not finite.
-  ClosestPoint closest_point(const Vec3& query, int hint = -1) const;
+  NearestPoint closest_point(const Vec3& query, int hint = -1) const;
 
  private:
   struct Box {

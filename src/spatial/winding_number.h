@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "spatial/cluster_tree.h"
 #include "spatial/winding_kernels.h"
 

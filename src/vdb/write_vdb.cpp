@@ -11,9 +11,9 @@
 
 namespace {
 
-using littoral::VolumeField;
+using littoral::Volume;
 
-openvdb::GridBase::Ptr level_set(const VolumeField& volume, double band) {
+openvdb::GridBase::Ptr level_set(const Volume& volume, double band) {
   const littoral::Grid& g = volume.grid;
   const double largest = g.spacing.maxCoeff();
   const double background = (band > 0 ? band : 3) * largest;
@@ -43,7 +43,7 @@ openvdb::GridBase::Ptr level_set(const VolumeField& volume, double band) {
   return grid;
 }
 
-std::string write(std::ostream& out, const VolumeField& volume, double band) {
+std::string write(std::ostream& out, const Volume& volume, double band) {
   try {
     openvdb::initialize();
     const openvdb::GridPtrVec grids{level_set(volume, band)};

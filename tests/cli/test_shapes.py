@@ -60,7 +60,7 @@ def values(path: Path) -> list[float]:
 def test_two_clouds_are_one_field(run: Run, balls: Path, how: str, expected: list[float]) -> None:
     run("query", "a.xyz", how, "b.xyz", "--points", "q.csv", "-o", "v.csv")
     assert values(balls / "v.csv") == pytest.approx(expected, abs=5e-3)
-    arguments = ("--method", "winding", "--other-method", "planar", "--offset", "0.25")
+    arguments = ("--method", "winding", "--operand-method", "planar", "--offset", "0.25")
     run("query", "a.xyz", how, "b.xyz", *arguments, "--points", "q.csv", "-o", "w.csv")
     assert values(balls / "w.csv") == pytest.approx([x - 0.25 for x in expected], abs=0.3)
 
@@ -162,7 +162,7 @@ def test_traced_pictures_show_the_shape(run: Run, balls: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("query", "a.xyz", "--points", "q.csv", "--other-method", "tori"), "--other-method"),
+        (("query", "a.xyz", "--points", "q.csv", "--operand-method", "tori"), "--operand-method"),
         (("query", "a.xyz", "--points", "q.csv", "--blend", "-1"), "--blend"),
         (("query", "a.xyz", "--points", "q.csv", "--blend", "nan"), "--blend"),
         (("query", "a.xyz", "--points", "q.csv", "--offset", "inf"), "offset"),

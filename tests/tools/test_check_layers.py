@@ -30,7 +30,7 @@ def write(root: Path, name: str, *includes: str) -> None:
     ],
 )
 def test_an_include_pointing_up_is_a_violation(tmp_path: Path, name: str, include: str) -> None:
-    write(tmp_path, name, "base/types.h", include)
+    write(tmp_path, name, "littoral/types.h", include)
     (found,) = check_layers.violations(tmp_path)
     assert found.startswith(f"src/{name}:2: ")
     assert check_layers.main([str(tmp_path)]) == 1

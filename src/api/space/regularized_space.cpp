@@ -4,11 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "api/tet/tet_method.h"
-#include "base/error.h"
+#include "api/tet/tet_domain.h"
 #include "base/platform/memory.h"
+#include "base/stopwatch.h"
 #include "domain/volume/grid_values.h"
-#include "methods/heat/shift.h"
+#include "littoral/error.h"
+#include "methods/heat/finalize.h"
 #include "operators/grid.h"
 #include "spatial/winding_number.h"
 
@@ -20,80 +21,86 @@ namespace {
 double factor_memory(double nodes) { return 8 * 13 * std::pow(nodes, 4.0 / 3) + 600 * nodes; }
 
 /// 1 outside and -1 inside, at the nodes of a grid.
-VecX winding_signs(const SpaceProblem& problem, const Grid& grid, const Task& task) {
-  const OrientedPoints& s = problem.samples;
-  const WindingNumber winding = problem.is_cloud()
+VecX winding_signs(const SpaceInput& input, const Grid& grid, const Task& task) {
+  const OrientedPoints& s = input.samples;
+  const WindingNumber winding = input.is_cloud()
                                     ? WindingNumber(s.points, s.normals, s.areas)
-                                    : WindingNumber(problem.surface.points, problem.triangles());
+                                    : WindingNumber(input.surface.points, input.triangles());
   return grid_values(grid, task,
                      [&](const Vec3& x, int&) { return winding(x, 2.3) > 0.5 ? -1 : 1; });
 }
 
-VecX on_grid(const SpaceProblem& problem, const Grid& grid, const RegularizedOptions& options,
-             Task& task, Report& report) {
+Regularized linear(double alpha, double tolerance, double gap, int max_iterations) {
+  Regularized out;
+  out.alpha = alpha;
+  out.tolerance = tolerance;
+  out.gap = gap;
+  out.max_iterations = max_iterations;
+  return out;
+}
+Regularized linear(const SpaceRegularized& o) {
+  return linear(o.alpha, o.tolerance, o.gap, o.max_iterations);
+}
+Regularized linear(const SpaceBelyaevFayolle& o) {
+  return linear(0, o.tolerance, o.gap, o.max_iterations);
+}
+
+VecX on_grid(const SpaceInput& input, const Grid& grid, const Regularized& options, Task& task,
+             Report& report) {
   const auto nodes = static_cast<double>(grid.n_nodes());
   check_memory(factor_memory(nodes),
                "a factorization on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
-               "use a smaller --resolution or another --method");
-  const GridRows rows = grid_rows(grid, problem.samples.points, problem.samples.areas);
+               "use a smaller resolution or another method");
+  const GridRows rows = grid_rows(grid, input.samples.points, input.samples.areas);
   if (rows.A.rows() == 0) throw InputError("the box holds no sample of the input");
   // An unsigned distance would have to vanish at all nodes of the cells that hold the surface: the
   // rows are met by functions that pass through zero there.
-  const VecX sign = winding_signs(problem, grid, task.stage(0.1, "signs"));
+  const VecX sign = winding_signs(input, grid, task.stage(0.1, "signs"));
   return regularized_in_space(grid_calculus(grid), rows.A, options, task.stage(0.9, "distance"),
                               report, &sign);
 }
 
-SpaceMethod grid_method(const std::string& name, const std::string& summary,
-                        const OptionTable<RegularizedOptions>& table, double alpha) {
-  SpaceMethod method;
-  method.info = {name,
-                 summary,
-                 {"triangle mesh", "polygon soup", "point cloud"},
-                 table.infos(),
-                 find_method(name).reference};
-  const MethodInfo info = method.info;
-  method.check = [info, &table](const OptionTexts& texts) { parse_options(info, table, texts); };
-  method.on_grid = [info, &table, alpha](const SpaceProblem& problem, const Grid& grid,
-                                         const OptionTexts& texts, Task& task, Report& report) {
-    RegularizedOptions options = parse_options(info, table, texts);
-    if (alpha == 0) options.alpha = 0;
-    VecX phi = on_grid(problem, grid, options, task, report);
-    report_options(table, options, report);
-    return phi;
-  };
-  return method;
+template <class S>
+Method<SpaceDomain> grid_method(const std::string& summary, const std::string& reference,
+                                const OptionTable<S>& table) {
+  return make_grid_method(
+      {S::method, summary, {}, {}, reference}, table,
+      [](const SpaceInput& input, const Grid& grid, const S& options, Task& task, Report& report) {
+        return on_grid(input, grid, linear(options), task, report);
+      });
 }
 
-TetMethod through_tets(const std::string& name, const OptionTable<RegularizedOptions>& table,
-                       bool smooth) {
-  const auto read = [name, &table](const OptionTexts& texts) {
-    return parse_options(find_method(name), table, texts);
-  };
-  const auto run = [smooth](const TetProblem& problem, RegularizedOptions& options, Task& task,
-                            Report& report) {
-    if (!smooth) options.alpha = 0;
-    const SpMat rows = problem.terms().A;
-    if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
-    return regularized_in_space(tet_calculus(problem.ops), rows, options,
-                                task.stage(0.9, "distance"), report);
-  };
-  return tet_method(name, table, read, run);
+template <class S>
+Method<TetDomain> through_tets(const std::string& summary, const std::string& reference,
+                               const OptionTable<S>& table) {
+  return make_tet_method(
+      {S::method, summary, {}, {}, reference}, table,
+      [](const std::shared_ptr<const TetDiscretization>& on, const S&) {
+        return [C = std::make_shared<const Calculus>(tet_calculus(on->operators()))](
+                   const TetProblem& problem, const S& options, Task& task, Report& report) {
+          const SpMat rows = problem.terms().A;
+          if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
+          return regularized_in_space(*C, rows, linear(options), task.stage(0.9, "distance"),
+                                      report);
+        };
+      });
 }
+
+constexpr const char* edelstein =
+    "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
+    "Geodesic Distances (2023)";
+constexpr const char* belyaev =
+    "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation (2020)";
 
 }  // namespace
 
-VecX regularized_in_space(const Calculus& C, const SpMat& rows, const RegularizedOptions& options,
+VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularized& options,
                           const Task& task, Report& report, const VecX* sign) {
-  if (options.alpha > 0 && static_cast<Regularizer>(options.regularizer) != Regularizer::dirichlet)
-    throw UnsupportedError(
-        "in space there is the regularizer dirichlet only; the others need a triangle mesh");
-  if (static_cast<Elements>(options.elements) != Elements::linear)
-    throw UnsupportedError("quadratic elements need a triangle mesh");
   const auto ops = std::make_shared<Operators>();
   ops->scalar = C;
   const Stopwatch watch(report, "solve");
-  const Regularized method(ops, Regularizer::dirichlet, {}, task, HeldSystem::Rows::many);
+  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task,
+                                 ConstrainedSystem::Rows::many);
   AdmmState state;
   const AdmmResult result = method.minimize(rows, options, state, task, sign);
   report_admm(result, report);
@@ -107,19 +114,19 @@ VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularize
   return u;
 }
 
-std::vector<SpaceMethod> regularized_space_methods() {
-  return {grid_method("regularized",
-                      "Distance that is smooth at the medial axis, as large as slope 1 allows, "
-                      "signed by the winding number; small grids.",
-                      grid_regularized_options(), 1),
-          grid_method("belyaev-fayolle",
-                      "The same without smoothing: the largest function of slope at most 1.",
-                      grid_constrained_options(), 0)};
+std::vector<Method<SpaceDomain>> regularized_space_methods() {
+  return {grid_method("Distance that is smooth at the medial axis, as large as a unit gradient "
+                      "allows, signed by the winding number; small grids.",
+                      edelstein, space_regularized_options()),
+          grid_method("The same without smoothing: the largest function of gradient at most 1.",
+                      belyaev, space_belyaev_fayolle_options())};
 }
 
-std::vector<TetMethod> regularized_tet_methods() {
-  return {through_tets("regularized", regularized_options(), true),
-          through_tets("belyaev-fayolle", constrained_options(), false)};
+std::vector<Method<TetDomain>> regularized_tet_methods() {
+  return {through_tets("Unsigned distance that is smooth where it has no single nearest source.",
+                       edelstein, space_regularized_options()),
+          through_tets("Unsigned distance as the largest function of gradient at most 1.", belyaev,
+                       space_belyaev_fayolle_options())};
 }
 
 }  // namespace littoral

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
-SampledDistance::SampledDistance(VolumeField field) : field_(std::move(field)) {
+SampledDistance::SampledDistance(Volume field) : field_(std::move(field)) {
   const Grid& grid = field_.grid;
   for (int n : grid.n)
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");

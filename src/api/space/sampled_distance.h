@@ -1,7 +1,7 @@
 #pragma once
 // A volume of signed distance as a field that can be asked anywhere.
 
-#include "domain/volume/volume_field.h"
+#include "littoral/volume.h"
 #include "methods/implicit/pointwise.h"
 
 namespace littoral {
@@ -13,11 +13,11 @@ class SampledDistance final : public PointwiseDistance {
  public:
   /// Throws InputError for a grid of fewer than two nodes along an axis, a wrong number of values
   /// or a value that is not finite, naming the node.
-  explicit SampledDistance(VolumeField field);
+  explicit SampledDistance(Volume field);
   DistanceSample at(const Vec3& x) const override;
 
  private:
-  VolumeField field_;
+  Volume field_;
 };
 
 }  // namespace littoral

@@ -7,23 +7,25 @@
 #include <optional>
 #include <string>
 
-#include "api/space/space_method.h"
-#include "base/report.h"
+#include "api/space/space_domain.h"
 #include "base/task.h"
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/tet/tet_mesh.h"
-#include "domain/volume/grid.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 
-/// What to compute, in words. The input is a surface where the soup has faces, otherwise a cloud.
+/// How an input is measured from: by which method, and from which side.
 struct SpaceRequest {
-  std::string method = "signed-heat";
-  OptionTexts options;            // name, value as text; others default
+  AnyMethod method;               // none: signed heat on grids, for_points elsewhere
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
 };
+
+/// The method that answers at points where none is named: tori for clouds, otherwise the nearest
+/// point with the sign of the winding number.
+AnyMethod method_for_points(const PolygonSoup& input);
 
 /// Where a grid lies. At most one of resolution and spacing; without both, 64 nodes.
 struct GridRequest {
@@ -32,9 +34,6 @@ struct GridRequest {
   std::optional<std::array<double, 6>> bounds;  // x0 y0 z0 x1 y1 z1 [length]
   double padding = 0.25;  // without bounds: margin around the input, in its longest side
 };
-
-/// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
-void check_request(const SpaceRequest& request);
 
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,
@@ -50,17 +49,9 @@ Grid choose_grid(const PolygonSoup& input, const GridRequest& request);
 VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                    Task task, Report& report);
 
-/// Values at the vertices of tets.
-struct TetField {
-  TetMesh mesh;
-  VecX values;  // vertices [length]
-};
-
-/// Signed heat on a tet lattice over the cube around the grid's box: tets as small as the grid's
-/// cells near the input, larger far from it (thesis 4.5). `on_grid`, unless null, gets the values
-/// at the nodes of the grid. Throws UnsupportedError for other methods, otherwise as grid_distance.
-TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
-                      VecX* on_grid, Task task, Report& report);
+/// The same through tets that fill the grid's box; with the values at their vertices.
+SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFilling& filling,
+                         const SpaceRequest& request, Task task, Report& report);
 
 /// Signed distance (queries) [length] and, unless null, its gradient (queries x 3) at points
 /// (queries x 3). Throws UnsupportedError for methods that need a grid, InputError for queries that
@@ -68,14 +59,11 @@ TetField tet_distance(const PolygonSoup& input, const Grid& grid, const SpaceReq
 VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
                     MatX3* gradients, Task task, Report& report);
 
-/// A field for such queries, to be asked in the units of the input [length]; may be asked from
-/// several threads. Throws as query_distance.
+/// A field for such queries, in the units of the input [length]; may be asked from several threads.
+/// Throws as query_distance.
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,
                                                             const SpaceRequest& request, Task task,
                                                             Report& report);
-
-/// Values of a field at the nodes of a grid.
-VecX evaluate(const PointwiseDistance& distance, const Grid& grid, const Task& task);
 
 /// Throws InputError naming the first query (queries x 3) that is not finite.
 void check_queries(const MatX3& queries);
@@ -86,7 +74,7 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
                    Task task, Report& report);
 
 /// The tori that method tori fits to the input, as a cloud that later calls take as it is
-/// (api/space/tori_cloud.h). The request's method does not matter. Throws as query_distance.
+/// (api/space/tori_cloud.h). Throws as query_distance.
 PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,
                            Report& report);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -1,10 +1,14 @@
 #pragma once
 // Fitted tori as a point cloud with numbers at its points: what files hold of them.
 
+#include <memory>
 #include <vector>
 
-#include "domain/mesh/polygon_soup.h"
-#include "methods/tori/torus.h"
+#include "api/space/space_input.h"
+#include "base/option_table.h"
+#include "littoral/options.h"
+#include "littoral/polygon_soup.h"
+#include "methods/tori/tori.h"
 
 namespace littoral {
 
@@ -18,5 +22,12 @@ bool has_tori(const PolygonSoup& cloud);
 /// The tori of such a cloud. Throws InputError naming the point if a number is not finite, a
 /// direction has no length, a spacing is not positive or a weight is positive.
 std::vector<Torus> tori_of_cloud(const PolygonSoup& cloud);
+
+/// What method tori makes of an input: the tori it holds, or fitted ones.
+std::unique_ptr<const ToriDistance> fit_tori(const SpaceInput& input, const Tori& options,
+                                             const Task& task, Report& report);
+
+/// Names, ranges, defaults and one sentence for each option of method tori.
+const OptionTable<Tori>& tori_options();
 
 }  // namespace littoral

@@ -6,9 +6,9 @@
 
 #include "api/space/sampled_distance.h"
 #include "api/space/tori_cloud.h"
-#include "base/error.h"
 #include "base/option_table.h"
 #include "io/render/volume_scene.h"
+#include "littoral/error.h"
 #include "methods/implicit/sphere_trace.h"
 
 namespace littoral {
@@ -22,7 +22,7 @@ constexpr double part_of_pixel = 0.1;
 /// hundredth: trilinear values less what the field can differ from them, which has the right sign.
 class Sketched final : public PointwiseDistance {
  public:
-  Sketched(std::shared_ptr<const PointwiseDistance> field, const VolumeField& samples, double level,
+  Sketched(std::shared_ptr<const PointwiseDistance> field, const Volume& samples, double level,
            double steepness)
       : field_(std::move(field)),
         samples_(samples),
@@ -43,15 +43,16 @@ class Sketched final : public PointwiseDistance {
 
 /// The tori of the one cloud that a page traces, also in its own shape so that they are fitted
 /// once.
-std::vector<Torus> tori_for_page(Shapes& shapes, Task task, Report& report) {
+std::vector<Torus> tori_for_page(CsgShapes& shapes, Task task, Report& report) {
   Shape& shape = shapes.all.front();
-  if (!shapes.plain() || shape.request.method != "tori" || shape.surface.n_faces() > 0)
+  const std::string& name = shape.request.method.name();
+  if (!shapes.plain() || (!name.empty() && name != Tori::method) || shape.surface.n_faces() > 0)
     throw UnsupportedError(
         "pages trace one point cloud by its tori (method tori); `littoral render --trace` traces "
         "all shapes, and `littoral sdf -o page.html` shows them on a grid");
   shape.surface = fit_tori_cloud(shape.surface, shape.request, task, report);
   shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
-  shape.request.options.clear();
+  shape.request.method = Tori{};
   if (shape.surface.n_vertices() > most_tori)
     throw UnsupportedError("pages trace at most " + std::to_string(most_tori) +
                            " points; this cloud has " + std::to_string(shape.surface.n_vertices()));
@@ -75,14 +76,14 @@ void hide_triangles(io::Scene& scene, Eigen::Index first) {
 
 }  // namespace
 
-io::Scene traced_scene(const Shapes& shapes, const Grid& grid, const TracedView& view, Task task,
+io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedView& view, Task task,
                        Report& report) {
   if (!std::isfinite(view.level)) throw InputError("the level must be a finite number");
-  Shapes used = shapes;
+  CsgShapes used = shapes;
   std::vector<Torus> tori;
   if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
   const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
-  const VolumeField volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
+  const Volume volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
     throw InputError("the distance does not pass level " + number_text(view.level) +
                      " in the box: it is from " + number_text(volume.values.minCoeff()) + " to " +

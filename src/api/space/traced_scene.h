@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "api/space/shapes.h"
+#include "api/space/csg.h"
 #include "io/render/scene.h"
 
 namespace littoral {
@@ -21,7 +21,7 @@ struct TracedView {
 /// also frames the picture. Pages trace a single cloud's tori; throws UnsupportedError for pages of
 /// anything else or of more than 200000 points, InputError if the level is not met in the box, and
 /// as pointwise_distance.
-io::Scene traced_scene(const Shapes& shapes, const Grid& grid, const TracedView& view, Task task,
+io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedView& view, Task task,
                        Report& report);
 
 }  // namespace littoral

@@ -6,7 +6,7 @@
 
 namespace littoral {
 
-std::vector<InfoEntry> volume_info(const VolumeField& volume) {
+std::vector<InfoEntry> volume_info(const Volume& volume) {
   const Grid& grid = volume.grid;
   const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
   double low = std::numeric_limits<double>::infinity(), high = -low;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

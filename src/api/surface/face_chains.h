@@ -1,8 +1,8 @@
 #pragma once
 // Chains of faces, as a person wrote them, as dual chains.
 
+#include "littoral/sources.h"
 #include "methods/winding/dual_winding.h"
-#include "sources/surface_sources.h"
 
 namespace littoral {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "api/surface/surface_method.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "api/surface/discretization.h"
+#include "base/stopwatch.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
 #include "sources/triangle_sources.h"
@@ -12,57 +12,57 @@ namespace littoral {
 
 namespace {
 
-struct NoOptions {};
-
-const OptionTable<NoOptions>& no_options() {
-  static const OptionTable<NoOptions> table;
-  return table;
+/// A method that solves on the triangles themselves, from sources inside them.
+template <class Options, class Run>
+auto solve_on_triangles(const SurfaceDomain& domain, Run run, Report& report) {
+  return [domain, T = triangulation_of(domain, report), run](const Sources& sources, Options&,
+                                                             Task& task, Report& r) {
+    const PlacedSources placed =
+        place_sources(domain, sources, task.stage(0.05, "placing the sources"), r);
+    const TriangleSources on = triangle_sources(*domain.mesh, *T, placed);
+    const Stopwatch watch(r, "solve");
+    return SurfaceAnswer{run(*T, on, task.stage(0.95, "walking over the mesh"), r), {}};
+  };
 }
 
-template <class Method>
-SurfaceResult walk(Method method, const SurfaceProblem& problem, Task& task, Report& report) {
-  const PreparedSources prepared = prepared_sources(problem, task, report);
-  task.checkpoint();
-  const auto [T, sources] = [&] {
-    const Stopwatch watch(report, "triangulation");
-    IntrinsicTriangulation made = intrinsic_triangulation(problem.mesh, report);
-    TriangleSources placed = triangle_sources(problem.mesh, made, prepared);
-    return std::pair(std::move(made), std::move(placed));
-  }();
-  task.stage(0.08, "triangulation").checkpoint();
-  const Stopwatch watch(report, "solve");
-  return {method(T, sources, task.stage(0.9, "walking over the mesh"), report), {}};
-}
-
-SurfaceResult exact(const SurfaceProblem& problem, NoOptions&, Task& task, Report& report) {
-  const SurfaceSources& given = problem.sources;
-  auto is_signed = [](const auto& curve) { return curve.is_signed; };
+void warn_of_signs(const Sources& given, Report& report) {
+  const auto is_signed = [](const auto& curve) { return curve.is_signed; };
   if (std::any_of(given.curves.begin(), given.curves.end(), is_signed) ||
       std::any_of(given.space_curves.begin(), given.space_curves.end(), is_signed))
     report.warn("exact distance is unsigned: signed curves count as unsigned ones");
-  return walk(exact_polyhedral, problem, task, report);
-}
-
-SurfaceResult marching(const SurfaceProblem& problem, NoOptions&, Task& task, Report& report) {
-  return walk(fast_marching, problem, task, report);
 }
 
 }  // namespace
 
-std::vector<SurfaceMethod> geodesic_methods() {
-  return {surface_method({"exact",
-                          "Exact unsigned distance along the polyhedral surface to points and "
-                          "curves.",
-                          {"triangle mesh"},
-                          {},
-                          "Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987)"},
-                         no_options(), exact),
-          surface_method({"fast-marching",
-                          "First-order distance to points and unbroken curves, signed or not.",
-                          {"triangle mesh"},
-                          {},
-                          "Kimmel, Sethian: Computing Geodesic Paths on Manifolds (1998)"},
-                         no_options(), marching)};
+std::vector<Method<SurfaceDomain>> geodesic_methods() {
+  static const OptionTable<Exact> exact_options;
+  static const OptionTable<FastMarching> marching_options;
+  return {
+      make_method<SurfaceDomain>(
+          {Exact::method,
+           "Exact unsigned distance along the polyhedral surface to points and curves.",
+           {"triangle mesh"},
+           {},
+           "Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987)"},
+          exact_options,
+          [](const SurfaceDomain& domain, const Exact&, SolveHint, const Task&, Report& report) {
+            return [solve = solve_on_triangles<Exact>(domain, exact_polyhedral, report)](
+                       const Sources& sources, Exact& options, Task& task, Report& r) {
+              warn_of_signs(sources, r);
+              return solve(sources, options, task, r);
+            };
+          }),
+      make_method<SurfaceDomain>(
+          {FastMarching::method,
+           "First-order distance to points and unbroken curves, signed or not.",
+           {"triangle mesh"},
+           {},
+           "Kimmel, Sethian: Computing Geodesic Paths on Manifolds (1998)"},
+          marching_options,
+          [](const SurfaceDomain& domain, const FastMarching&, SolveHint, const Task&,
+             Report& report) {
+            return solve_on_triangles<FastMarching>(domain, fast_marching, report);
+          })};
 }
 
 }  // namespace littoral

@@ -4,25 +4,19 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "api/surface/discontinuous.h"
-#include "api/surface/signed_quadratic.h"
-#include "api/surface/surface_method.h"
-#include "api/surface/translated.h"
-#include "base/error.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "api/surface/discretization.h"
+#include "api/surface/heat_factors.h"
+#include "api/surface/quadratic_method.h"
+#include "base/stopwatch.h"
 #include "domain/mesh/covering_mesh.h"
-#include "domain/mesh/triangulate.h"
 #include "methods/heat/sharpen.h"
-#include "methods/heat/signed_heat.h"
 #include "methods/heat/time_scale.h"
-#include "methods/heat/unsigned_heat.h"
 #include "operators/triangles.h"
-#include "sources/carried_sources.h"
-#include "sources/refined_sources.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/retriangulate_sources.h"
+#include "sources/triangle_source_system.h"
 
 namespace littoral {
 
@@ -30,200 +24,313 @@ namespace {
 
 /// What the method diffuses from the sources: functions can use a cover, vectors cannot.
 enum class Diffused { functions, vectors };
-using Needs = std::function<Diffused(const PreparedSources&)>;
 
 /// Throws where there are no polygons to cut into triangles.
-void needs_triangles(const SurfaceProblem& problem, const std::string& option) {
-  if (problem.domain() != "triangle mesh" && problem.domain() != "polygon mesh")
+void needs_triangles(const std::string& kind, const std::string& option) {
+  if (kind != "triangle mesh" && kind != "polygon mesh")
     throw UnsupportedError("option " + option + " works on triangle and polygon meshes, not on a " +
-                           problem.domain());
-}
-
-/// A polygon mesh cut into triangles on its own vertices, with the same sources.
-struct CutProblem {
-  SurfaceMesh mesh;
-  SurfaceSources sources;
-};
-
-CutProblem cut_into_triangles(const SurfaceProblem& problem, Report& report) {
-  const SurfaceMesh& input = problem.mesh;
-  CutProblem cut{SurfaceMesh(triangulate(input.soup())), {}};
-  std::vector<int> face_offsets{0};  // n corners give n - 2 triangles
-  for (int f = 0; f < input.n_faces(); ++f)
-    face_offsets.push_back(face_offsets.back() + static_cast<int>(input.face(f).size()) - 2);
-  cut.sources = refined_sources(input, cut.mesh, face_offsets, problem.sources);
-  report.warn("the polygons were cut into triangles, as the options ask for these");
-  return cut;
+                           kind);
 }
 
 /// Throws unless the options go with the domain and with each other.
-void check_options(const SurfaceProblem& problem, const SignedHeatOptions& options) {
-  const bool quadratic = static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic;
-  if (options.sharpen != 0 && options.discontinuous)
-    throw InputError("--sharpen makes a continuous distance; leave out --discontinuous");
-  if (options.discontinuous) needs_triangles(problem, "discontinuous");
-  if (quadratic) needs_triangles(problem, "sharpen quadratic");
-  if (options.bounding_only) needs_triangles(problem, "bounding-only");
-  if (options.intrinsic_delaunay) needs_triangles(problem, "intrinsic-delaunay");
+void check_options(const std::string& kind, const SignedHeat& options) {
+  if (options.sharpen != Sharpening::off && options.discontinuous)
+    throw InputError(
+        "option sharpen makes a continuous distance and does not go with option discontinuous");
+  if (options.discontinuous) needs_triangles(kind, "discontinuous");
+  if (options.sharpen == Sharpening::quadratic) needs_triangles(kind, "sharpen quadratic");
+  if (options.bounding_only) needs_triangles(kind, "bounding-only");
+  if (options.intrinsic_delaunay) needs_triangles(kind, "intrinsic-delaunay");
   if (options.discontinuous && options.intrinsic_delaunay)
     throw UnsupportedError(
-        "options discontinuous and intrinsic-delaunay exclude each other: the surface is torn "
+        "options discontinuous and intrinsic-delaunay exclude each other: the surface is split "
         "along its own edges");
 }
 
-bool is_nonmanifold(const IntrinsicTriangulation& T) {
-  return std::any_of(T.edge_use.begin(), T.edge_use.end(), [](int n) { return n > 2; });
-}
+/// Operators with sources on them.
+struct Problem {
+  std::shared_ptr<const Operators> ops;
+  SourceSystem terms;
+};
 
-Translated translate_triangles(const SurfaceProblem& problem, bool retriangulate, Needs needs,
-                               Task& task, Report& report) {
-  const PreparedSources prepared = prepared_sources(problem, task, report);
-  task.checkpoint();
-  const auto T = [&] {
-    const Stopwatch watch(report, "triangulation");
-    return std::make_shared<const IntrinsicTriangulation>(
-        intrinsic_triangulation(problem.mesh, report));
-  }();
-  const Task stage = task.stage(0.03, "operators");
-  stage.checkpoint();
-  if (!retriangulate) {
-    const Stopwatch watch(report, "operators");
-    auto ops = std::make_shared<const Operators>(triangle_operators(T, stage));
-    SourceTerms terms = source_terms(problem.mesh, *T, prepared);
-    return {std::move(ops), std::move(terms), T, nullptr};
-  }
-  const Retriangulated fine = [&] {
-    const Stopwatch watch(report, "retriangulation");
-    if (needs(prepared) == Diffused::vectors || !is_nonmanifold(*T))
-      return retriangulated(problem.mesh, *T, prepared, {}, report, stage);
-    const CoveringMesh cover = covering_mesh(problem.mesh, *T);
-    return retriangulated(cover.mesh, cover.T, covering_sources(problem.mesh, *T, cover, prepared),
-                          {}, report, stage);
-  }();
-  const Stopwatch watch(report, "operators");
-  auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
-  return {std::move(ops), source_terms(fine.mesh, fine.T, fine.sources), nullptr, nullptr};
-}
+/// A triangle mesh on better triangles of the same surface. Curves are cut by the new edges, so
+/// these depend on the sources, but for sources at vertices.
+class RetriangulatedSurface {
+ public:
+  RetriangulatedSurface(SurfaceDomain domain, Report& report)
+      : domain_(std::move(domain)), T_(triangulation_of(domain_, report)) {}
 
-/// The problem as operators and source terms: the first 10 % of a task.
-Translated translate(const SurfaceProblem& problem, bool retriangulate, Needs needs, Task& task,
-                     Report& report) {
-  const bool triangles = problem.domain() == "triangle mesh";
-  Translated out = triangles ? translate_triangles(problem, retriangulate, needs, task, report)
-                             : translate_nodes(problem, task, report);
-  task.stage(0.05, "heat method").checkpoint();
-  return out;
-}
-
-/// Solves at a time scale that may rise, or at the given one. Vectors at nodes do not show what
-/// makes it rise elsewhere, and unsigned curves are wrong there at larger ones.
-template <class Method>
-VecX at_time_scale(
-    bool may_rise, Method& method, double& time_scale,
-    const std::type_identity_t<std::function<VecX(const Method&, const Task&, Report&)>>& solve,
-    const Task& task, Report& report) {
-  if (may_rise) return solve_raising(method, time_scale, solve, task, report);
-  VecX phi = solve(method, task, report);
-  warn_against(report);
-  return phi;
-}
-
-SurfaceResult signed_heat(const SurfaceProblem& problem, SignedHeatOptions& options, Task& task,
-                          Report& report) {
-  check_options(problem, options);
-  if (problem.domain() == "polygon mesh" &&
-      (options.discontinuous || options.bounding_only || options.intrinsic_delaunay ||
-       static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic)) {
-    const CutProblem cut = cut_into_triangles(problem, report);
-    return signed_heat({cut.mesh, cut.sources, problem.flip}, options, task, report);
-  }
-  if (options.bounding_only) {
-    const SurfaceSources kept =
-        without_nonbounding(problem, task.stage(0.3, "bounding curves"), report);
-    SignedHeatOptions all = options;
-    all.bounding_only = false;
-    SurfaceResult result = signed_heat({problem.mesh, kept}, all, task, report);
-    options.time_scale = all.time_scale;
-    return result;
-  }
-  const auto needs = [&](const PreparedSources& sources) {
-    const bool gradients = sources.pieces.empty() && !options.preserve_normals &&
-                           static_cast<PointVectors>(options.points) == PointVectors::gradient;
-    return gradients ? Diffused::functions : Diffused::vectors;
-  };
-  const auto [ops, terms, T, faces] =
-      translate(problem, options.intrinsic_delaunay, needs, task, report);
-  const bool automatic = options.time_scale == 0, may_rise = automatic && !ops->vector.at_nodes;
-  if (automatic) options.time_scale = automatic_time_scale(terms, *ops);
-  auto method = [&, &operators = ops, &source = terms] {
-    const Stopwatch watch(report, "factor");
-    return SignedHeat(operators, options.time_scale, task.stage(0.65, "factoring"),
-                      needed_diffusions(source, options), Expect::one_solve);
-  }();
-  if (options.discontinuous)
-    return discontinuous_distance(problem.mesh, *T, *ops, terms, method, options, task, report);
-  VecX phi = at_time_scale(
-      may_rise, method, options.time_scale,
-      [&, &source = terms](const SignedHeat& heat, const Task& stage, Report& r) {
-        return heat.solve(source, options, stage, r);
-      },
-      task.stage(0.25, "solving"), report);
-  if (static_cast<Sharpening>(options.sharpen) == Sharpening::quadratic)
-    return signed_quadratic(problem, at_input(problem, nullptr, phi).values, {},
-                            task.stage(1, "sharpening"), report);
-  if (static_cast<Sharpening>(options.sharpen) == Sharpening::on) {
-    SharpenOptions how;
-    how.solver = static_cast<SharpenSolver>(options.sharpen_solver);
-    phi = sharpen(*ops, terms, phi, how, task.stage(1, "sharpening"), report);
-  }
-  return at_input(problem, faces.get(), phi);
-}
-
-SurfaceResult unsigned_heat(const SurfaceProblem& problem, UnsignedHeatOptions& options, Task& task,
-                            Report& report) {
-  if (options.intrinsic_delaunay) {
-    needs_triangles(problem, "intrinsic-delaunay");
-    if (problem.domain() == "polygon mesh") {
-      const CutProblem cut = cut_into_triangles(problem, report);
-      return unsigned_heat({cut.mesh, cut.sources, problem.flip}, options, task, report);
+  /// `shared` becomes the operators' own place for factors, or null where they serve this solve
+  /// alone.
+  Problem problem(const Sources& sources,
+                  const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
+                  Task& task, Report& report) const {
+    const PlacedSources placed =
+        place_sources(domain_, sources, task.stage(0.02, "placing the sources"), report);
+    const Diffused diffused = needs(placed);
+    const Task stage = task.stage(0.08, "operators");
+    stage.checkpoint();
+    shared = placed.pieces.empty() &&
+             std::all_of(placed.points.begin(), placed.points.end(),
+                         [](const SurfacePoint& p) { return p.on == SurfacePoint::On::vertex; });
+    if (shared) {
+      const auto made = [&] { return made_for(PlacedSources{}, diffused, report, stage); };
+      const auto fine = (diffused == Diffused::vectors ? for_vectors_ : for_functions_).get(made);
+      return {fine->ops, source_system(fine->mesh, fine->T, placed)};
     }
+    const Made fine = made_for(placed, diffused, report, stage);
+    return {fine.ops, source_system(fine.mesh, fine.T, fine.sources)};
   }
-  const auto needs = [](const PreparedSources&) { return Diffused::functions; };
-  const auto [ops, terms, T, faces] =
-      translate(problem, options.intrinsic_delaunay, needs, task, report);
-  const bool automatic = options.time_scale == 0, may_rise = automatic && !ops->vector.at_nodes;
-  if (automatic) options.time_scale = 1;
-  auto method = [&, &operators = ops] {
-    const Stopwatch watch(report, "factor");
-    return UnsignedHeat(operators, options, task.stage(0.65, "factoring"), Expect::one_solve);
-  }();
-  const Stopwatch watch(report, "solve");
-  const VecX phi = at_time_scale(
-      may_rise, method, options.time_scale,
-      [&source = terms](const UnsignedHeat& heat, const Task& stage, Report& r) {
-        return heat.solve(source, stage, r);
-      },
-      task.stage(0.25, "solving"), report);
-  return at_input(problem, faces.get(), phi);
+
+ private:
+  struct Made {
+    SurfaceMesh mesh;
+    IntrinsicTriangulation T;
+    PlacedSources sources;
+    std::shared_ptr<const Operators> ops;
+  };
+
+  Made made_for(const PlacedSources& placed, Diffused diffused, Report& report,
+                const Task& task) const {
+    Retriangulated fine = [&] {
+      const Stopwatch watch(report, "retriangulation");
+      const bool nonmanifold =
+          std::any_of(T_->edge_use.begin(), T_->edge_use.end(), [](int n) { return n > 2; });
+      if (diffused == Diffused::vectors || !nonmanifold)
+        return retriangulated(*domain_.mesh, *T_, placed, {}, report, task);
+      const CoveringMesh cover = covering_mesh(*domain_.mesh, *T_);
+      return retriangulated(cover.mesh, cover.T,
+                            covering_sources(*domain_.mesh, *T_, cover, placed), {}, report, task);
+    }();
+    const Stopwatch watch(report, "operators");
+    auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
+    return {std::move(fine.mesh), std::move(fine.T), std::move(fine.sources), std::move(ops)};
+  }
+
+  SurfaceDomain domain_;
+  std::shared_ptr<const IntrinsicTriangulation> T_;
+  Kept<Made> for_vectors_, for_functions_;  // without sources
+};
+
+/// What both heat methods share: a discretization, or better triangles.
+class HeatSurface {
+ public:
+  HeatSurface(const SurfaceDomain& domain, bool intrinsic_delaunay, const Task& task,
+              Report& report)
+      : domain_(domain) {
+    if (intrinsic_delaunay)
+      fine_.emplace(domain, report);
+    else
+      plain_.emplace(domain, task, report);
+  }
+
+  const SurfaceDomain& domain() const { return domain_; }
+  const SurfaceDiscretization& plain() const { return *plain_; }
+
+  Problem problem(const Sources& sources,
+                  const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
+                  Task& task, Report& report) const {
+    if (fine_) return fine_->problem(sources, needs, shared, task, report);
+    shared = true;
+    return {plain_->operators(),
+            plain_->system(sources, task.stage(0.1, "placing the sources"), report)};
+  }
+  SurfaceAnswer at_input(const VecX& phi) const {
+    if (plain_) return plain_->at_input(phi);
+    return {phi.head(domain_.mesh->n_vertices()), {}};
+  }
+
+ private:
+  SurfaceDomain domain_;
+  std::optional<SurfaceDiscretization> plain_;  // one of the two
+  std::optional<RetriangulatedSurface> fine_;
+};
+
+/// Factors of the operators that solves share, one set for each of them; others serve one solve.
+template <class Factors>
+class SharedFactors {
+ public:
+  template <class Make>
+  std::shared_ptr<const Factors> of(const std::shared_ptr<const Operators>& ops, bool shared,
+                                    const Make& make) const {
+    return shared ? kept_.get(ops, make) : make();
+  }
+
+ private:
+  KeptByKey<std::shared_ptr<const Operators>, Factors> kept_;
+};
+
+/// Vectors at nodes do not show what makes the scale rise elsewhere, and unsigned curves are wrong
+/// there at larger ones.
+bool may_rise(double given_scale, const Operators& ops) {
+  return given_scale == 0 && !ops.vector.at_nodes;
+}
+
+class SignedHeatOnSurface {
+ public:
+  SignedHeatOnSurface(const SurfaceDomain& domain, const SignedHeat& options, SolveHint hint,
+                      const Task& task, Report& report)
+      : surface_(domain, options.intrinsic_delaunay, task, report), hint_(hint) {}
+
+  SurfaceAnswer solve(const Sources& given, SignedHeat& options, Task& task, Report& report) const {
+    if (!options.bounding_only) return solve_all(given, options, task, report);
+    return solve_all(
+        without_nonbounding(surface_.domain(), given, task.stage(0.3, "bounding curves"), report),
+        options, task, report);
+  }
+
+ private:
+  SurfaceAnswer solve_all(const Sources& sources, SignedHeat& options, Task& task,
+                          Report& report) const {
+    const auto needs = [&](const PlacedSources& placed) {
+      const bool gradients = placed.pieces.empty() && !options.preserve_normals &&
+                             options.point_sources == PointVectors::gradient;
+      return gradients ? Diffused::functions : Diffused::vectors;
+    };
+    bool shared = false;
+    const Problem problem = surface_.problem(sources, needs, shared, task, report);
+    const Operators& ops = *problem.ops;
+    const SourceSystem& terms = problem.terms;
+    const bool rises = may_rise(options.time_scale, ops);
+    if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms, ops);
+    const auto factors = factors_.of(problem.ops, shared, [&] {
+      return std::make_shared<const SignedHeatFactors>(problem.ops, hint_);
+    });
+    const Diffusions needed = needed_diffusions(terms, options);
+    const auto first = [&] {
+      const Stopwatch watch(report, "factor");
+      return factors->at(options.time_scale, needed, task.stage(0.5, "factoring"));
+    }();
+    if (options.discontinuous)
+      return discontinuous_distance(*surface_.domain().mesh, *surface_.plain().triangulation(), ops,
+                                    terms, *first, options, task, report);
+    const std::function<VecX(const SignedHeatSolver&, const Task&, Report&)> solve =
+        [&](const SignedHeatSolver& heat, const Task& stage, Report& r) {
+          return heat.solve(terms, options, stage, r);
+        };
+    const Task solving = task.stage(0.3, "solving");
+    VecX phi;
+    if (rises) {
+      const std::function<std::shared_ptr<const SignedHeatSolver>(double, const Task&)> longer =
+          [&](double scale, const Task& stage) { return factors->at(scale, needed, stage); };
+      phi = solve_raising(first, longer, options.time_scale, solve, solving, report);
+    } else {
+      phi = solve(*first, solving, report);
+      warn_misaligned(report);
+    }
+    if (options.sharpen == Sharpening::quadratic) {
+      const auto elements =
+          elements_.get([&] { return QuadraticOnSurface(surface_.domain(), report); });
+      return elements->solve_signed(sources, surface_.at_input(phi).values, {},
+                                    task.stage(1, "sharpening"), report);
+    }
+    if (options.sharpen == Sharpening::on) {
+      SharpenOptions how;
+      how.solver = options.sharpen_solver;
+      phi = sharpen(ops, terms, phi, how, task.stage(1, "sharpening"), report);
+    }
+    return surface_.at_input(phi);
+  }
+
+  HeatSurface surface_;
+  SolveHint hint_;
+  SharedFactors<SignedHeatFactors> factors_;
+  Kept<QuadraticOnSurface> elements_;
+};
+
+class UnsignedHeatOnSurface {
+ public:
+  UnsignedHeatOnSurface(const SurfaceDomain& domain, const UnsignedHeat& options, SolveHint hint,
+                        const Task& task, Report& report)
+      : surface_(domain, options.intrinsic_delaunay, task, report), hint_(hint) {}
+
+  SurfaceAnswer solve(const Sources& sources, UnsignedHeat& options, Task& task,
+                      Report& report) const {
+    const auto needs = [](const PlacedSources&) { return Diffused::functions; };
+    bool shared = false;
+    const Problem problem = surface_.problem(sources, needs, shared, task, report);
+    const bool rises = may_rise(options.time_scale, *problem.ops);
+    if (options.time_scale == 0) options.time_scale = 1;
+    const auto factors = factors_.of(problem.ops, shared, [&] {
+      return std::make_shared<const UnsignedHeatFactors>(problem.ops, options, hint_);
+    });
+    const auto first = [&] {
+      const Stopwatch watch(report, "factor");
+      return factors->first(task.stage(0.5, "factoring"));
+    }();
+    const Stopwatch watch(report, "solve");
+    const std::function<VecX(const UnsignedHeatSolver&, const Task&, Report&)> solve =
+        [&](const UnsignedHeatSolver& heat, const Task& stage, Report& r) {
+          return heat.solve(problem.terms, stage, r);
+        };
+    const Task solving = task.stage(0.4, "solving");
+    if (rises) {
+      const std::function<std::shared_ptr<const UnsignedHeatSolver>(double, const Task&)> longer =
+          [&](double scale, const Task& stage) { return factors->longer(scale, stage); };
+      return surface_.at_input(
+          solve_raising(first, longer, options.time_scale, solve, solving, report));
+    }
+    const VecX phi = solve(*first, solving, report);
+    warn_misaligned(report);
+    return surface_.at_input(phi);
+  }
+
+ private:
+  HeatSurface surface_;
+  SolveHint hint_;
+  SharedFactors<UnsignedHeatFactors> factors_;
+};
+
+/// What solves for a method on a surface; on a polygon mesh whose options need triangles, on these.
+template <class OnSurface, class Options>
+std::function<SurfaceAnswer(const Sources&, Options&, Task&, Report&)> prepared(
+    const SurfaceDomain& domain, const Options& options, bool triangles, SolveHint hint,
+    const Task& task, Report& report) {
+  if (triangles && domain.kind() == "polygon mesh") {
+    auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, report));
+    auto method = std::make_shared<const OnSurface>(cut->triangles, options, hint, task, report);
+    return [cut, method](const Sources& sources, Options& used, Task& t, Report& r) {
+      return method->solve(cut->cut(sources), used, t, r);
+    };
+  }
+  auto method = std::make_shared<const OnSurface>(domain, options, hint, task, report);
+  return [method](const Sources& sources, Options& used, Task& t, Report& r) {
+    return method->solve(sources, used, t, r);
+  };
+}
+
+auto signed_heat(const SurfaceDomain& domain, const SignedHeat& options, SolveHint hint,
+                 const Task& task, Report& report) {
+  check_options(domain.kind(), options);
+  const bool triangles = options.discontinuous || options.bounding_only ||
+                         options.intrinsic_delaunay || options.sharpen == Sharpening::quadratic;
+  return prepared<SignedHeatOnSurface>(domain, options, triangles, hint, task, report);
+}
+
+auto unsigned_heat(const SurfaceDomain& domain, const UnsignedHeat& options, SolveHint hint,
+                   const Task& task, Report& report) {
+  if (options.intrinsic_delaunay) needs_triangles(domain.kind(), "intrinsic-delaunay");
+  return prepared<UnsignedHeatOnSurface>(domain, options, options.intrinsic_delaunay, hint, task,
+                                         report);
 }
 
 }  // namespace
 
-std::vector<SurfaceMethod> heat_methods() {
-  return {surface_method(
-              {"signed-heat",
+std::vector<Method<SurfaceDomain>> heat_methods() {
+  return {make_method<SurfaceDomain>(
+              {SignedHeat::method,
                "Signed distance to curves that may be broken, unsigned to points and unsigned "
                "curves.",
                all_surfaces(),
                {},
                "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
               signed_heat_options(), signed_heat),
-          surface_method({"unsigned-heat",
-                          "Unsigned distance to curves and points.",
-                          all_surfaces(),
-                          {},
-                          "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
-                         unsigned_heat_options(), unsigned_heat)};
+          make_method<SurfaceDomain>({UnsignedHeat::method,
+                                      "Unsigned distance to curves and points.",
+                                      all_surfaces(),
+                                      {},
+                                      "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
+                                     unsigned_heat_options(), unsigned_heat)};
 }
 
 }  // namespace littoral

@@ -2,19 +2,19 @@
 
 #include <cmath>
 
-#include "base/error.h"
 #include "base/option_table.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
 namespace {
 
 // Signed distance from the line {values = level}, less `back`.
-VecX offset_back(const SurfaceMesh& mesh, const VecX& values, double level, double back,
-                 const DistanceRequest& request, const char* name, Report& report, Task task) {
-  SurfaceSources between;
+VecX offset_back(const Solver<SurfaceDomain>& solver, const SurfaceMesh& mesh, const VecX& values,
+                 double level, double back, const char* name, Report& report, Task task) {
+  Sources between;
   for (Polyline& line : isolines(mesh, values, level)) {
-    SurfaceCurve curve;
+    Curve curve;
     curve.nodes = std::move(line.nodes);
     if (line.closed) curve.nodes.push_back(curve.nodes.front());
     // A line has larger values on its left, a signed curve its positive side: the sign stays.
@@ -23,10 +23,8 @@ VecX offset_back(const SurfaceMesh& mesh, const VecX& values, double level, doub
   if (between.curves.empty())
     throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
                      " leaves nothing: no line at distance " + number_text(level));
-  DistanceRequest again = request;
-  again.flip = false;
   Report second;
-  VecX distance = surface_distance(mesh, between, again, std::move(task), second);
+  VecX distance = solver.solve(between, std::move(task), second).values;
   for (const auto& [stage, seconds] : second.timings)
     report.timings.emplace_back(std::string(name) + ": " + stage, seconds);
   for (const std::string& text : second.warnings) report.warn(std::string(name) + ": " + text);
@@ -50,21 +48,19 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
   return all;
 }
 
-std::vector<LevelLines> offset_lines(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                                     const DistanceRequest& request,
-                                     const std::vector<double>& offsets,
+std::vector<LevelLines> offset_lines(const Solver<SurfaceDomain>& solver, const SurfaceMesh& mesh,
+                                     const Sources& sources, const std::vector<double>& offsets,
                                      const Morphology& morphology, Report& report, Task task) {
   const double open = morphology.open, close = morphology.close;
   if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
     throw InputError("offset: the radii of opening and closing must not be negative");
   const double steps = 1 + (open > 0) + (close > 0);
-  VecX values =
-      surface_distance(mesh, sources, request, task.stage(0.9 / steps, "distance"), report);
+  VecX values = solver.solve(sources, task.stage(0.9 / steps, "distance"), report).values;
   if (open > 0)
-    values = offset_back(mesh, values, -open, open, request, "opening", report,
+    values = offset_back(solver, mesh, values, -open, open, "opening", report,
                          task.stage(0.9 / steps, "opening"));
   if (close > 0)
-    values = offset_back(mesh, values, close, -close, request, "closing", report,
+    values = offset_back(solver, mesh, values, close, -close, "closing", report,
                          task.stage(0.9 / steps, "closing"));
   return level_lines(mesh, values, offsets, report, task.stage(1, "tracing lines"));
 }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "api/space/shells.h"
-#include "api/surface/distance.h"
+#include "api/space/isosurfaces.h"
+#include "api/surface/surface_domain.h"
 #include "contour/isolines.h"
 
 namespace littoral {
@@ -21,11 +21,11 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
                                     const std::vector<double>& levels, Report& report, Task task);
 
 /// Offsets of the region on the negative side of (broken) curves, at the given distances [length]:
-/// lines of their signed distance. Opening and closing first (signed-heat-method, section 9.3.1),
-/// each by measuring the distance anew from the line of the first offset.
-std::vector<LevelLines> offset_lines(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                                     const DistanceRequest& request,
-                                     const std::vector<double>& offsets,
+/// lines of their signed distance by a solver prepared for the mesh. Opening and closing first
+/// (signed-heat-method, section 9.3.1), each by measuring the distance anew from the line of the
+/// first offset.
+std::vector<LevelLines> offset_lines(const Solver<SurfaceDomain>& solver, const SurfaceMesh& mesh,
+                                     const Sources& sources, const std::vector<double>& offsets,
                                      const Morphology& morphology, Report& report, Task task);
 
 /// All lines as polylines over shared points, with the scalar "level".

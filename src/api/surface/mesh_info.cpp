@@ -24,7 +24,7 @@ bool has_finite_corners(const PolygonSoup& soup, int f) {
 }
 
 /// The same points with the faces that a mesh can have.
-PolygonSoup sound_part(const PolygonSoup& soup) {
+PolygonSoup valid_faces(const PolygonSoup& soup) {
   PolygonSoup out;
   out.points = soup.points;
   for (int f = 0; f < soup.n_faces(); ++f)
@@ -127,15 +127,15 @@ int count_coincident_vertices(const MatX3& points) {
   return n;
 }
 
-struct Shapes {
+struct CsgShapes {
   int degenerate = 0;
   double smallest_angle = infinity;  // degrees
   double mean_edge = 0;
 };
 
 /// Coordinates are divided by the diagonal first, so that nothing overflows.
-Shapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
-  Shapes out;
+CsgShapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
+  CsgShapes out;
   if (!(diagonal > 0)) {
     out.degenerate = mesh.n_faces();
     return out;
@@ -206,7 +206,7 @@ struct InfoValueText {
 }  // namespace
 
 std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
-  const SurfaceMesh mesh(sound_part(soup));
+  const SurfaceMesh mesh(valid_faces(soup));
   std::map<std::size_t, double> sizes;
   for (int f = 0; f < soup.n_faces(); ++f) ++sizes[soup.face(f).size()];
   std::vector<std::pair<std::string, std::vector<double>>> by_size;
@@ -231,7 +231,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   for (int e = 0; e < mesh.n_edges(); ++e) n_nonmanifold += mesh.edge_faces(e).size() > 2;
   const int n_loops = count_boundary_loops(mesh, n_boundary);
   const Orientation orientation = orientation_of(mesh);
-  const Shapes shapes = shapes_of(mesh, diagonal);
+  const CsgShapes shapes = shapes_of(mesh, diagonal);
 
   std::vector<InfoEntry> out;
   const auto count = [&](const char* key, double n) { out.push_back({key, n}); };
@@ -264,14 +264,14 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   return out;
 }
 
-std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const SurfaceSources& sources,
+std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const Sources& sources,
                                     Report& report) {
-  SurfaceSources placed = sources;
+  Sources placed = sources;
   placed.chains.clear();
-  const PreparedSources prepared =
-      placed.empty() ? PreparedSources{} : prepare(mesh, placed, false, report);
+  const PlacedSources prepared =
+      placed.empty() ? PlacedSources{} : place_sources(mesh, placed, report);
   double n_signed = 0, n_unsigned = 0, n_nodes = 0, length = 0;
-  for (const SurfaceCurve& curve : sources.curves) {
+  for (const Curve& curve : sources.curves) {
     (curve.is_signed ? n_signed : n_unsigned) += 1;
     n_nodes += static_cast<double>(curve.nodes.size());
   }

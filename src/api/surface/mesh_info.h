@@ -6,10 +6,10 @@
 #include <variant>
 #include <vector>
 
-#include "base/report.h"
-#include "domain/mesh/polygon_soup.h"
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
 
 namespace littoral {
 
@@ -30,7 +30,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup);
 
 /// Facts about sources on a mesh: curves, nodes, points, and the length of the curves once placed.
 /// Throws what `prepare` throws.
-std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const SurfaceSources& sources,
+std::vector<InfoEntry> sources_info(const SurfaceMesh& mesh, const Sources& sources,
                                     Report& report);
 
 /// One "key: value" a line, with blanks for the keys' underscores.

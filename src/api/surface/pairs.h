@@ -1,43 +1,54 @@
 #pragma once
-// Distance between all pairs of vertices in one call.
+// Distance between many pairs of points of one surface: all at once, or one solve for each source.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "api/registry.h"
-#include "api/surface/surface_method.h"
-#include "base/report.h"
-#include "base/task.h"
-#include "domain/mesh/surface_mesh.h"
+#include "api/surface/surface_domain.h"
 #include "methods/regularized/all_pairs.h"
 
 namespace littoral {
 
-/// What to compute, in words.
-struct PairsRequest {
-  std::string method = "symmetric";  // or any method of distance from points
-  OptionTexts options;               // name, value as text; others default
-  std::vector<int> vertices;         // to measure from; empty: all
+/// Triangle meshes as the domain of methods that find all distances at once. Sources are the
+/// vertices whose rows are wanted, answers have a row for each of them [length].
+struct PairsDomain {
+  using Sources = std::vector<int>;
+  using Answer = MatX;
+  static constexpr const char* title = "Pairs of vertices";
+
+  std::shared_ptr<const SurfaceMesh> mesh;
+
+  std::string kind() const;
 };
+
+template <>
+std::vector<Method<PairsDomain>> library_methods();
+
+/// The methods of both kinds: those for all pairs, then those of distance on surfaces.
+std::vector<MethodInfo> pair_methods();
+
+/// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
+void check_pairs_method(const AnyMethod& method);
 
 struct PairsAnswer {
   MatX distances;                            // sources x vertices [length], +inf between components
-  std::optional<PairStatistics> statistics;  // if all vertices are sources
+  std::optional<PairStatistics> statistics;  // if all vertices of a mesh are sources
 };
 
-/// Symmetric all-pairs distance, and the methods of distance on surfaces.
-const std::vector<MethodInfo>& pair_methods();
+/// Row i holds the distances from source i to all vertices. Methods for all pairs solve once,
+/// whichever rows are wanted; methods of distance solve for every source, on factors that they
+/// share, side by side.
+///
+/// No vertices: all. Throws InputError for bad input, UnsupportedError where the method does not
+/// run, IoError with the estimate where the matrix does not fit into memory, Cancelled.
+PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& vertices,
+                           const AnyMethod& method, Task task, Report& report);
 
-/// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
-void check_request(const PairsRequest& request);
-
-/// Row i holds the distances from source i. "symmetric" solves for all pairs at once, component by
-/// component (Alg. 2), whichever rows are wanted; other methods solve once for every source, side
-/// by side, on factorizations made once. The report gets the statistics as residuals. Throws
-/// InputError, UnsupportedError, SolveError, Cancelled, and IoError, before anything is computed,
-/// if the matrices do not fit into memory.
-PairsAnswer pair_distances(const SurfaceMesh& mesh, const PairsRequest& request, Task task,
-                           Report& report);
+/// Row i holds the distances at the vertices from points[i], by solves of one solver side by side;
+/// 0 at the vertex that a point is. Rows of points that belong to no face are +inf.
+MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& domain,
+                   const std::vector<SurfacePoint>& points, Task task, Report& report);
 
 }  // namespace littoral

@@ -1,84 +1,92 @@
-// Quadratic-order geodesics as an entry of the registry, without and with sign.
+#include "api/surface/quadratic_method.h"
 
-#include <functional>
-#include <memory>
-
-#include "api/surface/signed_quadratic.h"
+#include "api/surface/discretization.h"
 #include "api/surface/subdivided.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
-#include "methods/quadratic/quadratic.h"
 #include "sources/completed_curves.h"
 #include "sources/p2_sources.h"
 
 namespace littoral {
 
-namespace {
+QuadraticOnSurface::QuadraticOnSurface(SurfaceDomain domain, Report& report)
+    : domain_(std::move(domain)),
+      T_(triangulation_of(domain_, report)),
+      method_(std::make_shared<const QuadraticSolver<2>>(
+          std::make_shared<const P2Elements<2>>(p2_elements(*T_)))) {}
 
-/// Distance from sources on a mesh, times `sign_at` (triangle, point) and `signs` (vertices).
-using SignAt = std::function<double(int triangle, const Vec3& b)>;
-
-SurfaceResult solved(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                     const PreparedSources& prepared, const QuadraticOptions& options,
-                     const VecX& signs, const SignAt& sign_at, const Task& task, Report& report) {
-  const auto sources = p2_sources(mesh, T, prepared, options.spacing);
-  const Quadratic<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
-  const QuadraticField<2> field = method.solve(sources, options, task, report);
-  SurfaceResult result{field.at_vertices().cwiseProduct(signs), {}};
-  const int n = static_cast<int>(options.subdivide);
-  if (n > 1)
-    result.shown = subdivided(mesh, T, n, result.values, [&](int triangle, const Vec3& b) {
-      return sign_at(triangle, b) * field.distance(triangle, b);
-    });
-  return result;
+SurfaceAnswer QuadraticOnSurface::solved(const PlacedSources& placed, const Quadratic& options,
+                                         const VecX& signs, const SignAt& sign_at, const Task& task,
+                                         Report& report) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
+  const QuadraticField<2> field =
+      method_->solve(p2_sources(mesh, *T_, placed, options.spacing), options, task, report);
+  SurfaceAnswer answer{field.at_vertices().cwiseProduct(signs), {}};
+  if (options.subdivide > 1)
+    answer.shown =
+        subdivided(mesh, *T_, options.subdivide, answer.values, [&](int triangle, const Vec3& b) {
+          return sign_at(triangle, b) * field.distance(triangle, b);
+        });
+  return answer;
 }
 
-SurfaceResult quadratic(const SurfaceProblem& problem, QuadraticOptions& options, Task& task,
-                        Report& report) {
-  if (options.is_signed) {
-    Task heat_task = task.stage(0.3, "signed heat");
-    const VecX phi = heat_methods().front().run(problem, {}, heat_task, report).values;
-    report.options.clear();
-    return signed_quadratic(problem, phi, options, task.stage(0.7, "squared distance"), report);
-  }
-  const PreparedSources prepared = prepared_sources(problem, task, report);
-  const IntrinsicTriangulation T = [&] {
-    const Stopwatch watch(report, "triangulation");
-    return intrinsic_triangulation(problem.mesh, report);
-  }();
-  task.stage(0.03, "elements").checkpoint();
+SurfaceAnswer QuadraticOnSurface::solve(const Sources& sources, const Quadratic& options, Task task,
+                                        Report& report) const {
+  const PlacedSources placed =
+      place_sources(domain_, sources, task.stage(0.05, "placing the sources"), report);
   return solved(
-      problem.mesh, T, prepared, options, VecX::Ones(problem.mesh.n_vertices()),
-      [](int, const Vec3&) { return 1.0; }, task.stage(0.92, "squared distance"), report);
+      placed, options, VecX::Ones(domain_.mesh->n_vertices()), [](int, const Vec3&) { return 1.0; },
+      task.stage(0.95, "squared distance"), report);
 }
 
-}  // namespace
-
-SurfaceResult signed_quadratic(const SurfaceProblem& problem, const VecX& phi,
-                               const QuadraticOptions& options, Task task, Report& report) {
-  const SurfaceMesh& mesh = problem.mesh;
+SurfaceAnswer QuadraticOnSurface::solve_signed(const Sources& sources, const VecX& phi,
+                                               const Quadratic& options, Task task,
+                                               Report& report) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
   Report again;  // what can be said of mesh and sources was said when phi was made
   report.unreachable_components.clear();
-  const PreparedSources given =
-      prepare(mesh, problem.sources, problem.flip, again, task.stage(0.02, "placing the sources"));
-  const PreparedSources completed = completed_curves(mesh, given, phi);
+  const PlacedSources given =
+      place_sources(mesh, sources, again, task.stage(0.02, "placing the sources"));
+  const PlacedSources completed = completed_curves(mesh, given, phi);
   report.sizes.emplace_back("completing_pieces",
                             static_cast<double>(completed.pieces.size() - given.pieces.size()));
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, again);
-  const CurveSides sides(mesh, T, given, phi);
+  const CurveSides sides(mesh, *T_, given, phi);
   return solved(
-      mesh, T, completed, options, sides.at_vertices(),
+      completed, options, sides.at_vertices(),
       [&](int triangle, const Vec3& b) { return sides.at(triangle, b); },
       task.stage(0.98, "squared distance"), report);
 }
 
-std::vector<SurfaceMethod> quadratic_methods() {
-  return {surface_method({"quadratic",
-                          "Distance to points anywhere and curves, signed on request, of quadratic "
-                          "order: the most accurate on coarse and badly shaped meshes.",
-                          {"triangle mesh"},
-                          {},
-                          "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
-                         quadratic_options(), quadratic)};
+namespace {
+
+std::function<SurfaceAnswer(const Sources&, Quadratic&, Task&, Report&)> quadratic(
+    const SurfaceDomain& domain, const Quadratic& given, SolveHint hint, const Task& task,
+    Report& report) {
+  const auto elements = std::make_shared<const QuadraticOnSurface>(domain, report);
+  if (!given.is_signed)
+    return [elements](const Sources& sources, Quadratic& options, Task& t, Report& r) {
+      return elements->solve(sources, options, t, r);
+    };
+  Report again;  // the mesh has been spoken of
+  const auto heat = prepare<SurfaceDomain>(SignedHeat{}, domain, hint, task, again);
+  return [elements, heat](const Sources& sources, Quadratic& options, Task& t, Report& r) {
+    const std::string name = r.method;
+    const VecX phi = heat->solve(sources, t.stage(0.3, "signed heat"), r).values;
+    r.method = name;
+    r.options.clear();  // those of signed heat
+    return elements->solve_signed(sources, phi, options, t.stage(0.7, "squared distance"), r);
+  };
+}
+
+}  // namespace
+
+std::vector<Method<SurfaceDomain>> quadratic_methods() {
+  return {make_method<SurfaceDomain>(
+      {Quadratic::method,
+       "Distance to points anywhere and curves, signed on request, of quadratic order: the most "
+       "accurate on coarse and badly shaped meshes.",
+       {"triangle mesh"},
+       {},
+       "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
+      quadratic_options(), quadratic)};
 }
 
 }  // namespace littoral

@@ -5,19 +5,18 @@
 #include <limits>
 #include <memory>
 
-#include "api/surface/regularized_method.h"
+#include "api/surface/discretization.h"
 #include "api/surface/subdivided.h"
-#include "api/surface/surface_method.h"
-#include "api/surface/translated.h"
-#include "base/error.h"
+#include "base/stopwatch.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/surface/read_directions.h"
+#include "littoral/error.h"
 #include "methods/regularized/regularized.h"
 #include "operators/curved_hessian.h"
 #include "operators/line_field.h"
 #include "operators/triangles.h"
 #include "sources/p2_sources.h"
-#include "sources/triangle_source_terms.h"
+#include "sources/triangle_source_system.h"
 
 namespace littoral {
 
@@ -34,10 +33,10 @@ void localise(VecX& V, const std::vector<std::pair<int, Complex>>& given, double
       entries.emplace_back(static_cast<int>(i), T.faces(given[i].first, k), 1.0 / 3);
   SpMat rows(static_cast<Eigen::Index>(given.size()), T.n_vertices);
   rows.setFromTriplets(entries.begin(), entries.end());
-  RegularizedOptions options;
+  Regularized options;
   options.alpha = 0;
   AdmmState state;
-  const VecX d = Regularized(std::move(ops), Regularizer::dirichlet, {}, task)
+  const VecX d = RegularizedSolver(std::move(ops), Regularizer::dirichlet, {}, task)
                      .minimize(rows, options, state, task)
                      .u;
   const double sigma = width * std::sqrt(C.A.sum());
@@ -48,10 +47,10 @@ void localise(VecX& V, const std::vector<std::pair<int, Complex>>& given, double
 }
 
 VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-           const std::shared_ptr<const Operators>& ops, const RegularizedOptions& options,
+           const std::shared_ptr<const Operators>& ops, const Regularized& options,
            const Task& task, Report& report) {
   if (options.field.empty())
-    throw InputError("--regularizer align needs directions: name --field FILE");
+    throw InputError("regularizer align needs directions: option field names their file");
   const io::FaceDirections read = io::read_directions(options.field, mesh.n_faces());
   if (read.all.rows() > 0) {
     VecX V(2 * T.n_faces());
@@ -96,9 +95,10 @@ std::shared_ptr<const Operators> operators_for(const IntrinsicTriangulation& T,
 }
 
 /// Rows u = 0 at points of quadratic elements.
-SourceTerms quadratic_terms(const P2Elements<2>& E, const std::vector<P2Source<2>>& sources) {
+SourceSystem quadratic_source_system(const P2Elements<2>& E,
+                                     const std::vector<P2Source<2>>& sources) {
   std::vector<P2Point<2>> points;
-  SourceTerms terms;
+  SourceSystem terms;
   terms.reached.assign(static_cast<std::size_t>(E.n_components), 0);
   for (const P2Source<2>& source : sources) {
     points.push_back(source.where.front());
@@ -108,109 +108,147 @@ SourceTerms quadratic_terms(const P2Elements<2>& E, const std::vector<P2Source<2
   return terms;
 }
 
-}  // namespace
-
-RegularizedSurface::RegularizedSurface(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                       const RegularizedOptions& options, const Task& task,
-                                       Report& report)
-    : mesh_(mesh), T_(T) {
-  const Stopwatch watch(report, "factor");
-  const auto regularizer =
-      options.alpha > 0 ? static_cast<Regularizer>(options.regularizer) : Regularizer::dirichlet;
-  if (static_cast<Elements>(options.elements) == Elements::quadratic) {
-    if (regularizer != Regularizer::dirichlet)
-      throw UnsupportedError(
-          "quadratic elements have the Dirichlet energy only: leave out --elements quadratic");
-    elements_ = std::make_shared<const P2Elements<2>>(p2_elements(T));
+/// Triangle meshes: directions read and interpolated, elements, one factorization.
+class RegularizedTriangles {
+ public:
+  RegularizedTriangles(SurfaceDomain domain, const Regularized& options, const Task& task,
+                       Report& report)
+      : domain_(std::move(domain)), T_(triangulation_of(domain_, report)) {
+    const Stopwatch watch(report, "factor");
+    const auto regularizer = options.alpha > 0 ? options.regularizer : Regularizer::dirichlet;
+    if (options.elements == Elements::quadratic) {
+      if (regularizer != Regularizer::dirichlet)
+        throw UnsupportedError(
+            "quadratic elements have the Dirichlet energy only: they do not go with option "
+            "regularizer");
+      elements_ = std::make_shared<const P2Elements<2>>(p2_elements(*T_));
+    }
+    const auto ops = operators_for(*T_, elements_.get(), regularizer == Regularizer::hessian);
+    RegularizerData data;
+    if (regularizer == Regularizer::align)
+      data.V = field(*domain_.mesh, *T_, ops, options, task, report);
+    if (regularizer == Regularizer::hessian) data.W = curved_hessian(*T_, ops->vector);
+    if (regularizer == Regularizer::max_norm) data.frames = face_frames(*domain_.mesh, *T_);
+    method_ = std::make_shared<const RegularizedSolver>(ops, regularizer, std::move(data), task);
   }
-  const auto ops = operators_for(T, elements_.get(), regularizer == Regularizer::hessian);
-  RegularizerData data;
-  if (regularizer == Regularizer::align) data.V = field(mesh, T, ops, options, task, report);
-  if (regularizer == Regularizer::hessian) data.W = curved_hessian(T, ops->vector);
-  if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, T);
-  method_ = std::make_unique<const Regularized>(ops, regularizer, std::move(data), task);
-}
 
-VecX RegularizedSurface::solve(const PreparedSources& sources, const RegularizedOptions& options,
-                               const Task& task, Report& report) const {
-  const SourceTerms terms = elements_
-                                ? quadratic_terms(*elements_, p2_sources(mesh_, T_, sources, 0.5))
-                                : source_terms(mesh_, T_, sources);
-  return method_->solve(terms, options, task, report);
-}
+  SurfaceAnswer solve(const Sources& sources, const Regularized& options, Task& task,
+                      Report& report) const {
+    const SurfaceMesh& mesh = *domain_.mesh;
+    const PlacedSources placed =
+        place_sources(domain_, sources, task.stage(0.02, "placing the sources"), report);
+    const SourceSystem terms =
+        elements_ ? quadratic_source_system(*elements_, p2_sources(mesh, *T_, placed, 0.5))
+                  : source_system(mesh, *T_, placed);
+    const Stopwatch watch(report, "solve");
+    const VecX u =
+        method_->solve(terms, options, task.stage(0.98, "alternating directions"), report);
+    SurfaceAnswer answer{u.head(mesh.n_vertices()), {}};
+    if (elements_ && options.subdivide > 1)
+      answer.shown =
+          subdivided(mesh, *T_, options.subdivide, answer.values, [&](int triangle, const Vec3& b) {
+            const double d = elements_->value(u, triangle, b);
+            return std::isfinite(d) ? std::max(0.0, d) : std::numeric_limits<double>::infinity();
+          });
+    return answer;
+  }
 
-namespace {
-
-SurfaceResult on_triangles(const SurfaceProblem& problem, const RegularizedOptions& options,
-                           Task& task, Report& report) {
-  const PreparedSources prepared = prepared_sources(problem, task, report);
-  task.checkpoint();
-  const IntrinsicTriangulation T = intrinsic_triangulation(problem.mesh, report);
-  const RegularizedSurface method(problem.mesh, T, options, task.stage(0.3, "factoring"), report);
-  const Stopwatch watch(report, "solve");
-  const VecX u =
-      method.solve(prepared, options, task.stage(0.65, "alternating directions"), report);
-  SurfaceResult result{u.head(problem.mesh.n_vertices()), {}};
-  const int n = static_cast<int>(options.subdivide);
-  const P2Elements<2>* E = method.quadratic();
-  if (E && n > 1)
-    result.shown = subdivided(problem.mesh, T, n, result.values, [&](int triangle, const Vec3& b) {
-      const double d = E->value(u, triangle, b);
-      return std::isfinite(d) ? std::max(0.0, d) : std::numeric_limits<double>::infinity();
-    });
-  return result;
-}
+ private:
+  SurfaceDomain domain_;
+  std::shared_ptr<const IntrinsicTriangulation> T_;
+  std::shared_ptr<const P2Elements<2>> elements_;
+  std::shared_ptr<const RegularizedSolver> method_;
+};
 
 /// Polygon meshes, point clouds, voxel surfaces: functions of values at nodes all the same.
-SurfaceResult on_nodes(const SurfaceProblem& problem, const RegularizedOptions& options, Task& task,
-                       Report& report) {
-  if (static_cast<Elements>(options.elements) == Elements::quadratic)
-    throw UnsupportedError("quadratic elements need a triangle mesh, not a " + problem.domain());
-  const auto regularizer = static_cast<Regularizer>(options.regularizer);
-  if (options.alpha > 0 && regularizer != Regularizer::dirichlet)
-    throw UnsupportedError("on a " + problem.domain() +
-                           " there is the regularizer dirichlet only; the others need a triangle "
-                           "mesh: littoral convert --triangulate");
-  const Translated on = translate_nodes(problem, task, report);
-  const Regularized method(on.ops, Regularizer::dirichlet, {}, task.stage(0.3, "factoring"));
-  const Stopwatch watch(report, "solve");
-  return at_input(
-      problem, on.faces.get(),
-      method.solve(on.terms, options, task.stage(0.65, "alternating directions"), report));
+class RegularizedNodes {
+ public:
+  RegularizedNodes(const SurfaceDomain& domain, const Regularized& options, Task task,
+                   Report& report)
+      : surface_((check(domain.kind(), options), domain), task.stage(0.5, "operators"), report) {
+    const Stopwatch watch(report, "factor");
+    method_ =
+        std::make_shared<const RegularizedSolver>(surface_.operators(), Regularizer::dirichlet,
+                                                  RegularizerData{}, task.stage(0.5, "factoring"));
+  }
+
+  SurfaceAnswer solve(const Sources& sources, const Regularized& options, Task& task,
+                      Report& report) const {
+    const SourceSystem terms =
+        surface_.system(sources, task.stage(0.02, "placing the sources"), report);
+    const Stopwatch watch(report, "solve");
+    return surface_.at_input(
+        method_->solve(terms, options, task.stage(0.98, "alternating directions"), report));
+  }
+
+ private:
+  static void check(const std::string& kind, const Regularized& options) {
+    if (options.elements == Elements::quadratic)
+      throw UnsupportedError("quadratic elements need a triangle mesh, not a " + kind);
+    if (options.alpha > 0 && options.regularizer != Regularizer::dirichlet)
+      throw UnsupportedError("on a " + kind +
+                             " there is the regularizer dirichlet only; the others need a triangle "
+                             "mesh: littoral convert --triangulate");
+  }
+  SurfaceDiscretization surface_;
+  std::shared_ptr<const RegularizedSolver> method_;
+};
+
+using Solve = std::function<SurfaceAnswer(const Sources&, const Regularized&, Task&, Report&)>;
+
+Solve regularized(const SurfaceDomain& domain, const Regularized& options, const Task& task,
+                  Report& report) {
+  const auto with = [](auto method) -> Solve {
+    return [method](const Sources& sources, const Regularized& o, Task& t, Report& r) {
+      return method->solve(sources, o, t, r);
+    };
+  };
+  if (domain.kind() == "triangle mesh")
+    return with(std::make_shared<const RegularizedTriangles>(domain, options, task, report));
+  return with(std::make_shared<const RegularizedNodes>(domain, options, task, report));
 }
 
-SurfaceResult regularized(const SurfaceProblem& problem, RegularizedOptions& options, Task& task,
-                          Report& report) {
-  return problem.domain() == "triangle mesh" ? on_triangles(problem, options, task, report)
-                                             : on_nodes(problem, options, task, report);
-}
-
-SurfaceResult belyaev_fayolle(const SurfaceProblem& problem, RegularizedOptions& options,
-                              Task& task, Report& report) {
-  options.alpha = 0;
-  return regularized(problem, options, task, report);
+/// The regularized method without smoothing (eq. 1).
+Regularized without_smoothing(const BelyaevFayolle& options) {
+  Regularized out;
+  out.alpha = 0;
+  out.tolerance = options.tolerance;
+  out.gap = options.gap;
+  out.max_iterations = options.max_iterations;
+  out.elements = options.elements;
+  out.subdivide = options.subdivide;
+  return out;
 }
 
 }  // namespace
 
-std::vector<SurfaceMethod> regularized_methods() {
+std::vector<Method<SurfaceDomain>> regularized_methods() {
   return {
-      surface_method(
-          {"regularized",
+      make_method<SurfaceDomain>(
+          {Regularized::method,
            "Unsigned distance that is smooth at the cut locus, aligned to directions, or "
            "unaffected by boundaries.",
            all_surfaces(),
            {},
            "Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for Regularized "
            "Geodesic Distances (2023)"},
-          regularized_options(), regularized),
-      surface_method({"belyaev-fayolle",
-                      "Unsigned distance as the largest function of slope at most 1.",
-                      all_surfaces(),
-                      {},
-                      "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation "
-                      "(2020)"},
-                     constrained_options(), belyaev_fayolle)};
+          regularized_options(),
+          [](const SurfaceDomain& domain, const Regularized& options, SolveHint, const Task& task,
+             Report& report) { return regularized(domain, options, task, report); }),
+      make_method<SurfaceDomain>(
+          {BelyaevFayolle::method,
+           "Unsigned distance as the largest function of gradient at most 1.",
+           all_surfaces(),
+           {},
+           "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation (2020)"},
+          belyaev_fayolle_options(),
+          [](const SurfaceDomain& domain, const BelyaevFayolle& options, SolveHint,
+             const Task& task, Report& report) {
+            return [solve = regularized(domain, without_smoothing(options), task, report)](
+                       const Sources& sources, const BelyaevFayolle& o, Task& t, Report& r) {
+              return solve(sources, without_smoothing(o), t, r);
+            };
+          })};
 }
 
 }  // namespace littoral

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "base/types.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "domain/mesh/surface_mesh.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

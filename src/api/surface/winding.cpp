@@ -5,10 +5,13 @@
 #include <map>
 #include <memory>
 
+#include "api/surface/discretization.h"
 #include "api/surface/face_chains.h"
-#include "base/error.h"
+#include "base/lazy.h"
+#include "base/stopwatch.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
-#include "domain/mesh/tear.h"
+#include "domain/mesh/split_at_jumps.h"
+#include "littoral/error.h"
 #include "methods/winding/dual_winding.h"
 #include "methods/winding/nonconforming_winding.h"
 #include "operators/jump_calculus.h"
@@ -66,8 +69,8 @@ double total_length(const Polylines& lines) {
 }
 
 /// The cut mesh with one vertex for every value that meets at it.
-PolygonSoup torn_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
-                          const JumpCalculus& J, const WindingNumbers& numbers) {
+PolygonSoup split_by_value(const SurfaceMesh& mesh, const std::vector<int>& triangle_of_face,
+                           const JumpCalculus& J, const WindingNumbers& numbers) {
   // Open corners belong to their face alone; others to all with the same label and value to 1e-6.
   Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Zero(mesh.n_faces(), 3);
   for (int f = 0; f < mesh.n_faces(); ++f) {
@@ -78,19 +81,19 @@ PolygonSoup torn_by_value(const SurfaceMesh& mesh, const std::vector<int>& trian
                                                : value * (1 << 20) + numbers.region[t];
     }
   }
-  TornSurface torn = tear(mesh, key);
-  const auto n = static_cast<Eigen::Index>(torn.corner.size());
+  SplitSurface split = split_at_jumps(mesh, key);
+  const auto n = static_cast<Eigen::Index>(split.corner.size());
   VecX winding = VecX::Zero(n), region = winding, weight = VecX::Ones(n);
   for (Eigen::Index v = 0; v < n; ++v) {
-    const auto [f, k] = torn.corner[v];
+    const auto [f, k] = split.corner[v];
     const int t = triangle_of_face[f];
     if (t < 0) continue;
     winding[v] = numbers.w.u(t, k);
     region[v] = numbers.region[t];
     if (numbers.w.open[J.node(t, k)]) weight[v] = 0;
   }
-  torn.soup.scalars = {{"winding", winding}, {"region", region}, {"weight", weight}};
-  return std::move(torn.soup);
+  split.soup.scalars = {{"winding", winding}, {"region", region}, {"weight", weight}};
+  return std::move(split.soup);
 }
 
 /// The label of the largest part of every face of the input.
@@ -111,11 +114,13 @@ VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, cons
   return region;
 }
 
-std::vector<CurvePiece> drawn_pieces(const SurfaceMesh& mesh, SurfaceSources drawn, bool flip,
-                                     Task& task, Report& report) {
+std::vector<CurvePiece> drawn_pieces(const SurfaceMesh& mesh, Sources drawn, Task& task,
+                                     Report& report) {
   drawn.chains.clear();
   if (drawn.empty()) return {};
-  return signed_pieces(prepared_sources({mesh, drawn, flip}, task, report), report);
+  return signed_pieces(
+      place_sources(domain_of(mesh), drawn, task.stage(0.02, "placing the sources"), report),
+      report);
 }
 
 ConformingCurves conforming(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces,
@@ -161,12 +166,7 @@ Polylines polylines(const SurfaceMesh& mesh, const std::vector<CurvePiece>& piec
   return lines;
 }
 
-std::vector<FaceChain> reversed(std::vector<FaceChain> chains) {
-  for (FaceChain& chain : chains) std::reverse(chain.faces.begin(), chain.faces.end());
-  return chains;
-}
-
-void refuse_sideless(const SurfaceMesh& mesh, const JumpCalculus& J, const VecX& curve) {
+void require_manifold_edges(const SurfaceMesh& mesh, const JumpCalculus& J, const VecX& curve) {
   for (int e = 0; e < J.n_edges; ++e)
     if (curve[e] != 0 && !J.manifold[e])
       throw UnsupportedError("the curve runs along the edge between vertices " +
@@ -176,7 +176,7 @@ void refuse_sideless(const SurfaceMesh& mesh, const JumpCalculus& J, const VecX&
                              "chain of faces (c)");
 }
 
-void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
+void require_manifold_mesh(const SurfaceMesh& mesh, const JumpCalculus& J) {
   int count = 0, first = -1;
   for (int e = 0; e < J.n_edges; ++e)
     if (!J.manifold[e]) {
@@ -189,90 +189,112 @@ void refuse_nonmanifold(const SurfaceMesh& mesh, const JumpCalculus& J) {
                          std::to_string(mesh.edges()(first, 1)));
 }
 
-void check_combination(const WindingOptions& options) {
-  const auto formulation = static_cast<Formulation>(options.formulation);
+void check_combination(const SurfaceWinding& options) {
+  const auto formulation = options.formulation;
   if (formulation != Formulation::primal &&
-      options.boundary != static_cast<int>(AtBoundary::natural))
-    throw UnsupportedError("option boundary: free boundaries need formulation primal");
-  if (formulation == Formulation::nonconforming && options.labels == static_cast<int>(Labels::cut))
+      options.boundary_condition != BoundaryCondition::natural)
+    throw UnsupportedError("option boundary-condition: free boundaries need formulation primal");
+  if (formulation == Formulation::nonconforming && options.labels == Labels::cut)
     throw UnsupportedError(
         "option labels: cut needs curves along edges, formulation primal or dual");
 }
 
+/// A mesh that no curve cuts, as operators.
+struct Uncut {
+  IntrinsicTriangulation T;
+  std::shared_ptr<const JumpCalculus> J;
+
+  Uncut(const SurfaceMesh& mesh, Report& report) : T(intrinsic_triangulation(mesh, report)) {
+    const Stopwatch watch(report, "operators");
+    J = std::make_shared<const JumpCalculus>(jump_calculus(T));
+  }
+};
+
+class WindingOnSurface {
+ public:
+  explicit WindingOnSurface(WindingDomain domain) : domain_(std::move(domain)) {}
+
+  WindingAnswer solve(const Sources& sources, SurfaceWinding& options, Task& task,
+                      Report& report) const {
+    const SurfaceMesh& mesh = *domain_.mesh;
+    if (!sources.chains.empty()) options.formulation = Formulation::dual;
+    const Formulation formulation = options.formulation;
+    check_combination(options);
+    const std::vector<CurvePiece> pieces = drawn_pieces(mesh, sources, task, report);
+    ConformingCurves curves = conforming(mesh, pieces, formulation, report);
+    if (curves.is_cut && !sources.chains.empty())
+      throw UnsupportedError(sources.chains[0].origin +
+                             ": chains of faces go with curves along edges, not through faces");
+    WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
+    const SurfaceMesh& cut = answer.cut.mesh;
+    if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
+    task.checkpoint();
+    // Without cuts the mesh is the input, numbers and all.
+    const auto made = [&] { return std::make_shared<const Uncut>(cut, report); };
+    const auto on = curves.is_cut ? made() : uncut_.get(made);
+    const IntrinsicTriangulation& T = on->T;
+    const auto& J = on->J;
+    answer.triangle_of_face = T.triangle_of_face;
+    const Task work = task.stage(0.9, "winding");
+    if (formulation == Formulation::dual) {
+      DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
+      require_manifold_edges(cut, *J, curve.edge);
+      add_chains(sources.chains, *J, answer.triangle_of_face, curve);
+      answer.numbers = dual_winding(*J, curve, options, work, report);
+    } else {
+      require_manifold_mesh(cut, *J);
+      answer.numbers =
+          formulation == Formulation::primal
+              ? WindingSolver(J).solve(curves.times, options, work, report)
+              : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
+    }
+    answer.region = labels_of_input(mesh, answer, *J);
+    answer.shown = split_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
+    answer.completed = polylines(cut, answer.numbers.completed);
+    const VecX& bounding = answer.numbers.bounding;
+    if (formulation == Formulation::nonconforming)
+      answer.bounding = polylines(cut, pieces);
+    else
+      answer.bounding = polylines(cut, bounding);
+    answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
+    report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
+    report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));
+    report.sizes.emplace_back("completed_length", total_length(answer.completed));
+    return answer;
+  }
+
+ private:
+  WindingDomain domain_;
+  Kept<Uncut> uncut_;
+};
+
 }  // namespace
 
-const MethodInfo& winding_method() {
-  static const MethodInfo method = {
-      "surface-winding",
-      "Regions that (broken) signed curves bound on a surface, and curves that bound nothing.",
-      {"triangle mesh"},
-      winding_options().infos(),
-      "Feng, Gillespie, Crane: Winding Numbers on Discrete Surfaces (2023)"};
-  return method;
+std::string WindingDomain::kind() const { return domain_of(*mesh).kind(); }
+
+template <>
+std::vector<Method<WindingDomain>> library_methods() {
+  return {make_method<WindingDomain>(
+      {SurfaceWinding::method,
+       "Regions that (broken) signed curves bound on a surface, and curves that bound nothing.",
+       {"triangle mesh"},
+       {},
+       "Feng, Gillespie, Crane: Winding Numbers on Discrete Surfaces (2023)"},
+      winding_options(),
+      [](const WindingDomain& domain, const SurfaceWinding& options, SolveHint, const Task&,
+         Report&) {
+        check_combination(options);
+        return [method = std::make_shared<const WindingOnSurface>(domain)](
+                   const Sources& sources, SurfaceWinding& used, Task& task, Report& report) {
+          return method->solve(sources, used, task, report);
+        };
+      })};
 }
 
-void check_request(const WindingRequest& request) {
-  check_combination(parse_options(winding_method(), winding_options(), request.options));
-}
-
-WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                              const WindingRequest& request, Task task, Report& report) {
-  WindingOptions options = parse_options(winding_method(), winding_options(), request.options);
-  auto formulation = static_cast<Formulation>(options.formulation);
-  if (!sources.chains.empty()) formulation = Formulation::dual;
-  options.formulation = static_cast<int>(formulation);
-  check_combination(options);
-  report.method = winding_method().name;
-  report.domain = "triangle mesh";
-  report_options(winding_options(), options, report);
-  const std::vector<CurvePiece> pieces = drawn_pieces(mesh, sources, request.flip, task, report);
-  ConformingCurves curves = conforming(mesh, pieces, formulation, report);
-  if (curves.is_cut && !sources.chains.empty())
-    throw UnsupportedError(sources.chains[0].origin +
-                           ": chains of faces go with curves along edges, not through faces");
-  WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
-  const SurfaceMesh& cut = answer.cut.mesh;
-  if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
-  task.checkpoint();
-  const IntrinsicTriangulation T = intrinsic_triangulation(cut, report);
-  answer.triangle_of_face = T.triangle_of_face;
-  const auto J = [&] {
-    const Stopwatch watch(report, "operators");
-    return std::make_shared<const JumpCalculus>(jump_calculus(T));
-  }();
-  const Task work = task.stage(0.9, "winding");
-  if (formulation == Formulation::dual) {
-    DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
-    refuse_sideless(cut, *J, curve.edge);
-    add_chains(request.flip ? reversed(sources.chains) : sources.chains, *J,
-               answer.triangle_of_face, curve);
-    answer.numbers = dual_winding(*J, curve, options, work, report);
-  } else {
-    refuse_nonmanifold(cut, *J);
-    answer.numbers =
-        formulation == Formulation::primal
-            ? SurfaceWinding(J).solve(curves.times, options, work, report)
-            : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
-  }
-  answer.region = labels_of_input(mesh, answer, *J);
-  answer.shown = torn_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
-  answer.completed = polylines(cut, answer.numbers.completed);
-  const VecX& bounding = answer.numbers.bounding;
-  if (formulation == Formulation::nonconforming)
-    answer.bounding = polylines(cut, pieces);
-  else
-    answer.bounding = polylines(cut, bounding);
-  answer.nonbounding = polylines(cut, answer.numbers.curve - bounding);
-  report.sizes.emplace_back("bounding_length", total_length(answer.bounding));
-  report.sizes.emplace_back("nonbounding_length", total_length(answer.nonbounding));
-  report.sizes.emplace_back("completed_length", total_length(answer.completed));
-  return answer;
-}
-
-SurfaceSources bounding_sources(const WindingAnswer& answer) {
-  SurfaceSources sources;
+Sources bounding_sources(const WindingAnswer& answer) {
+  Sources sources;
   for (const auto& chain : chains(answer.cut.mesh, answer.numbers.bounding)) {
-    SurfaceCurve curve;
+    Curve curve;
     for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
     sources.curves.push_back(std::move(curve));
   }

@@ -1,26 +1,20 @@
 #pragma once
-// Winding numbers on a surface in one call: from a mesh and curves to regions.
+// Winding numbers on a surface: from a mesh and curves to regions.
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "api/registry.h"
-#include "api/surface/surface_method.h"
-#include "base/report.h"
+#include "api/method.h"
 #include "base/task.h"
 #include "domain/mesh/cut_mesh.h"
-#include "domain/mesh/polygon_soup.h"
 #include "domain/mesh/surface_mesh.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
 #include "methods/winding/surface_winding.h"
-#include "sources/surface_sources.h"
 
 namespace littoral {
-
-/// What to compute, in words.
-struct WindingRequest {
-  OptionTexts options;  // name, value as text; others default
-  bool flip = false;    // reverse every curve
-};
 
 /// Polylines on the surface, in space, each in its direction of travel.
 using Polylines = std::vector<MatX3>;
@@ -31,26 +25,30 @@ struct WindingAnswer {
   CutMesh cut;             // the mesh on which the curves run along edges
   WindingNumbers numbers;  // on the triangles of the cut mesh
   std::vector<int> triangle_of_face;  // faces of the cut mesh -> triangle of `numbers`, or -1
-  /// The cut mesh torn where values jump. Scalars at vertices: "winding", "region" and "weight":
+  /// The cut mesh split where values jump. Scalars at vertices: "winding", "region" and "weight":
   /// within a triangle the winding number function is sum(b winding weight) / sum(b weight), which
   /// at the ends of curves, of weight 0, takes every value (projective interpolation).
   PolygonSoup shown;
   Polylines bounding, nonbounding, completed;
 };
 
-/// What the world may know about the method and its options.
-const MethodInfo& winding_method();
+/// Triangle meshes as the domain of surface winding numbers. Components without a curve are one
+/// region, 0. A solve reports sizes, seconds, the residual's gap, and the lengths of the curves
+/// found.
+struct WindingDomain {
+  using Sources = littoral::Sources;
+  using Answer = WindingAnswer;
+  static constexpr const char* title = "Inside and outside on surfaces";
 
-/// Throws InputError if an option is unknown or out of range.
-void check_request(const WindingRequest& request);
+  std::shared_ptr<const SurfaceMesh> mesh;
 
-/// Surface winding numbers of signed curves. Components of the mesh without a curve are one region,
-/// 0. The report gets the sizes, seconds, the residual's gap, and the lengths of the curves found.
-/// Throws InputError and UnsupportedError for bad input, SolveError, Cancelled.
-WindingAnswer surface_winding(const SurfaceMesh& mesh, const SurfaceSources& sources,
-                              const WindingRequest& request, Task task, Report& report);
+  std::string kind() const;
+};
+
+template <>
+std::vector<Method<WindingDomain>> library_methods();
 
 /// The curves that bound regions, on the input mesh: sources without what has no inside (6.4.1).
-SurfaceSources bounding_sources(const WindingAnswer& answer);
+Sources bounding_sources(const WindingAnswer& answer);
 
 }  // namespace littoral

@@ -3,9 +3,9 @@
 #include <map>
 #include <memory>
 
-#include "api/tet/tet_method.h"
-#include "base/error.h"
+#include "api/tet/tet_domain.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 #include "methods/quadratic/quadratic.h"
 #include "operators/p2_tets.h"
 #include "spatial/triangle_bvh.h"
@@ -56,33 +56,47 @@ std::vector<P2Source<3>> around(const TetProblem& problem, const P2Tets& P) {
   return out;
 }
 
-/// Checked for what tets have.
-QuadraticOptions options_of(const OptionTexts& texts) {
-  const auto options = parse_options(find_method("quadratic"), quadratic_options(), texts);
-  if (options.is_signed || options.subdivide != 1)
-    throw UnsupportedError("options signed and subdivide work on surfaces, not on a tet mesh");
-  return options;
-}
+/// Elements of a mesh and, once a source has been solved for, its symbolic factorizations.
+struct Elements3 {
+  P2Tets tets;
+  QuadraticSolver<3> method;
 
-VecX quadratic(const TetProblem& problem, const QuadraticOptions& options, Task& task,
+  explicit Elements3(const TetDiscretization& on)
+      : tets(p2_elements(*on.mesh(), *on.operators())),
+        method(std::make_shared<const P2Elements<3>>(tets.elements)) {}
+};
+
+VecX quadratic(const Elements3& E, const TetProblem& problem, const Quadratic& options, Task& task,
                Report& report) {
   const bool from_vertices = !problem.vertices.empty();
   if (!from_vertices && problem.surface.n_faces() == 0)
     throw UnsupportedError(
         "quadratic distance through tets is from vertices or a surface with faces, not from a "
         "cloud");
-  const P2Tets P = p2_elements(*problem.mesh, *problem.ops);
   const auto sources =
-      from_vertices ? at_vertices(P.elements, problem.vertices) : around(problem, P);
+      from_vertices ? at_vertices(E.tets.elements, problem.vertices) : around(problem, E.tets);
   if (sources.empty()) throw InputError("no source vertex belongs to a tet");
-  const Quadratic<3> method(std::make_shared<const P2Elements<3>>(P.elements));
-  return method.solve(sources, options, task.stage(0.9, "distance"), report).at_vertices();
+  return E.method.solve(sources, options, task.stage(0.9, "distance"), report).at_vertices();
 }
 
 }  // namespace
 
-std::vector<TetMethod> quadratic_tet_methods() {
-  return {tet_method("quadratic", quadratic_options(), options_of, quadratic)};
+std::vector<Method<TetDomain>> quadratic_tet_methods() {
+  return {make_tet_method(
+      {Quadratic::method,
+       "Distance from vertices, or from a surface without sign, of quadratic order.",
+       {},
+       {},
+       "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
+      quadratic_options(),
+      [](const std::shared_ptr<const TetDiscretization>& on, const Quadratic& given) {
+        if (given.is_signed || given.subdivide != 1)
+          throw UnsupportedError(
+              "options signed and subdivide work on surfaces, not on a tet mesh");
+        return [E = std::make_shared<const Elements3>(*on)](
+                   const TetProblem& problem, const Quadratic& options, Task& task,
+                   Report& report) { return quadratic(*E, problem, options, task, report); };
+      })};
 }
 
 }  // namespace littoral

@@ -17,8 +17,8 @@
 #include <system_error>
 #include <thread>
 
-#include "base/error.h"
 #include "base/platform/memory.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

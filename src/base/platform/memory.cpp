@@ -10,7 +10,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

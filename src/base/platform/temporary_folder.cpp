@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "api/registry.h"
+#include "littoral/methods.h"
 
 namespace littoral::cli {
 
 namespace {
 
 std::string option_help(const OptionInfo& info) {
-  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + option_range_text(info) +
+  return info.help + " [" + (info.unit.empty() ? "" : info.unit + "; ") + info.range() +
          "; default " + info.fallback + "]";
 }
 
@@ -27,25 +27,29 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
     }
   }
   for (const OptionInfo& info : all) {
+    using Kind = OptionInfo::Kind;
     const auto keep = [&given, name = info.name](const std::string& text) { given[name] = text; };
     CLI::Option* option =
-        info.is_switch
+        info.kind == Kind::toggle
             ? verb.add_flag_function(
                   "--" + info.name, [keep](std::int64_t on) { keep(on > 0 ? "on" : "off"); },
                   help[info.name])
             : verb.add_option_function<std::string>("--" + info.name, keep, help[info.name]);
-    if (!info.is_switch)
-      option->type_name(info.is_text ? "TEXT" : info.choices.empty() ? "X" : "WORD");
+    if (info.kind != Kind::toggle)
+      option->type_name(info.kind == Kind::text     ? "TEXT"
+                        : info.kind == Kind::choice ? "WORD"
+                                                    : "X");
     option->group("Options of methods");
   }
 }
 
-std::vector<std::string> with_words(int argc, char** argv) {
+std::vector<std::string> expand_optional_values(int argc, char** argv) {
   std::map<std::string, std::vector<std::string>> may_stand_alone;
-  for (const MethodInfo& method : methods())
-    for (const OptionInfo& info : method.options)
-      if (std::find(info.choices.begin(), info.choices.end(), "on") != info.choices.end())
-        may_stand_alone["--" + info.name] = info.choices;
+  for (const MethodFamily& family : method_families())
+    for (const MethodInfo& method : family.methods)
+      for (const OptionInfo& info : method.options)
+        if (std::find(info.choices.begin(), info.choices.end(), "on") != info.choices.end())
+          may_stand_alone["--" + info.name] = info.choices;
   std::vector<std::string> out;
   for (int i = 1; i < argc; ++i) {
     out.emplace_back(argv[i]);
@@ -59,24 +63,31 @@ std::vector<std::string> with_words(int argc, char** argv) {
   return out;
 }
 
-void add_method_options(CLI::App& verb, GivenOptions& given) {
-  add_method_options(verb, given, methods());
-}
-
-void add_method_option(CLI::App& verb, std::string& name, const std::vector<MethodInfo>& methods) {
+void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
+                 const std::string& fallback) {
   std::string names;
   for (const MethodInfo& method : methods) names += (names.empty() ? "" : ", ") + method.name;
-  verb.add_option("--method", name, names + " [default " + methods.front().name + "]")
+  verb.add_option("--method", arguments.name,
+                  names + " [default " + (fallback.empty() ? methods.front().name : fallback) + "]")
       ->type_name("NAME");
+  add_method_options(verb, arguments.options, methods);
 }
 
-void use_method_options(const GivenOptions& given, DistanceRequest& request) {
-  const MethodInfo& method = find_method(request.method);
-  for (const auto& [name, text] : given) {
-    check_has_option(method, name);
-    request.options.emplace_back(name, text);
+std::vector<MethodInfo> joined(std::vector<MethodInfo> methods,
+                               const std::vector<MethodInfo>& more) {
+  for (const MethodInfo& info : more) {
+    const auto same = std::find_if(methods.begin(), methods.end(),
+                                   [&](const MethodInfo& m) { return m.name == info.name; });
+    if (same == methods.end()) {
+      methods.push_back(info);
+      continue;
+    }
+    for (const OptionInfo& option : info.options)
+      if (std::none_of(same->options.begin(), same->options.end(),
+                       [&](const OptionInfo& o) { return o.name == option.name; }))
+        same->options.push_back(option);
   }
-  check_request(request);
+  return methods;
 }
 
 }  // namespace littoral::cli

@@ -5,27 +5,35 @@
 #include <string>
 #include <vector>
 
-#include "api/surface/distance.h"
 #include "cli/session.h"
+#include "littoral/methods.h"
 
 namespace littoral::cli {
 
 using GivenOptions = std::map<std::string, std::string>;  // name, value as typed
 
+/// --method and the options of methods, as typed.
+struct MethodArguments {
+  std::string name;  // empty: the library's choice
+  GivenOptions options;
+
+  AnyMethod method() const { return AnyMethod::named(name, {options.begin(), options.end()}); }
+};
+
 /// One flag for each option that any of the methods has; its help says what it is to each.
 void add_method_options(CLI::App& verb, GivenOptions& given,
                         const std::vector<MethodInfo>& methods);
-/// The same for the methods on surfaces.
-void add_method_options(CLI::App& verb, GivenOptions& given);
+/// --method, whose help lists the methods and says that the first is the default unless `fallback`
+/// says more, and one flag for each option that any of them has.
+void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
+                 const std::string& fallback = "");
 
 /// The arguments after the program's name; options of which "on" is one of several words may stand
 /// without a word, and are joined to the one that follows or to "on" by "=".
-std::vector<std::string> with_words(int argc, char** argv);
+std::vector<std::string> expand_optional_values(int argc, char** argv);
 
-/// Adds --method, whose help lists them and says that the first is the default.
-void add_method_option(CLI::App& verb, std::string& name, const std::vector<MethodInfo>& methods);
-
-/// Puts the options that were given into the request and checks it.
-void use_method_options(const GivenOptions& given, DistanceRequest& request);
+/// The methods of both families, each name once.
+std::vector<MethodInfo> joined(std::vector<MethodInfo> methods,
+                               const std::vector<MethodInfo>& more);
 
 }  // namespace littoral::cli

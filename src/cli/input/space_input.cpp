@@ -3,36 +3,30 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/volume/volume.h"
 #include "io/write.h"
 #include "io/write_table.h"
+#include "littoral/error.h"
 #include "sources/level_points.h"
 
 namespace littoral::cli {
 
-void add_space_input(CLI::App& verb, SpaceTexts& texts, Session& session) {
+void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session) {
   verb.add_option("INPUT", texts.input,
                   "mesh, soup or point cloud: .obj .ply .off .stl .pc .xyz .pcd")
       ->required()
       ->type_name("");
-  verb.add_flag("--estimate-normals", texts.request.estimate_normals,
+  verb.add_flag("--estimate-normals", texts.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
 }
 
-void add_space_method(CLI::App& verb, SpaceTexts& texts, const std::string& fallback) {
-  std::string names;
-  const std::vector<MethodInfo> infos = space_method_infos();
-  for (const MethodInfo& info : infos) names += (names.empty() ? "" : ", ") + info.name;
-  verb.add_option("--method", texts.request.method,
-                  names + " [default " + (fallback.empty() ? texts.request.method : fallback) + "]")
-      ->type_name("NAME");
-  add_method_options(verb, texts.options, infos);
+void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& fallback) {
+  add_methods(verb, texts.method, Registry<SpaceDomain>::instance().infos(), fallback);
 }
 
-void add_shape_options(CLI::App& verb, SpaceTexts& texts, bool with_offset) {
+void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) {
   const auto group = [](CLI::Option* option) { return option->group("Several shapes"); };
   const std::string kinds = ": mesh, soup, cloud, or volume of distance; may be repeated";
   for (const auto& [name, files, what] :
@@ -40,7 +34,7 @@ void add_shape_options(CLI::App& verb, SpaceTexts& texts, bool with_offset) {
         {"--intersect", &texts.intersect, "only what lies within this shape"},
         {"--subtract", &texts.subtract, "without this shape"}})
     group(add_repeated_option(verb, name, *files, what + kinds))->type_name("FILE");
-  group(verb.add_option("--other-method", texts.other_method,
+  group(verb.add_option("--operand-method", texts.operand_method,
                         "of the shapes after INPUT [default: as --method where that is given, "
                         "otherwise tori for clouds, winding for all else]"))
       ->type_name("NAME");
@@ -56,7 +50,7 @@ void add_shape_options(CLI::App& verb, SpaceTexts& texts, bool with_offset) {
                       "INPUT is a volume of any values: distance to where they are zero"));
 }
 
-void add_grid_options(CLI::App& verb, SpaceTexts& texts) {
+void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
   verb.add_option("--resolution", texts.resolution,
                   "nodes along the longest side, 2 to 100000 [default 64]")
       ->check(CLI::Range(2, 100000).description(""))
@@ -72,14 +66,14 @@ void add_grid_options(CLI::App& verb, SpaceTexts& texts) {
       ->type_name("F");
 }
 
-void use_space_options(SpaceTexts& texts, const Session& session) {
-  texts.request.flip = session.flip;
-  const MethodInfo& method = find_space_method(texts.request.method).info;
-  for (const auto& [name, text] : texts.options) {
-    check_has_option(method, name);
-    texts.request.options.emplace_back(name, text);
-  }
-  check_request(texts.request);
+SpaceRequest space_request(const SpaceArguments& texts, const AnyMethod& fallback,
+                           const Session& session) {
+  SpaceRequest request{texts.method.method(), session.flip, texts.estimate_normals};
+  if (texts.method.name.empty())
+    request.method = AnyMethod::named(fallback.name(),
+                                      {texts.method.options.begin(), texts.method.options.end()});
+  check_method<SpaceDomain>(request.method);
+  return request;
 }
 
 namespace {
@@ -91,7 +85,7 @@ Shape read_shape(const std::string& file, bool redistance, double level) {
     shape.surface = io::read_surface(file);
     return shape;
   }
-  VolumeField field = io::read_volume(file);
+  Volume field = io::read_volume(file);
   try {
     if (redistance)
       shape.surface = level_points(field, level, {});
@@ -105,49 +99,53 @@ Shape read_shape(const std::string& file, bool redistance, double level) {
 
 }  // namespace
 
-Shapes read_shapes(SpaceTexts& texts, const Session& session, const std::string& plain) {
-  Shapes shapes;
+namespace {
+
+/// Of the options that were given, those that a method has.
+OptionValues known_options(const std::string& method, const GivenOptions& given) {
+  OptionValues out;
+  const auto info = Registry<SpaceDomain>::instance().find(method)->info;
+  for (const auto& [name, text] : given)
+    for (const OptionInfo& known : info.options)
+      if (known.name == name) out.emplace_back(name, text);
+  return out;
+}
+
+}  // namespace
+
+CsgShapes read_shapes(SpaceArguments& texts, const Session& session, const AnyMethod& plain) {
+  CsgShapes shapes;
   shapes.all.push_back(read_shape(texts.input, texts.redistance, texts.at_level));
   for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
                                    {Boolean::intersect, &texts.intersect},
                                    {Boolean::subtract, &texts.subtract}}) {
     for (const std::string& file : *files) {
       shapes.all.push_back(read_shape(file, false, 0));
-      shapes.how.with.push_back(how);
+      shapes.csg.operations.push_back(how);
     }
   }
-  shapes.how.blend = texts.blend;
-  shapes.how.offset = texts.offset;
-  const auto fitting = [](const Shape& shape) {
-    return std::string(shape.surface.n_faces() == 0 ? "tori" : "winding");
-  };
+  shapes.csg.blend = texts.blend;
+  shapes.csg.offset = texts.offset;
   Shape& first = shapes.all.front();
-  const bool given = !texts.request.method.empty();
-  if (!given) texts.request.method = shapes.plain() && !texts.redistance ? plain : fitting(first);
-  if (texts.request.method.empty()) texts.request.method = fitting(first);
-  use_space_options(texts, session);
-  first.request = texts.request;
-  if (!texts.other_method.empty() && shapes.all.size() == 1)
-    throw InputError("option --other-method: there is no shape but INPUT");
+  const bool as_plain = shapes.plain() && !texts.redistance && !plain.name().empty();
+  first.request =
+      space_request(texts, as_plain ? plain : method_for_points(first.surface), session);
+  if (!texts.operand_method.empty() && shapes.all.size() == 1)
+    throw InputError("option --operand-method: there is no shape but INPUT");
   for (std::size_t s = 1; s < shapes.all.size(); ++s) {
-    SpaceRequest& request = shapes.all[s].request;
-    request.method = !texts.other_method.empty() ? texts.other_method
-                     : given                     ? texts.request.method
-                                                 : fitting(shapes.all[s]);
-    request.flip = texts.request.flip;
-    request.estimate_normals =
-        texts.request.estimate_normals && shapes.all[s].surface.n_faces() == 0;
-    const MethodInfo& method = find_space_method(request.method).info;
-    for (const auto& option : texts.request.options)
-      for (const OptionInfo& known : method.options)
-        if (known.name == option.first) request.options.push_back(option);
-    check_request(request);
+    Shape& shape = shapes.all[s];
+    const std::string name = !texts.operand_method.empty() ? texts.operand_method
+                             : !texts.method.name.empty()  ? texts.method.name
+                                                          : method_for_points(shape.surface).name();
+    shape.request = {AnyMethod::named(name, known_options(name, texts.method.options)),
+                     session.flip, texts.estimate_normals && shape.surface.n_faces() == 0};
+    check_method<SpaceDomain>(shape.request.method);
   }
-  check_combination(shapes.how, shapes.all.size());
+  check_combination(shapes.csg, shapes.all.size());
   return shapes;
 }
 
-GridRequest grid_request(const SpaceTexts& texts) {
+GridRequest grid_request(const SpaceArguments& texts) {
   GridRequest request;
   if (texts.resolution > 0) request.resolution = texts.resolution;
   if (texts.spacing > 0) request.spacing = texts.spacing;

@@ -1,10 +1,10 @@
 #include "cli/input/surface_input.h"
 
-#include "base/error.h"
 #include "domain/volume/voxels.h"
 #include "io/read.h"
 #include "io/volume/read_voxels.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -27,11 +27,11 @@ SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {
   }
 }
 
-SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
-                                Session& session) {
-  SurfaceSources all;
+Sources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                         Session& session) {
+  Sources all;
   for (const std::string& file : files) {
-    SurfaceSources more = io::read_sources(file, mesh, session.index_base, session.report);
+    Sources more = io::read_sources(file, mesh, session.index_base, session.report);
     all.curves.insert(all.curves.end(), more.curves.begin(), more.curves.end());
     all.points.insert(all.points.end(), more.points.begin(), more.points.end());
     all.space_curves.insert(all.space_curves.end(), more.space_curves.begin(),
@@ -68,7 +68,7 @@ std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
     if (soup.scalars.count(name) != 0) return name;
   if (soup.scalars.size() == 1) return soup.scalars.begin()->first;
   if (optional) return "";
-  throw InputError(known.empty() ? file + " holds no field with one value a vertex"
+  throw InputError(known.empty() ? file + " holds no field with one value per vertex"
                                  : file + " has the fields " + known + ": choose one with --field");
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/session.h"
-#include "domain/mesh/polygon_soup.h"
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/sources.h"
 
 namespace littoral::cli {
 
@@ -25,8 +25,8 @@ struct SurfaceInput {
 SurfaceInput read_domain(const std::filesystem::path& path);
 
 /// All sources of several files together.
-SurfaceSources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
-                                Session& session);
+Sources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
+                         Session& session);
 
 /// Vertices given as options, counted as the session says; throws InputError naming one that the
 /// mesh has not.

@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "api/space/shells.h"
-#include "base/error.h"
+#include "api/space/isosurfaces.h"
+#include "base/stopwatch.h"
 #include "cli/input/surface_input.h"
 #include "cli/input/volume_input.h"
 #include "contour/isosurface.h"
@@ -17,6 +17,7 @@
 #include "io/render/picture.h"
 #include "io/render/scene.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -209,20 +210,19 @@ void write_tet_field(const std::string& file, const TetMesh& mesh, const VecX& v
 
 void distance_through_tets(const TetArguments& arguments, Session& session) {
   for (const std::string& file : arguments.out) check_output(file, tet_outputs, "a field on tets");
-  SpaceRequest request;
-  request.method = arguments.method;
-  request.flip = session.flip;
-  for (const auto& [name, text] : arguments.options) request.options.emplace_back(name, text);
+  check_method<TetDomain>(arguments.method);
   const auto [file, sources] = [&] {
     const Stopwatch watch(session.report, "read");
     io::TetFile read = io::read_tets(arguments.domain);
     TetSources from = gather(arguments, read, session);
+    from.flip = session.flip;
     return std::pair(std::move(read), std::move(from));
   }();
   session.reading = false;
   Task task = session.task();
-  const VecX values =
-      tet_mesh_distance(file.mesh, sources, request, task.stage(0.95, "distance"), session.report);
+  const TetDomain domain{std::make_shared<const TetMesh>(file.mesh)};
+  const VecX values = solve_once<TetDomain>(arguments.method, domain, sources,
+                                            task.stage(0.95, "distance"), session.report);
   {
     const Stopwatch watch(session.report, "write");
     for (const std::string& out : arguments.out) {
@@ -283,11 +283,12 @@ void contour_tets(const std::string& name, const std::string& field,
   fields.scalars = file.scalars;
   const VecX& values = file.scalars.at(choose_field(fields, field, name));
   session.reading = false;
-  std::vector<Shell> shells;
+  std::vector<Isosurface> surfaces;
   for (const double level : levels)
-    shells.push_back({level, isosurface(file.mesh, values, level, session.report, session.task())});
+    surfaces.push_back(
+        {level, isosurface(file.mesh, values, level, session.report, session.task())});
   session.print_warnings();
-  write_shells(out, shells);
+  write_isosurfaces(out, surfaces);
 }
 
 }  // namespace littoral::cli

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/surface/mesh_info.h"
-#include "api/tet/tet_distance.h"
+#include "api/tet/tet_domain.h"
 #include "cli/input/method_options.h"
 #include "cli/session.h"
 #include "io/tet/tets.h"
@@ -17,11 +17,11 @@ extern const std::vector<std::string> tet_outputs;
 
 /// littoral distance on a tet mesh.
 struct TetArguments {
-  std::string domain, method;
+  std::string domain;
+  AnyMethod method;
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
   bool boundary = false;
-  GivenOptions options;
 };
 void distance_through_tets(const TetArguments& arguments, Session& session);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "api/space/traced_scene.h"
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -12,9 +12,9 @@ const char* const group = "Tracing";
 constexpr int framing_nodes = 40, slice_nodes = 128, page_nodes = 64;  // along the longest side
 }  // namespace
 
-void add_trace_options(CLI::App& verb, TraceTexts& texts, Session& session) {
+void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) {
   const std::vector<CLI::Option*> before = verb.get_options();
-  verb.add_flag("--estimate-normals", texts.space.request.estimate_normals,
+  verb.add_flag("--estimate-normals", texts.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
   add_space_method(verb, texts.space, "tori for point clouds, otherwise winding");
@@ -33,10 +33,10 @@ void check_no_trace_options(const CLI::App& verb) {
       throw InputError("option " + option->get_name() + " goes with --trace");
 }
 
-io::Scene read_traced_scene(const std::string& file, TraceTexts& texts, const VolumeViewTexts& view,
-                            bool for_page, Session& session) {
+io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
+                            const VolumeViewArguments& view, bool for_page, Session& session) {
   texts.space.input = file;
-  const Shapes shapes = read_shapes(texts.space, session, "");
+  const CsgShapes shapes = read_shapes(texts.space, session, {});
   TracedView traced;
   traced.axis = view.axis_number();
   traced.for_page = for_page;

@@ -6,19 +6,19 @@
 
 namespace littoral::cli {
 
-struct TraceTexts {
+struct TraceArguments {
   bool trace = false;
-  SpaceTexts space;  // its input is set from the verb's FILE
+  SpaceArguments space;  // its input is set from the verb's FILE
 };
 
 /// Adds --trace and the options of sdf that go with it.
-void add_trace_options(CLI::App& verb, TraceTexts& texts, Session& session);
+void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session);
 
 /// Throws InputError naming an option that means nothing without --trace.
 void check_no_trace_options(const CLI::App& verb);
 
 /// The scene of `file` with its surface traced.
-io::Scene read_traced_scene(const std::string& file, TraceTexts& texts, const VolumeViewTexts& view,
-                            bool for_page, Session& session);
+io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
+                            const VolumeViewArguments& view, bool for_page, Session& session);
 
 }  // namespace littoral::cli

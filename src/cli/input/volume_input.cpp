@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "api/space/shells.h"
-#include "base/error.h"
+#include "api/space/isosurfaces.h"
 #include "io/volume/volume.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -15,9 +15,9 @@ double parse_number(const std::string& option, const std::string& text) {
   return numbers.front();
 }
 
-double VolumeViewTexts::slice_at() const { return parse_number("--slice", position); }
+double VolumeViewArguments::slice_at() const { return parse_number("--slice", position); }
 
-void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts) {
+void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
   const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
   volumes(verb.add_option("--axis", texts.axis,
                           "the slice is orthogonal to this axis: x, y or z [default z]"))
@@ -36,13 +36,13 @@ void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts) {
 }
 
 io::Scene read_volume_scene(const std::string& file, const std::string& field,
-                            const VolumeViewTexts& texts) {
+                            const VolumeViewArguments& texts) {
   io::VolumeView view;
   view.axis = texts.axis_number();
   if (!texts.position.empty()) view.position = texts.slice_at();
   if (!texts.level.empty()) view.level = parse_number("--level", texts.level);
   view.isosurface = !texts.no_surface;
-  const VolumeField volume = io::read_volume(file, field);
+  const Volume volume = io::read_volume(file, field);
   try {
     return io::make_volume_scene(volume, view);
   } catch (const InputError& e) {
@@ -79,12 +79,12 @@ void contour_volume(const std::string& file, const std::string& field,
                     const std::vector<double>& levels, bool clip,
                     const std::vector<std::string>& out, Session& session) {
   check_level_outputs(out, levels.size(), surface_outputs, "a surface");
-  const VolumeField volume = io::read_volume(file, field);
+  const Volume volume = io::read_volume(file, field);
   session.reading = false;
   Task task = session.task();
-  const auto shells = level_shells(volume, levels, clip, session.report, task);
+  const auto surfaces = isosurfaces(volume, levels, clip, session.report, task);
   task.checkpoint(1);
-  write_shells(out, shells);
+  write_isosurfaces(out, surfaces);
 }
 
 void convert_volume(const std::string& file, const std::string& field, const std::string& out,
@@ -92,7 +92,7 @@ void convert_volume(const std::string& file, const std::string& field, const std
   check_output(out, volume_outputs, "a volume");
   if (band > 0 && extension_of(out) != ".vdb")
     throw InputError("option --band is for .vdb; other formats hold every node");
-  const VolumeField volume = io::read_volume(file, field);
+  const Volume volume = io::read_volume(file, field);
   session.reading = false;
   session.task().checkpoint();
   io::write_volume(out, volume, {.band = band});

@@ -14,17 +14,17 @@ namespace littoral::cli {
 double parse_number(const std::string& option, const std::string& text);
 
 /// Options of `view` and `render` that are about volumes, as given.
-struct VolumeViewTexts {
+struct VolumeViewArguments {
   std::string axis = "z", position, level;
   int axis_number() const { return axis.front() - 'x'; }
   double slice_at() const;  // --slice; throws InputError unless it is one number
   bool no_surface = false;
 };
-void add_volume_view_options(CLI::App& verb, VolumeViewTexts& texts);
+void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts);
 
 /// A scene of the volume in a file.
 io::Scene read_volume_scene(const std::string& file, const std::string& field,
-                            const VolumeViewTexts& texts);
+                            const VolumeViewArguments& texts);
 
 /// Adds -o for one file for all levels, or one for each.
 void add_level_outputs(CLI::App& verb, std::vector<std::string>& out, const char* help);

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "api/registry.h"
-#include "api/surface/distance.h"
-#include "base/error.h"
+#include "api/surface/surface_domain.h"
+#include "api/tet/tet_domain.h"
+#include "base/stopwatch.h"
 #include "cli/input/method_options.h"
 #include "cli/input/surface_input.h"
 #include "cli/input/tet_input.h"
@@ -13,6 +13,7 @@
 #include "io/render/picture.h"
 #include "io/render/scene.h"
 #include "io/write.h"
+#include "littoral/error.h"
 #include "sources/boundary_curves.h"
 
 namespace littoral::cli {
@@ -27,17 +28,15 @@ struct Arguments {
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
   bool boundary = false;
-  DistanceRequest request;
-  GivenOptions options;
+  MethodArguments method;
 };
 
-SurfaceSources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh,
-                              Session& session) {
-  SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
+Sources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh, Session& session) {
+  Sources sources = read_all_sources(arguments.sources, mesh, session);
   for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
     sources.points.push_back(SurfacePoint::at_vertex(v));
   if (arguments.boundary) {
-    const std::vector<SurfaceCurve> loops = boundary_curves(mesh);
+    const std::vector<Curve> loops = boundary_curves(mesh);
     if (loops.empty())
       throw InputError("option --boundary: " + arguments.domain + " has no boundary");
     sources.curves.insert(sources.curves.end(), loops.begin(), loops.end());
@@ -56,9 +55,8 @@ PolygonSoup cloud_with(const PolygonSoup& shown, const SurfaceMesh& cloud) {
   return out;
 }
 
-void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
-                   const SurfaceSources& sources, SurfaceResult answer, const Task& task,
-                   Session& session) {
+void write_results(const Arguments& arguments, const SurfaceMesh& mesh, const Sources& sources,
+                   SurfaceAnswer answer, const Task& task, Session& session) {
   PolygonSoup result = answer.shown ? std::move(*answer.shown) : mesh.soup();
   if (!answer.shown) {
     result.scalars.clear();
@@ -93,24 +91,24 @@ void write_results(const Arguments& arguments, const SurfaceMesh& mesh,
 
 void run(Arguments& arguments, Session& session) {
   if (io::is_tets(arguments.domain))
-    return distance_through_tets(
-        {arguments.domain, arguments.request.method, arguments.sources, arguments.out,
-         arguments.vertices, arguments.boundary, arguments.options},
-        session);
+    return distance_through_tets({arguments.domain, arguments.method.method(), arguments.sources,
+                                  arguments.out, arguments.vertices, arguments.boundary},
+                                 session);
   for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
-  arguments.request.flip = session.flip;
-  use_method_options(arguments.options, arguments.request);
+  const AnyMethod method = arguments.method.method();
+  check_method<SurfaceDomain>(method);
   Report& report = session.report;
   const auto [domain, sources] = [&] {
     const Stopwatch watch(report, "read");
     auto read = std::make_shared<const SurfaceInput>(read_domain(arguments.domain));
-    return std::pair(read, gather_sources(arguments, read->mesh, session));
+    Sources given = gather_sources(arguments, read->mesh, session);
+    return std::pair(read, session.flip ? given.reversed() : std::move(given));
   }();
   const SurfaceMesh& mesh = domain->mesh;
   session.reading = false;
   Task task = session.task();
-  SurfaceResult answer = solve_distance(mesh, sources, arguments.request,
-                                        task.stage(0.95, "distance"), report, domain->normals());
+  SurfaceAnswer answer = solve_once<SurfaceDomain>(method, domain_of(mesh, domain->normals()),
+                                                   sources, task.stage(0.95, "distance"), report);
   {
     const Stopwatch watch(report, "write");
     write_results(arguments, mesh, sources, std::move(answer), task.stage(0.05, "writing"),
@@ -144,9 +142,10 @@ void add_distance(CLI::App& program, Session& session) {
   add_output_option(
       *verb, arguments->out,
       "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too");
-  add_method_option(*verb, arguments->request.method, methods());
+  add_methods(
+      *verb, arguments->method,
+      joined(Registry<SurfaceDomain>::instance().infos(), Registry<TetDomain>::instance().infos()));
   verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
-  add_method_options(*verb, arguments->options);
   add_index_option(*verb, session);
   add_json_option(*verb, session);
   add_common_options(*verb, session);

@@ -7,7 +7,6 @@
 #include "api/space/volume_info.h"
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
-#include "base/error.h"
 #include "cli/input/surface_input.h"
 #include "cli/input/tet_input.h"
 #include "cli/input/volume_input.h"
@@ -16,6 +15,7 @@
 #include "io/read.h"
 #include "io/volume/volume.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -46,7 +46,7 @@ void info(const Arguments& arguments, Session& session) {
     entries = surface_info(io::read_surface(arguments.in));
   } else {
     const SurfaceMesh mesh = read_mesh(arguments.mesh);
-    const SurfaceSources sources = read_all_sources({arguments.in}, mesh, session);
+    const Sources sources = read_all_sources({arguments.in}, mesh, session);
     entries = sources_info(mesh, sources, session.report);
   }
   session.print_warnings();

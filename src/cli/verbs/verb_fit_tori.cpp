@@ -1,4 +1,4 @@
-// littoral fit-tori: the tori of a point cloud, to be asked later.
+// littoral fit-tori: the tori of a point cloud, evaluated later.
 
 #include <memory>
 
@@ -12,17 +12,16 @@ namespace littoral::cli {
 namespace {
 
 struct Arguments {
-  SpaceTexts space;
+  SpaceArguments space;
   std::string out;
 };
 
 void run(Arguments& arguments, Session& session) {
   check_output(arguments.out, {".ply"}, "fitted tori");
-  use_space_options(arguments.space, session);
+  const SpaceRequest request = space_request(arguments.space, Tori{}, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
   session.reading = false;
-  const PolygonSoup tori =
-      fit_tori_cloud(input, arguments.space.request, session.task(), session.report);
+  const PolygonSoup tori = fit_tori_cloud(input, request, session.task(), session.report);
   io::write_surface(arguments.out, tori);
   session.print_report();
 }
@@ -33,12 +32,12 @@ void add_fit_tori(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "fit-tori", "fit a torus to each point of a cloud; query, sdf and offset take the result");
   auto arguments = std::make_shared<Arguments>();
-  arguments->space.request.method = "tori";
   add_space_input(*verb, arguments->space, session);
   verb->add_option("-o,--output", arguments->out, "where to write: .ply")
       ->required()
       ->type_name("OUT");
-  add_method_options(*verb, arguments->space.options, {find_space_method("tori").info});
+  add_method_options(*verb, arguments->space.method.options,
+                     {Registry<SpaceDomain>::instance().find(Tori::method)->info});
   add_json_option(*verb, session);
   add_common_options(*verb, session);
   verb->callback(

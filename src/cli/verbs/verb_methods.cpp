@@ -3,12 +3,9 @@
 #include <iostream>
 #include <memory>
 
-#include "api/registry.h"
 #include "api/report_json.h"
-#include "api/space/space_method.h"
-#include "api/surface/pairs.h"
-#include "api/surface/winding.h"
 #include "cli/verbs/verbs.h"
+#include "littoral/methods.h"
 
 namespace littoral::cli {
 
@@ -20,10 +17,13 @@ std::string joined(const std::vector<std::string>& words) {
   return out;
 }
 
-void print_table(const std::vector<MethodInfo>& all) {
-  for (const MethodInfo& method : all)
-    std::cout << method.name << "  on: " << joined(method.domains) << "\n    " << method.summary
-              << "\n    " << method.reference << "\n";
+void print_table() {
+  for (const MethodFamily& family : method_families()) {
+    std::cout << family.title << ":\n";
+    for (const MethodInfo& method : family.methods)
+      std::cout << "  " << method.name << "  on: " << joined(method.domains) << "\n      "
+                << method.summary << "\n      " << method.reference << "\n";
+  }
 }
 
 void print_markdown(const std::string& title, const std::vector<MethodInfo>& all) {
@@ -37,19 +37,18 @@ void print_markdown(const std::string& title, const std::vector<MethodInfo>& all
     std::cout << "\n## Options of `" << method.name
               << "`\n\n| option | range | default | unit | |\n|---|---|---|---|---|\n";
     for (const OptionInfo& info : method.options)
-      std::cout << "| `--" << info.name << "` | " << option_range_text(info) << " | "
-                << info.fallback << " | " << info.unit << " | " << info.help << " |\n";
+      std::cout << "| `--" << info.name << "` | " << info.range() << " | " << info.fallback << " | "
+                << info.unit << " | " << info.help << " |\n";
   }
 }
 
 void print_all_markdown() {
-  print_markdown("Distance on surfaces", methods());
-  std::cout << "\n";
-  print_markdown("Pairs of vertices", {pair_methods().front()});
-  std::cout << "\n";
-  print_markdown("Inside and outside on surfaces", {winding_method()});
-  std::cout << "\n";
-  print_markdown("Distance in space", space_method_infos());
+  bool first = true;
+  for (const MethodFamily& family : method_families()) {
+    if (!first) std::cout << "\n";
+    first = false;
+    print_markdown(family.title, family.methods);
+  }
 }
 
 }  // namespace
@@ -62,9 +61,9 @@ void add_methods(CLI::App& program, Session& session) {
   verb->callback([markdown, &session] {
     session.job = [markdown, &session] {
       if (session.json)
-        std::cout << methods_json(all_methods()) << "\n";
+        std::cout << methods_json(method_families()) << "\n";
       else
-        *markdown ? print_all_markdown() : print_table(all_methods());
+        *markdown ? print_all_markdown() : print_table();
     };
   });
 }

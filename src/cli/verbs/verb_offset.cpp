@@ -4,16 +4,15 @@
 #include <cmath>
 #include <memory>
 
-#include "api/registry.h"
-#include "api/space/shells.h"
+#include "api/space/isosurfaces.h"
 #include "api/surface/level_lines.h"
-#include "base/error.h"
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/input/volume_input.h"
 #include "cli/verbs/verbs.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -25,9 +24,8 @@ struct Arguments {
   std::string distances, dilate, erode;
   Morphology morphology;
   bool clip = false;
-  DistanceRequest request;
-  GivenOptions options;
-  SpaceTexts space;
+  MethodArguments method;
+  SpaceArguments space;
 };
 
 // --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
@@ -45,38 +43,41 @@ std::vector<double> all_distances(const Arguments& arguments) {
   }
   if (!all.empty()) return all;
   if (arguments.morphology.open > 0 || arguments.morphology.close > 0) return {0};
-  throw InputError("how far? name --distance D[,D...], --dilate, --erode, --open or --close");
+  throw InputError("no offset given: use --distance, --dilate, --erode, --open or --close");
 }
 
 void offset_curves(Arguments& arguments, const std::vector<double>& distances, Session& session) {
   check_level_outputs(arguments.out, distances.size(), {".obj", ".ply"}, "lines");
-  arguments.request.flip = session.flip;
-  if (arguments.request.method.empty()) arguments.request.method = "signed-heat";
-  use_method_options(arguments.options, arguments.request);
+  const AnyMethod method = arguments.method.method();
+  check_method<SurfaceDomain>(method);
   const SurfaceMesh mesh = read_mesh(arguments.in);
-  const SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
+  Sources sources = read_all_sources(arguments.sources, mesh, session);
+  if (session.flip) sources = sources.reversed();
   session.reading = false;
   Task task = session.task();
-  const auto levels = offset_lines(mesh, sources, arguments.request, distances,
-                                   arguments.morphology, session.report, task);
+  const bool once = arguments.morphology.open == 0 && arguments.morphology.close == 0;
+  const auto solver =
+      prepare(method, domain_of(mesh), once ? SolveHint::single_rhs : SolveHint::many_rhs,
+              task.stage(0.2, "preparing"), session.report);
+  const auto levels = offset_lines(*solver, mesh, sources, distances, arguments.morphology,
+                                   session.report, task.stage(0.75, "offsets"));
   task.checkpoint(1);
   write_lines(arguments.out, mesh, levels);
 }
 
 /// Signed distance around a shape or several, on a grid that holds all offsets of it.
-VolumeField distance_around(Arguments& arguments, const std::vector<double>& distances,
-                            Session& session) {
-  SpaceTexts& space = arguments.space;
+Volume distance_around(Arguments& arguments, const std::vector<double>& distances,
+                       Session& session) {
+  SpaceArguments& space = arguments.space;
   space.input = arguments.in;
-  space.request.method = arguments.request.method;
-  space.options = arguments.options;
-  const Shapes shapes = read_shapes(space, session, "signed-heat");
+  space.method = arguments.method;
+  const CsgShapes shapes = read_shapes(space, session, SpaceSignedHeat{});
   double farthest = 0;
   for (const double d : distances) farthest = std::max(farthest, std::abs(d));
   const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
   GridRequest grid = grid_request(space);
   grid.padding += reach / longest_side(shapes);
-  VolumeField volume;
+  Volume volume;
   volume.grid = choose_grid(shapes, grid);
   session.reading = false;
   volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
@@ -85,17 +86,17 @@ VolumeField distance_around(Arguments& arguments, const std::vector<double>& dis
 
 void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
   check_level_outputs(arguments.out, distances.size(), surface_outputs, "a surface");
-  const SpaceTexts& space = arguments.space;
+  const SpaceArguments& space = arguments.space;
   const bool alone = space.unite.empty() && space.intersect.empty() && space.subtract.empty();
-  const VolumeField distance = alone && !space.redistance && io::is_volume(arguments.in)
-                                   ? io::read_volume(arguments.in, arguments.field)
-                                   : distance_around(arguments, distances, session);
+  const Volume distance = alone && !space.redistance && io::is_volume(arguments.in)
+                              ? io::read_volume(arguments.in, arguments.field)
+                              : distance_around(arguments, distances, session);
   session.reading = false;
   Task task = session.task();
-  const auto shells = offset_shells(distance, distances, arguments.morphology, arguments.clip,
-                                    session.report, task);
+  const auto surfaces = offset_isosurfaces(distance, distances, arguments.morphology,
+                                           arguments.clip, session.report, task);
   task.checkpoint(1);
-  write_shells(arguments.out, shells);
+  write_isosurfaces(arguments.out, surfaces);
 }
 
 void run(Arguments& arguments, Session& session) {
@@ -135,17 +136,17 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
-  verb.add_option("--method", arguments.request.method,
+  verb.add_option("--method", arguments.method.name,
                   "of `littoral sdf`, or for curves of `littoral distance` [default signed-heat]")
       ->type_name("NAME");
   verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
-  verb.add_flag("--estimate-normals", arguments.space.request.estimate_normals,
+  verb.add_flag("--estimate-normals", arguments.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   add_grid_options(verb, arguments.space);
   add_shape_options(verb, arguments.space, false);
-  std::vector<MethodInfo> methods = space_method_infos();
-  methods.push_back(find_method("signed-heat"));
-  add_method_options(verb, arguments.options, methods);
+  add_method_options(verb, arguments.method.options,
+                     joined(Registry<SpaceDomain>::instance().infos(),
+                            {Registry<SurfaceDomain>::instance().all().front()->info}));
   add_index_option(verb, session);
   add_json_option(verb, session);
   add_common_options(verb, session);
@@ -157,7 +158,6 @@ void add_offset(CLI::App& program, Session& session) {
   CLI::App* verb =
       program.add_subcommand("offset", "offset surfaces and curves; dilate, erode, open and close");
   auto arguments = std::make_shared<Arguments>();
-  arguments->request.method.clear();
   add_options(*verb, *arguments, session);
   verb->callback(
       [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });

@@ -3,11 +3,12 @@
 #include <memory>
 
 #include "api/surface/pairs.h"
-#include "base/error.h"
+#include "base/stopwatch.h"
 #include "cli/input/method_options.h"
 #include "cli/input/surface_input.h"
 #include "cli/verbs/verbs.h"
 #include "io/write_table.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -17,27 +18,26 @@ struct Arguments {
   std::string domain;
   std::vector<std::string> out;
   std::vector<long long> vertices;
-  PairsRequest request;
-  GivenOptions options;
+  MethodArguments method;
 };
 
 void run(Arguments& arguments, Session& session) {
   for (const std::string& file : arguments.out)
     check_output(file, {".npy", ".csv", ".txt"}, "a matrix");
-  PairsRequest& request = arguments.request;
-  request.options.assign(arguments.options.begin(), arguments.options.end());
-  check_request(request);
+  const AnyMethod method = arguments.method.method();
+  check_pairs_method(method);
   Report& report = session.report;
-  const SurfaceMesh mesh = [&] {
+  const SurfaceInput input = [&] {
     const Stopwatch watch(report, "read");
-    return read_mesh(arguments.domain);
+    return read_domain(arguments.domain);
   }();
-  request.vertices =
+  const SurfaceMesh& mesh = input.mesh;
+  const std::vector<int> vertices =
       checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session);
   session.reading = false;
   Task task = session.task();
-  const PairsAnswer answer =
-      pair_distances(mesh, request, task.stage(0.95, "pairs of vertices"), report);
+  const PairsAnswer answer = pair_distances(domain_of(mesh, input.normals()), vertices, method,
+                                            task.stage(0.95, "pairs of vertices"), report);
   {
     const Stopwatch watch(report, "write");
     std::vector<std::string> names;
@@ -54,9 +54,9 @@ void run(Arguments& arguments, Session& session) {
 
 void add_pairs(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
-      "pairs", "distance between all pairs of vertices of a triangle mesh, as a matrix");
+      "pairs", "distance between all pairs of vertices of a surface, as a matrix");
   auto arguments = std::make_shared<Arguments>();
-  verb->add_option("DOMAIN", arguments->domain, "the surface: .obj .ply .off .stl")
+  verb->add_option("DOMAIN", arguments->domain, "the surface: mesh, point cloud or voxels")
       ->required()
       ->type_name("");
   add_repeated_option(*verb, "--vertex", arguments->vertices,
@@ -64,8 +64,7 @@ void add_pairs(CLI::App& program, Session& session) {
       ->type_name("I");
   add_output_option(*verb, arguments->out,
                     "the matrix, a row for each vertex measured from: .npy .csv .txt");
-  add_method_option(*verb, arguments->request.method, pair_methods());
-  add_method_options(*verb, arguments->options, pair_methods());
+  add_methods(*verb, arguments->method, pair_methods());
   add_index_option(*verb, session);
   add_json_option(*verb, session);
   add_common_options(*verb, session);

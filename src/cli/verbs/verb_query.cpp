@@ -10,7 +10,7 @@ namespace littoral::cli {
 namespace {
 
 struct Arguments {
-  SpaceTexts space;
+  SpaceArguments space;
   std::string points;
   std::vector<std::string> out;
   bool gradient = false;
@@ -19,7 +19,7 @@ struct Arguments {
 void run(Arguments& arguments, Session& session) {
   for (const std::string& file : arguments.out)
     check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
-  const Shapes shapes = read_shapes(arguments.space, session, "");
+  const CsgShapes shapes = read_shapes(arguments.space, session, {});
   const MatX3 queries = read_queries(arguments.points);
   session.reading = false;
   MatX3 gradients;
@@ -41,7 +41,6 @@ void add_query(CLI::App& program, Session& session) {
   CLI::App* verb = program.add_subcommand(
       "query", "signed distance at given points, around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
-  arguments->space.request.method.clear();
   add_space_input(*verb, arguments->space, session);
   add_query_files(*verb, arguments->points, arguments->out);
   verb->add_flag("--gradient", arguments->gradient, "also the gradient");

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "api/space/shells.h"
-#include "api/tet/tetgen_distance.h"
-#include "base/error.h"
+#include "api/space/isosurfaces.h"
+#include "base/stopwatch.h"
 #include "cli/input/space_input.h"
 #include "cli/input/tet_input.h"
 #include "cli/input/volume_input.h"
@@ -15,6 +14,7 @@
 #include "io/render/picture.h"
 #include "io/render/volume_scene.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -24,32 +24,33 @@ const std::vector<std::string> outputs = {".vti", ".npy", ".nrrd", ".vdb", ".obj
                                           ".off", ".stl", ".html", ".png", ".vtk", ".vtu"};
 
 struct Arguments {
-  SpaceTexts space;
+  SpaceArguments space;
   std::string levels = "0";
   std::vector<std::string> out;
   double band = 0;
   bool clip = false;
   std::string domain = "grid";
   std::string tets = "lattice";
-  TetgenOptions tetgen;
+  TetFilling tetgen;
 };
 
 bool is_among(const std::string& file, const std::vector<std::string>& extensions) {
   return std::find(extensions.begin(), extensions.end(), extension_of(file)) != extensions.end();
 }
 
-std::vector<Shell> shells_of(const VolumeField& volume, const TetField& tets,
-                             const std::vector<double>& levels, bool clip, Session& session) {
+std::vector<Isosurface> isosurfaces_of(const Volume& volume, const TetField& tets,
+                                       const std::vector<double>& levels, bool clip,
+                                       Session& session) {
   if (tets.mesh.n_tets() == 0)
-    return level_shells(volume, levels, clip, session.report, session.task());
-  std::vector<Shell> shells;
+    return isosurfaces(volume, levels, clip, session.report, session.task());
+  std::vector<Isosurface> surfaces;
   for (const double level : levels)
-    shells.push_back(
+    surfaces.push_back(
         {level, isosurface(tets.mesh, tets.values, level, session.report, session.task())});
-  return shells;
+  return surfaces;
 }
 
-void write_results(const Arguments& arguments, const VolumeField& volume, const TetField& tets,
+void write_results(const Arguments& arguments, const Volume& volume, const TetField& tets,
                    Session& session) {
   const std::vector<double> levels = parse_numbers("--level", arguments.levels);
   for (const std::string& file : arguments.out) {
@@ -59,7 +60,7 @@ void write_results(const Arguments& arguments, const VolumeField& volume, const 
     } else if (extension_of(file) == ".vtk" || extension_of(file) == ".vtu") {
       write_tet_field(file, tets.mesh, tets.values, "distance", session);
     } else if (is_among(file, surface_outputs)) {
-      write_shells({file}, shells_of(volume, tets, levels, arguments.clip, session));
+      write_isosurfaces({file}, isosurfaces_of(volume, tets, levels, arguments.clip, session));
     } else {
       io::VolumeView view;
       view.level = levels.front();
@@ -85,20 +86,21 @@ void run(Arguments& arguments, Session& session) {
   if (arguments.clip && arguments.domain == "tets")
     throw UnsupportedError("--clip is for grids: the cube of the tets is larger than the box");
   parse_numbers("--level", arguments.levels);
-  const Shapes shapes = read_shapes(arguments.space, session, "signed-heat");
-  VolumeField volume;
+  const CsgShapes shapes = read_shapes(arguments.space, session, SpaceSignedHeat{});
+  Volume volume;
   volume.grid = choose_grid(shapes, grid_request(arguments.space));
   session.reading = false;
   TetField tets;
   if (arguments.domain == "tets") {
-    if (shapes.all.size() != 1 || shapes.all.front().field || shapes.how.offset != 0)
+    if (shapes.all.size() != 1 || shapes.all.front().field || shapes.csg.offset != 0)
       throw InputError("option --domain tets takes one mesh, soup or cloud");
     const Shape& shape = shapes.all.front();
-    tets = arguments.tets == "tetgen"
-               ? tetgen_distance(shape.surface, volume.grid, shape.request, arguments.tetgen,
-                                 &volume.values, session.task(), session.report)
-               : tet_distance(shape.surface, volume.grid, shape.request, &volume.values,
-                              session.task(), session.report);
+    arguments.tetgen.by =
+        arguments.tets == "tetgen" ? TetFilling::By::tetgen : TetFilling::By::lattice;
+    SpaceAnswer answer = tet_distance(shape.surface, volume.grid, arguments.tetgen, shape.request,
+                                      session.task(), session.report);
+    volume.values = std::move(answer.at_nodes);
+    tets = std::move(answer.tets);
   } else {
     volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
   }
@@ -115,7 +117,6 @@ void add_sdf(CLI::App& program, Session& session) {
   CLI::App* verb =
       program.add_subcommand("sdf", "signed distance in space around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
-  arguments->space.request.method.clear();
   add_space_input(*verb, arguments->space, session);
   verb->add_option(
           "-o,--output", arguments->out,

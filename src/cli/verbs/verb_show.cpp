@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/platform/temporary_folder.h"
 #include "cli/input/surface_input.h"
 #include "cli/input/tet_input.h"
@@ -18,6 +17,7 @@
 #include "io/render/picture.h"
 #include "io/render/scene.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -27,17 +27,17 @@ struct Arguments {
   std::string in, out, field;
   std::vector<std::string> sources;
   io::PictureOptions picture;
-  VolumeViewTexts volume;
-  TraceTexts trace;
+  VolumeViewArguments volume;
+  TraceArguments trace;
   const CLI::App* verb = nullptr;
-  int levels = 20;
+  int isolines = 20;
 };
 
 /// A surface or cloud, or the boundary of tets, which --slice cuts open.
 PolygonSoup read_shown(const Arguments& arguments) {
   if (!io::is_tets(arguments.in)) return io::read_surface(arguments.in);
   const io::TetFile file = io::read_tets(arguments.in);
-  const VolumeViewTexts& view = arguments.volume;
+  const VolumeViewArguments& view = arguments.volume;
   return view.position.empty() ? boundary_of(file)
                                : cut_open(file, view.axis_number(), view.slice_at());
 }
@@ -71,7 +71,7 @@ io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
 io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
   scene.title = std::filesystem::path(arguments.in).stem().string();
-  scene.isolines = arguments.levels;
+  scene.isolines = arguments.isolines;
   io::check_scene(scene);
   session.reading = false;
   session.task().checkpoint();
@@ -121,11 +121,11 @@ CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Argument
   verb->add_option("--field", arguments->field,
                    "which values [default: distance, an OBJ's texture u, or the only ones]")
       ->type_name("NAME");
-  verb->add_option("--levels", arguments->levels, "about how many isolines, 0 to 1000 [default 20]")
+  verb->add_option("--isolines", arguments->isolines,
+                   "about how many isolines, 0 to 1000 [default 20]")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
   add_volume_view_options(*verb, arguments->volume);
-  arguments->trace.space.request.method.clear();
   add_trace_options(*verb, arguments->trace, session);
   arguments->verb = verb;
   add_index_option(*verb, session);

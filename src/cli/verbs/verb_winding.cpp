@@ -1,10 +1,8 @@
 // littoral winding: which regions curves bound on a surface, and which curves bound nothing.
 
-#include <map>
 #include <memory>
 
 #include "api/surface/winding.h"
-#include "base/error.h"
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
@@ -14,6 +12,7 @@
 #include "io/render/scene.h"
 #include "io/surface/write_winding.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -25,7 +24,7 @@ const std::vector<std::string> outputs = {".ply", ".obj", ".vtp",  ".csv",
 struct Arguments {
   std::string domain, points, curves, show = "region";
   std::vector<std::string> sources, out;
-  std::map<std::string, std::string> options;  // as given
+  MethodArguments method{SurfaceWinding::method, {}};
 };
 
 io::Scene scene_of(const Arguments& arguments, const WindingAnswer& answer, const Report& report) {
@@ -64,7 +63,7 @@ void write_results(const Arguments& arguments, const WindingAnswer& answer, Sess
 
 /// Winding numbers of a mesh, soup or cloud at points in space.
 void run_at_points(const Arguments& arguments, Session& session) {
-  if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.options.empty())
+  if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.method.options.empty())
     throw InputError(
         "option --points: winding numbers in space take no --sources, no --curves and no options");
   for (const std::string& file : arguments.out)
@@ -86,20 +85,19 @@ void run(const Arguments& arguments, Session& session) {
   }
   for (const std::string& file : arguments.out) check_output(file, outputs, "winding numbers");
   if (!arguments.curves.empty()) check_output(arguments.curves, {".obj"}, "curves");
-  WindingRequest request;
-  request.flip = session.flip;
-  for (const auto& [name, text] : arguments.options) request.options.emplace_back(name, text);
-  check_request(request);
-  const SurfaceMesh mesh = read_mesh(arguments.domain);
-  SurfaceSources sources = read_all_sources(arguments.sources, mesh, session);
-  if (sources.empty() && !mesh.soup().lines.empty())
-    sources = io::sources_from_lines(mesh.soup(), arguments.domain);
+  const AnyMethod method = arguments.method.method();
+  check_method<WindingDomain>(method);
+  const auto mesh = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
+  Sources sources = read_all_sources(arguments.sources, *mesh, session);
+  if (sources.empty() && !mesh->soup().lines.empty())
+    sources = io::sources_from_lines(mesh->soup(), arguments.domain);
   if (sources.empty())
-    throw InputError("winding numbers of what? name curves with --sources FILE (" +
-                     arguments.domain + " has no lines of its own)");
+    throw InputError("no curves given: use --sources FILE (" + arguments.domain +
+                     " has no lines of its own)");
   session.reading = false;
+  if (session.flip) sources = sources.reversed();
   const WindingAnswer answer =
-      surface_winding(mesh, sources, request, session.task(), session.report);
+      solve_once<WindingDomain>(method, {mesh}, sources, session.task(), session.report);
   write_results(arguments, answer, session);
   session.print_report();
 }
@@ -140,7 +138,7 @@ void add_winding(CLI::App& program, Session& session) {
       ->check(CLI::IsMember({"region", "winding"}))
       ->type_name("WORD");
   verb->add_flag("--flip", session.flip, "reverse every curve, or the surface");
-  add_method_options(*verb, arguments->options, {winding_method()});
+  add_method_options(*verb, arguments->method.options, Registry<WindingDomain>::instance().infos());
   add_index_option(*verb, session);
   add_json_option(*verb, session);
   add_common_options(*verb, session);

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {

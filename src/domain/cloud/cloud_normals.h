@@ -2,7 +2,7 @@
 // Normals for point clouds that have none.
 
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <string>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "domain/cloud/cloud_normals.h"
 #include "domain/intrinsic/tufted_cover.h"
+#include "littoral/error.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {

@@ -1,9 +1,9 @@
 #pragma once
 // Point clouds as surfaces.
 
-#include "base/report.h"
 #include "base/task.h"
 #include "domain/mesh/nodal_surface.h"
+#include "littoral/report.h"
 
 namespace littoral {
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-#include "domain/intrinsic/marked_triangulation.h"
+#include "domain/intrinsic/intrinsic_mesh_editor.h"
 
 namespace littoral {
 
@@ -16,7 +16,7 @@ constexpr double delaunay_margin = -1e-9;  // a sum of cotangents below this is 
 
 class Improvement {
  public:
-  Improvement(MarkedTriangulation& M, const RefineOptions& options, const Task& task)
+  Improvement(IntrinsicMeshEditor& M, const RefineOptions& options, const Task& task)
       : M_(M),
         task_(task),
         cot_(1 / std::tan(std::max(options.smallest_angle, 1e-3) * degree)),
@@ -163,7 +163,7 @@ class Improvement {
                        [&](int s) { return M_.edges[s].length >= M_.edges[e].length; });
   }
 
-  MarkedTriangulation& M_;
+  IntrinsicMeshEditor& M_;
   const Task& task_;
   double cot_;
   std::vector<double> angle_;  // around the vertices of the input; others have enough
@@ -174,9 +174,9 @@ class Improvement {
 }  // namespace
 
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   Marks marks, const RefineOptions& options, Report& report,
+                                   CurveNetwork marks, const RefineOptions& options, Report& report,
                                    const Task& task) {
-  MarkedTriangulation M(mesh, T, std::move(marks));
+  IntrinsicMeshEditor M(mesh, T, std::move(marks));
   Improvement improvement(M, options, task);
   std::deque<int> all;
   for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(static_cast<int>(e));

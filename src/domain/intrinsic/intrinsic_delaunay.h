@@ -4,16 +4,16 @@
 
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "domain/mesh/surface_mesh.h"
+#include "littoral/report.h"
 
 namespace littoral {
 
 /// Points on a triangulation and straight segments between them, each inside one face or along one
 /// edge.
-struct Marks {
+struct CurveNetwork {
   struct Segment {
     int id = 0;                // of the segment it is a part of
     double from = 0, to = 1;   // part of that
@@ -34,7 +34,7 @@ struct RefineOptions {
 struct Retriangulation {
   SurfaceMesh mesh;
   IntrinsicTriangulation T;
-  Marks marks;
+  CurveNetwork marks;
   int flips = 0, added = 0;  // operations
   int not_delaunay = 0;      // edges left with a negative weight in the cotan Laplacian
 };
@@ -48,7 +48,7 @@ struct Retriangulation {
 /// Segments are cut where new edges cross them, in the plane of the two
 /// triangles of each flip, so nothing is traced and nothing moves. At most 50 flips an edge.
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   Marks marks, const RefineOptions& options, Report& report,
+                                   CurveNetwork marks, const RefineOptions& options, Report& report,
                                    const Task& task);
 
 }  // namespace littoral

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
-#include "base/error.h"
 #include "domain/mesh/edge_sides.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/report.h"
 #include "base/triangle.h"
-#include "base/types.h"
 #include "domain/mesh/surface_mesh.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

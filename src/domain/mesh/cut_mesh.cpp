@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "base/error.h"
 #include "base/triangle.h"
 #include "domain/mesh/cut_face.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <string>
 
-#include "base/error.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/mesh/surface_point.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/surface_point.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

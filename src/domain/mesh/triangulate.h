@@ -1,7 +1,7 @@
 #pragma once
 // Polygons cut into triangles.
 
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/polygon_soup.h"
 
 namespace littoral {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "base/types.h"
-#include "domain/tet/tet_mesh.h"
+#include "littoral/tet_mesh.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

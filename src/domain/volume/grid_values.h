@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/task.h"
-#include "domain/volume/grid.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

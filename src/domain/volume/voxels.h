@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "domain/volume/grid.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/error.h"
 #include "io/page/page_template.h"
 #include "io/render/scene.h"
 #include "io/render/scene_style.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -1,9 +1,9 @@
 #pragma once
 // Where points in space fall in a picture.
 
-#include "base/types.h"
 #include "io/render/picture.h"
 #include "io/render/scene_style.h"
+#include "littoral/types.h"
 
 namespace littoral::io {
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "io/render/camera.h"
 #include "io/render/raster.h"
 #include "io/render/stroke_text.h"
 #include "io/render/trace_raster.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/types.h"
 #include "io/render/scene.h"
+#include "littoral/types.h"
 
 namespace littoral::io {
 

@@ -1,7 +1,7 @@
 #include <png.h>
 
-#include "base/error.h"
 #include "io/render/picture.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "base/types.h"
 #include "io/render/camera.h"
 #include "io/render/scene.h"
 #include "io/render/scene_style.h"
+#include "littoral/types.h"
 
 namespace littoral::io {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -42,8 +42,8 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
   return scene;
 }
 
-void add_sources(Scene& scene, const SurfaceMesh& mesh, const SurfaceSources& sources) {
-  for (const SurfaceCurve& curve : sources.curves) {
+void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) {
+  for (const Curve& curve : sources.curves) {
     SceneCurve shown{MatX3(static_cast<Eigen::Index>(curve.nodes.size()), 3), curve.is_signed};
     for (std::size_t i = 0; i < curve.nodes.size(); ++i) {
       shown.points.row(static_cast<Eigen::Index>(i)) = mesh.position(curve.nodes[i]).transpose();

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.h"
-#include "domain/mesh/polygon_soup.h"
 #include "domain/mesh/surface_mesh.h"
-#include "domain/volume/volume_field.h"
-#include "sources/surface_sources.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/sources.h"
+#include "littoral/types.h"
+#include "littoral/volume.h"
 
 namespace littoral::io {
 
@@ -25,7 +25,7 @@ struct SceneCurve {
 
 /// A volume on show, see volume_scene.h.
 struct SceneVolume {
-  VolumeField thin;          // what pages move through
+  Volume thin;               // what pages move through
   double low = 0, high = 0;  // least and greatest finite value
   bool infinite = false;     // are there infinite values?
   int axis = 2;              // of the slice
@@ -75,10 +75,10 @@ struct Scene {
 Scene make_scene(const PolygonSoup& soup, const std::string& field = "distance");
 
 /// Adds the sources of a problem on `mesh`; nodes of one curve are joined by straight segments.
-void add_sources(Scene& scene, const SurfaceMesh& mesh, const SurfaceSources& sources);
+void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources);
 
 /// Throws InputError naming the element if the scene has no triangle, a triangle refers to a vertex
-/// that is missing or not finite, there is not one value a vertex, a value is NaN, or a source,
+/// that is missing or not finite, there is not one value per vertex, a value is NaN, or a source,
 /// level or isoline count is not finite or negative.
 void check_scene(const Scene& scene);
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/option_table.h"
 #include "contour/isosurface.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -15,11 +15,11 @@ namespace {
 constexpr int page_nodes = 64;  // along the longest axis
 
 // Every node of fewer, spread over the same box.
-VolumeField thinned(const VolumeField& volume) {
+Volume thinned(const Volume& volume) {
   const Grid& grid = volume.grid;
   Vec3 length;
   for (int a = 0; a < 3; ++a) length[a] = grid.spacing[a] * (grid.n[a] - 1);
-  VolumeField thin{grid, {}, volume.name};
+  Volume thin{grid, {}, volume.name};
   for (int a = 0; a < 3; ++a) {
     const double wanted = 1 + std::ceil((page_nodes - 1) * (length[a] / length.maxCoeff()));
     thin.grid.n[a] = std::min(grid.n[a], std::max(2, static_cast<int>(wanted)));
@@ -40,7 +40,7 @@ VolumeField thinned(const VolumeField& volume) {
   return thin;
 }
 
-std::shared_ptr<SceneVolume> describe(const VolumeField& volume, const VolumeView& view) {
+std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& view) {
   const Grid& grid = volume.grid;
   if (view.axis < 0 || view.axis > 2) throw InputError("volume: the axis must be x, y or z");
   for (int a = 0; a < 3; ++a)
@@ -80,7 +80,7 @@ std::shared_ptr<SceneVolume> describe(const VolumeField& volume, const VolumeVie
 // Triangles over points with values, appended to a scene.
 class Builder {
  public:
-  void add_slice(const VolumeField& volume, int axis, int slice) {
+  void add_slice(const Volume& volume, int axis, int slice) {
     const int u = (axis + 1) % 3, w = (axis + 2) % 3;
     const int nu = volume.grid.n[u], nw = volume.grid.n[w];
     const auto node = [&](int i, int j) {
@@ -137,8 +137,8 @@ class Builder {
 };
 
 // The part of a volume from a slice on.
-VolumeField in_front(const VolumeField& volume, int axis, int slice) {
-  VolumeField part{volume.grid, {}, volume.name};
+Volume in_front(const Volume& volume, int axis, int slice) {
+  Volume part{volume.grid, {}, volume.name};
   part.grid.n[axis] -= slice;
   part.grid.origin[axis] += slice * volume.grid.spacing[axis];
   std::array<int, 3> first{};
@@ -156,12 +156,12 @@ VolumeField in_front(const VolumeField& volume, int axis, int slice) {
 
 }  // namespace
 
-Scene make_volume_scene(const VolumeField& volume, const VolumeView& view) {
+Scene make_volume_scene(const Volume& volume, const VolumeView& view) {
   const auto known = describe(volume, view);
   Builder builder;
   builder.add_slice(volume, known->axis, known->slice);
   if (known->isosurface && known->slice + 1 < volume.grid.n[known->axis]) {
-    const VolumeField part = in_front(volume, known->axis, known->slice);
+    const Volume part = in_front(volume, known->axis, known->slice);
     Report unheard;  // it ends at the slice
     builder.add_surface(isosurface(part.grid, part.values, known->level, {}, unheard),
                         known->level);

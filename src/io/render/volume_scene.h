@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "domain/volume/volume_field.h"
 #include "io/render/scene.h"
+#include "littoral/volume.h"
 
 namespace littoral::io {
 
@@ -20,6 +20,6 @@ struct VolumeView {
 /// Where values are not all finite there is no isosurface. Pages also get the volume itself, at
 /// most 64 nodes along an axis, to move through. Throws InputError for a grid of fewer than two
 /// nodes along an axis, a position outside the box, or a level that is not finite.
-Scene make_volume_scene(const VolumeField& volume, const VolumeView& view = {});
+Scene make_volume_scene(const Volume& volume, const VolumeView& view = {});
 
 }  // namespace littoral::io

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
@@ -34,8 +34,8 @@ void check_finite(const PolygonSoup& soup, int v, const std::string& name) {
                    " (counted from 0), which is not finite");
 }
 
-SurfaceSources space_curves_from_lines(const PolygonSoup& soup, const std::string& name) {
-  SurfaceSources sources;
+Sources space_curves_from_lines(const PolygonSoup& soup, const std::string& name) {
+  Sources sources;
   for (const auto& line : polylines(soup)) {
     SpaceCurve curve;
     curve.points.resize(static_cast<Eigen::Index>(line.size()), 3);
@@ -51,10 +51,10 @@ SurfaceSources space_curves_from_lines(const PolygonSoup& soup, const std::strin
 
 }  // namespace
 
-SurfaceSources sources_from_lines(const PolygonSoup& soup, const std::string& name) {
-  SurfaceSources sources;
+Sources sources_from_lines(const PolygonSoup& soup, const std::string& name) {
+  Sources sources;
   for (const auto& line : polylines(soup)) {
-    SurfaceCurve curve;
+    Curve curve;
     for (int v : line) {
       check_finite(soup, v, name);
       curve.nodes.push_back(SurfacePoint::at_vertex(v));
@@ -65,14 +65,14 @@ SurfaceSources sources_from_lines(const PolygonSoup& soup, const std::string& na
   return sources;
 }
 
-SurfaceSources read_sources_bytes(std::string_view bytes, const std::string& extension,
-                                  const std::string& name, const SurfaceMesh& mesh,
-                                  std::optional<int> index_base, Report& report) {
+Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
+                           const std::string& name, const SurfaceMesh& mesh,
+                           std::optional<int> index_base, Report& report) {
   if (index_base && *index_base != 0 && *index_base != 1) {
     throw InputError("the index base must be 0 or 1, not " + std::to_string(*index_base));
   }
   const std::string format = lower_case(extension);
-  SurfaceSources sources;
+  Sources sources;
   if (format == ".txt") {
     sources = read_sources_txt(bytes, name, mesh, index_base);
   } else if (format == ".json") {
@@ -93,8 +93,8 @@ SurfaceSources read_sources_bytes(std::string_view bytes, const std::string& ext
   return sources;
 }
 
-SurfaceSources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                            std::optional<int> index_base, Report& report) {
+Sources read_sources(const std::filesystem::path& path, const SurfaceMesh& mesh,
+                     std::optional<int> index_base, Report& report) {
   return read_sources_bytes(read_bytes(path), path.extension().string(), path.string(), mesh,
                             index_base, report);
 }

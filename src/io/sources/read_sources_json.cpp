@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
@@ -18,7 +18,7 @@ class JsonReader {
   JsonReader(const std::string& name, const SurfaceMesh& mesh, std::optional<int> base)
       : name_(name), make_(mesh, [this] { return name_ + ": " + at_; }), base_(base.value_or(0)) {}
 
-  SurfaceSources read(const Json& root) {
+  Sources read(const Json& root) {
     at_ = "the document";
     expect_keys(root, {"curves", "points"});
     if (root.contains("curves")) {
@@ -105,7 +105,7 @@ class JsonReader {
       at_ = origin + "." + kind + "[" + std::to_string(k) + "]";
     };
     if (curve.contains("nodes")) {
-      SurfaceCurve result{{}, is_signed, name_ + ":" + origin};
+      Curve result{{}, is_signed, name_ + ":" + origin};
       for (std::size_t k = 0; k < items.size(); ++k) {
         name_item(k);
         result.nodes.push_back(read_node(items[k]));
@@ -129,13 +129,13 @@ class JsonReader {
   std::string at_;  // the element being read
   NodeMaker make_;
   int base_;
-  SurfaceSources sources_;
+  Sources sources_;
 };
 
 }  // namespace
 
-SurfaceSources read_sources_json(std::string_view bytes, const std::string& name,
-                                 const SurfaceMesh& mesh, std::optional<int> index_base) {
+Sources read_sources_json(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
+                          std::optional<int> index_base) {
   const std::string_view text = without_byte_order_mark(bytes, name);
   // Each bracket of a deep nest takes many times its byte in memory, and no valid file has more
   // than 5.

@@ -4,9 +4,9 @@
 #include <map>
 #include <tuple>
 
-#include "base/error.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
@@ -73,7 +73,7 @@ class SignedHeatReader {
         base_(base.value_or(0)),
         line_base_(base.value_or(1)) {}
 
-  SurfaceSources read() {
+  Sources read() {
     while (scan_.next()) {
       const std::string_view word = scan_.word();
       if (is_keyword(word)) {
@@ -142,7 +142,7 @@ class SignedHeatReader {
   const std::string& name_;
   NodeMaker make_;
   int base_, line_base_;
-  SurfaceSources sources_;
+  Sources sources_;
   std::string keyword_;
   std::size_t keyword_line_ = 0, first_line_ = 0;
   bool reversed_ = false;
@@ -162,7 +162,7 @@ class WindingReader {
         make_(mesh, [this] { return here(scan_.line()); }),
         base_(base ? *base : written_base()) {}
 
-  SurfaceSources read() {
+  Sources read() {
     while (scan_.next()) {
       const std::string_view word = scan_.word();
       if (word[0] == '#' || word == "n") continue;
@@ -219,7 +219,7 @@ class WindingReader {
     return static_cast<int>(written - base_);
   }
 
-  SurfaceSources curves() const {
+  Sources curves() const {
     // A place written several times is one point: some files repeat it for every segment.
     std::map<std::tuple<int, int, double, double>, int> first;
     std::vector<int> same;
@@ -233,9 +233,9 @@ class WindingReader {
       const int b = point(segments_[s].second, segment_lines_[s]);
       segments.emplace_back(same[static_cast<std::size_t>(a)], same[static_cast<std::size_t>(b)]);
     }
-    SurfaceSources sources;
+    Sources sources;
     for (const auto& line : chain(segments, static_cast<int>(points_.size()))) {
-      SurfaceCurve curve;
+      Curve curve;
       for (int p : line) curve.nodes.push_back(points_[static_cast<std::size_t>(p)]);
       curve.origin = here(lines_[static_cast<std::size_t>(line[0])]);
       sources.curves.push_back(std::move(curve));
@@ -265,8 +265,8 @@ bool has_keyword(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-SurfaceSources read_sources_txt(std::string_view bytes, const std::string& name,
-                                const SurfaceMesh& mesh, std::optional<int> index_base) {
+Sources read_sources_txt(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
+                         std::optional<int> index_base) {
   const std::string_view text = without_byte_order_mark(bytes, name);
   return has_keyword(text, name) ? SignedHeatReader(text, name, mesh, index_base).read()
                                  : WindingReader(text, name, mesh, index_base).read();

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "sources/surface_sources.h"
+#include "littoral/sources.h"
 
 namespace littoral::io {
 
@@ -59,11 +59,11 @@ using Segment = std::pair<int, int>;
 std::vector<std::vector<int>> chain(std::span<const Segment> segments, int n_points);
 
 /// Signed-heat .txt or surface-winding-number .txt, told apart by the presence of a keyword line.
-SurfaceSources read_sources_txt(std::string_view bytes, const std::string& name,
-                                const SurfaceMesh& mesh, std::optional<int> index_base);
+Sources read_sources_txt(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
+                         std::optional<int> index_base);
 
 /// The .json format described at read_sources.
-SurfaceSources read_sources_json(std::string_view bytes, const std::string& name,
-                                 const SurfaceMesh& mesh, std::optional<int> index_base);
+Sources read_sources_json(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
+                          std::optional<int> index_base);
 
 }  // namespace littoral::io

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

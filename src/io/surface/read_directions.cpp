@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral::io {
 

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "base/error.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

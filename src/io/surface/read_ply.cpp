@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/ply_header.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

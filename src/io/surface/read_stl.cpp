@@ -6,10 +6,10 @@
 #include <limits>
 #include <unordered_map>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

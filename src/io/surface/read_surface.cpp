@@ -6,10 +6,10 @@
 #include <memory>
 #include <system_error>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

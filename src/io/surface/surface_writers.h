@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/polygon_soup.h"
 
 namespace littoral::io {
 

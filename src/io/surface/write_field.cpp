@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

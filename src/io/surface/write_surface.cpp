@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {

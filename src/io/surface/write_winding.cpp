@@ -1,9 +1,9 @@
 #include "io/surface/write_winding.h"
 
-#include "base/error.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "domain/mesh/polygon_soup.h"
+#include "littoral/polygon_soup.h"
 
 namespace littoral::io {
 

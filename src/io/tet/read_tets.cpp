@@ -3,9 +3,9 @@
 #include <limits>
 #include <optional>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/tet/tet_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

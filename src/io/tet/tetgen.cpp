@@ -11,13 +11,13 @@
 #include <system_error>
 #include <vector>
 
-#include "base/error.h"
 #include "base/option_table.h"
 #include "base/platform/child_process.h"
 #include "base/platform/temporary_folder.h"
 #include "io/read.h"
 #include "io/tet/tets.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/task.h"
-#include "domain/mesh/polygon_soup.h"
-#include "domain/tet/tet_mesh.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/tet_mesh.h"
 
 namespace littoral::io {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "domain/tet/tet_mesh.h"
+#include "littoral/tet_mesh.h"
 
 namespace littoral::io {
 
@@ -34,7 +34,7 @@ TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
 /// True for the extensions above, and for .meshb and .vtu, which are refused with a reason.
 bool is_tets(const std::filesystem::path& path);
 
-/// Writes tets with one value a vertex by extension: .vtk (legacy, binary), .vtu (appended raw
+/// Writes tets with one value per vertex by extension: .vtk (legacy, binary), .vtu (appended raw
 /// data), both with exact numbers. Throws UnsupportedError for other extensions, InputError for a
 /// wrong number of values, IoError.
 void write_tets(const std::filesystem::path& path, const TetMesh& mesh, const VecX& values,

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/tet/tets.h"
 #include "io/text_scan.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <map>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/text_scan.h"
 #include "io/volume/volume.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -94,7 +94,7 @@ VoxelMask read_voxels(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (lower_case(path.extension().string()) == ".vol")
     return read_vol_bytes(read_bytes(path), name);
-  const VolumeField volume = read_volume(path);
+  const Volume volume = read_volume(path);
   if (!volume.values.allFinite())
     throw InputError(name + ": a mask needs finite values, 0 outside");
   if (volume.values.minCoeff() < 0 && volume.values.maxCoeff() > 0)

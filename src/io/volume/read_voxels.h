@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "domain/volume/grid.h"
+#include "littoral/volume.h"
 
 namespace littoral::io {
 

@@ -14,7 +14,7 @@ namespace littoral::io {
 struct VdbModule {
   const char* version;  // of littoral: the module must come from the same build
   /// Writes the volume; returns what went wrong, or nothing.
-  std::string (*write)(std::ostream& out, const VolumeField& volume, double band);
+  std::string (*write)(std::ostream& out, const Volume& volume, double band);
 };
 
 /// The module's only symbol, a function that returns a VdbModule.

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "domain/volume/volume_field.h"
+#include "littoral/volume.h"
 
 namespace littoral::io {
 
@@ -20,12 +20,12 @@ namespace littoral::io {
 ///   .vol   voxels of one byte; spacing 1, origin 0
 /// Throws InputError naming the file and what is wrong, UnsupportedError for what the format allows
 /// and this reader does not, IoError.
-VolumeField read_volume(const std::filesystem::path& path, const std::string& field = "");
+Volume read_volume(const std::filesystem::path& path, const std::string& field = "");
 
 /// The same from memory. Allocates no more than a small multiple of the data that the bytes hold
 /// (unpacked, where they are compressed).
-VolumeField read_volume_bytes(std::string_view bytes, const std::string& extension,
-                              const std::string& name, const std::string& field = "");
+Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
+                         const std::string& name, const std::string& field = "");
 
 /// True for files that hold a volume: by extension, and .npy by its dimensions. False for files
 /// that cannot be read.
@@ -41,7 +41,7 @@ struct VolumeWriteOptions {
 /// .vdb has single precision and is of class "level set", negative inside, with background 3
 /// spacings or the band's half width. Throws UnsupportedError for other extensions and where the
 /// module for .vdb is missing, InputError for a wrong number of values, IoError.
-void write_volume(const std::filesystem::path& path, const VolumeField& volume,
+void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeWriteOptions& options = {});
 
 /// True if .vdb can be written: the module littoral_vdb is there (io/volume/vdb_module.h). Loads

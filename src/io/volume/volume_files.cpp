@@ -3,20 +3,20 @@
 #include <array>
 #include <fstream>
 
-#include "base/error.h"
 #include "io/read.h"
 #include "io/text_scan.h"
 #include "io/volume/read_voxels.h"
 #include "io/volume/volume_formats.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
-VolumeField read_volume_bytes(std::string_view bytes, const std::string& extension,
-                              const std::string& name, const std::string& field) {
+Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
+                         const std::string& name, const std::string& field) {
   const std::string format = lower_case(extension);
   if (format == ".vti") return read_vti(bytes, name, field);
-  VolumeField volume;
+  Volume volume;
   if (format == ".nrrd") {
     volume = read_nrrd(bytes, name);
   } else if (format == ".npy") {
@@ -38,7 +38,7 @@ VolumeField read_volume_bytes(std::string_view bytes, const std::string& extensi
   return volume;
 }
 
-VolumeField read_volume(const std::filesystem::path& path, const std::string& field) {
+Volume read_volume(const std::filesystem::path& path, const std::string& field) {
   return read_volume_bytes(read_bytes(path), path.extension().string(), path.string(), field);
 }
 
@@ -53,7 +53,7 @@ bool is_volume(const std::filesystem::path& path) {
   return header && header->shape.size() == 3;
 }
 
-void write_volume(const std::filesystem::path& path, const VolumeField& volume,
+void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeWriteOptions& options) {
   if (static_cast<std::size_t>(volume.values.size()) != volume.grid.n_nodes())
     throw InputError("cannot write " + path.string() + ": " + std::to_string(volume.values.size()) +
@@ -74,7 +74,7 @@ void write_volume(const std::filesystem::path& path, const VolumeField& volume,
           "cannot write " + path.string() +
           ": the module littoral_vdb.so, which needs OpenVDB to be built, is not "
           "installed with the program; .vti, .nrrd and .npy work");
-    write([&](std::ostream& out, const VolumeField& v) { write_vdb(out, v, options); });
+    write([&](std::ostream& out, const Volume& v) { write_vdb(out, v, options); });
   } else {
     throw UnsupportedError("cannot write " + path.string() + ": " + in_quotes(format) +
                            " holds no volume; .vti, .nrrd, .npy and .vdb do");

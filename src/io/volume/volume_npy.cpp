@@ -2,11 +2,11 @@
 
 #include <charconv>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -62,7 +62,7 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
   }
 }
 
-VolumeField read_npy_volume(std::string_view bytes, const std::string& name) {
+Volume read_npy_volume(std::string_view bytes, const std::string& name) {
   const auto header = parse_npy_header(bytes);
   if (!header) throw InputError(name + ": the header is not that of a NumPy array");
   if (header->shape.size() != 3)
@@ -84,7 +84,7 @@ VolumeField read_npy_volume(std::string_view bytes, const std::string& name) {
   kind.size = static_cast<std::size_t>(size);
   const std::array<std::int64_t, 3> n{header->shape[0], header->shape[1], header->shape[2]};
   const std::size_t nodes = checked_nodes(n, (bytes.size() - header->data) / kind.size, name);
-  VolumeField volume;
+  Volume volume;
   for (int k = 0; k < 3; ++k) volume.grid.n[k] = static_cast<int>(n[k]);
   const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
   const VecX stored = load_numbers(bytes.substr(header->data), kind, nodes, order);
@@ -101,7 +101,7 @@ VolumeField read_npy_volume(std::string_view bytes, const std::string& name) {
   return volume;
 }
 
-void write_npy_volume(std::ostream& out, const VolumeField& volume) {
+void write_npy_volume(std::ostream& out, const Volume& volume) {
   const auto& n = volume.grid.n;
   write_npy_header(
       out, std::to_string(n[0]) + ", " + std::to_string(n[1]) + ", " + std::to_string(n[2]), true);

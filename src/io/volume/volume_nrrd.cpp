@@ -2,10 +2,10 @@
 
 #include <map>
 
-#include "base/error.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -15,7 +15,7 @@ class NrrdReader {
  public:
   NrrdReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-  VolumeField read() {
+  Volume read() {
     read_header();
     if (fields_.count("data file") + fields_.count("datafile") != 0)
       throw UnsupportedError(name_ + ": the data are in another file; only attached data are read");
@@ -33,7 +33,7 @@ class NrrdReader {
       if (!size) fail("'sizes' needs three whole numbers");
       k = *size;
     }
-    VolumeField volume;
+    Volume volume;
     volume.values = read_values(n);
     for (int k = 0; k < 3; ++k) volume.grid.n[k] = static_cast<int>(n[k]);
     read_box(volume.grid);
@@ -195,11 +195,11 @@ class NrrdReader {
 
 }  // namespace
 
-VolumeField read_nrrd(std::string_view bytes, const std::string& name) {
+Volume read_nrrd(std::string_view bytes, const std::string& name) {
   return NrrdReader(bytes, name).read();
 }
 
-void write_nrrd(std::ostream& out, const VolumeField& volume) {
+void write_nrrd(std::ostream& out, const Volume& volume) {
   const Grid& g = volume.grid;
   const auto triple = [&out](double a, double b, double c) {
     out << '(' << exact_text(a) << ',' << exact_text(b) << ',' << exact_text(c) << ')';

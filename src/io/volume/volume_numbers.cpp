@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/volume/volume_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 

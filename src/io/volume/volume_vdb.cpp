@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/error.h"
 #include "io/volume/vdb_module.h"
 #include "io/volume/volume_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -59,7 +59,7 @@ const VdbModule* module() {
 
 bool has_openvdb() { return module() != nullptr; }
 
-void write_vdb(std::ostream& out, const VolumeField& volume, const VolumeWriteOptions& options) {
+void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {
   if (module() == nullptr)
     throw UnsupportedError(std::string("there is no module ") + file_name +
                            " beside the program; it is built where OpenVDB is");

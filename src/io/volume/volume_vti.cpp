@@ -2,11 +2,11 @@
 
 #include <map>
 
-#include "base/error.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -46,10 +46,10 @@ class VtiReader {
   VtiReader(std::string_view bytes, const std::string& name, const std::string& wanted)
       : bytes_(bytes), name_(name), wanted_(wanted) {}
 
-  VolumeField read() {
+  Volume read() {
     read_structure();
     const Array& array = chosen();
-    VolumeField volume;
+    Volume volume;
     volume.name = array.name;
     volume.grid = grid_;
     volume.values = values_of(array);
@@ -224,7 +224,7 @@ class VtiReader {
            "; it has: " + (known.empty() ? "none" : known));
     for (const Array& array : arrays_)
       if (array.name == "distance") return array;
-    if (arrays_.empty()) fail("there is no field with one value a node");
+    if (arrays_.empty()) fail("there is no field with one value per node");
     if (arrays_.size() > 1) fail("it has the fields " + known + ": choose one with --field");
     return arrays_.front();
   }
@@ -367,11 +367,11 @@ class VtiReader {
 
 }  // namespace
 
-VolumeField read_vti(std::string_view bytes, const std::string& name, const std::string& field) {
+Volume read_vti(std::string_view bytes, const std::string& name, const std::string& field) {
   return VtiReader(bytes, name, field).read();
 }
 
-void write_vti(std::ostream& out, const VolumeField& volume) {
+void write_vti(std::ostream& out, const Volume& volume) {
   const Grid& g = volume.grid;
   std::string extent;
   for (int k = 0; k < 3; ++k) extent += (k ? " 0 " : "0 ") + std::to_string(g.n[k] - 1);

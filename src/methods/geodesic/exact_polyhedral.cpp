@@ -5,10 +5,10 @@
 #include <queue>
 #include <string>
 
-#include "base/error.h"
 #include "domain/mesh/edge_sides.h"
+#include "littoral/error.h"
 #include "methods/geodesic/polyhedral_window.h"
-#include "methods/heat/shift.h"
+#include "methods/heat/finalize.h"
 
 namespace littoral {
 
@@ -313,8 +313,8 @@ VecX exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& so
   for (const TriangleSources::Segment& s : sources.segments) front.start_along(s);
   front.run(task);
   report.iterations.emplace_back("windows", front.windows());
-  return finish_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
-                      report);
+  return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
+                        report);
 }
 
 }  // namespace littoral

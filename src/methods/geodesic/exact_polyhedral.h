@@ -1,9 +1,9 @@
 #pragma once
 // Exact distance on a polyhedral surface: shortest paths over flat triangles.
 
-#include "base/report.h"
 #include "base/task.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/report.h"
 #include "sources/triangle_sources.h"
 
 namespace littoral {

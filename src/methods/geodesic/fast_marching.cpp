@@ -7,7 +7,7 @@
 #include <string>
 
 #include "domain/mesh/edge_sides.h"
-#include "methods/heat/shift.h"
+#include "methods/heat/finalize.h"
 
 namespace littoral {
 
@@ -251,8 +251,8 @@ VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sourc
   Front front(T, sources);
   front.run(task);
   report.sizes.emplace_back("obtuse_corners_left", front.n_unsplit());
-  return finish_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
-                      report);
+  return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
+                        report);
 }
 
 }  // namespace littoral

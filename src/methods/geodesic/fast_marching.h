@@ -1,9 +1,9 @@
 #pragma once
 // Fast marching on triangles (Kimmel and Sethian, "Computing geodesic paths on manifolds", 1998).
 
-#include "base/report.h"
 #include "base/task.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
+#include "littoral/report.h"
 #include "sources/triangle_sources.h"
 
 namespace littoral {

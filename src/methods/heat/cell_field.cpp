@@ -11,8 +11,8 @@ CellField no_field(Eigen::Index cells) {
   return {VecX::Zero(2 * cells), VecX::Constant(cells, -std::numeric_limits<double>::infinity())};
 }
 
-CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
-  // A cell has carriers in one layer or in two that follow each other: what it has in the first
+CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
+  // A cell has dofs in one layer or in two that follow each other: what it has in the first
   // and, in its units, in the second.
   constexpr double negligible = 1e-290;
   CellField out = no_field(map.rows / 2);
@@ -39,7 +39,7 @@ CellField cell_field(const LinearMap& map, const LayeredField<double>& field) {
   return out;
 }
 
-void restore_units(LayeredField<double>& field, const VecX& b, const std::vector<int>& piece) {
+void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece) {
   const Eigen::Index block = b.size() / static_cast<Eigen::Index>(piece.size());
   std::vector<double> largest;
   for (std::size_t i = 0; i < piece.size(); ++i) {

@@ -20,11 +20,11 @@ CellField no_field(Eigen::Index cells);
 
 /// A linear map of a decaying solution to vectors at cells, each cell evaluated in the units of its
 /// own layer.
-CellField cell_field(const LinearMap& map, const LayeredField<double>& field);
+CellField cell_field(const LinearMap& map, const ScaledField<double>& field);
 
 /// HeatSystem::solve scales every piece of its right-hand side b to largest entry 1; this undoes
 /// it. `piece` as given to solve, for blocks of b.
-void restore_units(LayeredField<double>& field, const VecX& b, const std::vector<int>& piece);
+void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece);
 
 /// Replaces the vectors of `field` wherever those of `other`, times exp(log_factor), are longer.
 void take_longer(CellField& field, const CellField& other, double log_factor = 0);

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "base/types.h"
+#include "littoral/types.h"
 #include "methods/heat/yukawa_sum.h"
 #include "sources/oriented_points.h"
 #include "spatial/point_blocks.h"

@@ -69,8 +69,9 @@ VecX edge_curl(const JumpCalculus& J, const VecX& Y) {
   return curl;
 }
 
-DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y, double tear,
-                                           double t, const Task& whole, Report& report) {
+DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y,
+                                           double jump_threshold, double t, const Task& whole,
+                                           Report& report) {
   Task task = whole;
   MatX3 local = MatX3::Zero(J.n_faces, 3);
   for (int f = 0; f < J.n_faces; ++f) {
@@ -83,7 +84,7 @@ DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y,
                       task.stage(0.8, "least jumps"), report);
   DiscontinuousField field{found.v, {}, found.jump, found.objective, found.gap};
   std::vector<char> joined(J.n_edges, 0);
-  for (int e = 0; e < J.n_edges; ++e) joined[e] = t > 0 && std::abs(found.jump[e]) < tear;
+  for (int e = 0; e < J.n_edges; ++e) joined[e] = t > 0 && std::abs(found.jump[e]) < jump_threshold;
   int n = 0;
   field.piece = pieces(J, joined, n);
   if (t > 0) flow(J, field, n, t, task.stage(0.2, "heat flow"));

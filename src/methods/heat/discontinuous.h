@@ -1,8 +1,8 @@
 #pragma once
 // Signed distance that may jump, to curves that bound nothing (Feng and Crane 2024, section 7.2).
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "operators/jump_calculus.h"
 
 namespace littoral {
@@ -20,10 +20,11 @@ struct DiscontinuousField {
 VecX edge_curl(const JumpCalculus& J, const VecX& Y);
 
 /// Step III by eq. 16: Y (2 faces, unit vectors in the faces' frames) integrated exactly in every
-/// face, with the least jumps across edges, which cost |edge| exp(-|curl|). Jumps below `tear`
-/// [units] are then closed by heat flow for time `t` (figure 12) on the surface torn at the others;
-/// t = 0: left as they are.
-DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y, double tear,
-                                           double t, const Task& task, Report& report);
+/// face, with the least jumps across edges, which cost |edge| exp(-|curl|). Jumps below
+/// `jump_threshold` [units] are then closed by heat flow for time `t` (figure 12) on the surface
+/// torn at the others; t = 0: left as they are.
+DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y,
+                                           double jump_threshold, double t, const Task& task,
+                                           Report& report);
 
 }  // namespace littoral

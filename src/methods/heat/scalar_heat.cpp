@@ -25,7 +25,7 @@ SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped)
 
 }  // namespace
 
-ScalarHeat::ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order,
+ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint expect, const Ordering& order,
                        const Task& task) {
   auto system = [&](const std::vector<char>& dropped) {
     return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
@@ -41,7 +41,7 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
   VecX b = u0;
   for (Eigen::Index i = 0; i < b.size(); ++i)
     if (!(C.M[i] > 0)) b[i] = 0;
-  LayeredField<double> u = neumann_->solve(b, C.component, task, report);
+  ScaledField<double> u = neumann_->solve(b, C.component, task, report);
   restore_units(u, b, C.component);
   if (dirichlet_) {
     // Mean of both where they are on the same scale: within the first layer. Beyond, hundreds of
@@ -49,7 +49,7 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
     for (Eigen::Index i = 0; i < b.size(); ++i)
       if (C.boundary[i]) b[i] = 0;
     Report inner;
-    LayeredField<double> d = dirichlet_->solve(b, C.component, task, inner);
+    ScaledField<double> d = dirichlet_->solve(b, C.component, task, inner);
     restore_units(d, b, C.component);
     for (Eigen::Index i = 0; i < b.size(); ++i)
       if (u.layer[i] == 0) u.x[i] = 0.5 * (u.x[i] + (d.layer[i] == 0 ? d.x[i] : 0));
@@ -58,7 +58,7 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
   return cell_field(C.G, u);
 }
 
-void ScalarHeat::add_nearest(const Calculus& C, const SourceTerms& terms, double point_weight,
+void ScalarHeat::add_nearest(const Calculus& C, const SourceSystem& terms, double point_weight,
                              CellField& field, Task task, Report& report) const {
   Report least;  // what every batch has to say, one batch has to say
   double passes = 0;

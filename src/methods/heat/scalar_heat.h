@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "methods/heat/cell_field.h"
 #include "operators/calculus.h"
-#include "sources/source_terms.h"
+#include "sources/source_system.h"
 
 namespace littoral {
 
@@ -17,13 +17,14 @@ namespace littoral {
 /// there.
 class ScalarHeat {
  public:
-  ScalarHeat(const Calculus& C, double t, Expect expect, const Ordering& order, const Task& task);
+  ScalarHeat(const Calculus& C, double t, SolveHint expect, const Ordering& order,
+             const Task& task);
 
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources
   /// that face each other into their average, over a width of sqrt(t) on both sides of the line
   /// between. Points are weighted as point_weight (> 0) times the curves' measure.
-  void add_nearest(const Calculus& C, const SourceTerms& terms, double point_weight,
+  void add_nearest(const Calculus& C, const SourceSystem& terms, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
   double nonzeros() const {

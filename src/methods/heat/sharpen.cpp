@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "solve/direct/definite.h"
 #include "solve/optimization/admm.h"
 #include "solve/optimization/pdhg.h"
@@ -13,7 +14,7 @@ namespace {
 
 /// Constraints on one number a cell after the cells of the gradient, in its first coordinate: at
 /// first nodes that keep their sign and stay within a bound, then rows that vanish.
-class SignedBall : public CellEnergy {
+class SignedBall : public GradientEnergy {
  public:
   SignedBall(int dim, Eigen::Index cells, std::vector<int> sign, VecX bound)
       : dim_(dim), cells_(cells), sign_(std::move(sign)), bound_(std::move(bound)) {}
@@ -159,7 +160,7 @@ constexpr Eigen::Index most_for_a_factor = 60'000;  // nodes in space; a factor 
 
 }  // namespace
 
-VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
+VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
   const Stopwatch watch(report, "sharpen");
@@ -234,7 +235,7 @@ VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
 VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
                       SharpenSolver solver, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
-  SourceTerms terms;
+  SourceSystem terms;
   terms.A = rows;
   terms.reached.assign(static_cast<std::size_t>(C.n_components), 0);
   for (const int i : unknowns_of(rows))

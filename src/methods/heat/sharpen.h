@@ -1,17 +1,14 @@
 #pragma once
-// Sharpening of a signed distance (Feng & Crane 2024, section 7.3): slope at most 1, as far from
+// Sharpening of a signed distance (Feng & Crane 2024, section 7.3): gradient at most 1, as far from
 // zero as that allows, and everywhere the sign that it had.
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "operators/calculus.h"
-#include "sources/source_terms.h"
+#include "sources/source_system.h"
 
 namespace littoral {
-
-/// Alternating directions on one factorization, or the primal-dual hybrid gradient method, which
-/// only multiplies.
-enum class SharpenSolver { admm, pdhg };
 
 struct SharpenOptions {
   SharpenSolver solver = SharpenSolver::admm;
@@ -25,7 +22,7 @@ struct SharpenOptions {
 /// nodes [length of the input], where the iteration starts; +inf where no source reaches, which
 /// stays. Operators of surfaces, tets and grids alike; in space, many nodes are solved for by
 /// multigrid, a few steps in each iteration, instead of a factor.
-VecX sharpen(const Operators& ops, const SourceTerms& terms, const VecX& phi0,
+VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report);
 
 /// The same in space, where the source is rows (rows x nodes) at which phi vanishes and a component

@@ -5,14 +5,15 @@
 #include <limits>
 #include <string>
 
-#include "base/error.h"
-#include "methods/heat/shift.h"
+#include "base/stopwatch.h"
+#include "littoral/error.h"
+#include "methods/heat/finalize.h"
 #include "methods/heat/time_scale.h"
 
 namespace littoral {
 
-const OptionTable<SignedHeatOptions>& signed_heat_options() {
-  using O = SignedHeatOptions;
+const OptionTable<SignedHeat>& signed_heat_options() {
+  using O = SignedHeat;
   static const OptionTable<O> table =
       OptionTable<O>()
           .number(
@@ -27,7 +28,7 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
           .toggle(&O::preserve_normals, "preserve-normals",
                   "Holds the diffused vectors at the source's own normals.")
           .choice(
-              &O::points, "points", {"gradient", "radial"},
+              &O::point_sources, "point-sources", {"gradient", "radial"},
               "Diffused vectors of points: the gradient of scalar heat, each cell's from the "
               "nearest point; or radial vectors at the points, all in one sum, as in the paper. "
               "Beside curves always radial.")
@@ -36,13 +37,14 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
           .toggle(&O::discontinuous, "discontinuous",
                   "Lets the distance jump where the directions cannot be integrated: for curves "
                   "without inside and outside.")
-          .number(&O::tear, "tear", "mean edge lengths", 0, 1e6,
+          .number(&O::jump_threshold, "jump-threshold", "mean edge lengths", 0, 1e6,
                   "Discontinuous: jumps larger than that stay, smaller ones are smoothed out.")
           .number(&O::smoothing, "smoothing", "multiple of h^2, 0 = none", 0, 1e6,
                   "Discontinuous: time of the heat flow that smooths out small jumps, h being the "
                   "mean edge length; 0 leaves all jumps.")
           .choice(&O::sharpen, "sharpen", {"off", "on", "quadratic"},
-                  "Afterwards makes the distance as large as slope 1 allows, with the same signs: "
+                  "Afterwards makes the distance as large as a unit gradient allows, with the same "
+                  "signs: "
                   "on linear elements, or on quadratic ones from the curves and the zero set in "
                   "their gaps (triangle and polygon meshes).")
           .choice(&O::sharpen_solver, "sharpen-solver", {"admm", "pdhg"},
@@ -54,25 +56,25 @@ const OptionTable<SignedHeatOptions>& signed_heat_options() {
   return table;
 }
 
-double automatic_time_scale(const SourceTerms& terms) { return terms.only_points ? 16 : 1; }
+double automatic_time_scale(const SourceSystem& terms) { return terms.only_points ? 16 : 1; }
 
 namespace {
 
 /// Do points enter as gradients of scalar heat? Beside curves they cannot: the two discrete kernels
 /// fall at different rates.
-bool by_gradient(const SourceTerms& terms, const SignedHeatOptions& options) {
-  return static_cast<PointVectors>(options.points) == PointVectors::gradient && terms.only_points &&
+bool by_gradient(const SourceSystem& terms, const SignedHeat& options) {
+  return options.point_sources == PointVectors::gradient && terms.only_points &&
          !options.preserve_normals;
 }
 
 }  // namespace
 
-Diffusions needed_diffusions(const SourceTerms& terms, const SignedHeatOptions& options) {
+Diffusions needed_diffusions(const SourceSystem& terms, const SignedHeat& options) {
   return {!by_gradient(terms, options), by_gradient(terms, options)};
 }
 
-SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, Task task,
-                       Diffusions diffusions, Expect expect)
+SignedHeatSolver::SignedHeatSolver(std::shared_ptr<const Operators> ops, double time_scale,
+                                   Task task, Diffusions diffusions, SolveHint expect)
     : ops_(std::move(ops)),
       expect_(expect),
       order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
@@ -82,7 +84,7 @@ SignedHeat::SignedHeat(std::shared_ptr<const Operators> ops, double time_scale, 
   factor_heat(time_scale, diffusions, task);
 }
 
-void SignedHeat::factor_heat(double time_scale, Diffusions diffusions, Task& task) {
+void SignedHeatSolver::factor_heat(double time_scale, Diffusions diffusions, Task& task) {
   root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
@@ -91,15 +93,17 @@ void SignedHeat::factor_heat(double time_scale, Diffusions diffusions, Task& tas
     heat_.emplace(ops_->vector, t, expect_, order_, task.stage(0.4, "factor vector heat"));
 }
 
-SignedHeat SignedHeat::with_time_scale(double time_scale, Task task) const {
-  SignedHeat out = *this;
-  out.factor_heat(time_scale, {heat_.has_value(), scalar_heat_.has_value()}, task);
+SignedHeatSolver SignedHeatSolver::with(double time_scale, Diffusions diffusions, Task task) const {
+  SignedHeatSolver out = *this;
+  out.heat_.reset();
+  out.scalar_heat_.reset();
+  out.factor_heat(time_scale, diffusions, task);
   return out;
 }
 
-VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
-                           const SignedHeatOptions& options, const Task& task,
-                           Report& report) const {
+VecX SignedHeatSolver::integrate(const SourceSystem& terms, const VecX& Y,
+                                 const SignedHeat& options, const Task& task,
+                                 Report& report) const {
   // Step III: L phi = G^T A Y (eq. 13), subject to the constraints of section 7.1.
   // With points, phi = d0 + psi where d0 is the exact distance next to them: psi has the
   // constraints.
@@ -107,7 +111,7 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
   const VecX b = C.divergence(Y);
   if (options.soft > 0)
     return poisson_->solve_soft(b, terms.A, options.soft * terms.weight, task, report);
-  switch (static_cast<Constraint>(options.constraint)) {
+  switch (options.constraint) {
     case Constraint::none: {
       VecX phi = poisson_->solve(b, report, task);
       shift_to_mean_zero(C, terms, phi);
@@ -134,8 +138,8 @@ VecX SignedHeat::integrate(const SourceTerms& terms, const VecX& Y,
   return phi;
 }
 
-VecX SignedHeat::directions(const SourceTerms& terms, const SignedHeatOptions& options,
-                            const Task& task, Report& report) const {
+VecX SignedHeatSolver::directions(const SourceSystem& terms, const SignedHeat& options,
+                                  const Task& task, Report& report) const {
   // Steps I and II: X = diffused normals, Y = X / |X|.
   const Calculus& C = ops_->scalar;
   const VectorDiffusion& V = ops_->vector;
@@ -148,8 +152,8 @@ VecX SignedHeat::directions(const SourceTerms& terms, const SignedHeatOptions& o
   return X.Y;
 }
 
-VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& options, Task task,
-                       Report& report) const {
+VecX SignedHeatSolver::solve(const SourceSystem& terms, const SignedHeat& options, Task task,
+                             Report& report) const {
   const VectorDiffusion& V = ops_->vector;
   const Diffusions needed = needed_diffusions(terms, options);
   if ((needed.vectors && !heat_) || (needed.scalars && !scalar_heat_))
@@ -178,19 +182,20 @@ VecX SignedHeat::solve(const SourceTerms& terms, const SignedHeatOptions& option
   };
   VecX phi = integrated();
   while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();
-  report.residuals.emplace_back(against_directions, share_against(ops_->scalar, phi, Y));
+  report.residuals.emplace_back(misaligned_area_fraction,
+                                misaligned_fraction(ops_->scalar, phi, Y));
   report.sizes.emplace_back("factor_mb", factor_megabytes());
-  return finish_field(*ops_, terms, phi, report);
+  return finalize_field(*ops_, terms, phi, report);
 }
 
-double SignedHeat::factor_megabytes() const {
+double SignedHeatSolver::factor_megabytes() const {
   const double scalar = poisson_->nonzeros() + (scalar_heat_ ? scalar_heat_->nonzeros() : 0);
   const double vector = heat_ ? heat_->nonzeros() : 0;
   return (8 * scalar + (ops_->vector.complex_linear() ? 16 : 8) * vector) / (1 << 20);
 }
 
-bool SignedHeat::add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y,
-                                    const Task& task, Report& report) const {
+bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y,
+                                          const Task& task, Report& report) const {
   // A piece that hangs on others by single nodes gets no heat through them: it is a problem of its
   // own, with point sources at those nodes, each as strong as its distance makes it and with its
   // sign.
@@ -207,9 +212,9 @@ bool SignedHeat::add_across_pinches(const VecX& phi, std::vector<char>& reached,
     if (reached[pinch.piece] || !node_reached[pinch.node]) continue;
     const double d = phi[pinch.node];
     const double strength = std::exp(-(std::abs(d) - nearest[pinch.piece]) / root_t_);
-    for (const auto& [carrier, z] : pinch.radial) {
-      X0[2 * carrier] += std::copysign(strength, d) * z.real();
-      X0[2 * carrier + 1] += std::copysign(strength, d) * z.imag();
+    for (const auto& [dof, z] : pinch.radial) {
+      X0[2 * dof] += std::copysign(strength, d) * z.real();
+      X0[2 * dof + 1] += std::copysign(strength, d) * z.imag();
     }
   }
   bool any = false;

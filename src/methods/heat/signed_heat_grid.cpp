@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "methods/heat/convolve.h"
 #include "solve/multigrid/cosine_transform.h"
-#include "solve/poisson/held_poisson.h"
+#include "solve/poisson/constrained_poisson.h"
 
 namespace littoral {
 
@@ -12,28 +13,40 @@ namespace {
 constexpr double zero_set_tolerance = 1e-2;  // in grid spacings, root mean square
 }
 
-const OptionTable<SpaceHeatOptions>& space_heat_options() {
-  using O = SpaceHeatOptions;
+const OptionTable<SpaceSignedHeat>& space_heat_options() {
+  using O = SpaceSignedHeat;
   static const OptionTable<O> table =
       OptionTable<O>()
           .number(
               &O::time_scale, "time-scale", "multiple of h^2", 1e-4, 1e6,
               "Diffusion time t as a multiple of h^2, h being the mean distance between samples "
               "of the input; larger values smooth more and close wider gaps.")
-          .choice(&O::constraint, "constraint", {"none", "zero-set", "soft"},
-                  "Values at the source: shifted to mean zero, zero in every grid cell, or drawn "
-                  "to zero by a penalty on their squares.")
-          .number(&O::soft, "soft", "weight", 1e-6, 1e12,
+          .choice(
+              &O::constraint, "constraint", {"automatic", "none", "zero-set", "soft"},
+              "Values at the source: shifted to mean zero, zero in every grid cell, or drawn "
+              "to zero by a penalty on their squares. Automatic: zero-set through tets that are "
+              "given or follow the input, where no weight is given, otherwise soft.")
+          .number(&O::soft, "soft", "weight, 0 = 10", 0, 1e12,
                   "Weight of that penalty; larger values follow the source more closely, with its "
                   "noise.")
           .toggle(&O::sharpen, "sharpen",
-                  "Afterwards makes the distance as large as slope 1 allows, with the same zero "
+                  "Afterwards makes the distance as large as a unit gradient allows, with the same "
+                  "zero "
                   "set.");
   return table;
 }
 
-VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
-                      const SpaceHeatOptions& options, Task task, Report& report) {
+SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming) {
+  if (options.constraint == SpaceConstraint::automatic)
+    options.constraint =
+        conforming && !(options.soft > 0) ? SpaceConstraint::zero_set : SpaceConstraint::soft;
+  if (!(options.soft > 0)) options.soft = 10;
+  return options;
+}
+
+VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const SpaceSignedHeat& given,
+                      Task task, Report& report) {
+  const SpaceSignedHeat options = settled(given, false);
   const double h = sample_spacing(source);
   const double root_t = std::sqrt(options.time_scale) * h;
   const Task diffuse_stage = task.stage(0.5, "diffusing normals");
@@ -65,7 +78,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
     report.warn("the box holds no sample of the input; distances are shifted by the box's centre");
     return phi;
   }
-  const auto constraint = static_cast<SpaceConstraint>(options.constraint);
+  const auto constraint = options.constraint;
   if (constraint == SpaceConstraint::none) {
     phi.array() -= rows.weight.dot(rows.A * phi) / rows.weight.sum();
     return phi;
@@ -76,7 +89,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
     const double cell = grid.spacing.prod();
     softness = cell * h / (options.soft * rows.weight.array());
   }
-  const HeldRows held{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
+  const ConstraintRows held{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
   // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
   // speed.
   const GridPoisson<float> poisson(grid.n, grid.spacing);

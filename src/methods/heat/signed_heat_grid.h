@@ -2,26 +2,20 @@
 // The signed heat method in space on a regular grid (section 8.2).
 
 #include "base/option_table.h"
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "operators/grid.h"
 #include "sources/oriented_points.h"
 
 namespace littoral {
 
-/// How values at the source are held (section 7.1): not, at zero, or pulled towards zero. Level
-/// sets of parts are not told apart in space.
-enum class SpaceConstraint { none, zero_set, soft };
-
-struct SpaceHeatOptions {
-  double time_scale = 1;  // t = time_scale h^2
-  int constraint = static_cast<int>(SpaceConstraint::soft);
-  double soft = 10;      // weight of the penalty
-  bool sharpen = false;  // afterwards (7.3), for whoever calls
-};
-
 /// Names, ranges, defaults and one sentence for each of the above.
-const OptionTable<SpaceHeatOptions>& space_heat_options();
+const OptionTable<SpaceSignedHeat>& space_heat_options();
+
+/// What is left to choose chosen: constraint and weight. `conforming`: on tets that are given or
+/// follow the input.
+SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming);
 
 /// Generalized signed distance to the source at the nodes [length]. h is `sample_spacing(source)`.
 ///
@@ -31,6 +25,6 @@ const OptionTable<SpaceHeatOptions>& space_heat_options();
 /// noise and holes cell by cell. soft = w: penalty w times the area in the cell over h, which
 /// follows the source at the scale of h.
 VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
-                      const SpaceHeatOptions& options, Task task, Report& report);
+                      const SpaceSignedHeat& options, Task task, Report& report);
 
 }  // namespace littoral

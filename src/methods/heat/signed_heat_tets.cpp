@@ -5,9 +5,10 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "methods/heat/shift.h"
+#include "base/stopwatch.h"
+#include "methods/heat/finalize.h"
 #include "solve/direct/cholesky.h"
-#include "solve/poisson/held_poisson.h"
+#include "solve/poisson/constrained_poisson.h"
 #include "solve/poisson/poisson.h"
 
 namespace littoral {
@@ -31,20 +32,26 @@ MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
   return X;
 }
 
+}  // namespace
+
 /// Step III: L phi = G^T A Y, held at the sources.
-VecX integrate(const TetOperators& ops, const TetSourceTerms& terms, const MatX3& Y, double h,
-               double tolerance, const SpaceHeatOptions& options, Task task, Report& report) {
+VecX TetHeatSolver::integrate(const TetSourceSystem& terms, const MatX3& Y, double h,
+                              double tolerance, const SpaceSignedHeat& options, Task task,
+                              Report& report) const {
   const Task factor_stage = task.stage(0.7, "factoring");
   const Task hold_stage = task.stage(0.3, "integrating");
   const Stopwatch watch(report, "integrate");
-  const Poisson poisson(ops.L, ops.component, ops.n_components, factor_stage);
+  const TetOperators& ops = *ops_;
+  const auto factored =
+      poisson_.get([&] { return Poisson(ops.L, ops.component, ops.n_components, factor_stage); });
+  const Poisson& poisson = *factored;
   VecX phi = poisson.solve(ops.divergence(Y), report);
   std::vector<char> reached(static_cast<std::size_t>(ops.n_components), 0);
   for (int v = 0; v < terms.A.outerSize(); ++v)
     if (SpMat::InnerIterator(terms.A, v) && ops.component[static_cast<std::size_t>(v)] >= 0)
       reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(v)])] = 1;
 
-  const auto constraint = static_cast<SpaceConstraint>(options.constraint);
+  const auto constraint = options.constraint;
   if (terms.A.rows() > 0 && constraint != SpaceConstraint::none) {
     VecX softness = VecX::Zero(terms.A.rows());
     if (constraint == SpaceConstraint::soft) softness = h / (options.soft * terms.weight.array());
@@ -61,11 +68,10 @@ VecX integrate(const TetOperators& ops, const TetSourceTerms& terms, const MatX3
   return phi;
 }
 
-}  // namespace
-
-VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
-                      double tolerance, const SpaceHeatOptions& options, Task task,
-                      Report& report) {
+VecX TetHeatSolver::signed_distance(const TetSourceSystem& terms, double h, double tolerance,
+                                    const SpaceSignedHeat& options, Task task,
+                                    Report& report) const {
+  const TetOperators& ops = *ops_;
   const Task heat_stage = task.stage(0.7, "diffusing normals");
   const Task integrate_stage = task.stage(0.3, "integrating");
 
@@ -75,21 +81,23 @@ VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, doub
     const Stopwatch watch(report, "diffuse");
     const FlushSubnormals flush;
     const double t = options.time_scale * h * h;
-    const SpMat A = ops.face_mass + t * ops.face_laplacian;
-    const Cholesky<double> factor(A, heat_stage);
-    const MatX3 X = factor.solve(terms.X0);
+    const auto factor = faces_.get(t, [&] {
+      return Cholesky<double>(SpMat(ops.face_mass + t * ops.face_laplacian), heat_stage);
+    });
+    const MatX3 X = factor->solve(terms.X0);
     // Step II: Y = X / |X| on tets (B.2).
     int zeros = 0;
     Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn(std::to_string(zeros) + " tets have no direction: too far from the input");
   }
-  return integrate(ops, terms, Y, h, tolerance, options, integrate_stage, report);
+  return integrate(terms, Y, h, tolerance, options, integrate_stage, report);
 }
 
-VecX unsigned_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
-                        double tolerance, const SpaceHeatOptions& options, Task task,
-                        Report& report) {
+VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& terms, double h, double tolerance,
+                                      const SpaceSignedHeat& options, Task task,
+                                      Report& report) const {
+  const TetOperators& ops = *ops_;
   const Task heat_stage = task.stage(0.5, "diffusing");
   const Task integrate_stage = task.stage(0.5, "integrating");
   MatX3 Y;
@@ -101,16 +109,17 @@ VecX unsigned_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, do
     VecX mass = ops.vertex_mass();
     for (Eigen::Index v = 0; v < mass.size(); ++v)  // those of no tet: an equation of their own
       if (ops.component[static_cast<std::size_t>(v)] < 0) mass[v] = 1;
-    const SpMat A = t * ops.L + SpMat(mass.asDiagonal());
-    const Cholesky<double> factor(A, heat_stage);
-    const VecX u = factor.solve(VecX(terms.A.transpose() * VecX::Ones(terms.A.rows())));
+    const auto factor = vertices_.get(t, [&] {
+      return Cholesky<double>(SpMat(t * ops.L + SpMat(mass.asDiagonal())), heat_stage);
+    });
+    const VecX u = factor->solve(VecX(terms.A.transpose() * VecX::Ones(terms.A.rows())));
     // Step II: Y = -grad u / |grad u|.
     int zeros = 0;
     Y = normalize_rows(-ops.gradient(u), ops.volumes, zeros);
     if (zeros > 0)
       report.warn(std::to_string(zeros) + " tets have no direction: too far from the sources");
   }
-  return integrate(ops, terms, Y, h, tolerance, options, integrate_stage, report);
+  return integrate(terms, Y, h, tolerance, options, integrate_stage, report);
 }
 
 }  // namespace littoral

@@ -1,24 +1,46 @@
 #pragma once
 // The signed heat method on tet meshes (section 8.1, Appendix B).
 
-#include "base/report.h"
+#include <memory>
+#include <utility>
+
+#include "base/lazy.h"
 #include "base/task.h"
 #include "methods/heat/signed_heat_grid.h"
 #include "operators/tet_operators.h"
-#include "sources/tet_source_terms.h"
+#include "solve/direct/cholesky.h"
+#include "solve/poisson/poisson.h"
+#include "sources/tet_source_system.h"
 
 namespace littoral {
 
-/// Generalized signed distance at the vertices [length], +inf on components that no source reaches.
-/// h [length] sets the diffusion time t = time_scale h^2 and the scale of `soft`; `tolerance`
-/// [length] is how far from zero the rows of a held zero set may be in the mean.
-VecX signed_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
-                      double tolerance, const SpaceHeatOptions& options, Task task, Report& report);
+/// The method on one mesh; the Poisson factor and the last heat factors are made when first needed
+/// and kept. Immutable to its users, from several threads.
+class TetHeatSolver {
+ public:
+  explicit TetHeatSolver(std::shared_ptr<const TetOperators> ops) : ops_(std::move(ops)) {}
 
-/// Distance without sign, from vertices (the rows of terms.A), by the diffusion of a scalar (Crane
-/// et al. 2013): t = 4 time_scale h^2. Otherwise as above.
-VecX unsigned_heat_tets(const TetOperators& ops, const TetSourceTerms& terms, double h,
-                        double tolerance, const SpaceHeatOptions& options, Task task,
-                        Report& report);
+  /// Generalized signed distance at the vertices [length], +inf on components that no source
+  /// reaches. h [length] sets the diffusion time t = time_scale h^2 and the scale of `soft`;
+  /// `tolerance` [length] is how far from zero the rows of a held zero set may be in the mean. The
+  /// options are settled.
+  VecX signed_distance(const TetSourceSystem& terms, double h, double tolerance,
+                       const SpaceSignedHeat& options, Task task, Report& report) const;
+
+  /// Distance without sign, from vertices (the rows of terms.A), by the diffusion of a scalar
+  /// (Crane et al. 2013): t = 4 time_scale h^2. Otherwise as above.
+  VecX unsigned_distance(const TetSourceSystem& terms, double h, double tolerance,
+                         const SpaceSignedHeat& options, Task task, Report& report) const;
+
+  const TetOperators& operators() const { return *ops_; }
+
+ private:
+  VecX integrate(const TetSourceSystem& terms, const MatX3& Y, double h, double tolerance,
+                 const SpaceSignedHeat& options, Task task, Report& report) const;
+
+  std::shared_ptr<const TetOperators> ops_;
+  Kept<Poisson> poisson_;
+  KeptByKey<double, Cholesky<double>> faces_, vertices_;  // by time
+};
 
 }  // namespace littoral

@@ -19,14 +19,14 @@ std::string in_short(double x) {
 
 }  // namespace
 
-double automatic_time_scale(const SourceTerms& terms, const Operators& ops) {
+double automatic_time_scale(const SourceSystem& terms, const Operators& ops) {
   const double scale = automatic_time_scale(terms);
   if (terms.only_points || ops.vector.at_nodes) return scale;
   constexpr double enough_cells = 50'000, largest = 4;
   return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
 }
 
-double share_against(const Calculus& C, const VecX& phi, const VecX& Y) {
+double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y) {
   const VecX g = C.G.apply(phi);
   double against = 0, all = 0;
   for (Eigen::Index c = 0; c < C.A.size(); ++c) {
@@ -38,10 +38,10 @@ double share_against(const Calculus& C, const VecX& phi, const VecX& Y) {
   return all > 0 ? against / all : 0;
 }
 
-double share_against(const Report& report) {
+double misaligned_fraction(const Report& report) {
   double share = 0;
   for (const auto& [name, value] : report.residuals)
-    if (name == against_directions) share = value;
+    if (name == misaligned_area_fraction) share = value;
   return share;
 }
 
@@ -53,8 +53,8 @@ std::string raised_warning(double from, double to, double share_before, double s
          " %)";
 }
 
-void warn_against(Report& report) {
-  const double share = share_against(report);
+void warn_misaligned(Report& report) {
+  const double share = misaligned_fraction(report);
   if (share > remarkable_share)
     report.warn("the distance falls along the diffused directions on " + in_short(100 * share) +
                 " % of the surface: sources contradict each other, or the time scale is too small "

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "methods/heat/shift.h"
+#include "methods/heat/finalize.h"
 #include "methods/heat/time_scale.h"
 
 namespace littoral {
 
-const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
-  using O = UnsignedHeatOptions;
+const OptionTable<UnsignedHeat>& unsigned_heat_options() {
+  using O = UnsignedHeat;
   static const OptionTable<O> table =
       OptionTable<O>()
           .number(&O::time_scale, "time-scale", "multiple of h^2, 0 = automatic", 0, 1e6,
@@ -18,8 +18,8 @@ const OptionTable<UnsignedHeatOptions>& unsigned_heat_options() {
   return table;
 }
 
-UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
-                           Task task, Expect expect)
+UnsignedHeatSolver::UnsignedHeatSolver(std::shared_ptr<const Operators> ops,
+                                       const UnsignedHeat& options, Task task, SolveHint expect)
     : ops_(std::move(ops)),
       expect_(expect),
       root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
@@ -29,14 +29,14 @@ UnsignedHeat::UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedH
           ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
           task.stage(0.3, "factor Poisson"), order_, solver_for(expect))) {}
 
-UnsignedHeat UnsignedHeat::with_time_scale(double time_scale, const Task& task) const {
-  UnsignedHeat out = *this;
+UnsignedHeatSolver UnsignedHeatSolver::with_time_scale(double time_scale, const Task& task) const {
+  UnsignedHeatSolver out = *this;
   out.root_t_ = ops_->scalar.h * std::sqrt(time_scale);
   out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, expect_, order_, task);
   return out;
 }
 
-VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) const {
+VecX UnsignedHeatSolver::solve(const SourceSystem& terms, Task task, Report& report) const {
   const Calculus& C = ops_->scalar;
   const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
 
@@ -49,8 +49,9 @@ VecX UnsignedHeat::solve(const SourceTerms& terms, Task task, Report& report) co
   const VecX b = C.divergence(X.Y - C.G.apply(terms.d0));
   const VecX psi = poisson_->solve_levels(
       b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}}, poisson_stage, report);
-  report.residuals.emplace_back(against_directions, share_against(C, terms.d0 + psi, X.Y));
-  return finish_field(*ops_, terms, (terms.d0 + psi).cwiseMax(0.0), report);
+  report.residuals.emplace_back(misaligned_area_fraction,
+                                misaligned_fraction(C, terms.d0 + psi, X.Y));
+  return finalize_field(*ops_, terms, (terms.d0 + psi).cwiseMax(0.0), report);
 }
 
 }  // namespace littoral

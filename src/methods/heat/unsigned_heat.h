@@ -4,40 +4,36 @@
 #include <memory>
 
 #include "base/option_table.h"
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "methods/heat/scalar_heat.h"
 #include "operators/calculus.h"
 #include "solve/poisson/poisson.h"
-#include "sources/source_terms.h"
+#include "sources/source_system.h"
 
 namespace littoral {
 
-struct UnsignedHeatOptions {
-  double time_scale = 0;            // t = time_scale h^2, h the mean edge length; 0: automatic
-  bool intrinsic_delaunay = false;  // on better triangles of the same surface
-};
-
-const OptionTable<UnsignedHeatOptions>& unsigned_heat_options();
+const OptionTable<UnsignedHeat>& unsigned_heat_options();
 
 /// Distance to points and curves by scalar heat. Directions come from the nearest source only, and
 /// next to isolated points the distance is exact: neither the boundary nor other sources bend it.
-class UnsignedHeat {
+class UnsignedHeatSolver {
  public:
   /// An automatic time scale is 1 here.
-  UnsignedHeat(std::shared_ptr<const Operators> ops, const UnsignedHeatOptions& options,
-               Task task = {}, Expect expect = Expect::many_solves);
+  UnsignedHeatSolver(std::shared_ptr<const Operators> ops, const UnsignedHeat& options,
+                     Task task = {}, SolveHint expect = SolveHint::many_rhs);
 
   /// The same with another time scale; the order of elimination and the Poisson factor are shared.
-  UnsignedHeat with_time_scale(double time_scale, const Task& task) const;
+  UnsignedHeatSolver with_time_scale(double time_scale, const Task& task) const;
 
   /// Unsigned distance at the nodes (nodes) [length of the input], +inf on components that no
   /// source reaches; never negative.
-  VecX solve(const SourceTerms& terms, Task task, Report& report) const;
+  VecX solve(const SourceSystem& terms, Task task, Report& report) const;
 
  private:
   std::shared_ptr<const Operators> ops_;
-  Expect expect_;
+  SolveHint expect_;
   double root_t_;
   Ordering order_;  // of the nodes
   ScalarHeat heat_;

@@ -7,7 +7,7 @@ namespace littoral {
 
 namespace {
 
-/// M + t L, lower triangle; carriers without mass get a unit diagonal.
+/// M + t L, lower triangle; dofs without mass get a unit diagonal.
 template <class Scalar>
 Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, const VecX& M,
                                         double t) {
@@ -34,8 +34,8 @@ VecXc to_complex(const VecX& X) {
   return z;
 }
 
-LayeredField<double> as_pairs(const LayeredField<Complex>& field) {
-  LayeredField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
+ScaledField<double> as_pairs(const ScaledField<Complex>& field) {
+  ScaledField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
   for (Eigen::Index i = 0; i < field.x.size(); ++i) {
     pairs.x[2 * i] = field.x[i].real();
     pairs.x[2 * i + 1] = field.x[i].imag();
@@ -45,7 +45,7 @@ LayeredField<double> as_pairs(const LayeredField<Complex>& field) {
 
 }  // namespace
 
-VectorHeat::VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint expect, const Ordering& nodes,
                        const Task& task) {
   Ordering order = V.at_nodes          ? nodes
                    : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "methods/heat/cell_field.h"
 #include "operators/calculus.h"
 #include "solve/heat/heat_system.h"
@@ -15,15 +15,15 @@ namespace littoral {
 /// (M + t L) X = X0 (eq. 12); immutable.
 class VectorHeat {
  public:
-  /// nodes: the order of elimination of the nodes between which the carriers lie.
-  VectorHeat(const VectorDiffusion& V, double t, Expect expect, const Ordering& nodes,
+  /// nodes: the order of elimination of the nodes between which the dofs lie.
+  VectorHeat(const VectorDiffusion& V, double t, SolveHint expect, const Ordering& nodes,
              const Task& task);
 
   /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
   CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
                     Report& report) const;
 
-  /// The same with X held at `held` (2 carriers) wherever that is not zero.
+  /// The same with X held at `held` (2 dofs) wherever that is not zero.
   CellField diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
                          Report& report) const;
 

@@ -58,7 +58,7 @@ class Pseudonormals {
   }
 
   /// Where the foot lies on a corner or side to within rounding, that one's normal.
-  Vec3 at(const ClosestPoint& foot) const {
+  Vec3 at(const NearestPoint& foot) const {
     constexpr double rounding = 1e-10;
     int zeros = 0, zero = 0, one = 0;
     for (int k = 0; k < 3; ++k) {
@@ -99,18 +99,18 @@ class ToTriangles : public PointwiseDistance {
     if (rule == SignRule::winding) winding_ = std::make_unique<WindingNumber>(points, faces);
   }
   DistanceSample at(const Vec3& x) const override {
-    const ClosestPoint foot = bvh_.closest_point(x);
+    const NearestPoint foot = bvh_.closest_point(x);
     return signed_sample(x, foot.point, foot.distance, is_inside(x, foot),
                          normals_.of_face(foot.face));
   }
   double value_after(const Vec3& x, int& last) const override {
-    const ClosestPoint foot = bvh_.closest_point(x, last);
+    const NearestPoint foot = bvh_.closest_point(x, last);
     last = foot.face;
     return is_inside(x, foot) ? -foot.distance : foot.distance;
   }
 
  private:
-  bool is_inside(const Vec3& x, const ClosestPoint& foot) const {
+  bool is_inside(const Vec3& x, const NearestPoint& foot) const {
     return winding_ ? (*winding_)(x, sign_accuracy) > 0.5
                     : normals_.at(foot).dot(x - foot.point) < 0;
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -24,11 +24,11 @@ DistanceSample smooth_min_of(std::vector<DistanceSample>& fields, double blend) 
 }
 
 template <class Ask>
-DistanceSample combine_asked(const Combination& how, std::size_t n, const Ask& ask) {
+DistanceSample combine_asked(const Csg& csg, std::size_t n, const Ask& ask) {
   std::vector<DistanceSample> united{ask(std::size_t{0})}, parts(1);
   for (std::size_t i = 1; i < n; ++i) {
     const DistanceSample field = ask(i);
-    switch (how.with[i - 1]) {
+    switch (csg.operations[i - 1]) {
       case Boolean::unite:
         united.push_back(field);
         break;
@@ -41,9 +41,9 @@ DistanceSample combine_asked(const Combination& how, std::size_t n, const Ask& a
     }
   }
   // max(u, a, -b) = -min(-u, -a, b)
-  parts.front() = opposite(smooth_min_of(united, how.blend));
-  DistanceSample result = opposite(smooth_min_of(parts, how.blend));
-  result.value -= how.offset;
+  parts.front() = opposite(smooth_min_of(united, csg.blend));
+  DistanceSample result = opposite(smooth_min_of(parts, csg.blend));
+  result.value -= csg.offset;
   return result;
 }
 
@@ -58,30 +58,30 @@ DistanceSample smooth_min(const DistanceSample& a, const DistanceSample& b, doub
   return {less.value - blend * h * h / 4, (1 - h / 2) * less.gradient + h / 2 * more.gradient};
 }
 
-void check_combination(const Combination& how, std::size_t fields) {
-  if (fields == 0 || fields != how.with.size() + 1)
-    throw InputError("a combination of " + std::to_string(how.with.size() + 1) + " shapes got " +
-                     std::to_string(fields));
-  if (!(how.blend >= 0 && std::isfinite(how.blend)))
+void check_combination(const Csg& csg, std::size_t fields) {
+  if (fields == 0 || fields != csg.operations.size() + 1)
+    throw InputError("a combination of " + std::to_string(csg.operations.size() + 1) +
+                     " shapes got " + std::to_string(fields));
+  if (!(csg.blend >= 0 && std::isfinite(csg.blend)))
     throw InputError("option --blend must be finite and not negative");
-  if (!std::isfinite(how.offset)) throw InputError("the offset must be a finite number");
+  if (!std::isfinite(csg.offset)) throw InputError("the offset must be a finite number");
 }
 
-DistanceSample combine(const Combination& how, std::span<const DistanceSample> fields) {
-  return combine_asked(how, fields.size(), [&](std::size_t i) { return fields[i]; });
+DistanceSample combine(const Csg& csg, std::span<const DistanceSample> fields) {
+  return combine_asked(csg, fields.size(), [&](std::size_t i) { return fields[i]; });
 }
 
-Combined::Combined(std::vector<std::shared_ptr<const PointwiseDistance>> fields, Combination how)
-    : fields_(std::move(fields)), how_(std::move(how)) {
-  check_combination(how_, fields_.size());
+Combined::Combined(std::vector<std::shared_ptr<const PointwiseDistance>> fields, Csg csg)
+    : fields_(std::move(fields)), csg_(std::move(csg)) {
+  check_combination(csg_, fields_.size());
 }
 
 DistanceSample Combined::at(const Vec3& x) const {
-  return combine_asked(how_, fields_.size(), [&](std::size_t i) { return fields_[i]->at(x); });
+  return combine_asked(csg_, fields_.size(), [&](std::size_t i) { return fields_[i]->at(x); });
 }
 
 double Combined::value(const Vec3& x) const {
-  return combine_asked(how_, fields_.size(),
+  return combine_asked(csg_, fields_.size(),
                        [&](std::size_t i) {
                          return DistanceSample{fields_[i]->value(x), Vec3::Zero()};
                        })

@@ -15,8 +15,8 @@ enum class Boolean { unite, intersect, subtract };
 
 /// ((first + all that are united) within all that are intersected) without all that are subtracted,
 /// whatever their order.
-struct Combination {
-  std::vector<Boolean> with;  // of each field after the first
+struct Csg {
+  std::vector<Boolean> operations;  // of each field after the first
   double blend = 0;   // [length] where surfaces meet, corners are rounded this far from them
   double offset = 0;  // [length] the surface is moved this far outward
 };
@@ -28,23 +28,23 @@ DistanceSample smooth_min(const DistanceSample& a, const DistanceSample& b, doub
 /// The combined field at one place, from all fields there: smallest and largest values. It has the
 /// right sign and zero set. Its magnitude is a distance only where the nearest point of one of the
 /// surfaces remains on the result; elsewhere it is a bound: no farther than the nearest point of
-/// the result, for exact fields. Not more than one field per entry of `how.with`, and one.
-DistanceSample combine(const Combination& how, std::span<const DistanceSample> fields);
+/// the result, for exact fields. Not more than one field per entry of `csg.operations`, and one.
+DistanceSample combine(const Csg& csg, std::span<const DistanceSample> fields);
 
 /// Several fields as one. Throws InputError for no fields, a number of fields that does not fit, or
 /// radii that are not finite or negative.
 class Combined final : public PointwiseDistance {
  public:
-  Combined(std::vector<std::shared_ptr<const PointwiseDistance>> fields, Combination how);
+  Combined(std::vector<std::shared_ptr<const PointwiseDistance>> fields, Csg csg);
   DistanceSample at(const Vec3& x) const override;
   double value(const Vec3& x) const override;
 
  private:
   std::vector<std::shared_ptr<const PointwiseDistance>> fields_;
-  Combination how_;
+  Csg csg_;
 };
 
 /// Throws InputError unless blend is finite and not negative and offset finite.
-void check_combination(const Combination& how, std::size_t fields);
+void check_combination(const Csg& csg, std::size_t fields);
 
 }  // namespace littoral

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

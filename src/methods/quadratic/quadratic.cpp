@@ -5,18 +5,19 @@
 #include <limits>
 #include <string>
 
+#include "base/stopwatch.h"
 #include "methods/quadratic/quadratic_program.h"
 
 namespace littoral {
 
-const OptionTable<QuadraticOptions>& quadratic_options() {
-  using O = QuadraticOptions;
+const OptionTable<Quadratic>& quadratic_options() {
+  using O = Quadratic;
   static const OptionTable<O> table =
       OptionTable<O>()
           .number(&O::tolerance, "tolerance", "of the integral of squared distance", 1e-10, 1e-1,
                   "Duality gap at which the solver stops.")
-          .number(&O::max_iterations, "max-iterations", "", 1, 1000,
-                  "Interior-point iterations for each component of the mesh.")
+          .integer(&O::max_iterations, "max-iterations", "", 1, 1000,
+                   "Interior-point iterations for each component of the mesh.")
           .number(&O::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
                   "Distance allowed at a source.")
           .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
@@ -25,7 +26,7 @@ const OptionTable<QuadraticOptions>& quadratic_options() {
                   "Adds sample points where the constraint is violated between the usual seven.")
           .toggle(&O::is_signed, "signed",
                   "Takes the sign, and curves that fill gaps, from the signed heat method.")
-          .number(
+          .integer(
               &O::subdivide, "subdivide", "", 1, 64,
               "Writes and draws a mesh with every side cut into this many parts, which shows the "
               "field between the vertices.");
@@ -45,8 +46,8 @@ VecX QuadraticField<D>::at_vertices() const {
 }
 
 template <int D>
-struct Quadratic<D>::Part {
-  using Solver = ParabolicSolver<P2Shape<D>::nodes, D>;
+struct QuadraticSolver<D>::Part {
+  using Solver = ParaboloidSolver<P2Shape<D>::nodes, D>;
 
   QuadraticPart<D> part;
 
@@ -67,19 +68,19 @@ struct Quadratic<D>::Part {
 };
 
 template <int D>
-Quadratic<D>::Quadratic(std::shared_ptr<const P2Elements<D>> elements)
+QuadraticSolver<D>::QuadraticSolver(std::shared_ptr<const P2Elements<D>> elements)
     : elements_(std::move(elements)) {
   for (auto& part : quadratic_parts(*elements_))
     parts_.push_back(std::make_unique<Part>(std::move(part)));
 }
 
 template <int D>
-Quadratic<D>::~Quadratic() = default;
+QuadraticSolver<D>::~QuadraticSolver() = default;
 
 template <int D>
-QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
-                                      const QuadraticOptions& options, Task task,
-                                      Report& report) const {
+QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sources,
+                                            const Quadratic& options, Task task,
+                                            Report& report) const {
   const P2Elements<D>& E = *elements_;
   QuadraticField<D> field;
   field.elements = elements_;
@@ -114,10 +115,9 @@ QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
       insert = [&](const VecX& u, double share) {
         return program.violated(u, share * 100 * options.tolerance);
       };
-    const ParabolicResult result =
-        solver->solve(program.program(), program.start(),
-                      {options.tolerance, static_cast<int>(options.max_iterations)}, insert,
-                      stage.stage(0.9, "interior point"));
+    const ParaboloidResult result = solver->solve(program.program(), program.start(),
+                                                  {options.tolerance, options.max_iterations},
+                                                  insert, stage.stage(0.9, "interior point"));
     const double to_input = std::pow(part.scale * E.unit, 2);
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       field.u[part.nodes[i]] = to_input * result.x[static_cast<Eigen::Index>(i)];
@@ -138,8 +138,8 @@ QuadraticField<D> Quadratic<D>::solve(const std::vector<P2Source<D>>& sources,
   return field;
 }
 
-template class Quadratic<2>;
-template class Quadratic<3>;
+template class QuadraticSolver<2>;
+template class QuadraticSolver<3>;
 template struct QuadraticField<2>;
 template struct QuadraticField<3>;
 

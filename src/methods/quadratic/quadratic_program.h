@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "operators/p2.h"
-#include "solve/optimization/parabolic_program.h"
+#include "solve/optimization/paraboloid_program.h"
 #include "sources/p2_sources.h"
 
 namespace littoral {
@@ -29,7 +29,7 @@ template <int D>
 class QuadraticProgram {
  public:
   static constexpr int K = P2Shape<D>::nodes;
-  using Program = ParabolicProgram<K, D>;
+  using Program = ParaboloidProgram<K, D>;
 
   /// `radius` is the distance allowed at a source. Sources outside the part are ignored.
   QuadraticProgram(const P2Elements<D>& E, const QuadraticPart<D>& part,

@@ -4,23 +4,23 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
-#include "solve/direct/strips.h"
+#include "littoral/error.h"
+#include "solve/direct/multi_rhs_cholesky.h"
 
 namespace littoral {
 
-const OptionTable<AllPairsOptions>& all_pairs_options() {
-  using O = AllPairsOptions;
+const OptionTable<Symmetric>& all_pairs_options() {
+  using O = Symmetric;
   static const OptionTable<O> table =
       OptionTable<O>()
           .number(&O::alpha, "alpha", "", 0, 1e6,
                   "Smoothing, whatever the size of the mesh (alpha-hat).")
           .number(&O::tolerance, "tolerance", "", 1e-10, 1,
                   "Iterations stop when all residuals are below this share of what they compare.")
-          .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-                  "Iterations after which the best answer so far is given.")
+          .integer(&O::max_iterations, "max-iterations", "", 1, 1000000000,
+                   "Iterations after which the best answer so far is given.")
           .choice(&O::storage, "storage", {"automatic", "full", "single"},
                   "Precision in which matrices are kept: full, or single above half of the memory "
                   "(automatic) or always.");
@@ -72,7 +72,7 @@ class AllPairs {
  public:
   using Matrix = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
 
-  AllPairs(const Calculus& C, const AllPairsOptions& options, const Task& task)
+  AllPairs(const Calculus& C, const Symmetric& options, const Task& task)
       : C_(C), o_(options), task_(task), n_(C.M.size()), cells_(C.A.size()), area_(C.M.sum()) {
     rho1_ = 2 * std::sqrt(area_);
     rho2_ = 50 / std::sqrt(area_);
@@ -90,12 +90,12 @@ class AllPairs {
   MatX run(Report& report) {
     double worst = std::numeric_limits<double>::infinity();
     int k = 0;
-    const auto last = static_cast<int>(std::min(o_.max_iterations, 1e9));
+    const int last = o_.max_iterations;
     while (worst > 1 && k < last) {
       ++k;
       const bool check = k % check_every == 0 || k == last;
       const Norms norms = iterate(check);
-      if (check) worst = judge(norms, k);
+      if (check) worst = check_convergence(norms, k);
     }
     report.iterations.emplace_back("all pairs", k);
     report.residuals.emplace_back("all pairs, over what is compared", worst * o_.tolerance);
@@ -120,7 +120,7 @@ class AllPairs {
     K.setFromTriplets(entries.begin(), entries.end());
     K += (alpha_ + rho1_) * C_.L;
     if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
-    factor_ = std::make_unique<const StripFactor>(K, *structure_);
+    factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
     response_.resize(n_, n_);
     parallel_for(static_cast<std::size_t>(n_), block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
@@ -155,8 +155,8 @@ class AllPairs {
     std::fill(partial.begin(), partial.end(), Norms());
     parallel_for(columns, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      agree(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
-            partial[begin / block]);
+      symmetrize(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
+                 partial[begin / block]);
     });
     for (const Norms& p : partial) norms.add(p);
     return norms;
@@ -236,7 +236,7 @@ class AllPairs {
   }
 
   /// U = max((T + T^T) / 2, 0), 0 on the diagonal: columns begin to end of it.
-  void agree(Eigen::Index begin, Eigen::Index end, bool check, Norms& norms) {
+  void symmetrize(Eigen::Index begin, Eigen::Index end, bool check, Norms& norms) {
     const Matrix across = T_.middleRows(begin, end - begin).transpose();
     for (Eigen::Index j = begin; j < end; ++j) {
       Eigen::Matrix<Number, Eigen::Dynamic, 1> next =
@@ -257,14 +257,14 @@ class AllPairs {
   }
 
   /// The largest residual over its tolerance; adapts the penalties (Boyd et al. 3.4.1).
-  double judge(const Norms& s, int k) {
+  double check_convergence(const Norms& s, int k) {
     auto over = [this](double residual, double compared) {
       return std::sqrt(residual) / (o_.tolerance * (std::sqrt(compared) + 1e-300));
     };
     const double primal1 = over(s.gap, std::max(s.g, s.z)), dual1 = over(s.dz, s.w);
     const double primal2 = over(s.apart, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
     const double worst = std::max({primal1, dual1, primal2, dual2});
-    if (!std::isfinite(worst)) throw SolveError("all pairs left the range of numbers");
+    if (!std::isfinite(worst)) throw SolveError("all pairs diverged: non-finite iterate");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));
     if (worst <= 1 || k < next_change_) return worst;
     auto factor_of = [](double primal, double dual) {
@@ -299,14 +299,14 @@ class AllPairs {
   }
 
   const Calculus& C_;
-  const AllPairsOptions& o_;
+  const Symmetric& o_;
   const Task& task_;
   Eigen::Index n_, cells_;
   double area_, rho1_ = 0, rho2_ = 0, alpha_ = 0, longest_ = 0, progress_ = 0;
   int next_change_ = 50;
   SpRows G_, D_;
   std::unique_ptr<const Elimination> structure_;
-  std::unique_ptr<const StripFactor> factor_;
+  std::unique_ptr<const MultiRhsCholesky> factor_;
   std::vector<StripOf<Number>> S_;  // 2 cells x nodes, by blocks of columns
   Matrix T_, U_, X_;                // nodes x nodes
   Matrix response_;                 // to a force at each node
@@ -314,15 +314,14 @@ class AllPairs {
 
 }  // namespace
 
-MatX all_pairs(const Operators& ops, const AllPairsOptions& options, const Task& task,
-               Report& report) {
+MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
   if (C.n_components != 1)
     throw UnsupportedError("symmetric distances are computed on one component at a time");
   if (C.G.rows != 2 * C.A.size())
     throw UnsupportedError("symmetric distances need a surface of linear functions");
   const auto nodes = static_cast<double>(C.M.size()), cells = static_cast<double>(C.A.size());
-  const auto storage = static_cast<Storage>(options.storage);
+  const auto storage = options.storage;
   const double full = all_pairs_memory(nodes, cells, 8);
   const bool single = storage == Storage::single ||
                       (storage == Storage::automatic && full > 0.5 * available_memory());

@@ -3,25 +3,16 @@
 // section 6 and supplement 9), and what can be said of any matrix of distances.
 
 #include "base/option_table.h"
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "operators/calculus.h"
 #include "solve/direct/definite.h"
 
 namespace littoral {
 
-/// How the matrices of the iteration are kept. The arithmetic is in double precision.
-enum class Storage { automatic, full, single };
-
-struct AllPairsOptions {
-  double alpha = 0.05;      // alpha-hat (7.1)
-  double tolerance = 1e-3;  // of all residuals
-  double max_iterations = 3000;
-  int storage = static_cast<int>(Storage::automatic);  // single precision above half of the memory
-};
-
 /// Names, ranges, defaults and one sentence for each of the above.
-const OptionTable<AllPairsOptions>& all_pairs_options();
+const OptionTable<Symmetric>& all_pairs_options();
 
 /// Bytes that `all_pairs` takes for so many nodes and cells, with numbers of 8 or 4 bytes.
 double all_pairs_memory(double nodes, double cells, double bytes_per_number);
@@ -31,8 +22,7 @@ double all_pairs_memory(double nodes, double cells, double bytes_per_number);
 /// nodes in no cell. Reports iterations, the largest relative residual and the longest gradient.
 /// Throws UnsupportedError for several components, IoError, before anything is allocated, with the
 /// estimate if memory does not suffice.
-MatX all_pairs(const Operators& ops, const AllPairsOptions& options, const Task& task,
-               Report& report);
+MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task, Report& report);
 
 /// Section 7.3's measures of a matrix of distances.
 struct PairStatistics {

@@ -3,54 +3,55 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "methods/heat/shift.h"
-#include "solve/optimization/ball_energies.h"
+#include "littoral/error.h"
+#include "methods/heat/finalize.h"
+#include "solve/optimization/gradient_prox.h"
 
 namespace littoral {
 
 namespace {
 
-using Table = OptionTable<RegularizedOptions>;
+constexpr int most_iterations = 1'000'000'000;
 
-Table with_alpha(Table table) {
+template <class S>
+OptionTable<S> with_alpha(OptionTable<S> table) {
   return table.number(
-      &RegularizedOptions::alpha, "alpha", "", 0, 1e6,
+      &S::alpha, "alpha", "", 0, 1e6,
       "Smoothing, whatever the size of the domain (alpha-hat); 0 gives the distance "
       "of Belyaev and Fayolle.");
 }
 
 /// When to stop.
-Table with_stopping(Table table) {
-  using O = RegularizedOptions;
+template <class S>
+OptionTable<S> with_stopping(OptionTable<S> table) {
   return table
-      .number(&O::tolerance, "tolerance", "", 1e-10, 1,
+      .number(&S::tolerance, "tolerance", "", 1e-10, 1,
               "Iterations stop when both residuals are below this share of what they compare.")
-      .number(&O::gap, "gap", "", 0, 1,
+      .number(&S::gap, "gap", "", 0, 1,
               "If not 0, iterations go on until the duality gap is below this share of the "
               "objective.")
-      .number(&O::max_iterations, "max-iterations", "", 1, 1e9,
-              "Iterations after which the best answer so far is given.");
+      .integer(&S::max_iterations, "max-iterations", "", 1, most_iterations,
+               "Iterations after which the best answer so far is given.");
 }
 
 /// On which functions.
-Table with_elements(Table table) {
-  using O = RegularizedOptions;
+template <class S>
+OptionTable<S> with_elements(OptionTable<S> table) {
   return table
       .choice(
-          &O::elements, "elements", {"linear", "quadratic"},
+          &S::elements, "elements", {"linear", "quadratic"},
           "Functions on triangles: linear, or quadratic, which bend inside them and are rounder "
           "near the source (Dirichlet energy and no energy; triangle meshes).")
-      .number(&O::subdivide, "subdivide", "", 1, 64,
-              "Write and draw a mesh with every side cut into this many parts (quadratic).");
+      .integer(&S::subdivide, "subdivide", "", 1, 64,
+               "Write and draw a mesh with every side cut into this many parts (quadratic).");
 }
 
 }  // namespace
 
-const OptionTable<RegularizedOptions>& regularized_options() {
-  using O = RegularizedOptions;
-  static const Table table = with_elements(with_stopping(
-      with_alpha({})
+const OptionTable<Regularized>& regularized_options() {
+  using O = Regularized;
+  static const OptionTable<O> table = with_elements(with_stopping(
+      with_alpha(OptionTable<O>())
           .choice(
               &O::regularizer, "regularizer", {"dirichlet", "hessian", "align", "max-norm"},
               "What is smooth: small gradients, small second derivatives (unaffected by "
@@ -65,18 +66,18 @@ const OptionTable<RegularizedOptions>& regularized_options() {
   return table;
 }
 
-const OptionTable<RegularizedOptions>& constrained_options() {
-  static const Table table = with_elements(with_stopping({}));
+const OptionTable<BelyaevFayolle>& belyaev_fayolle_options() {
+  static const auto table = with_elements(with_stopping(OptionTable<BelyaevFayolle>()));
   return table;
 }
 
-const OptionTable<RegularizedOptions>& grid_regularized_options() {
-  static const Table table = with_stopping(with_alpha({}));
+const OptionTable<SpaceRegularized>& space_regularized_options() {
+  static const auto table = with_stopping(with_alpha(OptionTable<SpaceRegularized>()));
   return table;
 }
 
-const OptionTable<RegularizedOptions>& grid_constrained_options() {
-  static const Table table = with_stopping({});
+const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options() {
+  static const auto table = with_stopping(OptionTable<SpaceBelyaevFayolle>());
   return table;
 }
 
@@ -84,33 +85,33 @@ namespace {
 
 /// alpha of eq. 11 from alpha-hat (7.1); in space alpha, a length, scales with the cube root of the
 /// volume.
-double alpha_of(const RegularizedOptions& options, Regularizer regularizer, double measure,
-                int dim) {
+double alpha_of(const Regularized& options, Regularizer regularizer, double measure, int dim) {
   const double root = std::pow(measure, 1.0 / dim);
   return options.alpha * (regularizer == Regularizer::hessian ? root * root * root : root);
 }
 
 /// The part of the objective that is a function of each cell's gradient, with |grad u| <= 1.
-std::unique_ptr<CellEnergy> cell_energy(Regularizer regularizer, const RegularizerData& data,
-                                        double alpha, double beta, int dim) {
+std::unique_ptr<GradientEnergy> cell_energy(Regularizer regularizer, const RegularizerData& data,
+                                            double alpha, double beta, int dim) {
   switch (regularizer) {
     case Regularizer::align:
-      return std::make_unique<BallQuadratic>(dim, alpha, alpha * beta, data.V);
+      return std::make_unique<BallQuadraticEnergy>(dim, alpha, alpha * beta, data.V);
     case Regularizer::max_norm:
-      return std::make_unique<BallMaxNorm>(alpha, data.frames);
+      return std::make_unique<BallMaxNormEnergy>(alpha, data.frames);
     case Regularizer::dirichlet:
     case Regularizer::hessian:
       break;
   }
-  return std::make_unique<BallQuadratic>(dim, 0, 0, VecX());
+  return std::make_unique<BallQuadraticEnergy>(dim, 0, 0, VecX());
 }
 
 VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
 
 }  // namespace
 
-Regularized::Regularized(std::shared_ptr<const Operators> ops, Regularizer regularizer,
-                         RegularizerData data, const Task& task, HeldSystem::Rows expected)
+RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
+                                     RegularizerData data, const Task& task,
+                                     ConstrainedSystem::Rows expected)
     : ops_(std::move(ops)),
       regularizer_(regularizer),
       data_(std::make_shared<const RegularizerData>(std::move(data))) {
@@ -126,11 +127,12 @@ Regularized::Regularized(std::shared_ptr<const Operators> ops, Regularizer regul
       throw UnsupportedError("the Hessian regularizer needs a triangle mesh");
     return;  // nothing to factor before rho is known
   }
-  laplacian_ = std::make_shared<const HeldSystem>(C.L, C.component, C.n_components, task, expected);
+  laplacian_ =
+      std::make_shared<const ConstrainedSystem>(C.L, C.component, C.n_components, task, expected);
 }
 
-AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& options,
-                                 AdmmState& state, const Task& task, const VecX* sign) const {
+AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& options,
+                                       AdmmState& state, const Task& task, const VecX* sign) const {
   const Calculus& C = ops_->scalar;
   std::vector<char> active(C.n_components, 0);
   for (int j = 0; j < rows.outerSize(); ++j)
@@ -157,17 +159,17 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
   admm_options.relative = options.tolerance;
   admm_options.absolute = std::min(5e-6, 5e-4 * options.tolerance);
   admm_options.gap = options.gap;
-  admm_options.max_iterations = static_cast<int>(std::min(options.max_iterations, 2e9));
+  admm_options.max_iterations = options.max_iterations;
 
-  HeldSystem::Held held;
+  ConstrainedSystem::Held held;
   double held_rho = -1;  // Hessian: the penalty for which `held` was factored
   if (regularizer_ == Regularizer::hessian) {
     const SpMat& W = data_->W;
     problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
     problem.solve = [&](const VecX& b, double rho) {
       if (rho != held_rho) {
-        held = HeldSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components, task,
-                          HeldSystem::Rows::many)
+        held = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components, task,
+                                 ConstrainedSystem::Rows::many)
                    .hold(rows, task);
         held_rho = rho;
       }
@@ -189,12 +191,12 @@ AdmmResult Regularized::minimize(const SpMat& rows, const RegularizedOptions& op
   return admm(problem, admm_options, state, task);
 }
 
-VecX Regularized::solve(const SourceTerms& terms, const RegularizedOptions& options,
-                        const Task& task, Report& report, AdmmState* state) const {
+VecX RegularizedSolver::solve(const SourceSystem& terms, const Regularized& options,
+                              const Task& task, Report& report, AdmmState* state) const {
   AdmmState own;
   const AdmmResult result = minimize(terms.A, options, state ? *state : own, task);
   report_admm(result, report);
-  return finish_field(*ops_, terms, result.u.cwiseMax(0.0), report);
+  return finalize_field(*ops_, terms, result.u.cwiseMax(0.0), report);
 }
 
 }  // namespace littoral

@@ -5,44 +5,25 @@
 #include <string>
 
 #include "base/option_table.h"
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
-#include "solve/poisson/held_system.h"
-#include "sources/source_terms.h"
+#include "solve/poisson/constrained_system.h"
+#include "sources/source_system.h"
 
 namespace littoral {
 
-/// F of eq. 2: what smoothness means.
-enum class Regularizer { dirichlet, hessian, align, max_norm };
-
-/// What functions are between the nodes; chosen where the operators are made (supplement 10.5).
-enum class Elements { linear, quadratic };
-
-struct RegularizedOptions {
-  double alpha = 0.05;  // alpha-hat (7.1); 0: the distance of Belyaev and Fayolle (eq. 1)
-  int regularizer = static_cast<int>(Regularizer::dirichlet);
-  double beta = 100;        // beta-hat: weight of alignment against smoothness (eq. 8)
-  std::string field;        // file of directions for align
-  double field_width = 0;   // > 0: of the Gaussian that localises interpolated directions, times
-                            // the square root of the area
-  double tolerance = 2e-3;  // eps^rel of supplement 8
-  double gap = 0;           // > 0: iterate until the relative duality gap is below
-  double max_iterations = 10000;
-  int elements = static_cast<int>(Elements::linear);
-  double subdivide = 1;  // cuts of a triangle's sides where the field is shown
-};
-
 /// Names, ranges, defaults and one sentence for each of the above.
-const OptionTable<RegularizedOptions>& regularized_options();
+const OptionTable<Regularized>& regularized_options();
 
 /// Those that are left where alpha is 0: eq. 1 has nothing to choose but when to stop.
-const OptionTable<RegularizedOptions>& constrained_options();
+const OptionTable<BelyaevFayolle>& belyaev_fayolle_options();
 
-/// Those of either that there are on grids: the Dirichlet energy of linear functions.
-const OptionTable<RegularizedOptions>& grid_regularized_options();
-const OptionTable<RegularizedOptions>& grid_constrained_options();
+/// Those of either that there are in space: the Dirichlet energy of linear functions.
+const OptionTable<SpaceRegularized>& space_regularized_options();
+const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options();
 
 /// What some regularizers need beside the operators.
 struct RegularizerData {
@@ -52,24 +33,25 @@ struct RegularizerData {
 };
 
 /// One domain and one regularizer; immutable, `solve` may be called from several threads.
-class Regularized {
+class RegularizedSolver {
  public:
   /// Factors the Laplacian W_D once: every alpha, penalty, source set and regularizer of gradients
   /// solves with it, scaled. The Hessian, whose matrix alpha W_H + rho W_D no scaling reaches, is
   /// factored per penalty. Throws InputError if the data a regularizer needs is missing.
   /// Where many rows are expected (surfaces in space) it is factored for each source set instead.
-  Regularized(std::shared_ptr<const Operators> ops, Regularizer regularizer, RegularizerData data,
-              const Task& task, HeldSystem::Rows expected = HeldSystem::Rows::few);
+  RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
+                    RegularizerData data, const Task& task,
+                    ConstrainedSystem::Rows expected = ConstrainedSystem::Rows::few);
 
   /// Distance to the sources at the nodes (nodes) [length of the input], not negative, +inf on
   /// components that no source reaches: minimises eq. 11 by Alg. 1. `state`: from an earlier solve
   /// with the same sources, to start from; left as it is at the end.
-  VecX solve(const SourceTerms& terms, const RegularizedOptions& options, const Task& task,
+  VecX solve(const SourceSystem& terms, const Regularized& options, const Task& task,
              Report& report, AdmmState* state = nullptr) const;
 
   /// The same for the rows (rows x nodes) at which u = 0, without units and without infinities.
   /// `sign`: unless null, 1 or -1 at the nodes, where u is to be as large or as small as it can.
-  AdmmResult minimize(const SpMat& rows, const RegularizedOptions& options, AdmmState& state,
+  AdmmResult minimize(const SpMat& rows, const Regularized& options, AdmmState& state,
                       const Task& task, const VecX* sign = nullptr) const;
 
   const Operators& operators() const { return *ops_; }
@@ -78,7 +60,7 @@ class Regularized {
   std::shared_ptr<const Operators> ops_;
   Regularizer regularizer_;
   std::shared_ptr<const RegularizerData> data_;
-  std::shared_ptr<const HeldSystem> laplacian_;
+  std::shared_ptr<const ConstrainedSystem> laplacian_;
 };
 
 }  // namespace littoral

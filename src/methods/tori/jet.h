@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "sources/distinct_points.h"
 #include "sources/likely_outliers.h"
 
@@ -16,26 +16,28 @@ namespace {
 constexpr int blended = blended_tori;
 // Tori are believed on the side within this many spacings of the nearest point, or if no more than
 // this share of the weight disagrees; farther than this many spacings only if the winding number
-// is not this certain of the contrary: patches of flipped normals agree among themselves.
-constexpr double near_surface = 1.5, dissent = 0.02, far_away = 3, certain = 0.25;
+// is not this winding_margin of the contrary: patches of flipped normals agree among themselves.
+constexpr double near_surface = 1.5, disagreement_tolerance = 0.02, far_away = 3,
+                 winding_margin = 0.25;
 constexpr double side_accuracy = 2;  // of the winding number: errors of 0.01 do not matter
-// Points in groups: their normals are trusted if the winding number is certain on both sides of the
-// group, this many spacings away, and they agree among themselves to this extent; then on places
-// that see the nearest point within this cosine of its normal.
+// Points in groups: their normals are trusted if the winding number is winding_margin on both sides
+// of the group, this many spacings away, and they agree among themselves to this extent; then on
+// places that see the nearest point within this cosine of its normal.
 constexpr int group = 16;
 constexpr double probe = 2.5, agreement = 0.9, frontal = 0.7;
 
 /// Do the tori need the winding number's word?
-struct Doubts {
+struct SideCheck {
   bool disputed, far;
-  Doubts(double nearest, double rho, double negative)
-      : disputed(nearest > near_surface * rho && negative > dissent && negative < 1 - dissent),
+  SideCheck(double nearest, double rho, double negative)
+      : disputed(nearest > near_surface * rho && negative > disagreement_tolerance &&
+                 negative < 1 - disagreement_tolerance),
         far(nearest > far_away * rho) {}
 };
 
 /// The surface passes near the nearest point: no farther than it, and not much nearer.
 template <class T>
-T kept_near(const T& phi, const T& nearest, const T& rho) {
+T clamp_to_nearest(const T& phi, const T& nearest, const T& rho) {
   const T least = nearest - rho;
   const T size = phi < 0.0 ? T(-phi) : phi;
   if (size > nearest) return phi < 0.0 ? T(-nearest) : nearest;
@@ -180,8 +182,8 @@ void gather(const std::vector<TorusRecord<S>>& records, const Neighbour* found, 
   }
 }
 
-Tori fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-            ToriOutliers outliers, auto make) {
+ToriDistance fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task,
+                    Report& report, ToriOutliers outliers, auto make) {
   OrientedPoints used = distinct_points(cloud, report);
   if (outliers == ToriOutliers::drop) used = without_outliers(used, task, report);
   task.checkpoint();
@@ -192,17 +194,18 @@ Tori fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, 
 
 }  // namespace
 
-Tori::Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-           ToriPrecision precision, ToriOutliers outliers)
-    : Tori(fitted(cloud, fit, task, report, outliers,
-                  [&](MatX3 p, std::vector<Torus> t, PointTree tree) {
-                    return Tori(std::move(p), std::move(t), std::move(tree), precision);
-                  })) {}
+ToriDistance::ToriDistance(const OrientedPoints& cloud, const TorusFit& fit, const Task& task,
+                           Report& report, ToriPrecision precision, ToriOutliers outliers)
+    : ToriDistance(fitted(
+          cloud, fit, task, report, outliers, [&](MatX3 p, std::vector<Torus> t, PointTree tree) {
+            return ToriDistance(std::move(p), std::move(t), std::move(tree), precision);
+          })) {}
 
-Tori::Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision)
-    : Tori(points, std::move(tori), PointTree(points), precision) {}
+ToriDistance::ToriDistance(MatX3 points, std::vector<Torus> tori, ToriPrecision precision)
+    : ToriDistance(points, std::move(tori), PointTree(points), precision) {}
 
-Tori::Tori(MatX3 points, std::vector<Torus> tori, PointTree tree, ToriPrecision precision)
+ToriDistance::ToriDistance(MatX3 points, std::vector<Torus> tori, PointTree tree,
+                           ToriPrecision precision)
     : points_(std::move(points)),
       tori_(std::move(tori)),
       tree_(std::move(tree)),
@@ -218,7 +221,7 @@ Tori::Tori(MatX3 points, std::vector<Torus> tori, PointTree tree, ToriPrecision 
   find_trusted();
 }
 
-void Tori::find_trusted() {
+void ToriDistance::find_trusted() {
   const std::size_t n = tori_.size();
   trusted_.assign((n + group - 1) / group, 0);
   if (orientation_ == 0) return;
@@ -241,14 +244,14 @@ void Tori::find_trusted() {
       if (!away.allFinite()) continue;
       const double outside = orientation_ * winding_(centre + orientation_ * away, side_accuracy);
       const double inside = orientation_ * winding_(centre - orientation_ * away, side_accuracy);
-      trusted_[g] = outside < certain && inside > 1 - certain ? 1 : 0;
+      trusted_[g] = outside < winding_margin && inside > 1 - winding_margin ? 1 : 0;
     }
   });
 }
 
 /// The ball around x up to the nearest point is empty, so that x is on the side that this point's
 /// normal says, if it is seen from the front.
-bool Tori::trusted(const Neighbour& nearest, const Vec3& x, bool negative) const {
+bool ToriDistance::trusted(const Neighbour& nearest, const Vec3& x, bool negative) const {
   const auto place = static_cast<std::size_t>(nearest.point);
   if (trusted_[place / group] == 0) return false;
   const int point = order_[place];
@@ -257,20 +260,20 @@ bool Tori::trusted(const Neighbour& nearest, const Vec3& x, bool negative) const
   return height * height > frontal * frontal * nearest.squared_distance && (height < 0) == negative;
 }
 
-int Tori::side_of(const Vec3& x, bool negative, bool disputed) const {
+int ToriDistance::side_of(const Vec3& x, bool negative, bool disputed) const {
   const bool inward = orientation_ < 0;  // then what is enclosed is positive
   const double enclosed = winding_(x, side_accuracy) * (inward ? -1 : 1);
   if (disputed)
     negative = (enclosed > 0.5) != inward;
-  else if (enclosed < certain)
+  else if (enclosed < winding_margin)
     negative = inward;
-  else if (enclosed > 1 - certain)
+  else if (enclosed > 1 - winding_margin)
     negative = !inward;
   return negative ? -1 : 1;
 }
 
 template <class S>
-double Tori::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
+double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
   std::array<Neighbour, littoral::blended> found;
   const int n = tree_.nearest(x, littoral::blended, found.data());
   TorusLanes<S> lanes;
@@ -278,18 +281,18 @@ double Tori::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) 
   BlendedTori<S> out;
   BlendKernel<S>* const kernel = blend_kernel<S>();
   kernel(lanes, n, 0, out);
-  const Doubts doubts(out.nearest, out.rho, out.negative);
+  const SideCheck doubts(out.nearest, out.rho, out.negative);
   const bool negative = out.phi < 0;
   if (doubts.disputed || (doubts.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
     const int side = side_of(x, negative, doubts.disputed);
     if (doubts.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
   }
   const double nearest = std::sqrt(found[0].squared_distance);
-  return kept_near<double>(out.phi, nearest, out.rho);
+  return clamp_to_nearest<double>(out.phi, nearest, out.rho);
 }
 
 template <class T>
-T Tori::plain(const Vec3& x, const std::array<T, 3>& at) const {
+T ToriDistance::plain(const Vec3& x, const std::array<T, 3>& at) const {
   std::array<Neighbour, littoral::blended> found;
   const int n = tree_.nearest(x, littoral::blended, found.data());
   const auto ask = [&](int known) {
@@ -302,28 +305,28 @@ T Tori::plain(const Vec3& x, const std::array<T, 3>& at) const {
       return v.value;
   };
   Blend<T> out = ask(0);
-  const Doubts doubts(number(out.nearest), number(out.rho), out.negative);
+  const SideCheck doubts(number(out.nearest), number(out.rho), out.negative);
   if (doubts.disputed || (doubts.far && orientation_ != 0)) {
     const bool negative = number(out.phi) < 0;
     const int side = side_of(x, negative, doubts.disputed);
     if (doubts.disputed || (side < 0) != negative) out = ask(side);
   }
-  return kept_near<T>(out.phi, out.nearest, out.rho);
+  return clamp_to_nearest<T>(out.phi, out.nearest, out.rho);
 }
 
-double Tori::value(const Vec3& x) const {
+double ToriDistance::value(const Vec3& x) const {
   return records_.empty() ? blended<float>(single_, x) : blended<double>(records_, x);
 }
 
-double Tori::value_by_plain_sums(const Vec3& x) const {
+double ToriDistance::value_by_plain_sums(const Vec3& x) const {
   return plain<double>(x, {x[0], x[1], x[2]});
 }
 
-Jet Tori::jet(const Vec3& x) const {
+Jet ToriDistance::jet(const Vec3& x) const {
   return plain<Jet>(x, {Jet::coordinate(x, 0), Jet::coordinate(x, 1), Jet::coordinate(x, 2)});
 }
 
-DistanceSample Tori::at(const Vec3& x) const {
+DistanceSample ToriDistance::at(const Vec3& x) const {
   const Jet phi = jet(x);
   return {phi.value, phi.gradient};
 }

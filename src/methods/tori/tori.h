@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "methods/implicit/pointwise.h"
 #include "methods/tori/jet.h"
 #include "methods/tori/torus_fit.h"
@@ -23,16 +23,18 @@ enum class ToriPrecision { full, single };
 enum class ToriOutliers { keep, drop };
 
 /// A cloud's tori and their blend; immutable, may be asked from several threads.
-class Tori final : public PointwiseDistance {
+class ToriDistance final : public PointwiseDistance {
  public:
   /// Fits a torus to each point. Coincident points become one with their mean normal; where normals
   /// cancel the point is left out, with a warning. Throws InputError if a number is not finite
   /// (naming the point), a normal is zero, or nothing remains.
-  Tori(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
-       ToriPrecision precision = ToriPrecision::full, ToriOutliers outliers = ToriOutliers::keep);
+  ToriDistance(const OrientedPoints& cloud, const TorusFit& fit, const Task& task, Report& report,
+               ToriPrecision precision = ToriPrecision::full,
+               ToriOutliers outliers = ToriOutliers::keep);
 
   /// Tori fitted before, at their points (points x 3).
-  Tori(MatX3 points, std::vector<Torus> tori, ToriPrecision precision = ToriPrecision::full);
+  ToriDistance(MatX3 points, std::vector<Torus> tori,
+               ToriPrecision precision = ToriPrecision::full);
 
   int size() const { return tree_.size(); }
   const MatX3& points() const { return points_; }
@@ -57,7 +59,7 @@ class Tori final : public PointwiseDistance {
   double value_by_plain_sums(const Vec3& x) const;
 
  private:
-  Tori(MatX3 points, std::vector<Torus> tori, PointTree tree, ToriPrecision precision);
+  ToriDistance(MatX3 points, std::vector<Torus> tori, PointTree tree, ToriPrecision precision);
   void find_trusted();
   bool trusted(const Neighbour& nearest, const Vec3& x, bool negative) const;
   int side_of(const Vec3& x, bool negative, bool disputed) const;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

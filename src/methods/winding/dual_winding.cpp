@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/stopwatch.h"
 #include "solve/network/l1_integration.h"
 #include "solve/poisson/poisson.h"
 
@@ -139,7 +140,7 @@ void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
 
 /// What bounds nothing: the shortest chain that differs from the harmonic part by a boundary, least
 /// of all on the curve, and there at most the curve. Subtracts it from the jumps of `edges`.
-void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const WindingOptions& options,
+void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const SurfaceWinding& options,
                           const Task& task, std::vector<DualEdge>& edges, WindingNumbers& result,
                           Report& report) {
   const auto m = static_cast<Eigen::Index>(edges.size());
@@ -179,7 +180,7 @@ CornerFunction at_corners(const JumpCalculus& J, const VecX& u) {
 }  // namespace
 
 WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
-                            const WindingOptions& options, Task task, Report& report) {
+                            const SurfaceWinding& options, Task task, Report& report) {
   const JumpCalculus D = joined(J, curve.pairs);
   std::vector<DualEdge> edges = dual_edges(J, curve);
   WindingNumbers result;

@@ -20,6 +20,6 @@ struct DualCurve {
 /// with a warning. Jumps between pairs are not in the edge vectors of the result. Throws
 /// SolveError, Cancelled.
 WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
-                            const WindingOptions& options, Task task, Report& report);
+                            const SurfaceWinding& options, Task task, Report& report);
 
 }  // namespace littoral

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "operators/jump_calculus.h"
 
 namespace littoral {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/stopwatch.h"
+
 namespace littoral {
 
 namespace {
@@ -20,7 +22,7 @@ int side(const JumpCalculus& J, const SegmentInFace& s, int corner) {
 
 WindingNumbers nonconforming_winding(const JumpCalculus& J,
                                      const std::vector<SegmentInFace>& segments,
-                                     const WindingOptions& options, Task task, Report& report) {
+                                     const SurfaceWinding& options, Task task, Report& report) {
   WindingNumbers result;
   result.curve = result.nonbounding = result.bounding = VecX::Zero(J.n_edges);
   result.v = MatX3::Zero(J.n_faces, 3);
@@ -48,7 +50,7 @@ WindingNumbers nonconforming_winding(const JumpCalculus& J,
     for (int k = 0; k < 3; ++k)
       samples.push_back({J.component[s.face], result.w.u(s.face, k) - 0.5 * side(J, s, k),
                          std::abs(s.vector) / 3});
-  const VecX shift = contour_shift(J, samples, static_cast<Contour>(options.contour));
+  const VecX shift = contour_shift(J, samples, options.contour);
   settle_labels(J, shift, rounded_labels(J, result.w, shift), result);
   return result;
 }

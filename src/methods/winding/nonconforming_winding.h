@@ -22,6 +22,6 @@ struct SegmentInFace {
 /// Cancelled.
 WindingNumbers nonconforming_winding(const JumpCalculus& J,
                                      const std::vector<SegmentInFace>& segments,
-                                     const WindingOptions& options, Task task, Report& report);
+                                     const SurfaceWinding& options, Task task, Report& report);
 
 }  // namespace littoral

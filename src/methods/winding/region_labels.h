@@ -3,19 +3,12 @@
 
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "methods/winding/jump_laplace.h"
 
 namespace littoral {
-
-/// Which value of a winding number function, a real number near curves with gaps, is halfway
-/// between two integers (thesis 7.1).
-enum class Contour {
-  curve,     // its circular mean along the curve
-  frequent,  // the most frequent one along the curve, to a tenth
-  mean,      // its plain mean along the curve
-};
 
 /// What a winding number function is somewhere on a curve, and should be up to integers: 1/2.
 struct CurveSample {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "methods/winding/jump_laplace.h"
 #include "solve/poisson/poisson.h"
 

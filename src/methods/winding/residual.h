@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "operators/jump_calculus.h"
 #include "solve/network/l1_integration.h"
 

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "methods/winding/residual.h"
 #include "methods/winding/residual_paths.h"
 
 namespace littoral {
 
-const OptionTable<WindingOptions>& winding_options() {
-  using O = WindingOptions;
+const OptionTable<SurfaceWinding>& winding_options() {
+  using O = SurfaceWinding;
   static const OptionTable<O> table =
       OptionTable<O>()
           .choice(&O::formulation, "formulation", {"primal", "dual", "nonconforming"},
                   "Values at corners of the mesh cut along the curve; one per face, which also "
                   "works where three or more faces meet (chains of faces among the sources imply "
                   "it); or one per vertex of the mesh as it is, smeared across the curve.")
-          .choice(&O::boundary, "boundary", {"natural", "free"},
+          .choice(&O::boundary_condition, "boundary-condition", {"natural", "free"},
                   "At the boundary of the surface the function is level across it, or goes on as "
                   "if there were no boundary.")
           .choice(&O::residual, "residual", {"faces", "paths"},
@@ -57,20 +58,20 @@ void settle_labels(const JumpCalculus& J, const VecX& shift, VecXi region, Windi
 }
 
 void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
-                   const WindingOptions& options, const Task& task, WindingNumbers& result,
+                   const SurfaceWinding& options, const Task& task, WindingNumbers& result,
                    Report& report) {
   const Stopwatch watch(report, "labels");
-  const VecX shift = contour_shift(J, samples_on_edges(J, result.w, result.bounding),
-                                   static_cast<Contour>(options.contour));
-  const bool cut = static_cast<Labels>(options.labels) == Labels::cut;
+  const VecX shift =
+      contour_shift(J, samples_on_edges(J, result.w, result.bounding), options.contour);
+  const bool cut = options.labels == Labels::cut;
   settle_labels(J, shift,
                 cut ? cut_labels(J, result.bounding, pairs, J.length, task, report)
                     : rounded_labels(J, result.w, shift),
                 result);
 }
 
-WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& options, Task task,
-                                     Report& report) const {
+WindingNumbers WindingSolver::solve(const VecX& curve, const SurfaceWinding& options, Task task,
+                                    Report& report) const {
   const JumpCalculus& J = *J_;
   WindingNumbers result;
   result.curve = curve;
@@ -99,7 +100,7 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
                                   task.stage(0.6, "jump Laplace"), report);
   }
 
-  if (static_cast<AtBoundary>(options.boundary) == AtBoundary::free) {
+  if (options.boundary_condition == BoundaryCondition::free) {
     // At a straight or round boundary the image of the curve has one sign here, the other there.
     const Stopwatch watch(report, "level boundary");
     const CornerFunction level = solve_jump_laplace(J, result.bounding, {}, Boundary::level,
@@ -110,8 +111,8 @@ WindingNumbers SurfaceWinding::solve(const VecX& curve, const WindingOptions& op
   return result;
 }
 
-void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& options, Task& task,
-                               Report& report) const {
+void WindingSolver::decompose(WindingNumbers& result, const SurfaceWinding& options, Task& task,
+                              Report& report) const {
   const JumpCalculus& J = *J_;
   // Step 2: omega = D u, and of it the harmonic part (6.1.2).
   const VecX omega = darboux_derivative(J, result.u);
@@ -135,7 +136,7 @@ void SurfaceWinding::decompose(WindingNumbers& result, const WindingOptions& opt
   for (int c = 0; c < J.n_components; ++c) take[c] = !J.simply_connected[c];
   const Task integration = task.stage(0.7, "residual function");
   const ResidualFunction residual =
-      static_cast<Residual>(options.residual) == Residual::paths
+      options.residual == Residual::paths
           ? integrate_between_paths(J, result.gamma, result.curve, weight, take, integration,
                                     report)
           : integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {}, {},

@@ -6,40 +6,17 @@
 #include <vector>
 
 #include "base/option_table.h"
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
 #include "methods/winding/jump_laplace.h"
 #include "methods/winding/region_labels.h"
 #include "operators/jump_calculus.h"
 
 namespace littoral {
 
-/// How faces get their labels.
-enum class Labels { round, cut };
-
-/// Values at corners of a mesh cut along the curve; one per face; or continuous (thesis 6.4).
-enum class Formulation { primal, dual, nonconforming };
-
-/// What the residual function is a choice of: one constant per face, or per part of the surface
-/// between curves completed by shortest paths (thesis 6.3).
-enum class Residual { faces, paths };
-
-/// What happens at the boundary of the surface (thesis 6.2): nothing flows across it, or, nearly,
-/// what would happen without it.
-enum class AtBoundary { natural, free };
-
-struct WindingOptions {
-  int formulation = static_cast<int>(Formulation::primal);
-  int boundary = static_cast<int>(AtBoundary::natural);
-  int residual = static_cast<int>(Residual::faces);
-  int contour = static_cast<int>(Contour::curve);
-  int labels = static_cast<int>(Labels::round);
-  double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
-  bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
-};
-
 /// Names, ranges, defaults and one sentence for each of the above.
-const OptionTable<WindingOptions>& winding_options();
+const OptionTable<SurfaceWinding>& winding_options();
 
 /// Everything the five steps find. Edge vectors are jumps, left minus right.
 struct WindingNumbers {
@@ -69,22 +46,22 @@ void settle_labels(const JumpCalculus& J, const VecX& shift, VecXi region, Windi
 
 /// Step 5: labels for given `w` and `bounding`. `pairs`: of the dual formulation, or none.
 void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
-                   const WindingOptions& options, const Task& task, WindingNumbers& result,
+                   const SurfaceWinding& options, const Task& task, WindingNumbers& result,
                    Report& report);
 
 /// One surface's winding numbers; const and usable from several threads.
-class SurfaceWinding {
+class WindingSolver {
  public:
-  explicit SurfaceWinding(std::shared_ptr<const JumpCalculus> J) : J_(std::move(J)) {}
+  explicit WindingSolver(std::shared_ptr<const JumpCalculus> J) : J_(std::move(J)) {}
 
   /// `curve` (edges): how often the curve runs along each edge, against counted negative; so the
   /// winding number is larger by that on the left. The report gets residuals and iterations, and
   /// the components without a curve; labels there are 0.
-  WindingNumbers solve(const VecX& curve, const WindingOptions& options, Task task,
+  WindingNumbers solve(const VecX& curve, const SurfaceWinding& options, Task task,
                        Report& report) const;
 
  private:
-  void decompose(WindingNumbers& result, const WindingOptions& options, Task& task,
+  void decompose(WindingNumbers& result, const SurfaceWinding& options, Task& task,
                  Report& report) const;
 
   std::shared_ptr<const JumpCalculus> J_;

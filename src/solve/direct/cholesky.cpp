@@ -4,9 +4,9 @@
 #include <new>
 #include <string>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
+#include "littoral/error.h"
 #include "solve/direct/dense_kernels.h"
 
 namespace littoral {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

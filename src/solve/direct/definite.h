@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 #include "solve/direct/cholesky.h"
 #include "solve/multigrid/banded_multigrid.h"
 

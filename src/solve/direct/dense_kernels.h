@@ -2,7 +2,7 @@
 // The dense kernels of a sparse factorization, on column-major blocks: BLAS where the build has
 // one, Eigen's otherwise. `lda` and so on: distance between columns. Hermitian blocks: lower half.
 
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral::dense {
 

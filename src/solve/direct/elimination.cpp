@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 #if LITTORAL_METIS
 #include <metis.h>

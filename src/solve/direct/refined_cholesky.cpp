@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

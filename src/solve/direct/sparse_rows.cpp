@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -3,7 +3,7 @@
 // number of these.
 
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.h"
 #include "base/platform/memory.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -34,16 +34,17 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
 }  // namespace
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, Expect expect, const Task& task,
-                               Ordering order)
+HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint expect,
+                               const Task& task, Ordering order)
     : A_(std::make_shared<const Matrix>(std::move(lower))),
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
-  if (A_->rows() > (expect == Expect::one_solve ? largest_order_for_one_solve : largest_order))
+  if (A_->rows() > (expect == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
     return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
-  const std::size_t limit = expect == Expect::one_solve ? largest_for_one_solve : largest_factor;
+  const std::size_t limit =
+      expect == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
 }
 
@@ -53,8 +54,8 @@ Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
 }
 
 template <class Scalar>
-LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
-                                               const Task& task, Report& report) const {
+ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
+                                              const Task& task, Report& report) const {
   std::vector<double> largest;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0) continue;
@@ -78,18 +79,18 @@ LayeredField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vecto
 }
 
 template <class Scalar>
-LayeredField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
-                                                    const std::vector<int>& piece, const Task& task,
-                                                    Report& report) const {
+ScaledField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
+                                                   const std::vector<int>& piece, const Task& task,
+                                                   Report& report) const {
   return solve(windows_.source_that_holds(held, task), piece, task, report);
 }
 
 template <class Scalar>
-LayeredField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
-                                                         const std::vector<int>& piece,
-                                                         const Task& task, Report& report) const {
+ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+                                                        const std::vector<int>& piece,
+                                                        const Task& task, Report& report) const {
   const Eigen::Index n = r.size() / block_;
-  LayeredField<Scalar> field{
+  ScaledField<Scalar> field{
       Vector::Zero(r.size()), std::vector<int>(static_cast<std::size_t>(n), -1), {1.0}};
   Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 

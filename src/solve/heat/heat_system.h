@@ -5,21 +5,21 @@
 #include <optional>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "solve/direct/cholesky.h"
 #include "solve/heat/heat_windows.h"
-#include "solve/heat/layered_field.h"
+#include "solve/heat/scaled_field.h"
 #include "solve/poisson/poisson.h"
 
 namespace littoral {
 
 /// What a system is built for: many solves are worth a large factorization, one is not.
-enum class Expect { one_solve, many_solves };
+enum class SolveHint { single_rhs, many_rhs };
 
-inline PoissonSolver solver_for(Expect expect) {
-  return expect == Expect::one_solve ? PoissonSolver::automatic_for_one_solve
-                                     : PoissonSolver::automatic;
+inline PoissonSolver solver_for(SolveHint expect) {
+  return expect == SolveHint::single_rhs ? PoissonSolver::automatic_for_one_solve
+                                         : PoissonSolver::automatic;
 }
 
 /// A positive definite matrix whose inverse decays exponentially; immutable.
@@ -33,7 +33,7 @@ class HeatSystem {
   /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
   /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
   /// solves, .4 GB for one.
-  HeatSystem(Matrix lower, int block, VecX size, Expect expect, const Task& task,
+  HeatSystem(Matrix lower, int block, VecX size, SolveHint expect, const Task& task,
              Ordering order = {});
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
@@ -41,20 +41,20 @@ class HeatSystem {
   /// truncating there leaves, which lives next to the front, scaled to 1; and so on. `piece` names
   /// the block's connected piece; each piece of b is scaled to largest entry 1 first, as pieces do
   /// not interact.
-  LayeredField<Scalar> solve(const Vector& b, const std::vector<int>& piece, const Task& task,
-                             Report& report) const;
+  ScaledField<Scalar> solve(const Vector& b, const std::vector<int>& piece, const Task& task,
+                            Report& report) const;
 
   /// The same with x held at `held` on the blocks where that is not zero, and b = 0 elsewhere.
-  LayeredField<Scalar> solve_held(const Vector& held, const std::vector<int>& piece,
-                                  const Task& task, Report& report) const;
+  ScaledField<Scalar> solve_held(const Vector& held, const std::vector<int>& piece,
+                                 const Task& task, Report& report) const;
 
   double nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }  // 0 without a factor
 
  private:
   Cholesky<Scalar> factored(const Task& task) const;
-  LayeredField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
-                                       const std::vector<int>& piece, const Task& task,
-                                       Report& report) const;
+  ScaledField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+                                      const std::vector<int>& piece, const Task& task,
+                                      Report& report) const;
 
   std::shared_ptr<const Matrix> A_;
   int block_;

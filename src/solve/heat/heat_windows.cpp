@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 
 namespace littoral {
@@ -22,7 +22,7 @@ constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The same with several layers made one where the range of numbers allows it.
 template <class Scalar>
-LayeredField<Scalar> with_fewer_layers(LayeredField<Scalar> field, int block) {
+ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
   constexpr double range = 1e-60;
   std::vector<double> scale, unit;  // new layers; old layers in units of their new one
   std::vector<int> layer;           // old layers: the new one
@@ -156,10 +156,10 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
 }
 
 template <class Scalar>
-std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
-                                                               const std::vector<int>& piece,
-                                                               const Task& task,
-                                                               Report& report) const {
+std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+                                                              const std::vector<int>& piece,
+                                                              const Task& task,
+                                                              Report& report) const {
   const FlushSubnormals flush;
   const auto n = static_cast<int>(position_.size());
   std::vector<int> from;
@@ -172,7 +172,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return d[i] != d[j] ? d[i] < d[j] : i < j; });
 
-  std::optional<LayeredField<Scalar>> best;
+  std::optional<ScaledField<Scalar>> best;
   double least = 1e-9;  // more is not an answer
   int best_windows = 0;
   for (double overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
@@ -193,12 +193,12 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 }
 
 template <class Scalar>
-std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
-                                                               const std::vector<double>& d,
-                                                               const std::vector<int>& order,
-                                                               double overlap,
-                                                               const Task& task) const {
-  LayeredField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
+std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+                                                              const std::vector<double>& d,
+                                                              const std::vector<int>& order,
+                                                              double overlap,
+                                                              const Task& task) const {
+  ScaledField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0);
   int windows = 0;
@@ -239,7 +239,7 @@ std::optional<LayeredField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 }
 
 template <class Scalar>
-double HeatWindows<Scalar>::misfit(const LayeredField<Scalar>& field, const Vector& b,
+double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vector& b,
                                    const Task& task) const {
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.

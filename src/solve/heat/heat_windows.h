@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
+#include "littoral/report.h"
 #include "solve/direct/ordering.h"
-#include "solve/heat/layered_field.h"
+#include "solve/heat/scaled_field.h"
 
 namespace littoral {
 
@@ -33,8 +33,8 @@ class HeatWindows {
   /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
   /// 1. Where neighbouring windows do not fit together to round-off, as `size` misjudges how heat
   /// decays, they overlap by more; nothing if that does not help.
-  std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
-                                            const Task& task, Report& report) const;
+  std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
+                                           const Task& task, Report& report) const;
 
   /// The b, zero where nothing is held, for which A x = b has x = held on the blocks where that is
   /// not zero: found next to these, as x decays away from them.
@@ -44,10 +44,10 @@ class HeatWindows {
   std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
-  std::optional<LayeredField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
-                                            const std::vector<int>& order, double overlap,
-                                            const Task& task) const;
-  double misfit(const LayeredField<Scalar>& field, const Vector& b, const Task& task) const;
+  std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
+                                           const std::vector<int>& order, double overlap,
+                                           const Task& task) const;
+  double misfit(const ScaledField<Scalar>& field, const Vector& b, const Task& task) const;
 
   std::shared_ptr<const Matrix> A_;
   int block_;

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 #include "solve/multigrid/multigrid.h"
 
 namespace littoral {

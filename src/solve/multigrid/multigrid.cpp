@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
+#include "littoral/error.h"
 #include "solve/multigrid/aggregation.h"
 
 namespace littoral {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/types.h"
 #include "solve/direct/cholesky.h"
 #include "solve/direct/sparse_rows.h"
 

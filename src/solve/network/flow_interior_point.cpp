@@ -5,7 +5,7 @@
 #include <memory>
 #include <numeric>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 #include "solve/network/spanning_tree.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "solve/network/flow_interior_point.h"
 #include "solve/network/network_simplex.h"
 #include "solve/network/spanning_tree.h"

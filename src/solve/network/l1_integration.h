@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 
 namespace littoral {
 

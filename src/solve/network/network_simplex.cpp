@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "base/error.h"
+#include "littoral/error.h"
 #include "solve/network/spanning_tree.h"
 
 namespace littoral {

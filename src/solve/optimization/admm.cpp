@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
@@ -44,13 +44,13 @@ class Admm {
       if (!check) continue;
       residuals(result);
       if (result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_) {
-        certify(result);
+        evaluate_duality_gap(result);
         if (o_.gap <= 0 || result.gap <= o_.gap) {
           result.converged = true;
           break;
         }
       } else if (o_.gap > 0 && k % 20 == 0) {
-        certify(result);
+        evaluate_duality_gap(result);
         if (result.gap <= o_.gap) {
           result.converged = true;
           break;
@@ -61,7 +61,7 @@ class Admm {
       progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
       if (changes_left > 0 && change_penalty(result, k)) --changes_left;
     }
-    if (!result.converged) certify(result);
+    if (!result.converged) evaluate_duality_gap(result);
     result.u = u_;
     return result;
   }
@@ -131,7 +131,7 @@ class Admm {
     dual_tolerance_ =
         std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(state_.w);
     if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
-      throw SolveError("alternating directions left the range of numbers");
+      throw SolveError("alternating directions diverged: non-finite iterate");
   }
 
   /// Section 3.4.1. Rarer and rarer, so that it ends.
@@ -152,7 +152,7 @@ class Admm {
   /// Objective of a feasible u and a lower bound. By the u-step, y = rho (w + G u - z), z and w
   /// from before it, satisfies P u + D y = b on the allowed directions; so by Fenchel's inequality
   /// -1/2 u^T P u - sum A phi*(y) is a lower bound.
-  void certify(AdmmResult& r) const {
+  void evaluate_duality_gap(AdmmResult& r) const {
     r.largest = 0;
     for (Eigen::Index c = 0; c < p_.A.size(); ++c)
       r.largest = std::max(r.largest, p_.energy->gauge(c, g_.data() + c * p_.dim));

@@ -5,11 +5,11 @@
 
 #include <functional>
 
-#include "base/report.h"
 #include "base/task.h"
-#include "base/types.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
 #include "solve/direct/sparse_rows.h"
-#include "solve/optimization/cell_energy.h"
+#include "solve/optimization/gradient_energy.h"
 
 namespace littoral {
 
@@ -22,7 +22,7 @@ struct SplitProblem {
   std::function<VecX(const VecX& u)> quadratic;          // P u; empty: P = 0
   std::function<VecX(const VecX& b, double rho)> solve;  // argmin 1/2 u^T (P + rho G^T A G) u - b^T
                                                          // u over the u that are allowed
-  const CellEnergy* energy = nullptr;
+  const GradientEnergy* energy = nullptr;
 
   SpRows divergence() const;  // D = G^T A, unknowns x dim cells
   double length() const;      // the dim-th root of the total weight: what penalties scale with

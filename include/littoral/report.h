@@ -1,0 +1,28 @@
+#pragma once
+// What a computation says about itself beside its answer.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace littoral {
+
+/// Facts gathered while a method runs; ordered as they were added. Turned into JSON by the front
+/// ends.
+struct Report {
+  std::string method;
+  std::string domain;
+  std::string status = "converged";  // or "not converged": the answer is then the best iterate
+  std::vector<std::pair<std::string, std::string>> options;  // name, value as text
+  std::vector<std::pair<std::string, double>> sizes;         // e.g. "vertices"
+  std::vector<std::pair<std::string, double>> timings;       // stage, seconds
+  std::vector<std::pair<std::string, double>> iterations;    // loop, count
+  std::vector<std::pair<std::string, double>> residuals;     // equation, relative residual
+  std::vector<std::string> warnings;
+  std::vector<int> unreachable_components;  // components of the domain whose values are +inf
+
+  void warn(std::string text) { warnings.push_back(std::move(text)); }
+  void merge(const Report& other);
+};
+
+}  // namespace littoral

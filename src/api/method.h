@@ -1,0 +1,218 @@
+#pragma once
+// What a method is: prepared once for a domain and its options, then solved for any sources. One
+// template and one registry serve surfaces, tets, space, all pairs and regions.
+//
+// A domain D is a small struct of shared, immutable data with
+//   D::Sources, D::Answer            what a solve is given and what it returns
+//   D::title                         "Distance on surfaces"
+//   kind()                           "triangle mesh", as in MethodInfo::domains
+// and library_methods<D>() lists the methods that come with the library, the default first.
+
+#include <any>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/option_table.h"
+#include "base/task.h"
+#include "littoral/error.h"
+#include "littoral/methods.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
+#include "solve/heat/heat_system.h"
+
+namespace littoral {
+
+/// A method prepared for one domain. Immutable to its users: `solve` may be called from several
+/// threads.
+template <class D>
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Reports options with the values used, sizes, seconds per stage, iterations and residuals.
+  virtual typename D::Answer solve(const typename D::Sources& sources, Task task,
+                                   Report& report) const = 0;
+};
+
+/// One method for domains of one type.
+template <class D>
+struct Method {
+  MethodInfo info;
+  /// The typed options; throws InputError for unknown ones and values out of range.
+  std::function<std::any(const AnyMethod&)> options;
+  /// Does all that does not depend on the sources. The hint says whether many solves are expected.
+  std::function<std::shared_ptr<const Solver<D>>(const D& domain, const std::any& options,
+                                                 SolveHint hint, Task task, Report& report)>
+      prepare;
+};
+
+/// Throws InputError naming the option and the method, and what the method has, unless it has the
+/// option.
+void check_has_option(const MethodInfo& method, const std::string& option);
+
+/// The options of a choice as struct S, checked against its table.
+template <class S>
+S typed_options(const MethodInfo& info, const OptionTable<S>& table, const AnyMethod& choice) {
+  S options;
+  if (choice.options().has_value()) {
+    const S* given = std::any_cast<S>(&choice.options());
+    if (!given)
+      throw InputError("method " + info.name + " does not take options of this type here");
+    options = *given;
+  }
+  for (const auto& [name, text] : choice.values()) {
+    check_has_option(info, name);
+    table.set(options, name, text);
+  }
+  table.check(options);
+  return options;
+}
+
+/// Puts all options with the values used into the report.
+template <class S>
+void report_options(const OptionTable<S>& table, const S& options, Report& report) {
+  for (std::size_t i = 0; i < table.infos().size(); ++i)
+    report.options.emplace_back(table.infos()[i].name, table.get(options, i));
+}
+
+/// A method from a table of options S and `prepare(domain, options, hint, task, report)`, which
+/// returns what solves: a callable (sources, S& options, Task&, Report&) -> answer, const, for
+/// several threads, that may change its options to the values used.
+template <class D, class S, class Prepare>
+Method<D> make_method(MethodInfo info, const OptionTable<S>& table, Prepare prepare) {
+  using Solve = std::function<typename D::Answer(const typename D::Sources&, S&, Task&, Report&)>;
+  class Prepared final : public Solver<D> {
+   public:
+    Prepared(std::string name, std::string kind, const OptionTable<S>& options_table, S options,
+             Solve solve)
+        : name_(std::move(name)),
+          kind_(std::move(kind)),
+          table_(options_table),
+          options_(std::move(options)),
+          solve_(std::move(solve)) {}
+    typename D::Answer solve(const typename D::Sources& sources, Task task,
+                             Report& report) const override {
+      report.method = name_;
+      report.domain = kind_;
+      S used = options_;
+      auto answer = solve_(sources, used, task, report);
+      report_options(table_, used, report);
+      return answer;
+    }
+
+   private:
+    std::string name_, kind_;
+    const OptionTable<S>& table_;
+    S options_;
+    Solve solve_;
+  };
+  info.options = table.infos();
+  Method<D> method;
+  method.options = [info, &table](const AnyMethod& choice) -> std::any {
+    return typed_options(info, table, choice);
+  };
+  method.prepare = [name = info.name, &table, prepare](
+                       const D& domain, const std::any& any, SolveHint hint, Task task,
+                       Report& report) -> std::shared_ptr<const Solver<D>> {
+    const S& options = std::any_cast<const S&>(any);
+    Solve solve = prepare(domain, options, hint, task, report);
+    return std::make_shared<const Prepared>(name, domain.kind(), table, options, std::move(solve));
+  };
+  method.info = std::move(info);
+  return method;
+}
+
+/// The methods that come with the library, the default first.
+template <class D>
+std::vector<Method<D>> library_methods();
+
+/// All methods for domains of one type.
+template <class D>
+class Registry {
+ public:
+  static Registry& instance() {
+    static Registry all;
+    return all;
+  }
+
+  /// Adds a method of one's own: from then on it is found by name everywhere. Throws InputError if
+  /// there is one of that name.
+  void add(Method<D> method) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& known : methods_)
+      if (known->info.name == method.info.name)
+        throw InputError("there is a method " + method.info.name + " already");
+    methods_.push_back(std::make_shared<const Method<D>>(std::move(method)));
+  }
+
+  std::vector<std::shared_ptr<const Method<D>>> all() const {
+    const std::lock_guard lock(mutex_);
+    return methods_;
+  }
+  std::vector<MethodInfo> infos() const {
+    std::vector<MethodInfo> out;
+    for (const auto& method : all()) out.push_back(method->info);
+    return out;
+  }
+  bool has(const std::string& name) const {
+    for (const auto& method : all())
+      if (method->info.name == name) return true;
+    return false;
+  }
+  /// Throws InputError listing the known ones.
+  std::shared_ptr<const Method<D>> find(const std::string& name) const {
+    std::string known;
+    for (const auto& method : all()) {
+      if (method->info.name == name) return method;
+      known += (known.empty() ? "" : ", ") + method->info.name;
+    }
+    throw InputError("unknown method '" + name + "'; known: " + known);
+  }
+
+ private:
+  Registry() {
+    for (Method<D>& method : library_methods<D>())
+      methods_.push_back(std::make_shared<const Method<D>>(std::move(method)));
+  }
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<const Method<D>>> methods_;
+};
+
+/// Throws UnsupportedError, saying what would work, unless the method runs on such a domain.
+void check_domain(const MethodInfo& method, const std::string& kind,
+                  const std::vector<MethodInfo>& all);
+
+/// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
+template <class D>
+void check_method(const AnyMethod& choice) {
+  if (!choice.name().empty()) Registry<D>::instance().find(choice.name())->options(choice);
+}
+
+/// Prepares the chosen method or, where the choice names none, the first that the library has.
+/// Throws InputError and UnsupportedError before anything is computed.
+template <class D>
+std::shared_ptr<const Solver<D>> prepare(const AnyMethod& choice, const D& domain, SolveHint hint,
+                                         const Task& task, Report& report) {
+  const auto all = Registry<D>::instance().all();
+  const auto method =
+      choice.name().empty() ? all.front() : Registry<D>::instance().find(choice.name());
+  const std::any options = method->options(choice);
+  report.method = method->info.name;
+  report.domain = domain.kind();
+  check_domain(method->info, report.domain, Registry<D>::instance().infos());
+  return method->prepare(domain, options, hint, task, report);
+}
+
+/// Both in a row.
+template <class D>
+typename D::Answer solve_once(const AnyMethod& choice, const D& domain,
+                              const typename D::Sources& sources, Task task, Report& report) {
+  const auto solver =
+      prepare(choice, domain, SolveHint::single_rhs, task.stage(0.4, "preparing"), report);
+  return solver->solve(sources, task.stage(0.6, "solving"), report);
+}
+
+}  // namespace littoral

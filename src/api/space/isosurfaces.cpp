@@ -1,0 +1,114 @@
+#include "api/space/isosurfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/option_table.h"
+#include "contour/isosurface.h"
+#include "contour/redistance.h"
+#include "io/write.h"
+#include "littoral/error.h"
+
+namespace littoral {
+
+namespace {
+
+// The field of the shape {distance <= level} taken out to `reach` beyond its surface, less `back`:
+// the second of two offsets.
+Volume offset_back(const Volume& distance, double level, double back, double reach,
+                   const char* name, Report& report, Task task) {
+  Report unheard;  // open at the box: the result says so itself
+  const PolygonSoup surface = isosurface(distance.grid, distance.values, level, {}, unheard,
+                                         task.stage(0.3, std::string(name) + ": first offset"));
+  if (surface.n_faces() == 0)
+    throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
+                     " leaves nothing: no surface at distance " + number_text(level));
+  Volume field = distance;
+  field.values = redistance(distance.grid, distance.values, level, surface, reach,
+                            task.stage(0.7, std::string(name) + ": distance to it"));
+  field.values.array() -= back;
+  report.sizes.emplace_back(std::string(name) + ": triangles between",
+                            static_cast<double>(surface.n_faces()));
+  return field;
+}
+
+}  // namespace
+
+std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<double>& levels,
+                                    bool close_at_box, Report& report, Task task) {
+  std::vector<Isosurface> surfaces;
+  bool any = false;
+  for (const double level : levels) {
+    PolygonSoup surface =
+        isosurface(volume.grid, volume.values, level, {.close = close_at_box}, report,
+                   task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
+    if (surface.n_faces() == 0)
+      report.warn("there is no surface at level " + number_text(level) + "; values run from " +
+                  number_text(volume.values.minCoeff()) + " to " +
+                  number_text(volume.values.maxCoeff()));
+    any = any || surface.n_faces() != 0;
+    report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
+    surfaces.push_back({level, std::move(surface)});
+  }
+  if (!any) throw InputError("none of the levels is met: there is nothing to write");
+  return surfaces;
+}
+
+std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
+                                           const std::vector<double>& offsets,
+                                           const Morphology& morphology, bool close_at_box,
+                                           Report& report, Task task) {
+  const double open = morphology.open, close = morphology.close;
+  if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
+    throw InputError("offset: the radii of opening and closing must not be negative");
+  double farthest = 0;
+  for (const double d : offsets) farthest = std::max(farthest, std::abs(d));
+  // Values are wanted up to the farthest offset, on both sides, and a few nodes beyond.
+  const double more = farthest + 3 * distance.grid.spacing.norm();
+  Volume field = distance;
+  if (open > 0)
+    field = offset_back(field, -open, open, 2 * open + close + more, "opening", report,
+                        task.stage(0.3, "opening"));
+  if (close > 0)
+    field = offset_back(field, close, -close, 2 * close + more, "closing", report,
+                        task.stage(0.3, "closing"));
+  return isosurfaces(field, offsets, close_at_box, report, task.stage(1, "contouring"));
+}
+
+PolygonSoup join_isosurfaces(const std::vector<Isosurface>& surfaces) {
+  PolygonSoup all;
+  Eigen::Index points = 0;
+  for (const Isosurface& shell : surfaces) points += shell.surface.points.rows();
+  all.points.resize(points, 3);
+  VecX level(points);
+  Eigen::Index used = 0;
+  for (const Isosurface& shell : surfaces) {
+    const PolygonSoup& s = shell.surface;
+    all.points.middleRows(used, s.points.rows()) = s.points;
+    level.segment(used, s.points.rows()).setConstant(shell.level);
+    for (int f = 0; f < s.n_faces(); ++f) {
+      std::vector<int> face(s.face(f).begin(), s.face(f).end());
+      for (int& v : face) v += static_cast<int>(used);
+      all.add_face(face);
+    }
+    used += s.points.rows();
+  }
+  if (points > 0) all.scalars["level"] = std::move(level);
+  return all;
+}
+
+void write_isosurfaces(const std::vector<std::string>& files,
+                       const std::vector<Isosurface>& surfaces) {
+  if (files.size() == 1) {
+    io::write_surface(files.front(), join_isosurfaces(surfaces));
+    return;
+  }
+  if (files.size() != surfaces.size())
+    throw InputError("there are " + std::to_string(files.size()) + " output files for " +
+                     std::to_string(surfaces.size()) +
+                     " levels: name one file for all, or one for each");
+  for (std::size_t i = 0; i < files.size(); ++i)
+    io::write_surface(files[i], join_isosurfaces({surfaces[i]}));
+}
+
+}  // namespace littoral

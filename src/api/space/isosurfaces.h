@@ -1,0 +1,49 @@
+#pragma once
+// Level sets of volumes, and what is made of them: offsets, opened and closed shapes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/task.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/volume.h"
+
+namespace littoral {
+
+/// One level set.
+struct Isosurface {
+  double level = 0;
+  PolygonSoup surface;
+};
+
+/// The level sets of a volume's values, one for each level, as `isosurface` makes them. Levels that
+/// are not met are warnings in the report; throws InputError if none is.
+std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<double>& levels,
+                                    bool close_at_box, Report& report, Task task);
+
+/// What is done to a shape before its offsets are taken (signed-heat-method, section 9.3.1).
+struct Morphology {
+  double open = 0;   // [length] erode by this, then dilate by as much: thin parts go
+  double close = 0;  // [length] dilate by this, then erode: gaps and notches fill; after opening
+};
+
+/// Offsets of the shape {distance <= 0}: the surfaces at the given distances [length], positive
+/// outside. Opening and closing measure the distance from the eroded or dilated surface anew, to
+/// its triangles, so their accuracy is that of the grid. Throws InputError for a negative radius,
+/// if nothing is left of the shape, and as isosurfaces.
+std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
+                                           const std::vector<double>& offsets,
+                                           const Morphology& morphology, bool close_at_box,
+                                           Report& report, Task task);
+
+/// All surfaces as one surface, with the scalar "level".
+PolygonSoup join_isosurfaces(const std::vector<Isosurface>& surfaces);
+
+/// Writes surfaces: all into one file, or each into its own where there are as many files as
+/// levels. Throws InputError for another number of files.
+void write_isosurfaces(const std::vector<std::string>& files,
+                       const std::vector<Isosurface>& surfaces);
+
+}  // namespace littoral

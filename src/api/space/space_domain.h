@@ -1,0 +1,129 @@
+#pragma once
+// Space as a domain of methods: where distance is wanted, at the nodes of a grid, through tets that
+// fill its box, or at any point.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/method.h"
+#include "api/space/space_input.h"
+#include "base/stopwatch.h"
+#include "littoral/tet_mesh.h"
+#include "littoral/volume.h"
+#include "methods/implicit/pointwise.h"
+
+namespace littoral {
+
+/// Tets that fill the box of a grid: a lattice, small near the input and larger far from it (thesis
+/// 4.5), or tets whose faces follow the input, made by the program tetgen.
+struct TetFilling {
+  enum class By { lattice, tetgen } by = By::lattice;
+  std::string program = "tetgen";  // a path, or a name in PATH
+  double timeout = 600;            // seconds by the clock
+};
+
+/// Values at the vertices of tets.
+struct TetField {
+  TetMesh mesh;
+  VecX values;  // vertices [length]
+};
+
+/// Signed distance in space, negative inside [length].
+struct SpaceAnswer {
+  VecX at_nodes;                                      // of the grid, where there is one
+  std::shared_ptr<const PointwiseDistance> function;  // at any point, where there is no grid
+  TetField tets;                                      // where tets fill the grid's box
+};
+
+/// Values scale with the input and do not change when it is moved with the grid. Errors: InputError
+/// for bad input (nothing to measure from, a box that misses it, ...), IoError where memory will
+/// not do, Cancelled.
+struct SpaceDomain {
+  using Sources = SpaceSources;
+  using Answer = SpaceAnswer;
+  static constexpr const char* title = "Distance in space";
+
+  std::optional<Grid> grid;        // without one, any point
+  std::optional<TetFilling> tets;  // solve through these, and sample them on the grid
+
+  /// "grid", "tet lattice", "tetgen mesh" or "set of points".
+  std::string kind() const;
+};
+
+template <>
+std::vector<Method<SpaceDomain>> library_methods();
+// Its families:
+std::vector<Method<SpaceDomain>> space_heat_methods();
+std::vector<Method<SpaceDomain>> closest_point_methods();
+std::vector<Method<SpaceDomain>> convolutional_methods();
+std::vector<Method<SpaceDomain>> tori_methods();
+std::vector<Method<SpaceDomain>> regularized_space_methods();
+
+/// How fine a mesh is sampled for points that have no grid, in units of its frame.
+inline constexpr double query_side = 0.01;
+
+/// A field in a frame's units, asked in those of the input.
+std::shared_ptr<const PointwiseDistance> placed(std::unique_ptr<const PointwiseDistance> distance,
+                                                const Frame& frame);
+
+/// Values of a field at the nodes of a grid.
+VecX evaluate(const PointwiseDistance& distance, const Grid& grid, const Task& task);
+
+/// A method from `on_grid(input, grid, options, task, report)`, which gives values at the nodes,
+/// all in the input's frame.
+template <class S, class OnGrid>
+Method<SpaceDomain> make_grid_method(MethodInfo info, const OptionTable<S>& table, OnGrid on_grid) {
+  info.domains = {"grid"};
+  return make_method<SpaceDomain>(
+      std::move(info), table,
+      [on_grid](const SpaceDomain& domain, const S&, SolveHint, const Task&, Report& report) {
+        check_grid(*domain.grid);
+        report.sizes.emplace_back("nodes", static_cast<double>(domain.grid->n_nodes()));
+        return [on_grid, grid = *domain.grid](const SpaceSources& sources, S& options, Task& task,
+                                              Report& r) {
+          const Frame frame(box_on_grid(sources.soup, grid));
+          const Grid local = frame.local(grid);
+          // Errors at edges and corners are proportional to the spacing of samples: it must not
+          // exceed the grid's.
+          const SpaceInput input = make_input(sources, frame, local.spacing.minCoeff(), task, r);
+          Task rest = task.stage(0.95, "distance");
+          return SpaceAnswer{on_grid(input, local, options, rest, r) * frame.unit, {}, {}};
+        };
+      });
+}
+
+/// A method from `make(input, options, task, report)`, which gives a field that can be asked
+/// anywhere, in the input's frame; on a grid it is asked at each node.
+template <class S, class Make>
+Method<SpaceDomain> make_pointwise_method(MethodInfo info, const OptionTable<S>& table, Make make) {
+  const Method<SpaceDomain> on_grid = make_grid_method(
+      info, table,
+      [make](const SpaceInput& input, const Grid& grid, const S& options, Task& task,
+             Report& report) {
+        const auto distance = make(input, options, task.stage(0.3, "preparing"), report);
+        const Stopwatch watch(report, "evaluate");
+        return evaluate(*distance, grid, task.stage(0.7, "distance"));
+      });
+  info.domains = {"grid", "set of points"};
+  Method<SpaceDomain> method = make_method<SpaceDomain>(
+      std::move(info), table,
+      [make](const SpaceDomain&, const S&, SolveHint, const Task&, Report&) {
+        return [make](const SpaceSources& sources, S& options, Task& task, Report& report) {
+          const Frame frame(bounding_box(sources.soup));
+          const SpaceInput input = make_input(sources, frame, query_side, task, report);
+          return SpaceAnswer{
+              {}, placed(make(input, options, task.stage(0.95, "preparing"), report), frame), {}};
+        };
+      });
+  method.prepare = [at_points = method.prepare, on_grid](const SpaceDomain& domain,
+                                                         const std::any& options, SolveHint hint,
+                                                         const Task& task, Report& report) {
+    return (domain.grid ? on_grid.prepare : at_points)(domain, options, hint, task, report);
+  };
+  return method;
+}
+
+}  // namespace littoral

@@ -1,0 +1,113 @@
+#include "api/surface/discretization.h"
+
+#include "base/stopwatch.h"
+#include "domain/cloud/cloud_surface.h"
+#include "domain/mesh/polygon_surface.h"
+#include "domain/mesh/triangulate.h"
+#include "operators/nodal.h"
+#include "operators/triangles.h"
+#include "sources/nodal_source_system.h"
+#include "sources/refined_sources.h"
+#include "sources/triangle_source_system.h"
+
+namespace littoral {
+
+namespace {
+
+NodalSurface nodal_surface(const SurfaceDomain& domain, const Task& task, Report& report) {
+  const SurfaceMesh& mesh = *domain.mesh;
+  if (domain.face_normals) return voxel_surface(mesh, *domain.face_normals, report);
+  return mesh.n_faces() ? polygon_surface(mesh, report)
+                        : cloud_surface(mesh.points(), mesh.soup().normals, report, task);
+}
+
+}  // namespace
+
+const std::vector<std::string>& all_surfaces() {
+  static const std::vector<std::string> names = {"triangle mesh", "polygon mesh", "point cloud",
+                                                 "voxel surface"};
+  return names;
+}
+
+PlacedSources place_sources(const SurfaceDomain& domain, const SurfaceMesh& on,
+                            const Sources& sources, const Task& task, Report& report) {
+  const SurfaceMesh& mesh = *domain.mesh;
+  PlacedSources placed = [&] {
+    const Stopwatch watch(report, "sources");
+    return place_sources(on, sources, report, task);
+  }();
+  report.sizes.emplace_back("vertices", mesh.n_vertices());
+  report.sizes.emplace_back("faces", mesh.n_faces());
+  report.sizes.emplace_back("edges", mesh.n_edges());
+  report.sizes.emplace_back("components", on.n_components());
+  report.sizes.emplace_back("source_curves", placed.n_curves);
+  report.sizes.emplace_back("source_pieces", static_cast<double>(placed.pieces.size()));
+  report.sizes.emplace_back("source_points", static_cast<double>(placed.points.size()));
+  return placed;
+}
+
+PlacedSources place_sources(const SurfaceDomain& domain, const Sources& sources, const Task& task,
+                            Report& report) {
+  return place_sources(domain, *domain.mesh, sources, task, report);
+}
+
+std::shared_ptr<const IntrinsicTriangulation> triangulation_of(const SurfaceDomain& domain,
+                                                               Report& report) {
+  const Stopwatch watch(report, "triangulation");
+  return std::make_shared<const IntrinsicTriangulation>(
+      intrinsic_triangulation(*domain.mesh, report));
+}
+
+SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report)
+    : domain_(std::move(domain)) {
+  task.checkpoint();
+  if (domain_.kind() == "triangle mesh") {
+    T_ = triangulation_of(domain_, report);
+  } else {
+    const Stopwatch watch(report, "triangulation");
+    nodal_ = std::make_shared<const NodalSurface>(
+        nodal_surface(domain_, task.stage(0.5, "triangulation"), report));
+  }
+  const Task stage = task.stage(0.5, "operators");
+  stage.checkpoint();
+  const Stopwatch watch(report, "operators");
+  ops_ = std::make_shared<const Operators>(T_ ? triangle_operators(T_, stage)
+                                              : nodal_operators(*nodal_));
+}
+
+SourceSystem SurfaceDiscretization::system(const Sources& sources, const Task& task,
+                                           Report& report) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
+  if (T_) return source_system(mesh, *T_, place_sources(domain_, sources, task, report));
+  const SurfaceMesh& refined = *nodal_->refined;
+  return nodal_source_system(
+      *nodal_,
+      place_sources(domain_, refined, refined_sources(mesh, refined, nodal_->face_offsets, sources),
+                    task, report));
+}
+
+SurfaceAnswer SurfaceDiscretization::at_input(const VecX& values) const {
+  SurfaceAnswer out{values.head(domain_.mesh->n_vertices()), {}};
+  if (nodal_ && domain_.mesh->n_faces() == 0) {
+    out.shown = nodal_->refined->soup();
+    out.shown->scalars["distance"] = out.values;
+  }
+  return out;
+}
+
+CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report) {
+  const SurfaceMesh& input = *domain.mesh;
+  CutPolygons cut{
+      domain, {std::make_shared<const SurfaceMesh>(triangulate(input.soup())), {}}, {0}};
+  for (int f = 0; f < input.n_faces(); ++f)  // n corners give n - 2 triangles
+    cut.face_offsets.push_back(cut.face_offsets.back() + static_cast<int>(input.face(f).size()) -
+                               2);
+  report.warn("the polygons were cut into triangles, as the options ask for these");
+  return cut;
+}
+
+Sources CutPolygons::cut(const Sources& sources) const {
+  return refined_sources(*input.mesh, *triangles.mesh, face_offsets, sources);
+}
+
+}  // namespace littoral

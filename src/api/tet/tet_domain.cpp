@@ -1,0 +1,130 @@
+#include "api/tet/tet_domain.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "api/space/space_input.h"
+#include "base/platform/memory.h"
+#include "base/run_interruptible.h"
+
+namespace littoral {
+
+namespace {
+
+/// The box of all corners that are finite. Throws InputError where there is no volume.
+Box box_of(const TetMesh& mesh) {
+  Box box;
+  for (int t = 0; t < mesh.n_tets(); ++t)
+    for (int k = 0; k < 4; ++k) {
+      const int v = mesh.tets(t, k);
+      if (v >= 0 && v < mesh.n_vertices() && mesh.points.row(v).allFinite())
+        box.add(mesh.points.row(v));
+    }
+  if (!(box.size().minCoeff() >= 0) || !box.size().allFinite())
+    throw InputError("the tet mesh has no volume");
+  return box;
+}
+
+}  // namespace
+
+std::vector<int> TetProblem::tets_with_sources() const {
+  std::vector<int> tets;
+  for (const TetPoint& p : places)
+    if (p.tet >= 0 && ops->volumes[p.tet] > 0) tets.push_back(p.tet);
+  if (!vertices.empty()) {
+    std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
+    for (int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
+    for (int t = 0; t < mesh->n_tets(); ++t)
+      for (int k = 0; k < 4; ++k)
+        if (ops->volumes[t] > 0 && wanted[static_cast<std::size_t>(mesh->tets(t, k))] != 0)
+          tets.push_back(t);
+  }
+  std::sort(tets.begin(), tets.end());
+  tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+  return tets;
+}
+
+TetSourceSystem TetProblem::terms() const {
+  if (!vertices.empty()) return vertex_source_system(*ops, vertices);
+  std::vector<int> nearest;
+  for (const TetPoint& p : places) {
+    const auto corner = std::max_element(p.barycentric.begin(), p.barycentric.end());
+    nearest.push_back(
+        p.tet < 0 ? -1 : mesh->tets(p.tet, static_cast<int>(corner - p.barycentric.begin())));
+  }
+  return tet_source_system(*mesh, *ops, samples, places, nearest);
+}
+
+void check_tet_memory(const TetMesh& mesh, const std::string& what, const std::string& remedy) {
+  // The factor of the faces' matrix: about 60 numbers a face were seen.
+  check_memory(2.1 * mesh.n_tets() * 60 * 16.0, what + std::to_string(mesh.n_tets()) + " tets",
+               remedy);
+}
+
+TetDiscretization::TetDiscretization(const TetMesh& mesh, Task task, Report& report)
+    : frame_((check_tet_memory(mesh, "a mesh of ", "use a coarser mesh"), box_of(mesh))) {
+  report.sizes.emplace_back("tets", mesh.n_tets());
+  report.sizes.emplace_back("vertices", mesh.n_vertices());
+  mesh_ = std::make_shared<const TetMesh>(TetMesh{frame_.local(mesh.points), mesh.tets});
+  ops_ = run_interruptible(task.stage(1, "building operators"),
+                           [local = mesh_] { return tet_operators(*local); });
+}
+
+TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Report& report) const {
+  const bool from_vertices = !sources.vertices.empty() || sources.boundary;
+  if (from_vertices && (sources.surface.n_faces() > 0 || sources.surface.n_vertices() > 0))
+    throw UnsupportedError(
+        "distance through tets is signed, from surfaces, or unsigned, from vertices: not both");
+  for (const int v : sources.vertices)
+    if (v < 0 || v >= mesh_->n_vertices())
+      throw InputError("there is no vertex " + std::to_string(v) +
+                       " to measure from, the mesh has " + std::to_string(mesh_->n_vertices()));
+  TetProblem problem;
+  problem.mesh = mesh_;
+  problem.ops = ops_;
+  std::vector<int>& vertices = problem.vertices;
+  vertices = sources.vertices;
+  if (sources.boundary) {
+    const MatX3i faces = boundary_faces(*mesh_);
+    vertices.insert(vertices.end(), faces.data(), faces.data() + faces.size());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
+  if (vertices.empty()) place(problem, sources, task, report);
+  for (const int v : vertices)
+    if (ops_->component[static_cast<std::size_t>(v)] < 0)
+      report.warn("source vertex " + std::to_string(v) + " belongs to no tet and is left out");
+  return problem;
+}
+
+/// The surface, sampled, and where the samples lie in the mesh.
+void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Task& task,
+                              Report& report) const {
+  std::vector<int> all(static_cast<std::size_t>(mesh_->n_tets()));
+  std::iota(all.begin(), all.end(), 0);
+  const double max_side = mean_edge(*mesh_, all);
+  bounding_box(sources.surface);  // complains about what cannot be placed
+  const SpaceInput input = make_input({sources.surface, sources.flip, sources.estimate_normals},
+                                      frame_, max_side, task, report);
+  placed.surface = sources.surface;
+  placed.surface.points = frame_.local(placed.surface.points);
+  placed.h = sample_spacing(input.samples);
+  Report again;
+  placed.samples = input.is_cloud()
+                       ? input.samples
+                       : sample_faces(input.surface, max_side, again, SamplesPerTriangle::three);
+  const auto locator = locator_.get(
+      [&] { return run_interruptible(task, [mesh = mesh_] { return TetLocator(*mesh); }); });
+  int outside = 0;
+  for (Eigen::Index i = 0; i < placed.samples.size(); ++i) {
+    if (i % 1024 == 0) task.checkpoint();
+    placed.places.push_back(locator->locate(placed.samples.points.row(i)));
+    outside += placed.places.back().tet < 0 ? 1 : 0;
+  }
+  if (outside == placed.samples.size()) throw InputError("no source lies within the tets");
+  if (outside > 0)
+    report.warn(std::to_string(outside) + " of " + std::to_string(placed.samples.size()) +
+                " samples of the sources lie outside the tets and are left out");
+}
+
+}  // namespace littoral

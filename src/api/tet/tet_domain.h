@@ -1,0 +1,112 @@
+#pragma once
+// Tet meshes as a domain of methods.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "api/method.h"
+#include "api/space/frame.h"
+#include "base/lazy.h"
+#include "domain/tet/tet_locator.h"
+#include "littoral/tet_mesh.h"
+#include "operators/tet_operators.h"
+#include "sources/oriented_points.h"
+#include "sources/tet_source_system.h"
+
+namespace littoral {
+
+/// What distance through tets is measured from: a surface or cloud in space (faces of tets, or
+/// anything else within them), or vertices, or those of the boundary.
+struct TetSources {
+  PolygonSoup surface;
+  std::vector<int> vertices;
+  bool boundary = false;
+  bool flip = false;              // reverse all normals: the other side is positive
+  bool estimate_normals = false;  // of a cloud, instead of those it has
+};
+
+/// A tet mesh. Answers are distances at its vertices [length]; +inf on components that no source
+/// reaches, and at vertices of no tet. Flat and inverted tets are harmless; parts of a surface
+/// outside the tets are left out, with a warning.
+///
+/// Errors: InputError for bad input and if no source lies in a tet, UnsupportedError for both kinds
+/// of sources together, IoError where memory will not do, Cancelled.
+struct TetDomain {
+  using Sources = TetSources;
+  using Answer = VecX;
+  static constexpr const char* title = "Distance through tets";
+
+  std::shared_ptr<const TetMesh> mesh;
+
+  std::string kind() const { return "tet mesh"; }
+};
+
+template <>
+std::vector<Method<TetDomain>> library_methods();
+// Its families:
+std::vector<Method<TetDomain>> heat_tet_methods();
+std::vector<Method<TetDomain>> regularized_tet_methods();
+std::vector<Method<TetDomain>> quadratic_tet_methods();
+
+/// Sources on a mesh, moved and scaled to about unit size about the origin: vertices of it, or a
+/// surface with samples.
+struct TetProblem {
+  std::shared_ptr<const TetMesh> mesh;
+  std::shared_ptr<const TetOperators> ops;
+  std::vector<int> vertices;
+  PolygonSoup surface;
+  OrientedPoints samples;        // of the surface
+  std::vector<TetPoint> places;  // of the samples
+  double h = 0;                  // between samples
+
+  /// The tets of some volume that hold sources, each once.
+  std::vector<int> tets_with_sources() const;
+  /// A row for each vertex of the source or, of a surface, for each vertex next to it, of the
+  /// samples nearest to that.
+  TetSourceSystem terms() const;
+};
+
+/// The mesh and its operators, moved and scaled; made once, for any sources.
+class TetDiscretization {
+ public:
+  TetDiscretization(const TetMesh& mesh, Task task, Report& report);
+
+  const std::shared_ptr<const TetMesh>& mesh() const { return mesh_; }
+  const std::shared_ptr<const TetOperators>& operators() const { return ops_; }
+  double unit() const { return frame_.unit; }  // [length]
+
+  TetProblem problem(const TetSources& sources, Task task, Report& report) const;
+
+ private:
+  void place(TetProblem& problem, const TetSources& sources, Task& task, Report& report) const;
+
+  Frame frame_;
+  std::shared_ptr<const TetMesh> mesh_;
+  std::shared_ptr<const TetOperators> ops_;
+  Kept<TetLocator> locator_;
+};
+
+/// A method from `make(discretization, options)`, which returns what solves: a callable
+/// (problem, options, task, report) -> values at the vertices, in the problem's units.
+template <class S, class Make>
+Method<TetDomain> make_tet_method(MethodInfo info, const OptionTable<S>& table, Make make) {
+  info.domains = {"tet mesh"};
+  return make_method<TetDomain>(
+      std::move(info), table,
+      [make](const TetDomain& domain, const S& options, SolveHint, const Task& task,
+             Report& report) {
+        const auto on = std::make_shared<const TetDiscretization>(*domain.mesh, task, report);
+        return [on, solve = make(on, options)](const TetSources& sources, S& used, Task& t,
+                                               Report& r) -> VecX {
+          const TetProblem problem = on->problem(sources, t.stage(0.1, "placing the sources"), r);
+          return solve(problem, used, t, r) * on->unit();
+        };
+      });
+}
+
+/// Throws IoError unless the operators of a mesh fit into memory: "a mesh of " and what to do.
+void check_tet_memory(const TetMesh& mesh, const std::string& what, const std::string& remedy);
+
+}  // namespace littoral

@@ -1,0 +1,76 @@
+#pragma once
+// A triangulation that can be flipped and split, with marks on it.
+
+#include <array>
+#include <vector>
+
+#include "domain/intrinsic/intrinsic_delaunay.h"
+
+namespace littoral {
+
+/// How far from collinear triangles stay, in units of their longest side.
+constexpr double collinear_margin = 1e-10;
+
+/// Triangles of three different vertices, glued along edges of given length; several edges may join
+/// two vertices. Corners run counter-clockwise seen from the side of the orientation, as far as
+/// there is one.
+class IntrinsicMeshEditor {
+ public:
+  struct Face {
+    std::array<int, 3> v, e;       // corners; edge of side k, from corner k to k + 1
+    std::array<int, 3> side_sign;  // on which side of the edge the face lies, +1 or -1
+  };
+  struct Edge {
+    int tail, head;
+    double length;
+    std::vector<int> faces;
+  };
+
+  IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, CurveNetwork marks);
+
+  /// Sum of the cotangents opposite an edge, over all its faces: twice its weight in the cotan
+  /// Laplacian; +infinity without a face.
+  double delaunay_sum(int e) const;
+  /// Can the edge not be flipped whatever its triangles' shapes? One with more or fewer than two,
+  /// or with two that have no common orientation.
+  bool fixed(int e) const;
+  /// Flips an edge if its two triangles allow it.
+  bool flip(int e);
+  /// Puts a vertex in the middle of an edge.
+  void split(int e);
+  TriangleShape shape(int f) const;
+  int longest_edge(int f) const;
+
+  /// The result, with connectivity and frames of its own.
+  Retriangulation finish(const IntrinsicTriangulation& before) &&;
+
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  int n_vertices() const { return static_cast<int>(points_.size()); }
+
+ private:
+  /// What is drawn in some triangles, with positions in their common plane.
+  struct Drawing {
+    std::vector<std::pair<int, Complex>> inside;  // nodes that lie in no other triangle
+    struct Stroke {
+      CurveNetwork::Segment segment;
+      Complex a, b;
+    };
+    std::vector<Stroke> strokes;
+  };
+  using Corners = std::array<Complex, 3>;
+
+  Drawing lift(const std::vector<std::pair<int, Corners>>& layout, int edge);
+  void place(const Drawing& drawing, int edge, int left, const Corners& at_left, int right,
+             const Corners& at_right);
+  Complex position(const SurfacePoint& p, const std::vector<std::pair<int, Corners>>& layout) const;
+  void add_segment(CurveNetwork::Segment segment);
+  int side_of(int f, int e) const;
+
+  std::vector<Vec3> points_;
+  std::vector<SurfacePoint> nodes_;
+  std::vector<std::vector<int>> nodes_in_face_, nodes_on_edge_;
+  std::vector<std::vector<CurveNetwork::Segment>> in_face_, on_edge_;
+};
+
+}  // namespace littoral

@@ -1,0 +1,126 @@
+// A marked triangulation from a mesh, and back.
+
+#include <algorithm>
+#include <tuple>
+
+#include "domain/intrinsic/intrinsic_mesh_editor.h"
+
+namespace littoral {
+
+IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                         CurveNetwork marks) {
+  for (int v = 0; v < mesh.n_vertices(); ++v) points_.push_back(mesh.point(v));
+  for (int e = 0; e < T.n_edges(); ++e) edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
+  for (int f = 0; f < T.n_faces(); ++f) {
+    Face face;
+    const bool reversed = T.orientation[f] < 0;
+    for (int k = 0; k < 3; ++k) {
+      const int from = reversed ? (3 - k) % 3 : k, side = reversed ? 2 - k : k;
+      face.v[k] = T.faces(f, from);
+      face.e[k] = T.side_edge(f, side);
+      const int left = T.orientation[f] * T.along(f, side);
+      face.side_sign[k] = T.seam(f, side) ? -left : left;
+      Edge& edge = edges[face.e[k]];
+      edge.faces.push_back(f);
+      edge.length = std::max(edge.length, T.length(f, side));
+    }
+    faces.push_back(face);
+  }
+  // Faces without area had their own sides lengthened; now that faces share lengths, all edges are.
+  double lift = 0;
+  for (const Face& f : faces) {
+    const double a = edges[f.e[0]].length, b = edges[f.e[1]].length, c = edges[f.e[2]].length;
+    lift = std::max(
+        lift, 2 * collinear_margin * std::max({a, b, c}) - (a + b + c - 2 * std::max({a, b, c})));
+  }
+  if (lift > 0)
+    for (Edge& e : edges) e.length += lift;
+
+  nodes_ = std::move(marks.nodes);
+  nodes_in_face_.resize(faces.size());
+  in_face_.resize(faces.size());
+  nodes_on_edge_.resize(edges.size());
+  on_edge_.resize(edges.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    SurfacePoint& p = nodes_[i];
+    if (p.on == SurfacePoint::On::edge) nodes_on_edge_[p.element].push_back(static_cast<int>(i));
+    if (p.on != SurfacePoint::On::face) continue;
+    if (T.orientation[p.element] < 0) std::swap(p.b[1], p.b[2]);
+    nodes_in_face_[p.element].push_back(static_cast<int>(i));
+  }
+  for (const CurveNetwork::Segment& s : marks.segments) add_segment(s);
+}
+
+Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before) && {
+  PolygonSoup soup;
+  soup.points.resize(n_vertices(), 3);
+  for (int v = 0; v < n_vertices(); ++v) soup.points.row(v) = points_[v];
+  std::vector<int> edge_of_side;
+  for (const Face& f : faces) {
+    soup.add_face(f.v);
+    edge_of_side.insert(edge_of_side.end(), f.e.begin(), f.e.end());
+  }
+  Retriangulation out{SurfaceMesh(std::move(soup), edge_of_side), {}, {}, 0, 0, 0};
+  IntrinsicTriangulation& T = out.T;
+  T.unit = before.unit;
+  T.n_vertices = n_vertices();
+  T.edges = out.mesh.edges();
+  const auto n = static_cast<Eigen::Index>(faces.size());
+  T.faces.resize(n, 3);
+  T.side_edge.resize(n, 3);
+  T.along.resize(n, 3);
+  T.length.resize(n, 3);
+  T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
+  T.orientation.assign(faces.size(), 1);
+  T.edge_use.assign(static_cast<std::size_t>(T.n_edges()), 0);
+  std::vector<int> new_edge(edges.size(), -1), first_side_sign(edges.size(), 0),
+      first_left(edges.size());
+  for (int f = 0; f < T.n_faces(); ++f) {
+    T.triangle_of_face.push_back(f);
+    for (int k = 0; k < 3; ++k) {
+      const int e = faces[f].e[k], E = out.mesh.side_edge(f, k);
+      new_edge[e] = E;
+      T.faces(f, k) = faces[f].v[k];
+      T.side_edge(f, k) = E;
+      T.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
+      T.length(f, k) = edges[e].length;
+      T.edge_use[E] = static_cast<std::uint8_t>(std::min(255, T.edge_use[E] + 1));
+      // Faces on the side_sign of the first one lie to the left or right of the edge as that one
+      // does.
+      if (first_side_sign[e] == 0) {
+        first_side_sign[e] = faces[f].side_sign[k];
+        first_left[e] = T.along(f, k);
+      } else if (T.along(f, k) !=
+                 (faces[f].side_sign[k] == first_side_sign[e] ? first_left[e] : -first_left[e])) {
+        T.seam(f, k) = 1;
+        T.has_seams = true;
+      }
+    }
+  }
+  double sum = 0;
+  int used = 0;
+  for (const Edge& e : edges)
+    if (!e.faces.empty()) sum += e.length, ++used;
+  T.mean_edge_length = sum / used;
+  T.component = out.mesh.vertex_component();
+  T.n_components = out.mesh.n_components();
+
+  for (SurfacePoint& p : nodes_) {
+    if (p.on != SurfacePoint::On::edge) continue;
+    const bool same = T.edges(new_edge[p.element], 0) == edges[p.element].tail;
+    p = SurfacePoint::on_edge(new_edge[p.element], same ? p.b[1] : p.b[0]);
+  }
+  for (auto* lists : {&in_face_, &on_edge_})
+    for (auto& list : *lists)
+      for (CurveNetwork::Segment& s : list) {
+        if (s.edge >= 0) s.edge = new_edge[s.edge];
+        out.marks.segments.push_back(s);
+      }
+  std::sort(out.marks.segments.begin(), out.marks.segments.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.id, a.from) < std::tie(b.id, b.from);
+  });
+  out.marks.nodes = std::move(nodes_);
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,399 @@
+#include "solve/optimization/paraboloid_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/parallel.h"
+#include "solve/direct/refined_cholesky.h"
+#include "solve/optimization/paraboloid_rows.h"
+
+namespace littoral {
+
+namespace {
+using namespace parabolic;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t grain = 256;  // elements per piece of a parallel loop
+
+/// One run of the interior-point method.
+///
+/// s = g(x) > 0 and z > 0 with c + sum_p z_p a_p = 0, where a_p is the gradient of g_p at x; s^T z
+/// is then the duality gap, for c^T x + z^T g(x) is concave in x and so nowhere larger. On the way
+/// to s_p z_p = 0, the products follow mu w_p with the weights w of large elements. Newton's
+/// equations, with the fraction `keep` of the residuals r = s - g(x), r_d = c + sum z a removed:
+///   ds = a^T dx - keep r - bend,   z ds + s dz = target - s z,
+///   sum a dz - 1/2 sum z (T G)^T (T G) dx = -keep r_d + curve,
+/// where bend, curve and a part of the target are the second-order terms of the predictor. Hence
+///   K dx = keep r_d + sum a (target - s z + z (keep r + bend)) / s - curve,
+///   K = sum (z / s) a a^T + 1/2 z (T G)^T (T G),
+/// positive definite on the fixed stencil of the elements.
+template <int K, int D>
+class Run {
+ public:
+  using Program = ParaboloidProgram<K, D>;
+  using Matrix = ElementMatrix<K>;
+  using Local = typename Matrix::Local;
+  using Inserter = typename ParaboloidSolver<K, D>::Inserter;
+  using At = RowAt<K, D>;
+
+  Run(const Matrix& matrix, const Program& program, const VecX& x0,
+      const ParaboloidOptions& options, const Task& task)
+      : matrix_(matrix),
+        program_(program),
+        options_(options),
+        task_(task),
+        weight_(program.weight),
+        rows_(program, 1e-3 * x0.cwiseAbs().maxCoeff()),
+        x_(x0),
+        local_(program.transform.size()),
+        local_scaled_(program.transform.size()),
+        local_normal_(program.transform.size()) {
+    double mean = 0;
+    for (const Row& r : rows_.row) mean += weight_[r.element];
+    mean /= static_cast<double>(rows_.row.size());
+    for (double& w : weight_) w = std::max(w / mean, 1.0);
+    for (const Row& r : rows_.row) total_weight_ += weight_[r.element];
+    // A large first mu: 300 times the mean of s z that the objective, about `size`, suggests.
+    mu_ = 300 * x0.cwiseAbs().maxCoeff() * std::max(program.c.sum(), 1e-300) / total_weight_;
+    for (Row& r : rows_.row) {
+      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      r.s = std::max(g, 0.1 * r.size);
+      r.z = mu_ * weight_[r.element] / r.s;
+      r.exact = r.s == g;
+    }
+  }
+
+  ParaboloidResult run(const Inserter& insert) {
+    ParaboloidResult best;
+    double best_merit = infinity;
+    int rounds = 0;
+    for (int iteration = 0;; ++iteration) {
+      if (!refresh()) break;
+      ParaboloidResult now = measure();
+      now.iterations = iteration;
+      const double merit = std::max(now.gap, now.primal_residual);
+      // Gaps fall by about a constant factor per iteration, from 1e2 on.
+      task_.checkpoint(std::log(1e2 / merit) / std::log(1e2 / options_.tolerance));
+      // Round-off leaves a dual residual of some 1e-6 where the solution is not unique.
+      now.converged = gap_ < options_.tolerance * std::abs(now.objective) &&
+                      now.primal_residual < options_.tolerance && now.gap < 10 * options_.tolerance;
+      const bool done = now.converged;
+      if (merit < best_merit || done) std::tie(best, best_merit) = std::pair(now, merit);
+      // Dips show early; what is missing in the end is put in where there was still room for it.
+      const bool early = rounds == 0 && now.gap < 1e-2;
+      if (insert && rounds < 8 && (early || done)) {
+        auto found = insert(x_, early ? 0.1 : 1);
+        if (!early && !found.empty()) found = insert(x_, 0.1);
+        ++rounds;
+        if (early) set_anchor();
+        if (!found.empty()) {
+          insert_rows(found);
+          best_merit = infinity;
+          best.converged = false;
+          --iteration;
+          continue;
+        }
+      }
+      if (done || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
+      if (!step()) break;
+    }
+    best.samples = rows_.row.size() - program_.caps.size();
+    return best;
+  }
+
+ private:
+  static constexpr int correctors = 2;  // of Gondzio's, at most, where steps are short
+
+  At at(const Row& r, const Local& x) const {
+    return At(r, rows_.points[r.point], program_.transform[r.element], x);
+  }
+
+  // ---- loops over elements; contributions are kept per element and added up in order
+
+  /// Calls f(element, partial) with a partial result per piece, combined in order.
+  template <class Partial, class F, class Combine>
+  Partial for_elements(F&& f, Combine&& combine) {
+    std::vector<Partial> partial((local_.size() + grain - 1) / grain);
+    parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e), partial[begin / grain]);
+    });
+    Partial total{};
+    for (const Partial& p : partial) combine(total, p);
+    return total;
+  }
+  template <class F>
+  void each_element(F&& f) {
+    parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e));
+    });
+  }
+  template <class F>
+  void for_rows(int element, F&& f) {
+    for (int i = rows_.first[element]; i < rows_.first[element + 1]; ++i) f(rows_.row[i]);
+  }
+
+  // ---- samples inserted on the way
+
+  /// Remembers this point, which is well inside, for rows to be inserted.
+  void set_anchor() {
+    anchor_x_ = x_;
+    anchor_mu_ = mu_;
+    for (Row& r : rows_.row) r.anchor_s = r.s, r.anchor_z = r.z;
+  }
+  /// Adds rows, and moves back towards the anchor as far as they ask for, within measure.
+  void insert_rows(const std::vector<typename Program::Inserted>& inserted) {
+    double back = 0.02;
+    std::vector<Row> grown;
+    std::size_t next = 0;
+    for (int e = 0; e < matrix_.n_elements(); ++e) {
+      for_rows(e, [&](const Row& r) { grown.push_back(r); });
+      for (; next < inserted.size() && inserted[next].element == e; ++next) {
+        Row r;
+        r.element = e;
+        r.point = rows_.add_point(inserted[next].point);
+        r.size = inserted[next].tau;
+        const double there = at(r, matrix_.gather(anchor_x_, e)).g;
+        const double here = at(r, matrix_.gather(x_, e)).g;
+        r.anchor_s = std::max(there, 1e-4 * r.size);
+        r.anchor_z = 0.1 * anchor_mu_ * weight_[e] / r.anchor_s;
+        if (here < 0)
+          back = std::max(back, std::min(0.3, there > 0 ? -1.5 * here / (there - here) : 1));
+        total_weight_ += weight_[e];
+        grown.push_back(r);
+      }
+    }
+    rows_.row = std::move(grown);
+    rows_.index(matrix_.n_elements());
+    x_ += back * (anchor_x_ - x_);
+    for (Row& r : rows_.row) {
+      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      const double s = r.s + back * (r.anchor_s - r.s);
+      r.exact = g >= 0.5 * s;
+      r.s = r.exact ? g : s;
+      r.z += back * (r.anchor_z - r.z);
+    }
+  }
+
+  // ---- one iteration
+
+  /// Residuals, the normal matrix and the predictor's right-hand side; false if outside.
+  bool refresh() {
+    struct Sums {
+      double gap = 0, primal = 0;
+      bool outside = false;
+    };
+    const Sums sums = for_elements<Sums>(
+        [&](int e, Sums& sum) {
+          const Local x = matrix_.gather(x_, e);
+          Eigen::Matrix<double, K, K> N = Eigen::Matrix<double, K, K>::Zero();
+          Local dual = Local::Zero(), right = Local::Zero();
+          for_rows(e, [&](const Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g;
+            sum.gap += r.s * r.z;
+            sum.primal = std::max(sum.primal, std::abs(residual) / r.size);
+            sum.outside = sum.outside || !(r.s > 0 && r.z > 0);
+            dual += r.z * p.a;
+            right += (r.z * residual / r.s) * p.a;
+            N.noalias() += (r.z / r.s * p.a) * p.a.transpose();
+            for (int d = 0; d < D; ++d) {
+              const Local G = p.adjoint(Eigen::Matrix<double, D, 1>::Unit(d));
+              N.noalias() += (0.5 * r.z * G) * G.transpose();
+            }
+          });
+          local_[e] = dual;
+          local_scaled_[e] = right;
+          int k = 0;
+          for (int i = 0; i < K; ++i)
+            for (int j = i; j < K; ++j) local_normal_[e][k++] = N(i, j);
+        },
+        [](Sums& total, const Sums& p) {
+          total.gap += p.gap;
+          total.primal = std::max(total.primal, p.primal);
+          total.outside = total.outside || p.outside;
+        });
+    dual_residual_ = program_.c + matrix_.sum(local_);
+    predictor_ = program_.c + matrix_.sum(local_scaled_);
+    gap_ = sums.gap;
+    mu_ = gap_ / total_weight_;
+    primal_residual_ = sums.primal;
+    return !sums.outside && std::isfinite(gap_) && dual_residual_.allFinite();
+  }
+  ParaboloidResult measure() const {
+    ParaboloidResult now;
+    now.x = x_;
+    now.objective = program_.c.dot(x_);
+    now.gap = std::max(gap_, std::abs(dual_residual_.dot(x_))) /
+              std::max(std::abs(now.objective), 1e-300);
+    now.primal_residual = primal_residual_;
+    return now;
+  }
+
+  /// False if no further progress is possible.
+  bool step() {
+    if (!normal_.factor(matrix_.sum(local_normal_), matrix_.structure(), task_)) return false;
+    double sigma = predict();
+    Steps steps = correct(sigma, 1);
+    if (steps.least() < 0.1) {
+      sigma = std::max(sigma, 0.5);
+      steps = correct(sigma, 0);
+    }
+    for (int k = 0; k < correctors && steps.least() < 0.5; ++k)
+      if (!recentre(sigma, steps)) break;
+    const double primal = steps.primal(), dual = steps.dual();
+    x_ += primal * dx_;
+    each_element([&, a = primal, b = dual](int e) {
+      const Local x = matrix_.gather(x_, e);
+      for_rows(e, [&](Row& r) {
+        const double g = at(r, x).g, s = r.s + a * r.ds;
+        r.exact = g > (r.exact ? 1e-3 * r.s : 0.1 * s);
+        r.s = r.exact ? g : std::max(s, 1e-3 * r.s);
+        r.z += b * r.dz;
+      });
+    });
+    return std::max(primal, dual) > 1e-6;
+  }
+
+  /// What is left of an equation becomes dual residual, so it is compared with c and with that.
+  void solve(const VecX& rhs) {
+    const double allowed =
+        1e-2 * std::max(options_.tolerance * program_.c.norm(), dual_residual_.norm());
+    dx_ = normal_.solve(rhs, allowed, task_);
+  }
+
+  /// Straight to the boundary, target 0. Leaves the second-order terms in the rows, and in
+  /// `second_` and `centre_` what they and centring add to a right-hand side; sigma.
+  double predict() {
+    solve(predictor_);
+    const Steps steps = for_elements<Steps>(
+        [&](int e, Steps& limits) {
+          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          Local second = Local::Zero(), centre = Local::Zero();
+          for_rows(e, [&](Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
+            const auto y = p.slopes(dx);
+            r.bend = 0.25 * y.squaredNorm();
+            r.ds = b - residual;
+            r.dz = -r.z - r.z * r.ds / r.s;
+            limits.add(r, b, r.bend);
+            r.cross = r.ds * r.dz;
+            r.cross = std::clamp(r.cross, -10 * r.s * r.z, 10 * r.s * r.z);
+            second += ((r.z * r.bend - r.cross) / r.s) * p.a - (0.5 * r.dz) * p.adjoint(y);
+            centre += (mu_ * weight_[e] / r.s) * p.a;
+          });
+          local_[e] = second;
+          local_scaled_[e] = centre;
+        },
+        Steps::combine);
+    const double p = std::min(1.0, steps.to_primal), d = std::min(1.0, steps.to_dual);
+    second_ = matrix_.sum(local_);
+    centre_ = matrix_.sum(local_scaled_);
+    const double left = (gap_ + p * steps.ds_z + d * steps.s_dz + p * d * steps.ds_dz) / gap_;
+    return std::clamp(std::pow(std::max(left, 0.0), 3), 1e-8, 0.8);
+  }
+
+  /// Residuals go faster than the gap, or steps get short while they are the larger part of what is
+  /// left.
+  static double removed(double sigma) { return std::max(1 - sigma, 0.8); }
+
+  /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.
+  Steps correct(double sigma, double second) {
+    each_element([&](int e) {
+      for_rows(e, [&](Row& r) {
+        r.target = sigma * mu_ * weight_[e] - second * r.cross;
+        r.bend *= second;
+      });
+    });
+    right_ = predictor_ + second * second_ + sigma * centre_ -
+             (1 - removed(sigma)) * (dual_residual_ + predictor_ - program_.c);
+    solve(right_);
+    return direction(removed(sigma));
+  }
+  /// The rows' directions that go with dx.
+  Steps direction(double keep) {
+    return for_elements<Steps>(
+        [&](int e, Steps& limits) {
+          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          for_rows(e, [&](Row& r) {
+            const At p = at(r, x);
+            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
+            r.ds = b - keep * residual - r.bend;
+            r.dz = (r.target - r.z * r.ds) / r.s - r.z;
+            limits.add(r, b, 0.25 * p.slopes(dx).squaredNorm());
+          });
+        },
+        Steps::combine);
+  }
+  /// Gondzio's corrector: products that longer steps would lead away from the aim are brought back
+  /// into [0.1, 10] times it. False, changing nothing, if the steps do not grow.
+  bool recentre(double sigma, Steps& steps) {
+    const double p = std::min(1.0, 1.2 * steps.primal() + 0.1);
+    const double d = std::min(1.0, 1.2 * steps.dual() + 0.1);
+    const double aim = std::max(sigma, 1e-4) * mu_;
+    each_element([&](int e) {
+      const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+      const double low = 0.1 * aim * weight_[e], high = 10 * aim * weight_[e];
+      Local right = Local::Zero();
+      for_rows(e, [&](Row& r) {
+        const At at_x = at(r, x);
+        const double bend = r.exact ? 0.25 * at_x.slopes(dx).squaredNorm() : 0;
+        const double ds = r.exact ? at_x.a.dot(dx) - p * bend : r.ds;
+        const double v = (r.s + p * ds) * (r.z + d * r.dz);
+        r.change = v < low ? low - v : v > high ? std::max(high - v, -high) : 0;
+        r.target += r.change;
+        right += (r.change / r.s) * at_x.a;
+      });
+      local_[e] = right;
+    });
+    const VecX before = dx_;
+    VecX right = right_ + matrix_.sum(local_);
+    solve(right);
+    const Steps now = direction(removed(sigma));
+    if (now.sum() > steps.sum() + 0.02) {
+      right_.swap(right);
+      steps = now;
+      return true;
+    }
+    dx_ = before;
+    for (Row& r : rows_.row) r.target -= r.change;
+    direction(removed(sigma));
+    return false;
+  }
+
+  const Matrix& matrix_;
+  const Program& program_;
+  const ParaboloidOptions options_;
+  const Task& task_;
+  std::vector<double> weight_;  // elements; of mean 1 over the rows
+  double total_weight_ = 0;     // rows
+  ParaboloidRows<K, D> rows_;
+  RefinedCholesky normal_;
+  VecX x_, dx_, dual_residual_, predictor_, second_, centre_, right_;
+  double mu_ = 0, gap_ = 0, primal_residual_ = 0;
+  VecX anchor_x_;
+  double anchor_mu_ = 0;
+  std::vector<Local> local_, local_scaled_;
+  std::vector<typename Matrix::Block> local_normal_;
+};
+
+}  // namespace
+
+template <int K, int D>
+ParaboloidSolver<K, D>::ParaboloidSolver(int n, std::vector<std::array<int, K>> elements,
+                                         const Task& task)
+    : matrix_(std::make_shared<const ElementMatrix<K>>(n, std::move(elements), task)) {}
+
+template <int K, int D>
+ParaboloidResult ParaboloidSolver<K, D>::solve(const Program& program, const VecX& x0,
+                                               const ParaboloidOptions& options,
+                                               const Inserter& insert, const Task& task) const {
+  return Run<K, D>(*matrix_, program, x0, options, task).run(insert);
+}
+
+template class ParaboloidSolver<6, 2>;
+template class ParaboloidSolver<10, 3>;
+
+}  // namespace littoral

@@ -1,0 +1,29 @@
+#pragma once
+// Poisson problems with constraints for which only the unconstrained solve is at hand.
+
+#include <functional>
+
+#include "base/task.h"
+#include "littoral/report.h"
+#include "littoral/types.h"
+
+namespace littoral {
+
+/// What is asked of A x.
+struct ConstraintRows {
+  const SpMat& A;    // rows x unknowns; row sums 1
+  VecX softness;     // rows: 0 holds a row, s > 0 penalises it by (A x)^2 / (2 s)
+  double tolerance;  // largest root mean square of A x + softness * multiplier [as x]
+};
+
+/// Minimiser of 1/2 x^T L x - b^T x subject to A x = 0 (or with penalties), where L is positive
+/// semidefinite with the constants of one component as its null space; 1^T b = 0.
+///
+/// `solve` replaces b by L^+ b up to a constant. The multipliers solve the Schur complement
+/// A L^+ A^T by conjugate gradients over multipliers of sum zero, one solve per iteration, so
+/// nothing is assembled or factored. x comes in as L^+ b. Iterations and the residual go to the
+/// report, with the status "not converged" where 200 iterations do not reach the tolerance.
+VecX solve_held(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
+                const Task& task, Report& report);
+
+}  // namespace littoral

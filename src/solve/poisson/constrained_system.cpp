@@ -1,0 +1,173 @@
+#include "solve/poisson/constrained_system.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace littoral {
+
+namespace {
+
+constexpr Eigen::Index few_rows = 64;
+constexpr double stiffness = 1e8;  // of many rows, times the mean diagonal
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+bool holds_one_unknown(const RowMatrix& rows, Eigen::Index r) {
+  int n = 0;
+  for (RowMatrix::InnerIterator it(rows, r); it; ++it)
+    if (it.value() != 0) ++n;
+  return n == 1;
+}
+
+int component_of_row(const RowMatrix& rows, Eigen::Index r, const std::vector<int>& component) {
+  for (RowMatrix::InnerIterator it(rows, r); it; ++it)
+    if (it.value() != 0) return component[it.col()];
+  return -1;
+}
+
+/// Inverse of a semidefinite matrix, 0 on its null space: dependent rows do no harm.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& S) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (S + S.transpose()));
+  const double least = 1e-11 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+  const VecX inverse =
+      eigen.eigenvalues().unaryExpr([least](double x) { return x > least ? 1 / x : 0.0; });
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// `pinned` and the first unknown of every component that is not fixed, and unknowns in none.
+std::vector<char> pin_first(const std::vector<int>& component, std::vector<char> fixed,
+                            std::vector<char> pinned) {
+  pinned.resize(component.size(), 0);
+  for (std::size_t i = 0; i < component.size(); ++i) {
+    const int c = component[i];
+    if (c >= 0 && fixed[c]) continue;
+    pinned[i] = 1;
+    if (c >= 0) fixed[c] = 1;
+  }
+  return pinned;
+}
+
+}  // namespace
+
+ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_components,
+                                     const Task& task, Rows expected)
+    : K_(std::make_shared<const SpMat>(std::move(K))),
+      component_(std::move(component)),
+      n_components_(n_components),
+      pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})) {
+  if (expected == Rows::few)
+    factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task);
+}
+
+/// Single unknowns by elimination, other rows by a penalty.
+void ConstrainedSystem::hold_many(const SpMat& A, Held& held, const Task& task) const {
+  const RowMatrix rows = A;
+  std::vector<char> fixed(static_cast<std::size_t>(n_components_), 0);
+  Triplets others;
+  int n = 0;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const int c = component_of_row(rows, r, component_);
+    if (c < 0) continue;
+    fixed[static_cast<std::size_t>(c)] = 1;
+    const bool single = holds_one_unknown(rows, r);
+    for (RowMatrix::InnerIterator it(rows, r); it; ++it) {
+      if (it.value() == 0) continue;
+      if (single)
+        held.gone_[static_cast<std::size_t>(it.col())] = 1;
+      else
+        others.emplace_back(n, static_cast<int>(it.col()), it.value());
+    }
+    n += single ? 0 : 1;
+  }
+  held.pinned_ = pin_first(component_, fixed, held.gone_);
+  SpMat K = *K_;
+  if (n > 0) {
+    SpMat stiff(n, K.cols());
+    stiff.setFromTriplets(others.begin(), others.end());
+    K = with_rows(K, stiff, VecX::Constant(n, stiffness * K.diagonal().mean()));
+  }
+  held.factor_ = std::make_shared<const DefiniteSystem>(eliminated(K, held.pinned_), task);
+}
+
+ConstrainedSystem::Held ConstrainedSystem::hold(const SpMat& A, const Task& task) const {
+  const RowMatrix rows = A;
+  Held held;
+  held.factor_ = factor_;
+  held.component_ = component_;
+  held.active_.assign(n_components_, 0);
+  held.gone_.assign(component_.size(), 0);
+  held.pinned_ = pinned_;
+  std::vector<Eigen::Index> rest;
+  Triplets gauge, others;
+  auto put = [&](Triplets& out, Eigen::Index r, int column) {
+    double sum = 0;
+    for (RowMatrix::InnerIterator it(rows, r); it; ++it) sum += it.value();
+    for (RowMatrix::InnerIterator it(rows, r); it; ++it)
+      out.emplace_back(static_cast<int>(it.col()), column, it.value() / sum);
+  };
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const int c = component_of_row(rows, r, component_);
+    if (c < 0) continue;
+    if (held.active_[c]) {
+      rest.push_back(r);
+      continue;
+    }
+    held.active_[c] = 1;
+    put(gauge, r, c);
+  }
+  const auto n = static_cast<Eigen::Index>(component_.size());
+  held.gauge_.resize(n, n_components_);
+  if (!factor_ || static_cast<Eigen::Index>(rest.size()) > few_rows) {
+    hold_many(A, held, task);
+    return held;
+  }
+  held.gauge_.setFromTriplets(gauge.begin(), gauge.end());
+  if (rest.empty()) return held;
+  for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], static_cast<int>(i));
+  SpMat columns(n, static_cast<Eigen::Index>(rest.size()));
+  columns.setFromTriplets(others.begin(), others.end());
+  Eigen::MatrixXd response(n, columns.cols());
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    task.checkpoint(double(i) / double(columns.cols()));
+    response.col(i) = held.solve_gauged(VecX(columns.col(i)));
+  }
+  held.inverse_ = pseudo_inverse(columns.transpose() * response);
+  held.rest_ = std::move(columns);
+  held.response_ = std::move(response);
+  return held;
+}
+
+/// With the gauge rows alone: what they carry is the sum of b, so that K u = b - a sum(b) has a
+/// solution; then the constant that makes a^T u = 0.
+VecX ConstrainedSystem::Held::solve_gauged(const VecX& b) const {
+  VecX rhs = b;
+  VecX sum = VecX::Zero(gauge_.cols());
+  for (Eigen::Index i = 0; i < rhs.size(); ++i) {
+    const int c = component_[i];
+    if (c < 0 || !active_[c] || gone_[i])
+      rhs[i] = 0;
+    else
+      sum[c] += rhs[i];
+  }
+  rhs -= gauge_ * sum;
+  for (Eigen::Index i = 0; i < rhs.size(); ++i)
+    if (pinned_[i]) rhs[i] = 0;
+  VecX u = factor_->solve_once(rhs);
+  const VecX shift = gauge_.transpose() * u;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const int c = component_[i];
+    if (c < 0 || !active_[c])
+      u[i] = 0;
+    else if (!gone_[i])
+      u[i] -= shift[c];
+  }
+  return u;
+}
+
+VecX ConstrainedSystem::Held::solve(const VecX& b) const {
+  VecX u = solve_gauged(b);
+  if (rest_.cols() == 0) return u;
+  u -= response_ * (inverse_ * (rest_.transpose() * u));
+  return u;
+}
+
+}  // namespace littoral

@@ -1,0 +1,29 @@
+#pragma once
+// Oriented points as right-hand side and constraint rows on a tet mesh.
+
+#include <functional>
+#include <vector>
+
+#include "domain/tet/tet_lattice.h"
+#include "operators/tet_operators.h"
+#include "sources/oriented_points.h"
+
+namespace littoral {
+
+struct TetSourceSystem {
+  MatX3 X0;         // faces x 3: sum of A n phi_f(p)
+  SpMat A;          // rows x vertices: mean value at the samples of one group, row sums 1
+  VecX weight;      // rows: area
+  int outside = 0;  // samples in no tet
+};
+
+/// `places` says where each sample lies, `group` which of them share a constraint row: a row each
+/// would hold every value around them.
+TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
+                                  const OrientedPoints& source, const std::vector<TetPoint>& places,
+                                  const std::vector<int>& group);
+
+/// Each vertex a row of its own, all of one weight; X0 is empty.
+TetSourceSystem vertex_source_system(const TetOperators& ops, std::vector<int> vertices);
+
+}  // namespace littoral

@@ -1,0 +1,225 @@
+#include "sources/vector_dofs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "littoral/error.h"
+#include "sources/constraint_rows.h"
+#include "sources/source_parts.h"
+#include "sources/surface_points.h"
+#include "sources/triangle_sources.h"
+
+namespace littoral {
+
+namespace {
+
+Complex at(const TriangleShape& t, const std::array<double, 3>& b) {
+  return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
+}
+
+/// Adds vectors to X0 and forgets what cancels: a curve and its reverse leave exactly nothing.
+class Measure {
+ public:
+  explicit Measure(int n) : X0_(VecX::Zero(2 * n)), total_(VecX::Zero(n)) {}
+  void add(int dof, Complex z) {
+    X0_[2 * dof] += z.real();
+    X0_[2 * dof + 1] += z.imag();
+    total_[dof] += std::abs(z);
+  }
+  void add(std::vector<DofVector>& vectors) {
+    for (const auto& [dof, z] : vectors) add(dof, z);
+    vectors.clear();
+  }
+  VecX take() {
+    for (Eigen::Index e = 0; e < total_.size(); ++e)
+      if (X0_.segment<2>(2 * e).norm() <= 1e-13 * total_[e]) X0_.segment<2>(2 * e).setZero();
+    return std::move(X0_);
+  }
+
+ private:
+  VecX X0_, total_;
+};
+
+/// Adds a stretch of an unsigned curve with both of its sides equally strong: where crossed edges
+/// have their midpoints mostly on one side, that side would otherwise win everywhere far away.
+void add_balanced(std::vector<SidedContribution>& stretch, Measure& X0) {
+  double total[2] = {0, 0};
+  for (const SidedContribution& push : stretch) total[push.left] += std::abs(push.z);
+  const bool both = total[0] > 0 && total[1] > 0;
+  for (const SidedContribution& push : stretch)
+    X0.add(push.dof, both ? push.z * (0.5 * (total[0] + total[1]) / total[push.left]) : push.z);
+  stretch.clear();
+}
+
+/// A.2, type C: at the two ends of an unsigned curve, radial vectors in the faces beyond the end,
+/// weighted by the length of the last piece.
+void add_end(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const SurfacePoint& end,
+             const CurvePiece& last, const VectorDofs& dofs, std::vector<DofVector>& out) {
+  std::vector<int> without;
+  if (last.edge >= 0)
+    for (int face : mesh.edge_faces(last.edge)) without.push_back(T.triangle_of_face[face]);
+  else
+    without.push_back(T.triangle_of_face[last.face]);
+  dofs.add_radial(triangles_around(mesh, T, end, without), last.length / T.unit, out);
+}
+
+bool same_point(const SurfacePoint& p, const SurfacePoint& q) {
+  return p.on == q.on && p.element == q.element && (p.on == SurfacePoint::On::vertex || p.b == q.b);
+}
+
+/// Where the source is sampled, and how much of it the sample stands for.
+struct Sample {
+  std::vector<std::pair<int, double>> hats;  // vertex, value
+  double length;
+  int node;  // of the connected part
+  bool is_point;
+};
+using Samples = std::vector<Sample>;
+
+/// The samples' rows `mean` and, by batches, the unsigned measure u0.
+void add_samples(const IntrinsicTriangulation& T, const Samples& samples, SourceNodes& nodes,
+                 SourceSystem& terms) {
+  std::map<int, int> part_of_root;
+  std::vector<char> is_point;  // parts
+  std::vector<PartStart> starts;
+  for (const Sample& s : samples) {
+    const auto [it, added] =
+        part_of_root.try_emplace(nodes.root(s.node), static_cast<int>(is_point.size()));
+    if (added) is_point.push_back(1);
+    if (!s.is_point) is_point[it->second] = 0;
+    // Distances are needed roughly only.
+    for (const auto& [v, value] : s.hats)
+      starts.push_back({v, it->second, (1 - value) * T.mean_edge_length});
+  }
+  const std::vector<int> batch = batches_of_parts(T, starts, static_cast<int>(is_point.size()));
+  std::map<std::pair<int, bool>, int> column;  // points and curves apart
+  for (std::size_t p = 0; p < is_point.size(); ++p) {
+    const auto [it, added] = column.try_emplace({batch[p], is_point[p] != 0},
+                                                static_cast<int>(terms.batch_of_points.size()));
+    if (added) terms.batch_of_points.push_back(is_point[p]);
+  }
+  Triplets mean, u0;
+  terms.mean_weight.resize(static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t r = 0; r < samples.size(); ++r) {
+    const Sample& s = samples[r];
+    const int part = part_of_root.at(nodes.root(s.node));
+    const int to = column.at({batch[part], is_point[part] != 0});
+    terms.mean_weight[static_cast<Eigen::Index>(r)] = s.length;
+    for (const auto& [v, value] : s.hats) {
+      mean.emplace_back(static_cast<int>(r), v, value);
+      u0.emplace_back(v, to, s.length * value);
+      if (T.component[v] >= 0) terms.reached[T.component[v]] = 1;
+    }
+  }
+  terms.mean.resize(static_cast<Eigen::Index>(samples.size()), T.n_vertices);
+  terms.mean.setFromTriplets(mean.begin(), mean.end());
+  terms.u0.resize(T.n_vertices, static_cast<Eigen::Index>(terms.batch_of_points.size()));
+  terms.u0.setFromTriplets(u0.begin(), u0.end());
+}
+
+/// Exact distance to the nearest point, on the triangles that hold one. A point close to a curve is
+/// left out: what is held along the curve must not depend on it.
+void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+              const PlacedSources& sources, SourceSystem& terms) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<char> by_curve(T.n_vertices, 0);
+  for (const CurvePiece& piece : sources.pieces)
+    for (int k = 0; k < 3; ++k)
+      if (piece.edge < 0 || piece.a[k] > 0 || piece.b[k] > 0)
+        by_curve[mesh.face(piece.face)[k]] = 1;
+  terms.d0 = VecX::Constant(T.n_vertices, none);
+  for (const SurfacePoint& p : sources.points) {
+    const auto where = triangles_around(mesh, T, p);
+    bool free = true;
+    for (const PointInFace& place : where)
+      for (int k = 0; k < 3; ++k) free = free && !by_curve[T.faces(place.face, k)];
+    if (!free) continue;
+    for (const PointInFace& place : where) {
+      const TriangleShape t = T.shape(place.face);
+      terms.near.push_back(place.face);
+      for (int k = 0; k < 3; ++k) {
+        double& d = terms.d0[T.faces(place.face, k)];
+        d = std::min(d, std::abs(t.p[k] - at(t, place.b)));
+      }
+    }
+  }
+  std::sort(terms.near.begin(), terms.near.end());
+  terms.near.erase(std::unique(terms.near.begin(), terms.near.end()), terms.near.end());
+  terms.d0 = (terms.d0.array() < none).select(terms.d0, 0.0);
+}
+
+}  // namespace
+
+SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                           const PlacedSources& sources, const VectorDofs& dofs) {
+  SourceSystem terms;
+  std::vector<DofVector> vectors;
+  terms.only_points = sources.pieces.empty();
+  terms.reached.assign(T.n_components, 0);
+  const double h = T.mean_edge_length;
+  Measure X0(dofs.count()), X0_points(dofs.count());
+  SourceNodes nodes;
+  ConstraintRowBuilder rows(h);
+  Samples samples;
+  std::vector<SidedContribution> stretch;
+  double stretch_length = 0;
+  for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
+    const CurvePiece& piece = sources.pieces[i];
+    if (T.triangle_of_face[piece.face] < 0) continue;
+    if (piece.is_signed)
+      dofs.add_signed(piece, vectors);
+    else
+      dofs.add_unsigned(piece, stretch);
+    X0.add(vectors);
+    stretch_length += piece.length / T.unit;
+    const bool curve_ends =
+        i + 1 == sources.pieces.size() || sources.pieces[i + 1].curve != piece.curve;
+    if (curve_ends || stretch_length > 2.5 * h) {
+      add_balanced(stretch, X0);
+      stretch_length = 0;
+    }
+    int ends[2];
+    for (int side = 0; side < 2; ++side) {
+      const auto& b = side ? piece.b : piece.a;
+      ends[side] = nodes.id(simplest(mesh, SurfacePoint::in_face(piece.face, b[0], b[1], b[2])));
+      if (piece.edge >= 0) nodes.weight[ends[side]] += 0.5 * piece.length / T.unit / h;
+    }
+    nodes.join(ends[0], ends[1]);
+    const auto c = mesh.face(piece.face);
+    std::vector<std::pair<int, double>> middle;
+    for (int k = 0; k < 3; ++k) middle.emplace_back(c[k], 0.5 * (piece.a[k] + piece.b[k]));
+    samples.push_back({middle, piece.length / T.unit, ends[0], false});
+    if (i > 0 && sources.pieces[i - 1].curve != piece.curve) rows.end_run();
+    if (piece.edge < 0)
+      rows.add_piece(middle, piece.length / T.unit, ends[0]);
+    else
+      rows.end_run();
+    if (piece.is_signed) continue;
+    const auto& line = sources.nodes[piece.curve];
+    if (same_point(line.front(), line.back())) continue;
+    const bool first = i == 0 || sources.pieces[i - 1].curve != piece.curve;
+    if (first) add_end(mesh, T, nodes.points[ends[0]], piece, dofs, vectors);
+    if (curve_ends) add_end(mesh, T, nodes.points[ends[1]], piece, dofs, vectors);
+    X0.add(vectors);
+  }
+  for (const SurfacePoint& p : sources.points) {
+    // A point weighs as much as a curve of one edge's length: the balance does not depend on units.
+    dofs.add_radial(triangles_around(mesh, T, p), h, vectors);
+    X0_points.add(vectors);
+    const int node = nodes.id(p);
+    nodes.weight[node] += 1;
+    samples.push_back({hats(mesh, p), h, node, true});
+  }
+  add_samples(T, samples, nodes, terms);
+  if (std::find(terms.reached.begin(), terms.reached.end(), 1) == terms.reached.end())
+    throw InputError("no source lies on a face with three different vertices");
+  terms.X0 = X0.take();
+  terms.X0_points = X0_points.take();
+  add_near(mesh, T, sources, terms);
+  rows.write(mesh, nodes, terms);
+  return terms;
+}
+
+}  // namespace littoral

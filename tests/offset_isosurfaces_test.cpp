@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "api/space/isosurfaces.h"
+#include "api/surface/mesh_info.h"
+#include "base/parallel.h"
+#include "contour/isosurface.h"
+#include "contour/redistance.h"
+#include "littoral/error.h"
+#include "volume_helpers.h"
+
+namespace littoral {
+namespace {
+
+Grid box_grid(int n, double half = 1) {
+  return {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
+}
+
+double ball(const Vec3& p, const Vec3& centre, double radius) {
+  return (p - centre).norm() - radius;
+}
+
+TEST(Redistance, IsTheDistanceToTheLevelSetUpToItsReach) {
+  // Twice the distance to a sphere of radius 0.5.
+  const Volume field =
+      test::sampled(box_grid(33), [](const Vec3& p) { return 2 * ball(p, Vec3::Zero(), 0.5); });
+  Report report;
+  const PolygonSoup surface = isosurface(field.grid, field.values, 0.2, {}, report);
+  const VecX distance = redistance(field.grid, field.values, 0.2, surface, 0.3, {});
+  const Volume exact = test::sampled(
+      field.grid, [](const Vec3& p) { return std::clamp(ball(p, Vec3::Zero(), 0.6), -0.3, 0.3); });
+  const double sagitta =
+      3 * std::pow(field.grid.spacing[0], 2) / (8 * 0.6);  // of a cell's diagonal
+  EXPECT_LT((distance - exact.values).cwiseAbs().maxCoeff(), sagitta);
+  set_thread_count(1);
+  const VecX again = redistance(field.grid, field.values, 0.2, surface, 0.3, {});
+  set_thread_count(0);
+  EXPECT_TRUE((again.array() == distance.array()).all());
+  EXPECT_EQ(redistance(field.grid, field.values, 9, {}, 0.3, {}).maxCoeff(), -0.3);
+}
+
+double widest(const PolygonSoup& soup) { return soup.points.rowwise().norm().maxCoeff(); }
+double narrowest(const PolygonSoup& soup) { return soup.points.rowwise().norm().minCoeff(); }
+
+std::vector<Isosurface> offsets(const Volume& field, const std::vector<double>& at,
+                                const Morphology& morphology = {}) {
+  Report report;
+  return offset_isosurfaces(field, at, morphology, false, report, {});
+}
+
+TEST(Offset, SpheresGrowAndShrink) {
+  const Volume field =
+      test::sampled(box_grid(40), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
+  const auto surfaces = offsets(field, {-0.2, 0, 0.3});
+  ASSERT_EQ(surfaces.size(), 3u);
+  for (const Isosurface& shell : surfaces) {
+    EXPECT_NEAR(widest(shell.surface), 0.5 + shell.level, 2e-3);
+    EXPECT_NEAR(narrowest(shell.surface), 0.5 + shell.level, 2e-3);
+  }
+  const PolygonSoup all = join_isosurfaces(surfaces);
+  EXPECT_EQ(all.scalars.at("level").minCoeff(), -0.2);
+  EXPECT_EQ(all.n_faces(), surfaces[0].surface.n_faces() + surfaces[1].surface.n_faces() +
+                               surfaces[2].surface.n_faces());
+}
+
+TEST(OffsetSlow, OpeningRemovesThinPartsAndKeepsTheRest) {
+  // A ball with a thin rod through it.
+  const Volume field = test::sampled(box_grid(50), [](const Vec3& p) {
+    const double rod = std::max(std::hypot(p[0], p[1]) - 0.1, std::abs(p[2]) - 0.9);
+    return std::min(ball(p, Vec3::Zero(), 0.5), rod);
+  });
+  EXPECT_GT(widest(offsets(field, {0}).front().surface), 0.85);
+  const auto opened = offsets(field, {0, 0.1}, {.open = 0.15});
+  EXPECT_NEAR(widest(opened[0].surface), 0.5, 0.02);
+  EXPECT_NEAR(narrowest(opened[0].surface), 0.5, 0.02);
+  EXPECT_NEAR(widest(opened[1].surface), 0.6, 0.02);
+}
+
+TEST(OffsetSlow, ClosingFillsAGap) {
+  // Two balls nearly touching: closing joins them; what is far from the gap stays.
+  const Vec3 left(-0.33, 0, 0), right(0.33, 0, 0);
+  const Volume field = test::sampled(box_grid(50), [&](const Vec3& p) {
+    return std::min(ball(p, left, 0.3), ball(p, right, 0.3));
+  });
+  const auto components = [](const PolygonSoup& soup) {
+    for (const InfoEntry& entry : surface_info(soup))
+      if (entry.key == "components") return std::get<double>(entry.value);
+    return -1.0;
+  };
+  EXPECT_EQ(components(offsets(field, {0}).front().surface), 2);
+  const PolygonSoup closed = offsets(field, {0}, {.close = 0.12}).front().surface;
+  EXPECT_EQ(components(closed), 1);
+  EXPECT_NEAR(widest(closed), 0.63, 0.01);
+}
+
+TEST(Offset, RefusesWhatCannotBe) {
+  const Volume field =
+      test::sampled(box_grid(20), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
+  EXPECT_THROW(offsets(field, {5}), InputError);
+  EXPECT_THROW(offsets(field, {0}, {.open = 0.7}), InputError);
+  EXPECT_THROW(offsets(field, {0}, {.open = -0.1}), InputError);
+  EXPECT_THROW(offsets(field, {0}, {.close = std::nan("")}), InputError);
+  EXPECT_THROW(write_isosurfaces({"a.obj", "b.obj"}, {{0, {}}}), InputError);
+  Report report;
+  CancelToken cancel;
+  cancel.cancel();
+  EXPECT_THROW(offset_isosurfaces(field, {0}, {.open = 0.1}, false, report, Task(cancel)),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -1,0 +1,107 @@
+// Interior-point method for paraboloids over elements: programs whose optimum is known.
+
+#include "solve/optimization/paraboloid_program.h"
+
+#include <gtest/gtest.h>
+
+namespace littoral {
+namespace {
+
+using Program = ParaboloidProgram<6, 2>;
+using Solver = ParaboloidSolver<6, 2>;
+
+/// Slopes along unknowns i and j, value unknown k.
+Program::Point point(int k, int i, int j) {
+  return {Program::Row::Unit(k), {Program::Row::Unit(i), Program::Row::Unit(j)}};
+}
+
+/// One element: x1 + 2 x4 under x0 >= |T (x1, x2)|^2 / 4, x0 <= 1, x3 >= |T (x4, x5)|^2 / 4, x3 <=
+/// 4. For the identity x = (1, 2, 0, 4, 4, 0).
+Program two_disks() {
+  Program program;
+  program.c = VecX::Zero(6);
+  program.c[1] = 1;
+  program.c[4] = 2;
+  program.transform = {Program::Transform::Identity()};
+  program.weight = {1};
+  program.points = {point(0, 1, 2), point(3, 4, 5)};
+  program.samples = {{0, 0, 1}, {0, 1, 1}};
+  program.caps = {{0, 1, Program::Row::Unit(0)}, {0, 4, Program::Row::Unit(3)}};
+  return program;
+}
+
+Solver one_element() { return Solver(6, {{0, 1, 2, 3, 4, 5}}, Task()); }
+
+ParaboloidResult solved(const Program& program, double tolerance = 1e-9,
+                        const Solver::Inserter& insert = {}) {
+  return one_element().solve(program, VecX::Constant(6, 0.1), {tolerance, 100}, insert, Task());
+}
+
+void expect_near(const VecX& x, const VecX& known, double tolerance) {
+  EXPECT_LT((x - known).cwiseAbs().maxCoeff(), tolerance) << x.transpose();
+}
+
+TEST(ParaboloidProgram, FindsTheRimOfTwoDisks) {
+  const ParaboloidResult result = solved(two_disks());
+  EXPECT_TRUE(result.converged);
+  expect_near(result.x, (VecX(6) << 1, 2, 0, 4, 4, 0).finished(), 1e-6);
+  EXPECT_NEAR(result.objective, 10, 1e-7);
+  EXPECT_LE(result.gap, 1e-8);
+  EXPECT_EQ(result.samples, 2U);
+}
+
+TEST(ParaboloidProgram, TransformsActOnTheSlopes) {
+  Program program = two_disks();
+  program.transform[0] << 0, 2, 1, 0;  // x1^2 + 4 x2^2
+  expect_near(solved(program).x, (VecX(6) << 1, 2, 0, 4, 4, 0).finished(), 1e-6);
+  program.transform[0] << 2, 0, 0, 1;  // 4 x1^2 + x2^2
+  expect_near(solved(program).x, (VecX(6) << 1, 1, 0, 4, 2, 0).finished(), 1e-6);
+}
+
+TEST(ParaboloidProgram, TheGapBoundsTheDistanceFromTheOptimum) {
+  for (double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const ParaboloidResult result = solved(two_disks(), tolerance);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LE(std::abs(result.objective - 10), 20 * tolerance * 10);
+  }
+}
+
+TEST(ParaboloidProgram, InsertedSamplesHold) {
+  // Where x1 > 1 a sample is inserted that allows no more than that.
+  const ParaboloidResult result = solved(two_disks(), 1e-9, [](const VecX& x, double share) {
+    std::vector<Program::Inserted> found;
+    if (x[1] > 1 + share * 1e-6) {
+      Program::Point p = point(0, 1, 2);
+      p.g[0] *= 2;
+      found.push_back({0, p, 1});
+    }
+    return found;
+  });
+  EXPECT_TRUE(result.converged);
+  expect_near(result.x, (VecX(6) << 1, 1, 0, 4, 4, 0).finished(), 1e-5);
+  EXPECT_GE(result.samples, 3U);
+}
+
+TEST(ParaboloidProgram, SaysThatItHasNotConverged) {
+  const ParaboloidResult result =
+      one_element().solve(two_disks(), VecX::Constant(6, 0.1), {1e-9, 3}, {}, Task());
+  EXPECT_FALSE(result.converged);
+  EXPECT_GT(result.gap, 1e-9);
+  EXPECT_TRUE(result.x.allFinite());
+}
+
+TEST(ParaboloidProgram, LengthsMayHaveAnySize) {
+  for (double size : {1e-6, 1e6}) {
+    Program program = two_disks();
+    for (auto& cap : program.caps) cap.bound *= size * size;
+    for (auto& sample : program.samples) sample.tau *= size * size;
+    const VecX x0 = VecX::Constant(6, 0.1 * size * size);
+    const ParaboloidResult result = one_element().solve(program, x0, {1e-9, 100}, {}, Task());
+    EXPECT_TRUE(result.converged);
+    EXPECT_NEAR(result.x[1] / size, 2, 1e-5);
+    EXPECT_NEAR(result.x[4] / size, 4, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace littoral

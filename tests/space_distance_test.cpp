@@ -169,7 +169,7 @@ TEST(SpaceDistance, HolesAndFlippedFacesChangeLittle) {
 
 TEST(SpaceDistance, GridsFitTheInputOrTheBounds) {
   const PolygonSoup box = test::box_soup({2, 1, 0.5});
-  GridRequest request;
+  GridOptions request;
   request.resolution = 33;
   request.padding = 0.5;
   const Grid grid = choose_grid(box, request);
@@ -187,16 +187,16 @@ TEST(SpaceDistance, GridsFitTheInputOrTheBounds) {
 TEST(SpaceDistance, SaysWhatIsWrong) {
   const PolygonSoup box = test::box_soup({1, 1, 1});
   const auto choose = [&](auto change) {
-    GridRequest request;
+    GridOptions request;
     change(request);
     return message_of([&] { choose_grid(box, request); });
   };
-  EXPECT_THAT(choose([](GridRequest& g) { g.resolution = 1; }), HasSubstr("--resolution"));
-  EXPECT_THAT(choose([](GridRequest& g) { g.spacing = -1; }), HasSubstr("--spacing"));
-  EXPECT_THAT(choose([](GridRequest& g) { g.bounds = {5, 5, 5, 6, 6, 6}; }), HasSubstr("misses"));
-  EXPECT_THAT(choose([](GridRequest& g) { g.bounds = {1, 0, 0, 0, 1, 1}; }), HasSubstr("x0 < x1"));
-  EXPECT_THAT(choose([](GridRequest& g) { g.spacing = 1e-9; }), HasSubstr("million"));
-  EXPECT_THAT(choose([](GridRequest& g) { g.resolution = 1000000; }), HasSubstr("resolution"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1; }), HasSubstr("--resolution"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.spacing = -1; }), HasSubstr("--spacing"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.bounds = {5, 5, 5, 6, 6, 6}; }), HasSubstr("misses"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.bounds = {1, 0, 0, 0, 1, 1}; }), HasSubstr("x0 < x1"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.spacing = 1e-9; }), HasSubstr("million"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1000000; }), HasSubstr("resolution"));
   const MatX3 query = MatX3::Zero(1, 3);
   EXPECT_THAT(message_of([&] { ask(box, query, "signed-heat"); }), HasSubstr("these can: winding"));
   EXPECT_THAT(message_of([&] { ask(box, query, "magic"); }), HasSubstr("unknown method"));

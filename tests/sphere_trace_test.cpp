@@ -107,7 +107,7 @@ CsgShapes shapes_of(PolygonSoup cloud) {
 }
 
 io::Scene scene_of(const CsgShapes& shapes, const TracedView& view, int resolution = 24) {
-  GridRequest request;
+  GridOptions request;
   request.resolution = resolution;
   request.padding = 0.15;
   Report report;
@@ -166,7 +166,7 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
   bitten.all.push_back(shapes.all[0]);
   bitten.all[1].surface.points.col(0).array() += 0.8;
   bitten.csg.operations = {Boolean::subtract};
-  GridRequest request;
+  GridOptions request;
   request.bounds = std::array<double, 6>{-1.2, -1.2, -0.4, 1.2, 1.2, 0.4};
   request.resolution = 24;
   Report report;

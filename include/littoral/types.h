@@ -16,6 +16,7 @@ using Vec3 = Eigen::Vector3d;
 using VecX = Eigen::VectorXd;
 using VecXi = Eigen::VectorXi;
 using VecXc = Eigen::VectorXcd;
+using MatX = Eigen::MatrixXd;
 
 template <class T, int cols>
 using Rows = Eigen::Matrix<T, Eigen::Dynamic, cols, Eigen::RowMajor>;

@@ -5,11 +5,23 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "littoral/types.h"
 
 namespace littoral {
+
+class Sdf;
+struct PolygonSoup;
+
+/// Where a grid lies. At most one of resolution and spacing; without both, 64 nodes.
+struct GridOptions {
+  std::optional<int> resolution{};                // nodes along the longest side, >= 2
+  std::optional<double> spacing{};                // between nodes [length]
+  std::optional<std::array<double, 6>> bounds{};  // x0 y0 z0 x1 y1 z1 [length]
+  double padding = 0.25;  // without bounds: margin around the input, in its longest side
+};
 
 /// Nodes at origin + (i, j, k) * spacing, 0 <= i < n[0], ...; x runs fastest.
 struct Grid {
@@ -28,6 +40,12 @@ struct Grid {
                 static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(k));
   }
   Vec3 point(int i, int j, int k) const { return origin + spacing.cwiseProduct(Vec3(i, j, k)); }
+
+  /// A grid around an input. With bounds, nodes lie on all of them, and spacings differ by axis as
+  /// little as that allows. Throws InputError for options out of range and for an input without
+  /// extent, IoError if computing on it will not fit into memory.
+  static Grid around(const Sdf& distance, const GridOptions& options = {});
+  static Grid around(const PolygonSoup& input, const GridOptions& options = {});
 };
 
 /// A function in a box, linear along each axis between nodes.

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/platform/memory.h"
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -22,6 +24,8 @@ constexpr unsigned ftz_and_daz = 0x8040;
 }  // namespace
 
 void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
+
+int requested_thread_count() { return requested_threads; }
 
 int thread_count() {
   if (requested_threads > 0) return requested_threads;
@@ -64,8 +68,10 @@ void parallel_for(std::size_t n, std::size_t grain,
 #if defined(__SSE2__)
   const unsigned mode = _mm_getcsr();
 #endif
+  const double limit = memory_limit();
   auto work = [&] {
     inside_parallel = true;
+    set_memory_limit(limit);
 #if defined(__SSE2__)
     _mm_setcsr(mode);
 #endif

@@ -10,6 +10,7 @@ namespace littoral {
 /// Threads used by calls made from this thread (0 = all cores); the default is all.
 void set_thread_count(int threads);
 int thread_count();
+int requested_thread_count();  // as it was set: 0 = all cores
 
 /// Rounds subnormal numbers to zero on this thread. The factors of heat matrices decay into the
 /// subnormal range, where arithmetic is several times slower and the digits are worthless.

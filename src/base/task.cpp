@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/platform/memory.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -65,11 +66,13 @@ Abandoned& abandoned() {
 void run_abandonable(const Task& task, std::function<void()> call) {
   task.checkpoint();
   abandoned();  // constructed before, hence destroyed after, whatever the call constructs
-  std::packaged_task<void()> job([call = std::move(call), threads = thread_count()] {
-    set_thread_count(threads);
-    flush_subnormals();
-    call();
-  });
+  std::packaged_task<void()> job(
+      [call = std::move(call), threads = thread_count(), limit = memory_limit()] {
+        set_thread_count(threads);
+        set_memory_limit(limit);
+        flush_subnormals();
+        call();
+      });
   auto done = job.get_future();
   std::thread thread(std::move(job));
   while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {

@@ -1,24 +1,14 @@
 #pragma once
 // Progress and cancellation: one handle, passed down by reference, split into weighted stages.
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 
+#include "littoral/context.h"
+
 namespace littoral {
-
-/// A flag that any thread (or a signal handler) may raise; copies share the flag.
-class CancelToken {
- public:
-  CancelToken() : raised_(std::make_shared<std::atomic<bool>>(false)) {}
-  void cancel() const { raised_->store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return raised_->load(std::memory_order_relaxed); }
-
- private:
-  std::shared_ptr<std::atomic<bool>> raised_;
-};
 
 /// A range of the whole job's progress. Default-constructed it reports nothing and is never
 /// cancelled.

@@ -64,22 +64,25 @@ void describe(const CsgShapes& shapes, Report& report) {
 
 }  // namespace
 
-double longest_side(const CsgShapes& shapes) {
+Box bounding_box(const CsgShapes& shapes) {
   Box box;
   for (const Shape& shape : shapes.all) add_box(shape, box);
-  const double longest = box.size().maxCoeff();
+  return box;
+}
+
+double longest_side(const CsgShapes& shapes) {
+  const double longest = bounding_box(shapes).size().maxCoeff();
   if (!(longest > 0)) throw InputError("all points of the input are at one place");
   return longest;
 }
 
-Grid choose_grid(const CsgShapes& shapes, const GridRequest& request) {
+Grid choose_grid(const CsgShapes& shapes, const GridOptions& request) {
   check_combination(shapes.csg, shapes.all.size());
   if (shapes.plain()) return choose_grid(shapes.all.front().surface, request);
   const bool anything = request.resolution || request.spacing || request.bounds;
   if (shapes.all.size() == 1 && shapes.all.front().field && !anything)
     return shapes.all.front().field->grid;
-  Box box;
-  for (const Shape& shape : shapes.all) add_box(shape, box);
+  const Box box = bounding_box(shapes);
   const double margin = std::max(0.0, shapes.csg.offset);
   PolygonSoup corners;
   corners.points.resize(2, 3);

@@ -29,13 +29,16 @@ struct CsgShapes {
   }
 };
 
+/// The box around all of them. Throws InputError for coordinates that are not finite.
+Box bounding_box(const CsgShapes& shapes);
+
 /// The longest side of the box around all of them [length], > 0. Throws InputError for shapes
 /// without extent or with coordinates that are not finite.
 double longest_side(const CsgShapes& shapes);
 
 /// The grid asked for, around all of the shapes; a lone field's own grid if nothing else is asked.
 /// Throws as for one input.
-Grid choose_grid(const CsgShapes& shapes, const GridRequest& request);
+Grid choose_grid(const CsgShapes& shapes, const GridOptions& request);
 
 /// Signed distance or, with several shapes, the bound that `combine` describes, at the nodes of the
 /// grid [length]. The report is the first shape's, with all warnings. Throws as grid_distance for

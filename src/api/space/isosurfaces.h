@@ -8,6 +8,7 @@
 #include "base/task.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
+#include "littoral/space.h"
 #include "littoral/volume.h"
 
 namespace littoral {
@@ -22,12 +23,6 @@ struct Isosurface {
 /// are not met are warnings in the report; throws InputError if none is.
 std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<double>& levels,
                                     bool close_at_box, Report& report, Task task);
-
-/// What is done to a shape before its offsets are taken (signed-heat-method, section 9.3.1).
-struct Morphology {
-  double open = 0;   // [length] erode by this, then dilate by as much: thin parts go
-  double close = 0;  // [length] dilate by this, then erode: gaps and notches fill; after opening
-};
 
 /// Offsets of the shape {distance <= 0}: the surfaces at the given distances [length], positive
 /// outside. Opening and closing measure the distance from the eroded or dilated surface anew, to

@@ -41,7 +41,7 @@ void check_queries(const MatX3& queries) {
       throw InputError("query point " + std::to_string(i) + " has coordinates that are not finite");
 }
 
-Grid choose_grid(const PolygonSoup& input, const GridRequest& request) {
+Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   if (request.resolution && request.spacing)
     throw InputError("only one of resolution and spacing can be given");
   if (request.resolution && *request.resolution < 2)

@@ -27,18 +27,10 @@ struct SpaceRequest {
 /// point with the sign of the winding number.
 AnyMethod method_for_points(const PolygonSoup& input);
 
-/// Where a grid lies. At most one of resolution and spacing; without both, 64 nodes.
-struct GridRequest {
-  std::optional<int> resolution;                // nodes along the longest side, >= 2
-  std::optional<double> spacing;                // between nodes [length]
-  std::optional<std::array<double, 6>> bounds;  // x0 y0 z0 x1 y1 z1 [length]
-  double padding = 0.25;  // without bounds: margin around the input, in its longest side
-};
-
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,
 /// IoError if computing on it will not fit into memory.
-Grid choose_grid(const PolygonSoup& input, const GridRequest& request);
+Grid choose_grid(const PolygonSoup& input, const GridOptions& request);
 
 /// Signed distance at the nodes of the grid [length], negative inside.
 ///

@@ -11,7 +11,7 @@
 #include "api/method.h"
 #include "api/space/space_input.h"
 #include "base/stopwatch.h"
-#include "littoral/tet_mesh.h"
+#include "littoral/through_tets.h"
 #include "littoral/volume.h"
 #include "methods/implicit/pointwise.h"
 
@@ -23,12 +23,6 @@ struct TetFilling {
   enum class By { lattice, tetgen } by = By::lattice;
   std::string program = "tetgen";  // a path, or a name in PATH
   double timeout = 600;            // seconds by the clock
-};
-
-/// Values at the vertices of tets.
-struct TetField {
-  TetMesh mesh;
-  VecX values;  // vertices [length]
 };
 
 /// Signed distance in space, negative inside [length].

@@ -11,21 +11,12 @@
 #include "base/lazy.h"
 #include "domain/tet/tet_locator.h"
 #include "littoral/tet_mesh.h"
+#include "littoral/tet_sources.h"
 #include "operators/tet_operators.h"
 #include "sources/oriented_points.h"
 #include "sources/tet_source_system.h"
 
 namespace littoral {
-
-/// What distance through tets is measured from: a surface or cloud in space (faces of tets, or
-/// anything else within them), or vertices, or those of the boundary.
-struct TetSources {
-  PolygonSoup surface;
-  std::vector<int> vertices;
-  bool boundary = false;
-  bool flip = false;              // reverse all normals: the other side is positive
-  bool estimate_normals = false;  // of a cloud, instead of those it has
-};
 
 /// A tet mesh. Answers are distances at its vertices [length]; +inf on components that no source
 /// reaches, and at vertices of no tet. Flat and inverted tets are harmless; parts of a surface

@@ -27,7 +27,12 @@ double bytes_at(const char* file, const std::string& line, double otherwise) {
   return otherwise;
 }
 
+thread_local double limit_of_thread = 0;
+
 }  // namespace
+
+void set_memory_limit(double bytes) { limit_of_thread = bytes; }
+double memory_limit() { return limit_of_thread; }
 
 void return_freed_memory() {
 #if defined(__GLIBC__)
@@ -49,7 +54,8 @@ double available_memory() {
 }
 
 void check_memory(double bytes, const std::string& what, const std::string& remedy) {
-  const double available = available_memory();
+  const double available =
+      limit_of_thread > 0 ? std::min(limit_of_thread, available_memory()) : available_memory();
   if (bytes <= available) return;
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",

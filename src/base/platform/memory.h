@@ -9,6 +9,10 @@ namespace littoral {
 /// is set on the process. A very large number where the system does not say.
 double available_memory();
 
+/// What work begun by this thread may need at most [bytes]; 0, the default: what is available.
+void set_memory_limit(double bytes);
+double memory_limit();
+
 /// The most memory this process has held so far [bytes]; 0 where the system does not say.
 double peak_memory();
 

@@ -145,8 +145,8 @@ CsgShapes read_shapes(SpaceArguments& texts, const Session& session, const AnyMe
   return shapes;
 }
 
-GridRequest grid_request(const SpaceArguments& texts) {
-  GridRequest request;
+GridOptions grid_request(const SpaceArguments& texts) {
+  GridOptions request;
   if (texts.resolution > 0) request.resolution = texts.resolution;
   if (texts.spacing > 0) request.spacing = texts.spacing;
   request.padding = texts.padding;

@@ -19,7 +19,7 @@ struct SpaceArguments {
   int resolution = 0;  // 0: not given
   double spacing = 0;  // 0: not given
   std::string bounds;
-  double padding = GridRequest().padding;
+  double padding = GridOptions().padding;
   std::vector<std::string> unite, intersect, subtract;
   std::string operand_method;
   double blend = 0, offset = 0;
@@ -41,7 +41,7 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts);
 SpaceRequest space_request(const SpaceArguments& texts, const AnyMethod& fallback,
                            const Session& session);
 /// The grid that was asked for.
-GridRequest grid_request(const SpaceArguments& texts);
+GridOptions grid_request(const SpaceArguments& texts);
 /// Reads INPUT and what it is combined with, chooses methods where none is named (`plain` for one
 /// mesh, soup or cloud, otherwise method_for_points), checks the options.
 CsgShapes read_shapes(SpaceArguments& texts, const Session& session, const AnyMethod& plain);

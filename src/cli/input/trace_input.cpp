@@ -42,7 +42,7 @@ io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
   traced.for_page = for_page;
   if (!view.position.empty()) traced.position = view.slice_at();
   if (!view.level.empty()) traced.level = parse_number("--level", view.level);
-  GridRequest request = grid_request(texts.space);
+  GridOptions request = grid_request(texts.space);
   if (!request.resolution && !request.spacing)
     request.resolution = for_page                      ? page_nodes
                          : traced.position.has_value() ? slice_nodes

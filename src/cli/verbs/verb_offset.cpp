@@ -75,7 +75,7 @@ Volume distance_around(Arguments& arguments, const std::vector<double>& distance
   double farthest = 0;
   for (const double d : distances) farthest = std::max(farthest, std::abs(d));
   const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
-  GridRequest grid = grid_request(space);
+  GridOptions grid = grid_request(space);
   grid.padding += reach / longest_side(shapes);
   Volume volume;
   volume.grid = choose_grid(shapes, grid);

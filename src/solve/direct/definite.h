@@ -13,8 +13,6 @@
 
 namespace littoral {
 
-using MatX = Eigen::MatrixXd;
-
 /// A x for A given by its lower triangle.
 VecX times_symmetric(const SpMat& lower, const VecX& x);
 

@@ -1,0 +1,25 @@
+#pragma once
+// Distance and inside/outside for geometry that is broken: everything in one header.
+//
+//   surfaces   Mesh, Sources, distance, DistanceSolver, distance_matrix, winding
+//   space      Sdf, signed_distance, winding_number, Grid, Volume, isosurface, offset
+//   tets       TetMesh, TetDistanceSolver
+//   files      read_mesh, read_soup, read_sources, read_volume, read_tets, write, write_page
+//   methods    options.h has a struct for each; method_families() lists them
+//
+// Lengths are in the unit of the input. Every error is a littoral::Error.
+
+#include "littoral/context.h"
+#include "littoral/distance.h"
+#include "littoral/error.h"
+#include "littoral/field.h"
+#include "littoral/io.h"
+#include "littoral/mesh.h"
+#include "littoral/methods.h"
+#include "littoral/options.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
+#include "littoral/space.h"
+#include "littoral/through_tets.h"
+#include "littoral/volume.h"
+#include "littoral/winding.h"

@@ -1,0 +1,104 @@
+#pragma once
+// Signed distance and winding numbers in space, around surfaces, soups and clouds that may be
+// broken.
+
+#include <memory>
+#include <vector>
+
+#include "littoral/context.h"
+#include "littoral/mesh.h"
+#include "littoral/methods.h"
+#include "littoral/options.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/volume.h"
+
+namespace littoral {
+
+class PointwiseDistance;
+
+/// From which side an input is measured.
+struct Orientation {
+  bool flip = false;              // reverse all normals: the other side is positive
+  bool estimate_normals = false;  // of a cloud, instead of those it has
+};
+
+/// Values, and their gradients where they were asked for.
+struct DistanceSamples {
+  VecX values;            // queries [length]
+  MatX3 gradients{0, 3};  // queries x 3
+};
+
+/// Signed distance around a surface, soup or oriented cloud, negative inside [length]. Immutable;
+/// copies share it; may be asked from several threads.
+class Sdf {
+ public:
+  /// At a point. Throws UnsupportedError for methods that need a grid (SpaceSignedHeat,
+  /// SpaceRegularized): these can be sampled.
+  double operator()(const Vec3& x) const;
+  /// Of the formula where it is smooth; zero where it has none.
+  Vec3 gradient(const Vec3& x) const;
+
+  /// At points (queries x 3), on all threads. Throws InputError naming a point that is not finite.
+  VecX at(const MatX3& points, const Context& context = {}) const;
+  DistanceSamples with_gradients(const MatX3& points, const Context& context = {}) const;
+
+  /// At the nodes of a grid. Values scale with the input and do not change when it is moved with
+  /// the grid. Throws InputError for a box that misses the input, IoError where memory will not do.
+  Volume sample(const Grid& grid, const Context& context = {}) const;
+
+  /// The corners of the box around the input: 2 x 3 [length].
+  Eigen::Matrix<double, 2, 3> bounds() const;
+  /// Of the preparation.
+  const Report& report() const;
+
+  /// For the library's own layers.
+  struct Impl;
+  explicit Sdf(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// Signed distance to the input: a surface where the soup has faces, otherwise a cloud. Without a
+/// method, tori for clouds, and for all else the nearest point with the sign of the winding number.
+/// Throws InputError for bad input (nothing to measure from, numbers that are not finite).
+Sdf signed_distance(const PolygonSoup& input, const AnyMethod& method = {},
+                    const Orientation& orientation = {}, const Context& context = {});
+Sdf signed_distance(const Mesh& input, const AnyMethod& method = {},
+                    const Orientation& orientation = {}, const Context& context = {});
+/// A volume of signed distance, linear between nodes; outside its box a bound of the distance.
+Sdf signed_distance(const Volume& volume);
+
+/// The smaller, the larger of two distances, the first without the second; corners where they meet
+/// are rounded this far from them [length]. The sign and zero set are right; the magnitude is a
+/// bound.
+Sdf unite(const Sdf& a, const Sdf& b, double blend = 0);
+Sdf intersect(const Sdf& a, const Sdf& b, double blend = 0);
+Sdf subtract(const Sdf& a, const Sdf& b, double blend = 0);
+
+/// Generalized winding number at points (queries x 3): 1 inside, 0 outside of a closed surface.
+VecX winding_number(const PolygonSoup& input, const MatX3& points,
+                    const Orientation& orientation = {}, const Context& context = {});
+
+/// The tori that fit a cloud best, as a cloud that signed_distance takes as it is.
+PolygonSoup fit_tori(const PolygonSoup& cloud, const Tori& options = {},
+                     const Orientation& orientation = {}, const Context& context = {});
+
+/// The surface on which a volume takes the value `level`, with larger values outside; closed unless
+/// it meets the box, or everywhere with `close_at_box`. Throws InputError if it is met nowhere.
+Mesh isosurface(const Volume& volume, double level = 0, bool close_at_box = false,
+                const Context& context = {});
+
+/// What is done to a shape before its offsets are taken [length].
+struct Morphology {
+  double open = 0;   // erode by this, then dilate: thin parts go
+  double close = 0;  // dilate by this, then erode: gaps fill; after opening
+};
+
+/// The surfaces at signed distance d from the shape {volume <= 0}, one for each d [length].
+std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& distances,
+                         const Morphology& morphology = {}, const Context& context = {});
+
+}  // namespace littoral

@@ -1,0 +1,125 @@
+#include "littoral/distance.h"
+
+#include <utility>
+
+#include "api/front/running.h"
+#include "api/surface/pairs.h"
+#include "api/surface/surface_domain.h"
+#include "api/surface/winding.h"
+#include "littoral/error.h"
+#include "littoral/winding.h"
+
+namespace littoral {
+
+namespace {
+
+Field field_of(const Mesh& mesh, const Sources& sources, SurfaceAnswer answer, Report report) {
+  return {mesh, sources, std::move(answer.values), std::move(answer.shown), std::move(report)};
+}
+
+/// A report of a preparation as the beginning of a solve's: what was found out, not the seconds.
+Report found_out(Report report) {
+  report.timings.clear();
+  return report;
+}
+
+}  // namespace
+
+Field distance(const Mesh& mesh, const Sources& sources, const AnyMethod& method,
+               const Context& context) {
+  Running running(context);
+  Report report;
+  SurfaceAnswer answer =
+      solve_once<SurfaceDomain>(method, mesh.domain(), sources, running.task, report);
+  return field_of(mesh, sources, std::move(answer), std::move(report));
+}
+
+struct DistanceSolver::Prepared {
+  Mesh mesh;
+  Report report;
+  std::shared_ptr<const Solver<SurfaceDomain>> solver;
+};
+
+DistanceSolver::DistanceSolver(Mesh mesh, const AnyMethod& method, const Context& context) {
+  Running running(context);
+  auto prepared = std::make_shared<Prepared>(Prepared{std::move(mesh), {}, {}});
+  prepared->solver =
+      prepare(method, prepared->mesh.domain(), SolveHint::many_rhs, running.task, prepared->report);
+  prepared_ = std::move(prepared);
+}
+
+Field DistanceSolver::solve(const Sources& sources, const Context& context) const {
+  Running running(context);
+  Report report = found_out(prepared_->report);
+  SurfaceAnswer answer = prepared_->solver->solve(sources, running.task, report);
+  return field_of(prepared_->mesh, sources, std::move(answer), std::move(report));
+}
+
+const Mesh& DistanceSolver::mesh() const { return prepared_->mesh; }
+const Report& DistanceSolver::report() const { return prepared_->report; }
+
+namespace {
+
+int vertex_of(const SurfacePoint& point, const std::string& method) {
+  if (point.on != SurfacePoint::On::vertex)
+    throw UnsupportedError("method " + method + " has distances between vertices only");
+  return point.element;
+}
+
+/// Rows of distances to all vertices.
+MatX rows_of(const Mesh& mesh, const std::vector<SurfacePoint>& from, const AnyMethod& method,
+             Task task, Report& report) {
+  if (Registry<PairsDomain>::instance().has(method.name())) {
+    if (from.empty()) return MatX(0, mesh.n_vertices());
+    std::vector<int> vertices;
+    for (const SurfacePoint& p : from) vertices.push_back(vertex_of(p, method.name()));
+    return pair_distances(mesh.domain(), vertices, method, std::move(task), report).distances;
+  }
+  const auto solver =
+      prepare(method, mesh.domain(), SolveHint::many_rhs, task.stage(0.1, "preparing"), report);
+  return distance_rows(*solver, mesh.domain(), from, task.stage(0.9, "distance"), report);
+}
+
+}  // namespace
+
+DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
+                               const AnyMethod& method, const Context& context) {
+  Running running(context);
+  DistanceMatrix out;
+  out.values = rows_of(mesh, from, method, running.task, out.report);
+  return out;
+}
+
+DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
+                               const std::vector<SurfacePoint>& to, const AnyMethod& method,
+                               const Context& context) {
+  for (const SurfacePoint& p : to) mesh.position(p);  // complains before anything is solved
+  DistanceMatrix rows = distance_matrix(mesh, from, method, context);
+  DistanceMatrix out{MatX(rows.values.rows(), static_cast<Eigen::Index>(to.size())),
+                     std::move(rows.report)};
+  for (Eigen::Index i = 0; i < out.values.rows(); ++i) {
+    const VecX row = rows.values.row(i);
+    for (std::size_t j = 0; j < to.size(); ++j)
+      out.values(i, static_cast<Eigen::Index>(j)) = mesh.interpolate(row, to[j]);
+  }
+  return out;
+}
+
+Regions winding(const Mesh& mesh, const Sources& curves, const SurfaceWinding& options,
+                const Context& context) {
+  Running running(context);
+  Report report;
+  WindingAnswer answer =
+      solve_once<WindingDomain>(options, {mesh.domain().mesh}, curves, running.task, report);
+  Sources bounding = bounding_sources(answer);
+  return {mesh,
+          std::move(answer.region),
+          std::move(answer.shown),
+          std::move(answer.bounding),
+          std::move(answer.nonbounding),
+          std::move(answer.completed),
+          std::move(bounding),
+          std::move(report)};
+}
+
+}  // namespace littoral

@@ -1,0 +1,128 @@
+#include "littoral/io.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "api/surface/surface_domain.h"
+#include "io/read.h"
+#include "io/render/picture.h"
+#include "io/render/scene.h"
+#include "io/surface/write_winding.h"
+#include "io/tet/tets.h"
+#include "io/volume/read_voxels.h"
+#include "io/volume/volume.h"
+#include "io/write.h"
+#include "littoral/error.h"
+
+namespace littoral {
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
+  return extension;
+}
+
+void describe(io::Scene& scene, const Mesh& mesh, const Report& report) {
+  scene.title = report.method;
+  scene.facts = {{"method", report.method},
+                 {"domain", report.domain},
+                 {"vertices", std::to_string(mesh.n_vertices())},
+                 {"faces", std::to_string(mesh.n_faces())}};
+  for (const auto& option : report.options) scene.facts.push_back(option);
+  for (const auto& warning : report.warnings) scene.facts.emplace_back("warning", warning);
+}
+
+PolygonSoup surface_of(const Field& field) {
+  if (field.refined) return *field.refined;
+  PolygonSoup soup = field.mesh.soup();
+  soup.scalars.clear();
+  soup.scalars["distance"] = field.values;
+  return soup;
+}
+
+io::Scene scene_of(const Field& field) {
+  io::Scene scene = io::make_scene(surface_of(field));
+  io::add_sources(scene, *field.mesh.domain().mesh, field.sources);
+  describe(scene, field.mesh, field.report);
+  return scene;
+}
+
+io::Scene scene_of(const Regions& regions) {
+  io::Scene scene = io::make_scene(regions.surface, "region");
+  scene.isolines = 0;
+  for (const MatX3& line : regions.bounding) scene.curves.push_back({line, true});
+  for (const MatX3& line : regions.nonbounding) scene.curves.push_back({line, false});
+  describe(scene, regions.mesh, regions.report);
+  return scene;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  if (!io::is_volume(path)) return Mesh(io::read_surface(path));
+  const io::VoxelMask mask = io::read_voxels(path);
+  return Mesh::voxels(mask.grid, mask.inside);
+}
+
+PolygonSoup read_soup(const std::filesystem::path& path) { return io::read_surface(path); }
+
+Sources read_sources(const std::filesystem::path& path, const Mesh& mesh) {
+  Report report;
+  return io::read_sources(path, *mesh.domain().mesh, std::nullopt, report);
+}
+
+Volume read_volume(const std::filesystem::path& path) { return io::read_volume(path); }
+TetMesh read_tets(const std::filesystem::path& path) { return io::read_tets(path).mesh; }
+
+void write(const Field& field, const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".html") return write_page(field, path);
+  if (extension == ".png") return write_picture(field, path);
+  if (field.mesh.n_faces() > 0) return io::write_field(path, surface_of(field));
+  PolygonSoup cloud = field.mesh.soup();  // without the triangles that show it
+  cloud.scalars.clear();
+  cloud.scalars["distance"] = field.values;
+  io::write_field(path, cloud);
+}
+
+void write(const Regions& regions, const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".html") return write_page(regions, path);
+  if (extension == ".png") return write_picture(regions, path);
+  if (extension == ".txt" || extension == ".csv" || extension == ".npy")
+    return io::write_labels(path, regions.region);
+  if (extension == ".obj")
+    return io::write_homogeneous_obj(path, regions.surface, "winding", "weight");
+  io::write_field(path, regions.surface, "region");
+}
+
+void write(const Mesh& mesh, const std::filesystem::path& path) {
+  io::write_surface(path, mesh.soup());
+}
+void write(const PolygonSoup& soup, const std::filesystem::path& path) {
+  io::write_surface(path, soup);
+}
+void write(const Volume& volume, const std::filesystem::path& path) {
+  io::write_volume(path, volume);
+}
+void write(const TetField& field, const std::filesystem::path& path) {
+  io::write_tets(path, field.mesh, field.values);
+}
+
+void write_page(const Field& field, const std::filesystem::path& path) {
+  io::write_page(path, scene_of(field));
+}
+void write_page(const Regions& regions, const std::filesystem::path& path) {
+  io::write_page(path, scene_of(regions));
+}
+void write_picture(const Field& field, const std::filesystem::path& path) {
+  io::write_picture(path, scene_of(field));
+}
+void write_picture(const Regions& regions, const std::filesystem::path& path) {
+  io::write_picture(path, scene_of(regions));
+}
+
+}  // namespace littoral

@@ -1,0 +1,184 @@
+#include "littoral/space.h"
+
+#include <utility>
+
+#include "api/front/running.h"
+#include "api/space/csg.h"
+#include "api/space/isosurfaces.h"
+#include "api/space/sampled_distance.h"
+#include "api/space/sdf.h"
+#include "littoral/error.h"
+
+namespace littoral {
+
+/// One shape or several. A method that answers anywhere is prepared; others have the input, to be
+/// sampled on grids.
+struct Sdf::Impl {
+  CsgShapes shapes;
+  std::shared_ptr<const PointwiseDistance> function;  // null where a grid is needed
+  Report report;
+
+  const PointwiseDistance& anywhere() const {
+    if (!function)
+      throw UnsupportedError("method " + shapes.all.front().request.method.name() +
+                             " cannot be asked at single points: sample it on a grid");
+    return *function;
+  }
+};
+
+namespace {
+
+bool answers_anywhere(const AnyMethod& method) {
+  const auto& domains = Registry<SpaceDomain>::instance().find(method.name())->info.domains;
+  return std::find(domains.begin(), domains.end(), SpaceDomain{}.kind()) != domains.end();
+}
+
+Sdf made_of(CsgShapes shapes, const Context& context) {
+  auto impl = std::make_shared<Sdf::Impl>();
+  impl->shapes = std::move(shapes);
+  bool anywhere = true;
+  for (Shape& shape : impl->shapes.all) {
+    if (shape.field) continue;
+    if (shape.request.method.name().empty())
+      shape.request.method = method_for_points(shape.surface);
+    check_method<SpaceDomain>(shape.request.method);
+    anywhere = anywhere && answers_anywhere(shape.request.method);
+  }
+  Running running(context);
+  if (anywhere)
+    impl->function = pointwise_distance(impl->shapes, running.task, impl->report);
+  else
+    longest_side(impl->shapes);  // complains about inputs that cannot be measured from
+  return Sdf(std::move(impl));
+}
+
+/// Combinations of combinations: the shapes of b after those of a.
+Sdf combined(const Sdf& a, const Sdf& b, Boolean how, double blend) {
+  const auto function = [](const Sdf& f) {
+    f.impl().anywhere();
+    return f.impl().function;
+  };
+  auto impl = std::make_shared<Sdf::Impl>();
+  impl->function =
+      std::make_shared<const Combined>(std::vector{function(a), function(b)}, Csg{{how}, blend, 0});
+  impl->shapes = a.impl().shapes;  // for bounds
+  const CsgShapes& other = b.impl().shapes;
+  impl->shapes.all.insert(impl->shapes.all.end(), other.all.begin(), other.all.end());
+  impl->report = a.impl().report;
+  impl->report.merge(b.impl().report);
+  return Sdf(std::move(impl));
+}
+
+}  // namespace
+
+double Sdf::operator()(const Vec3& x) const { return impl_->anywhere().value(x); }
+Vec3 Sdf::gradient(const Vec3& x) const { return impl_->anywhere().at(x).gradient; }
+
+VecX Sdf::at(const MatX3& points, const Context& context) const {
+  check_queries(points);
+  const Running running(context);
+  return evaluate(impl_->anywhere(), points, nullptr, running.task);
+}
+
+DistanceSamples Sdf::with_gradients(const MatX3& points, const Context& context) const {
+  check_queries(points);
+  const Running running(context);
+  DistanceSamples out;
+  out.values = evaluate(impl_->anywhere(), points, &out.gradients, running.task);
+  return out;
+}
+
+Volume Sdf::sample(const Grid& grid, const Context& context) const {
+  const Running running(context);
+  if (impl_->function) {
+    check_grid(grid);
+    return {grid, evaluate(*impl_->function, grid, running.task)};
+  }
+  Report report;
+  return {grid, grid_distance(impl_->shapes, grid, running.task, report)};
+}
+
+Eigen::Matrix<double, 2, 3> Sdf::bounds() const {
+  const Box box = bounding_box(impl_->shapes);
+  Eigen::Matrix<double, 2, 3> out;
+  out.row(0) = box.low;
+  out.row(1) = box.high;
+  return out;
+}
+
+const Report& Sdf::report() const { return impl_->report; }
+
+Sdf signed_distance(const PolygonSoup& input, const AnyMethod& method,
+                    const Orientation& orientation, const Context& context) {
+  CsgShapes shapes;
+  shapes.all.push_back({input, {}, {method, orientation.flip, orientation.estimate_normals}});
+  return made_of(std::move(shapes), context);
+}
+
+Sdf signed_distance(const Mesh& input, const AnyMethod& method, const Orientation& orientation,
+                    const Context& context) {
+  return signed_distance(input.soup(), method, orientation, context);
+}
+
+Sdf signed_distance(const Volume& volume) {
+  CsgShapes shapes;
+  shapes.all.push_back({{}, volume, {}});
+  return made_of(std::move(shapes), {});
+}
+
+Sdf unite(const Sdf& a, const Sdf& b, double blend) {
+  return combined(a, b, Boolean::unite, blend);
+}
+Sdf intersect(const Sdf& a, const Sdf& b, double blend) {
+  return combined(a, b, Boolean::intersect, blend);
+}
+Sdf subtract(const Sdf& a, const Sdf& b, double blend) {
+  return combined(a, b, Boolean::subtract, blend);
+}
+
+VecX winding_number(const PolygonSoup& input, const MatX3& points, const Orientation& orientation,
+                    const Context& context) {
+  const Running running(context);
+  Report report;
+  return query_winding(input, points, {{}, orientation.flip, orientation.estimate_normals},
+                       running.task, report);
+}
+
+PolygonSoup fit_tori(const PolygonSoup& cloud, const Tori& options, const Orientation& orientation,
+                     const Context& context) {
+  const Running running(context);
+  Report report;
+  return fit_tori_cloud(cloud, {options, orientation.flip, orientation.estimate_normals},
+                        running.task, report);
+}
+
+Mesh isosurface(const Volume& volume, double level, bool close_at_box, const Context& context) {
+  const Running running(context);
+  Report report;
+  return Mesh(
+      std::move(isosurfaces(volume, {level}, close_at_box, report, running.task).front().surface));
+}
+
+std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& distances,
+                         const Morphology& morphology, const Context& context) {
+  const Running running(context);
+  Report report;
+  std::vector<Mesh> out;
+  for (Isosurface& each :
+       offset_isosurfaces(distance, distances, morphology, false, report, running.task))
+    out.emplace_back(std::move(each.surface));
+  return out;
+}
+
+Grid Grid::around(const Sdf& distance, const GridOptions& options) {
+  const CsgShapes& shapes = distance.impl().shapes;
+  PolygonSoup corners;
+  corners.points = distance.bounds();
+  return shapes.plain() ? choose_grid(shapes, options) : choose_grid(corners, options);
+}
+
+Grid Grid::around(const PolygonSoup& input, const GridOptions& options) {
+  return choose_grid(input, options);
+}
+
+}  // namespace littoral

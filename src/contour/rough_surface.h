@@ -25,7 +25,7 @@ struct RoughSurface {
 inline constexpr double close_to_node = 0.05, apart_from_node = 1e-3;  // of an edge
 
 inline void check_count(std::size_t count) {
-  if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3)
+  if (count > std::numeric_limits<int>::max() / 3)
     throw InputError("isosurface: the level set has too many triangles");
 }
 

@@ -17,7 +17,7 @@ class NodeCarriers : public VectorDofs {
   explicit NodeCarriers(const NodalSurface& S)
       : S_(S), mesh_(*S.refined), unit_(S.place->unit), face_of_(S.place->n_faces()) {
     for (std::size_t f = 0; f < S.place->triangle_of_face.size(); ++f)
-      if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = static_cast<int>(f);
+      if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = f;
   }
 
   int count() const override { return S_.n_nodes(); }
@@ -31,8 +31,7 @@ class NodeCarriers : public VectorDofs {
         const double weight = 0.5 * (piece.a[k] + piece.b[k]) * it.value();
         if (weight == 0) continue;
         const TangentFrame frame(S_.normals.row(it.col()));
-        out.emplace_back(static_cast<int>(it.col()),
-                         weight * frame.coordinates(frame.n.cross(along)));
+        out.emplace_back(it.col(), weight * frame.coordinates(frame.n.cross(along)));
       }
   }
 
@@ -100,7 +99,7 @@ class NodeCarriers : public VectorDofs {
   std::vector<int> nodes_of(int face) const {
     std::vector<int> nodes;
     for (int v : mesh_.face(face))
-      for (Row it(S_.P, v); it; ++it) nodes.push_back(static_cast<int>(it.col()));
+      for (Row it(S_.P, v); it; ++it) nodes.push_back(it.col());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
@@ -119,7 +118,7 @@ class NodeCarriers : public VectorDofs {
 
 /// From triangles sources are placed on to cells, where exact distances are known at all corners.
 void on_cells(const NodalSurface& S, SourceSystem& terms) {
-  std::vector<char> known(static_cast<std::size_t>(S.n_nodes()), 0);
+  std::vector<char> known(S.n_nodes(), 0);
   for (int t : terms.near)
     for (int k = 0; k < 3; ++k) known[S.place->faces(t, k)] = 1;
   terms.near.clear();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "sources/constraint_rows.h"
 #include "sources/source_parts.h"
@@ -85,37 +86,36 @@ void add_samples(const IntrinsicTriangulation& T, const Samples& samples, Source
   std::vector<char> is_point;  // parts
   std::vector<PartStart> starts;
   for (const Sample& s : samples) {
-    const auto [it, added] =
-        part_of_root.try_emplace(nodes.root(s.node), static_cast<int>(is_point.size()));
+    const auto [it, added] = part_of_root.try_emplace(nodes.root(s.node), is_point.size());
     if (added) is_point.push_back(1);
     if (!s.is_point) is_point[it->second] = 0;
     // Distances are needed roughly only.
     for (const auto& [v, value] : s.hats)
       starts.push_back({v, it->second, (1 - value) * T.mean_edge_length});
   }
-  const std::vector<int> batch = batches_of_parts(T, starts, static_cast<int>(is_point.size()));
+  const std::vector<int> batch = batches_of_parts(T, starts, int_size(is_point));
   std::map<std::pair<int, bool>, int> column;  // points and curves apart
   for (std::size_t p = 0; p < is_point.size(); ++p) {
-    const auto [it, added] = column.try_emplace({batch[p], is_point[p] != 0},
-                                                static_cast<int>(terms.batch_of_points.size()));
+    const auto [it, added] =
+        column.try_emplace({batch[p], is_point[p] != 0}, terms.batch_of_points.size());
     if (added) terms.batch_of_points.push_back(is_point[p]);
   }
   Triplets mean, u0;
-  terms.mean_weight.resize(static_cast<Eigen::Index>(samples.size()));
+  terms.mean_weight.resize(samples.size());
   for (std::size_t r = 0; r < samples.size(); ++r) {
     const Sample& s = samples[r];
     const int part = part_of_root.at(nodes.root(s.node));
     const int to = column.at({batch[part], is_point[part] != 0});
-    terms.mean_weight[static_cast<Eigen::Index>(r)] = s.length;
+    terms.mean_weight[r] = s.length;
     for (const auto& [v, value] : s.hats) {
-      mean.emplace_back(static_cast<int>(r), v, value);
+      mean.emplace_back(r, v, value);
       u0.emplace_back(v, to, s.length * value);
       if (T.component[v] >= 0) terms.reached[T.component[v]] = 1;
     }
   }
-  terms.mean.resize(static_cast<Eigen::Index>(samples.size()), T.n_vertices);
+  terms.mean.resize(samples.size(), T.n_vertices);
   terms.mean.setFromTriplets(mean.begin(), mean.end());
-  terms.u0.resize(T.n_vertices, static_cast<Eigen::Index>(terms.batch_of_points.size()));
+  terms.u0.resize(T.n_vertices, terms.batch_of_points.size());
   terms.u0.setFromTriplets(u0.begin(), u0.end());
 }
 

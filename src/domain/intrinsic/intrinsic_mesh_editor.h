@@ -46,7 +46,7 @@ class IntrinsicMeshEditor {
 
   std::vector<Face> faces;
   std::vector<Edge> edges;
-  int n_vertices() const { return static_cast<int>(points_.size()); }
+  int n_vertices() const { return points_.size(); }
 
  private:
   /// What is drawn in some triangles, with positions in their common plane.

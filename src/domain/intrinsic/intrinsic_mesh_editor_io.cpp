@@ -43,10 +43,10 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
   on_edge_.resize(edges.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     SurfacePoint& p = nodes_[i];
-    if (p.on == SurfacePoint::On::edge) nodes_on_edge_[p.element].push_back(static_cast<int>(i));
+    if (p.on == SurfacePoint::On::edge) nodes_on_edge_[p.element].push_back(i);
     if (p.on != SurfacePoint::On::face) continue;
     if (T.orientation[p.element] < 0) std::swap(p.b[1], p.b[2]);
-    nodes_in_face_[p.element].push_back(static_cast<int>(i));
+    nodes_in_face_[p.element].push_back(i);
   }
   for (const CurveNetwork::Segment& s : marks.segments) add_segment(s);
 }
@@ -65,14 +65,14 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   T.unit = before.unit;
   T.n_vertices = n_vertices();
   T.edges = out.mesh.edges();
-  const auto n = static_cast<Eigen::Index>(faces.size());
+  const Eigen::Index n = faces.size();
   T.faces.resize(n, 3);
   T.side_edge.resize(n, 3);
   T.along.resize(n, 3);
   T.length.resize(n, 3);
   T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
   T.orientation.assign(faces.size(), 1);
-  T.edge_use.assign(static_cast<std::size_t>(T.n_edges()), 0);
+  T.edge_use.assign(T.n_edges(), 0);
   std::vector<int> new_edge(edges.size(), -1), first_side_sign(edges.size(), 0),
       first_left(edges.size());
   for (int f = 0; f < T.n_faces(); ++f) {

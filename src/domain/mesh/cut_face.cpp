@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace littoral {
 
 FaceTriangulation::FaceTriangulation(const Vec2& a, const Vec2& b, const Vec2& c)
@@ -16,7 +18,7 @@ double FaceTriangulation::turn(int a, int b, int c) const {
 int FaceTriangulation::triangle_with(int p, int q) const {
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (int k = 0; k < 3; ++k)
-      if (triangles_[t][k] == p && triangles_[t][(k + 1) % 3] == q) return static_cast<int>(t);
+      if (triangles_[t][k] == p && triangles_[t][(k + 1) % 3] == q) return t;
   return -1;
 }
 
@@ -36,7 +38,7 @@ void FaceTriangulation::hold(int p, int q, int segment) {
 }
 
 int FaceTriangulation::split_edge(int p, int q, const Vec2& x) {
-  const int added = static_cast<int>(points_.size());
+  const int added = points_.size();
   points_.push_back(x);
   for (const auto& [a, b] : {std::pair(p, q), std::pair(q, p)}) {
     const int t = triangle_with(a, b);
@@ -56,7 +58,7 @@ int FaceTriangulation::split_edge(int p, int q, const Vec2& x) {
     for (auto& path : paths_)
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
         if ((path[i] == p && path[i + 1] == q) || (path[i] == q && path[i + 1] == p)) {
-          path.insert(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, added);
+          path.insert(path.begin() + i + 1, added);
           break;
         }
   }
@@ -68,13 +70,13 @@ int FaceTriangulation::split_side(int p, int q, const Vec2& x) { return split_ed
 int FaceTriangulation::insert(const Vec2& x, double tolerance) {
   int nearest = 0;
   for (std::size_t i = 1; i < points_.size(); ++i)
-    if ((points_[i] - x).norm() < (points_[nearest] - x).norm()) nearest = static_cast<int>(i);
+    if ((points_[i] - x).norm() < (points_[nearest] - x).norm()) nearest = i;
   if ((points_[nearest] - x).norm() <= tolerance) return nearest;
   // The triangle in which the least barycentric coordinate is largest holds the point.
   int best = 0, side = 0;
   double most = -std::numeric_limits<double>::infinity();
   points_.push_back(x);
-  const int added = static_cast<int>(points_.size()) - 1;
+  const int added = int_size(points_) - 1;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     double least = std::numeric_limits<double>::infinity();
     int at = 0;
@@ -88,7 +90,7 @@ int FaceTriangulation::insert(const Vec2& x, double tolerance) {
     }
     if (least > most) {
       most = least;
-      best = static_cast<int>(t);
+      best = t;
       side = at;
     }
   }
@@ -122,7 +124,7 @@ bool FaceTriangulation::flip(int p, int q) {
 }
 
 void FaceTriangulation::connect(int a, int b, int segment) {
-  if (static_cast<int>(paths_.size()) <= segment) paths_.resize(segment + 1);
+  if (int_size(paths_) <= segment) paths_.resize(segment + 1);
   paths_[segment].assign(1, a);
   const double length = (points_[b] - points_[a]).norm();
   // Every turn holds an edge or removes a crossing; the bound stops what round-off could not.

@@ -32,12 +32,11 @@ void shift_to_mean_zero(const Calculus& C, const SourceSystem& terms, VecX& phi)
 void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
                    Report& report) {
   for (Eigen::Index i = 0; i < phi.size(); ++i) {
-    const int c = component[static_cast<std::size_t>(i)];
-    if (c < 0 || !reached[static_cast<std::size_t>(c)])
-      phi[i] = std::numeric_limits<double>::infinity();
+    const int c = component[i];
+    if (c < 0 || !reached[c]) phi[i] = std::numeric_limits<double>::infinity();
   }
   for (std::size_t c = 0; c < reached.size(); ++c)
-    if (!reached[c]) report.unreachable_components.push_back(static_cast<int>(c));
+    if (!reached[c]) report.unreachable_components.push_back(c);
 }
 
 VecX finalize_field(const Operators& ops, const SourceSystem& terms, const VecX& phi,

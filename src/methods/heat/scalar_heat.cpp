@@ -11,7 +11,7 @@ namespace {
 /// those of the identity.
 SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(C.L.nonZeros()) + static_cast<std::size_t>(C.L.rows()));
+  entries.reserve(C.L.nonZeros() + C.L.rows());
   auto drop = [&](Eigen::Index i) { return dropped[i] || !(C.M[i] > 0); };
   for (int j = 0; j < C.L.outerSize(); ++j) {
     entries.emplace_back(j, j, drop(j) ? 1.0 : C.M[j]);

@@ -200,7 +200,7 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
   // own, with point sources at those nodes, each as strong as its distance makes it and with its
   // sign.
   const VectorDiffusion& V = ops_->vector;
-  std::vector<char> node_reached(static_cast<std::size_t>(phi.size()), 0);
+  std::vector<char> node_reached(phi.size(), 0);
   for (const Pinch& pinch : V.pinches)
     if (reached[pinch.piece]) node_reached[pinch.node] = 1;
   std::vector<double> nearest(V.n_pieces, std::numeric_limits<double>::infinity());

@@ -46,10 +46,9 @@ VecX TetHeatSolver::integrate(const TetSourceSystem& terms, const MatX3& Y, doub
       poisson_.get([&] { return Poisson(ops.L, ops.component, ops.n_components, factor_stage); });
   const Poisson& poisson = *factored;
   VecX phi = poisson.solve(ops.divergence(Y), report);
-  std::vector<char> reached(static_cast<std::size_t>(ops.n_components), 0);
+  std::vector<char> reached(ops.n_components, 0);
   for (int v = 0; v < terms.A.outerSize(); ++v)
-    if (SpMat::InnerIterator(terms.A, v) && ops.component[static_cast<std::size_t>(v)] >= 0)
-      reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(v)])] = 1;
+    if (SpMat::InnerIterator(terms.A, v) && ops.component[v] >= 0) reached[ops.component[v]] = 1;
 
   const auto constraint = options.constraint;
   if (terms.A.rows() > 0 && constraint != SpaceConstraint::none) {
@@ -108,7 +107,7 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& terms, double h, do
     const double t = point_time * options.time_scale * h * h;
     VecX mass = ops.vertex_mass();
     for (Eigen::Index v = 0; v < mass.size(); ++v)  // those of no tet: an equation of their own
-      if (ops.component[static_cast<std::size_t>(v)] < 0) mass[v] = 1;
+      if (ops.component[v] < 0) mass[v] = 1;
     const auto factor = vertices_.get(t, [&] {
       return Cholesky<double>(SpMat(t * ops.L + SpMat(mass.asDiagonal())), heat_stage);
     });

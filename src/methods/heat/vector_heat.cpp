@@ -21,7 +21,7 @@ Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, co
     if (first < A.outerIndexPtr()[i + 1] && A.innerIndexPtr()[first] == i)
       A.valuePtr()[first] += M[i / block] > 0 ? M[i / block] : 1.0;
     else
-      missing.push_back(static_cast<int>(i));
+      missing.push_back(i);
   }
   for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
   A.makeCompressed();

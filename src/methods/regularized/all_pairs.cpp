@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
@@ -122,10 +123,9 @@ class AllPairs {
     if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
     factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
     response_.resize(n_, n_);
-    parallel_for(static_cast<std::size_t>(n_), block, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n_, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      const auto first = static_cast<Eigen::Index>(begin),
-                 width = static_cast<Eigen::Index>(end - begin);
+      const Eigen::Index first = begin, width = index(end - begin);
       Strip unit = Strip::Zero(n_, block);
       for (Eigen::Index k = 0; k < width; ++k) unit(first + k, k) = 1;
       factor_->solve(unit);
@@ -141,13 +141,12 @@ class AllPairs {
   }
 
   Norms iterate(bool check) {
-    const auto columns = static_cast<std::size_t>(n_);
+    const std::size_t columns = n_;
     std::vector<Norms> partial(S_.size());
     std::vector<double> longest(S_.size(), 0);
     parallel_for(columns, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      update_columns(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
-                     partial[begin / block], longest[begin / block]);
+      update_columns(begin, end, check, partial[begin / block], longest[begin / block]);
     });
     Norms norms;
     for (const Norms& p : partial) norms.add(p);
@@ -155,8 +154,7 @@ class AllPairs {
     std::fill(partial.begin(), partial.end(), Norms());
     parallel_for(columns, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      symmetrize(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
-                 partial[begin / block]);
+      symmetrize(begin, end, check, partial[begin / block]);
     });
     for (const Norms& p : partial) norms.add(p);
     return norms;
@@ -167,7 +165,7 @@ class AllPairs {
   void update_columns(Eigen::Index begin, Eigen::Index end, bool check, Norms& norms,
                       double& longest) {
     const Eigen::Index width = end - begin;
-    StripOf<Number>& S = S_[static_cast<std::size_t>(begin / block)];
+    StripOf<Number>& S = S_[begin / block];
     Strip p(2 * cells_, block);
     for (Eigen::Index c = 0; c < 2 * cells_; c += 2) {
       const Row sx = S.row(c).template cast<double>(), sy = S.row(c + 1).template cast<double>();
@@ -291,7 +289,7 @@ class AllPairs {
         S.row(c) = (x + (sx - x) / f1).template cast<Number>();
         S.row(c + 1) = (y + (sy - y) / f1).template cast<Number>();
       }
-      const auto begin = static_cast<Eigen::Index>(at) * block, width = std::min(block, n_ - begin);
+      const auto begin = index(at) * block, width = std::min(block, n_ - begin);
       auto T = T_.middleCols(begin, width);
       const auto U = U_.middleCols(begin, width);
       T = U + (T - U) / Number(f2);

@@ -147,7 +147,7 @@ AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& opt
     area += problem.b[i];
   }
   if (sign) problem.b = problem.b.cwiseProduct(*sign);
-  const int dim = static_cast<int>(C.G.rows / C.A.size());
+  const int dim = C.G.rows / C.A.size();
   const double alpha = alpha_of(options, regularizer_, area, dim);
   const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
   problem.A = C.A;

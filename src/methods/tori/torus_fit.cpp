@@ -59,13 +59,13 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
                                                      : std::pow(apart, -fit.weight_exponent);
     rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), apart, weight, 0};
     rows[j].normal_weight = weight * fit.normal_weight;
-    if (learned) features.col(static_cast<Eigen::Index>(j)) = features_of(rows[j], d, m, n);
+    if (learned) features.col(j) = features_of(rows[j], d, m, n);
   }
   double self_weight = fit.self_weight, log_weight = 0;
   if (learned) {
     const LearnedFit::Factors factors = (*fit.learned)(features);
     for (std::size_t j = 0; j < count; ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
+      const Eigen::Index column = j;
       // Those that the closed form does not look at begin with little weight.
       const double base = static_cast<int>(j) < fit.neighbours ? 0 : -4;
       rows[j].height_weight *= std::exp(base + factors.of_neighbours(0, column));
@@ -150,17 +150,17 @@ Torus torus_of(const HeightPolynomial& a, const Vec3& p, const Vec3& n, double r
 std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, const TorusFit& fit,
                             const Task& task) {
   constexpr int spacing_neighbour = 6;  // rho is the distance of this one
-  const auto n = static_cast<std::size_t>(cloud.size());
+  const std::size_t n = cloud.size();
   std::vector<Torus> tori(n);
   const int seen = fit.learned ? LearnedFit::neighbours : fit.neighbours;
   const int wanted = std::max(seen, spacing_neighbour) + 1;
   const std::vector<int> order = tree.order();  // what is near is fitted soon after
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
-    std::vector<Neighbour> found(static_cast<std::size_t>(wanted));
+    std::vector<Neighbour> found(wanted);
     for (std::size_t place = begin; place < end; ++place) {
       const int point = order[place];
-      const auto i = static_cast<std::size_t>(point);
+      const std::size_t i = point;
       const Vec3 p = cloud.points.row(point), normal = cloud.normals.row(point);
       // The first neighbour is the point itself, as points are distinct.
       const int others = tree.nearest(p, wanted, found.data()) - 1;
@@ -169,10 +169,9 @@ std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, 
         continue;
       }
       const int unit = std::min(others, fit.neighbours);  // lengths are in units of its distance
-      const auto used = static_cast<std::size_t>(others >= seen ? seen : unit);
-      const double scale = std::sqrt(found[static_cast<std::size_t>(unit)].squared_distance);
-      const double rho = std::sqrt(
-          found[static_cast<std::size_t>(std::min(others, spacing_neighbour))].squared_distance);
+      const std::size_t used = others >= seen ? seen : unit;
+      const double scale = std::sqrt(found[unit].squared_distance);
+      const double rho = std::sqrt(found[std::min(others, spacing_neighbour)].squared_distance);
       const HeightPolynomial a =
           fit_heights(fit, cloud, point, std::span(found).subspan(1, used), scale);
       tori[i] = torus_of(a, p, normal, rho, fit.curvature_limit);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "methods/winding/jump_laplace.h"
 #include "solve/poisson/poisson.h"
@@ -27,7 +28,7 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
       fixed[J.component[f]] = 0;
     }
   Triplets entries;
-  entries.reserve(6 * static_cast<std::size_t>(J.n_faces));
+  entries.reserve(6 * std::size_t(J.n_faces));
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
       const int e = J.edge(f, k);
@@ -82,7 +83,7 @@ ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, cons
       problem.g.push_back(node[J.sides[e][1].face]);
     }
   const auto gather = [&](const VecX& all) {
-    VecX some(all.size() ? static_cast<Eigen::Index>(edges.size()) : 0);
+    VecX some(all.size() ? index(edges.size()) : 0);
     for (Eigen::Index i = 0; i < some.size(); ++i) some[i] = all[edges[i]];
     return some;
   };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 #include "solve/network/spanning_tree.h"
@@ -37,7 +38,7 @@ class Method {
         add(e, -1, {problem.g[e], problem.f[e], (c - problem.lo[e]) / unit_c_, 0});
     }
     make_laplacian();
-    m_ = static_cast<Eigen::Index>(columns_.size());
+    m_ = index(columns_.size());
   }
 
   InteriorPoint run(double tolerance, const Task& task) {

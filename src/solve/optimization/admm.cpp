@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 
@@ -70,20 +71,17 @@ class Admm {
   /// body(c, i) for every cell c, whose first number is entry i.
   template <class Body>
   void for_cells(const Body& body) const {
-    parallel_for(static_cast<std::size_t>(p_.A.size()), grain, [&](std::size_t c, std::size_t end) {
-      for (; c < end; ++c)
-        body(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c) * p_.dim);
+    parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
+      for (; c < end; ++c) body(c, index(c) * p_.dim);
     });
   }
 
   /// Sum over cells of A times term(c, i), the same for any number of threads.
   template <class Term>
   double sum_cells(const Term& term) const {
-    const auto cells = static_cast<std::size_t>(p_.A.size());
+    const std::size_t cells = p_.A.size();
     std::vector<double> part((cells + grain - 1) / grain, 0);
-    for_cells([&](Eigen::Index c, Eigen::Index i) {
-      part[static_cast<std::size_t>(c) / grain] += p_.A[c] * term(c, i);
-    });
+    for_cells([&](Eigen::Index c, Eigen::Index i) { part[c / grain] += p_.A[c] * term(c, i); });
     return std::accumulate(part.begin(), part.end(), 0.0);
   }
   double norm2(const VecX& z) const {

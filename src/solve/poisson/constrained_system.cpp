@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -61,20 +63,20 @@ ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_
 /// Single unknowns by elimination, other rows by a penalty.
 void ConstrainedSystem::hold_many(const SpMat& A, Held& held, const Task& task) const {
   const RowMatrix rows = A;
-  std::vector<char> fixed(static_cast<std::size_t>(n_components_), 0);
+  std::vector<char> fixed(n_components_, 0);
   Triplets others;
   int n = 0;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int c = component_of_row(rows, r, component_);
     if (c < 0) continue;
-    fixed[static_cast<std::size_t>(c)] = 1;
+    fixed[c] = 1;
     const bool single = holds_one_unknown(rows, r);
     for (RowMatrix::InnerIterator it(rows, r); it; ++it) {
       if (it.value() == 0) continue;
       if (single)
-        held.gone_[static_cast<std::size_t>(it.col())] = 1;
+        held.gone_[it.col()] = 1;
       else
-        others.emplace_back(n, static_cast<int>(it.col()), it.value());
+        others.emplace_back(n, it.col(), it.value());
     }
     n += single ? 0 : 1;
   }
@@ -102,7 +104,7 @@ ConstrainedSystem::Held ConstrainedSystem::hold(const SpMat& A, const Task& task
     double sum = 0;
     for (RowMatrix::InnerIterator it(rows, r); it; ++it) sum += it.value();
     for (RowMatrix::InnerIterator it(rows, r); it; ++it)
-      out.emplace_back(static_cast<int>(it.col()), column, it.value() / sum);
+      out.emplace_back(it.col(), column, it.value() / sum);
   };
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int c = component_of_row(rows, r, component_);
@@ -114,16 +116,16 @@ ConstrainedSystem::Held ConstrainedSystem::hold(const SpMat& A, const Task& task
     held.active_[c] = 1;
     put(gauge, r, c);
   }
-  const auto n = static_cast<Eigen::Index>(component_.size());
+  const Eigen::Index n = component_.size();
   held.gauge_.resize(n, n_components_);
-  if (!factor_ || static_cast<Eigen::Index>(rest.size()) > few_rows) {
+  if (!factor_ || index(rest.size()) > few_rows) {
     hold_many(A, held, task);
     return held;
   }
   held.gauge_.setFromTriplets(gauge.begin(), gauge.end());
   if (rest.empty()) return held;
-  for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], static_cast<int>(i));
-  SpMat columns(n, static_cast<Eigen::Index>(rest.size()));
+  for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], i);
+  SpMat columns(n, rest.size());
   columns.setFromTriplets(others.begin(), others.end());
   Eigen::MatrixXd response(n, columns.cols());
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {

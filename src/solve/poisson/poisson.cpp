@@ -19,7 +19,7 @@ double mean_diagonal(const SpMat& L) {
 std::vector<int> first_of_components(const std::vector<int>& component, int n_components) {
   std::vector<int> first(n_components, -1);
   for (std::size_t i = 0; i < component.size(); ++i)
-    if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = static_cast<int>(i);
+    if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = i;
   return first;
 }
 
@@ -81,9 +81,9 @@ std::vector<char> Poisson::components_of(const SpMat& A) const {
 }
 
 void Poisson::drop_constants(const std::vector<char>& held, VecX& x) const {
-  VecX constant = VecX::Zero(static_cast<Eigen::Index>(first_.size()));
+  VecX constant = VecX::Zero(first_.size());
   for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) constant[static_cast<Eigen::Index>(c)] = x[first_[c]];
+    if (!held[c]) constant[c] = x[first_[c]];
   for (Eigen::Index i = 0; i < x.size(); ++i)
     x[i] = component_[i] < 0 ? 0 : x[i] - constant[component_[i]];
 }

@@ -49,25 +49,26 @@ void ConstraintRowBuilder::end_run() {
   run_.clear();
 }
 
-void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& terms) {
+void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes,
+                                 SourceSystem& system) {
   end_run();
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
     if (nodes.weight[i] > 0)
       rows_.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
   Triplets entries;
   std::map<int, int> group_of_root;
-  terms.weight.resize(rows_.size());
+  system.weight.resize(rows_.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     double sum = 0;  // a mean, whatever the coefficients were weighted with
     for (const auto& [v, value] : rows_[r].entries) sum += value;
     for (const auto& [v, value] : rows_[r].entries) entries.emplace_back(r, v, value / sum);
-    terms.weight[r] = rows_[r].weight;
-    const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), terms.n_groups);
-    if (added) ++terms.n_groups;
-    terms.group.push_back(it->second);
+    system.weight[r] = rows_[r].weight;
+    const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), system.n_groups);
+    if (added) ++system.n_groups;
+    system.group.push_back(it->second);
   }
-  terms.A.resize(rows_.size(), mesh.n_vertices());
-  terms.A.setFromTriplets(entries.begin(), entries.end());
+  system.A.resize(rows_.size(), mesh.n_vertices());
+  system.A.setFromTriplets(entries.begin(), entries.end());
 }
 
 }  // namespace littoral

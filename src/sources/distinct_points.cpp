@@ -1,5 +1,3 @@
-#include "sources/distinct_points.h"
-
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include "base/index.h"
 #include "littoral/error.h"
+#include "sources/oriented_points.h"
 
 namespace littoral {
 

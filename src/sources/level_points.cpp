@@ -199,7 +199,7 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
     }
   });
   // Cells that the level set hardly enters have points next to those of others.
-  const double apart = 0.5 * grid.spacing.minCoeff();
+  const double separation = 0.5 * grid.spacing.minCoeff();
   std::vector<LevelPoint> kept;
   std::vector<int> last(std::size_t(grid.n[0]) * grid.n[1] * 3,
                         -1);  // the point kept of each cell of the last layers
@@ -217,7 +217,8 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
         for (int y = std::max(0, cj - 2); y < std::min(grid.n[1], cj + 3); ++y)
           for (int x = std::max(0, ci - 2); x < std::min(grid.n[0], ci + 3); ++x) {
             const int other = slot(x, y, z);
-            alone = alone && (other < 0 || (kept[other].point - candidate.point).norm() >= apart);
+            alone =
+                alone && (other < 0 || (kept[other].point - candidate.point).norm() >= separation);
           }
       if (!alone) continue;
       slot(ci, cj, ck) = kept.size();

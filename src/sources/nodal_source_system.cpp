@@ -12,9 +12,9 @@ namespace {
 
 using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
 
-class NodeCarriers : public VectorDofs {
+class NodeDofs : public VectorDofs {
  public:
-  explicit NodeCarriers(const NodalSurface& S)
+  explicit NodeDofs(const NodalSurface& S)
       : S_(S), mesh_(*S.refined), unit_(S.place->unit), face_of_(S.place->n_faces()) {
     for (std::size_t f = 0; f < S.place->triangle_of_face.size(); ++f)
       if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = f;
@@ -117,33 +117,33 @@ class NodeCarriers : public VectorDofs {
 };
 
 /// From triangles sources are placed on to cells, where exact distances are known at all corners.
-void on_cells(const NodalSurface& S, SourceSystem& terms) {
+void on_cells(const NodalSurface& S, SourceSystem& system) {
   std::vector<char> known(S.n_nodes(), 0);
-  for (int t : terms.near)
+  for (int t : system.near)
     for (int k = 0; k < 3; ++k) known[S.place->faces(t, k)] = 1;
-  terms.near.clear();
+  system.near.clear();
   for (int c = 0; c < S.cells->n_faces(); ++c) {
     const auto v = S.cells->faces.row(c);
-    if (known[v[0]] && known[v[1]] && known[v[2]]) terms.near.push_back(c);
+    if (known[v[0]] && known[v[1]] && known[v[2]]) system.near.push_back(c);
   }
 }
 
 }  // namespace
 
 SourceSystem nodal_source_system(const NodalSurface& S, const PlacedSources& sources) {
-  SourceSystem terms = source_system(*S.refined, *S.place, sources, NodeCarriers(S));
+  SourceSystem system = source_system(*S.refined, *S.place, sources, NodeDofs(S));
   // What is held at vertices of the refined mesh is held at the nodes that determine them.
   const SpMat P = S.P;
-  terms.u0 = SpMat(P.transpose() * terms.u0);
-  terms.A = SpMat(terms.A * P);
-  terms.mean = SpMat(terms.mean * P);
+  system.u0 = SpMat(P.transpose() * system.u0);
+  system.A = SpMat(system.A * P);
+  system.mean = SpMat(system.mean * P);
   if (P.rows() == P.cols())
-    on_cells(S, terms);
+    on_cells(S, system);
   else {  // exact distances would be needed at all nodes of a polygon
-    terms.d0 = VecX::Zero(P.cols());
-    terms.near.clear();
+    system.d0 = VecX::Zero(P.cols());
+    system.near.clear();
   }
-  return terms;
+  return system;
 }
 
 }  // namespace littoral

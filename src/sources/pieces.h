@@ -29,7 +29,7 @@ struct PlacedSources {
   int n_curves = 0;                              // = nodes.size()
 };
 
-/// Traces gaps across the mesh, carries space curves onto it and cuts all curves into pieces.
+/// Traces gaps across the mesh, projects space curves onto it and cuts all curves into pieces.
 ///
 /// Surface curves come first, in order, then space curves (one split between components counts as
 /// several). Warnings with counts tell of traced gaps,

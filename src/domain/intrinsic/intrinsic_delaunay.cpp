@@ -173,9 +173,9 @@ class Improvement {
 }  // namespace
 
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   CurveNetwork marks, const RefineOptions& options, Report& report,
-                                   const Task& task) {
-  IntrinsicMeshEditor M(mesh, T, std::move(marks));
+                                   CurveNetwork curves, const RefineOptions& options,
+                                   Report& report, const Task& task) {
+  IntrinsicMeshEditor M(mesh, T, std::move(curves));
   Improvement improvement(M, options, task);
   std::deque<int> all;
   for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(e);

@@ -1,4 +1,4 @@
-// A marked triangulation from a mesh, and back.
+// An IntrinsicMeshEditor from a mesh, and back.
 
 #include <algorithm>
 #include <tuple>
@@ -8,7 +8,7 @@
 namespace littoral {
 
 IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                         CurveNetwork marks) {
+                                         CurveNetwork curves) {
   for (int v = 0; v < mesh.n_vertices(); ++v) points_.push_back(mesh.point(v));
   for (int e = 0; e < T.n_edges(); ++e) edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
   for (int f = 0; f < T.n_faces(); ++f) {
@@ -36,7 +36,7 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
   if (lift > 0)
     for (Edge& e : edges) e.length += lift;
 
-  nodes_ = std::move(marks.nodes);
+  nodes_ = std::move(curves.nodes);
   nodes_in_face_.resize(faces.size());
   in_face_.resize(faces.size());
   nodes_on_edge_.resize(edges.size());
@@ -48,7 +48,7 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
     if (T.orientation[p.element] < 0) std::swap(p.b[1], p.b[2]);
     nodes_in_face_[p.element].push_back(i);
   }
-  for (const CurveNetwork::Segment& s : marks.segments) add_segment(s);
+  for (const CurveNetwork::Segment& s : curves.segments) add_segment(s);
 }
 
 Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before) && {
@@ -114,12 +114,12 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
     for (auto& list : *lists)
       for (CurveNetwork::Segment& s : list) {
         if (s.edge >= 0) s.edge = new_edge[s.edge];
-        out.marks.segments.push_back(s);
+        out.curves.segments.push_back(s);
       }
-  std::sort(out.marks.segments.begin(), out.marks.segments.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.id, a.from) < std::tie(b.id, b.from);
-  });
-  out.marks.nodes = std::move(nodes_);
+  std::sort(
+      out.curves.segments.begin(), out.curves.segments.end(),
+      [](const auto& a, const auto& b) { return std::tie(a.id, a.from) < std::tie(b.id, b.from); });
+  out.curves.nodes = std::move(nodes_);
   return out;
 }
 

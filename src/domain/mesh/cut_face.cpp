@@ -26,14 +26,14 @@ bool FaceTriangulation::has_edge(int p, int q) const {
   return triangle_with(p, q) >= 0 || triangle_with(q, p) >= 0;
 }
 
-bool FaceTriangulation::held(int p, int q) const {
-  return std::any_of(held_.begin(), held_.end(), [&](const Held& h) {
+bool FaceTriangulation::is_fixed(int p, int q) const {
+  return std::any_of(fixed_.begin(), fixed_.end(), [&](const FixedEdge& h) {
     return (h.p == p && h.q == q) || (h.p == q && h.q == p);
   });
 }
 
-void FaceTriangulation::hold(int p, int q, int segment) {
-  if (!held(p, q)) held_.push_back({p, q});
+void FaceTriangulation::fix(int p, int q, int segment) {
+  if (!is_fixed(p, q)) fixed_.push_back({p, q});
   paths_[segment].push_back(q);
 }
 
@@ -50,11 +50,12 @@ int FaceTriangulation::split_edge(int p, int q, const Vec2& x) {
     }
     triangles_.push_back(other);
   }
-  if (held(p, q)) {
-    std::erase_if(held_,
-                  [&](const Held& h) { return (h.p == p && h.q == q) || (h.p == q && h.q == p); });
-    held_.push_back({p, added});
-    held_.push_back({added, q});
+  if (is_fixed(p, q)) {
+    std::erase_if(fixed_, [&](const FixedEdge& h) {
+      return (h.p == p && h.q == q) || (h.p == q && h.q == p);
+    });
+    fixed_.push_back({p, added});
+    fixed_.push_back({added, q});
     for (auto& path : paths_)
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
         if ((path[i] == p && path[i + 1] == q) || (path[i] == q && path[i + 1] == p)) {
@@ -130,7 +131,7 @@ void FaceTriangulation::connect(int a, int b, int segment) {
   // Every turn holds an edge or removes a crossing; the bound stops what round-off could not.
   for (int guard = 0; a != b && guard < 10000; ++guard) {
     if (has_edge(a, b)) {
-      hold(a, b, segment);
+      fix(a, b, segment);
       return;
     }
     const Vec2 direction = (points_[b] - points_[a]) / (points_[b] - points_[a]).norm();
@@ -151,16 +152,16 @@ void FaceTriangulation::connect(int a, int b, int segment) {
       }
     }
     if (through >= 0) {
-      hold(a, through, segment);
+      fix(a, through, segment);
       a = through;
       continue;
     }
     if (p < 0) return;  // cannot be: the segment lies in the face
-    if (!held(p, q) && flip(p, q)) continue;
+    if (!is_fixed(p, q) && flip(p, q)) continue;
     const double left = turn(a, b, q), right = -turn(a, b, p);
     const double share = right / (left + right);
     const int x = split_edge(p, q, points_[p] + share * (points_[q] - points_[p]));
-    hold(a, x, segment);
+    fix(a, x, segment);
     a = x;
   }
 }

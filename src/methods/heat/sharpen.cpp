@@ -123,16 +123,16 @@ struct BandRows {
 
 /// A row of the source that touches those nodes is left out: phi0 has its zero set there, and a row
 /// all of whose nodes have one sign would hold them at 0, a dent.
-BandRows held_rows(const Calculus& C, const SpMat& source, int dim, const std::vector<int>& s,
+BandRows band_rows(const Calculus& C, const SpMat& source, int dim, const std::vector<int>& s,
                    const VecX& near) {
-  BandRows held;
+  BandRows band;
   Triplets entries;
   std::vector<double> weight, bound;
   for (Eigen::Index i = 0; i < near.size(); ++i) {
     const int c = C.component[i];
     if (near[i] < 0 || c < 0) continue;
     entries.emplace_back(weight.size(), i, 1 / C.h);
-    held.sign.push_back(s[i]);
+    band.sign.push_back(s[i]);
     bound.push_back(near[i] / C.h);
     weight.push_back(C.M[i]);
   }
@@ -146,34 +146,34 @@ BandRows held_rows(const Calculus& C, const SpMat& source, int dim, const std::v
       entries.emplace_back(weight.size(), it.col(), it.value() / C.h);
     weight.push_back(10 * std::pow(C.h, dim));
   }
-  held.bound = Eigen::Map<const VecX>(bound.data(), bound.size());
-  held.weight = Eigen::Map<const VecX>(weight.data(), weight.size());
-  held.R.resize(held.weight.size(), near.size());
-  held.R.setFromTriplets(entries.begin(), entries.end());
-  return held;
+  band.bound = Eigen::Map<const VecX>(bound.data(), bound.size());
+  band.weight = Eigen::Map<const VecX>(weight.data(), weight.size());
+  band.R.resize(band.weight.size(), near.size());
+  band.R.setFromTriplets(entries.begin(), entries.end());
+  return band;
 }
 
 constexpr Eigen::Index most_for_a_factor = 60'000;  // nodes in space; a factor grows like n^(4/3)
 
 }  // namespace
 
-VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
+VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
   const Stopwatch watch(report, "sharpen");
   const Eigen::Index n = C.M.size(), cells = C.A.size();
   const int dim = C.G.rows / cells;
-  const std::vector<int> s = signs_of(C, terms.reached, phi0);
+  const std::vector<int> s = signs_of(C, system.reached, phi0);
   std::vector<char> gone(n, 0);
   VecX start(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int c = C.component[i];
-    gone[i] = c < 0 || !terms.reached[c];
+    gone[i] = c < 0 || !system.reached[c];
     start[i] = gone[i] ? 0 : phi0[i] / ops.unit;
   }
   const SpRows G = C.G.matrix();
-  const BandRows held = held_rows(C, terms.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
-  const VecX& w = held.weight;
+  const BandRows band = band_rows(C, system.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
+  const VecX& w = band.weight;
   const Eigen::Index extra = w.size();
 
   SplitProblem problem;
@@ -182,9 +182,9 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
   problem.A << C.A, w;
   problem.b = VecX::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) problem.b[i] = s[i] * C.M[i];
-  const SignedBall energy(dim, cells, held.sign, held.bound);
+  const SignedBall energy(dim, cells, band.sign, band.bound);
   problem.energy = &energy;
-  problem.G = stacked(G, held.R, dim);
+  problem.G = stacked(G, band.R, dim);
 
   AdmmState state;
   multiply(problem.G, start, state.z, task);
@@ -202,9 +202,9 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
   if (options.solver == SharpenSolver::pdhg) {
     result = pdhg(problem, C.M, start, admm_options, task);
   } else {
-    const SpMat matrix = eliminated(with_rows(C.L, held.R, w), gone);
+    const SpMat matrix = eliminated(with_rows(C.L, band.R, w), gone);
     const bool large = dim == 3 && n > most_for_a_factor;
-    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(held.R))
+    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(band.R))
                                    : DefiniteSystem(matrix, task);
     VecX last = start;
     problem.solve = [&](const VecX& b, double rho) {
@@ -232,14 +232,14 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
 VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
                       SharpenSolver solver, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
-  SourceSystem terms;
-  terms.A = rows;
-  terms.reached.assign(C.n_components, 0);
+  SourceSystem system;
+  system.A = rows;
+  system.reached.assign(C.n_components, 0);
   for (const int i : unknowns_of(rows))
-    if (C.component[i] >= 0) terms.reached[C.component[i]] = 1;
+    if (C.component[i] >= 0) system.reached[C.component[i]] = 1;
   SharpenOptions options;
   options.solver = solver;
-  return sharpen(ops, terms, phi0, options, task, report);
+  return sharpen(ops, system, phi0, options, task, report);
 }
 
 }  // namespace littoral

@@ -57,10 +57,10 @@ void project(Row& x, Row& y) {
 /// Squared norms over the product of the domain with itself.
 struct Norms {
   double gap = 0, g = 0, z = 0, dz = 0, w = 0;    // G X - Z, G X, Z; D (Z - Z_old), D W
-  double apart = 0, x = 0, u = 0, du = 0, h = 0;  // X - U, X, U; U - U_old, H
+  double split = 0, x = 0, u = 0, du = 0, h = 0;  // X - U, X, U; U - U_old, H
   void add(const Norms& o) {
     gap += o.gap, g += o.g, z += o.z, dz += o.dz, w += o.w;
-    apart += o.apart, x += o.x, u += o.u, du += o.du, h += o.h;
+    split += o.split, x += o.x, u += o.u, du += o.du, h += o.h;
   }
 };
 
@@ -244,7 +244,7 @@ class AllPairs {
         const auto norm2 = [&](const auto& v) {
           return C_.M[j] * C_.M.dot(v.template cast<double>().cwiseAbs2().matrix());
         };
-        norms.apart += norm2(X_.col(j) - next);
+        norms.split += norm2(X_.col(j) - next);
         norms.x += norm2(X_.col(j));
         norms.u += norm2(next);
         norms.du += norm2(next - U_.col(j));
@@ -260,7 +260,7 @@ class AllPairs {
       return std::sqrt(residual) / (o_.tolerance * (std::sqrt(compared) + 1e-300));
     };
     const double primal1 = over(s.gap, std::max(s.g, s.z)), dual1 = over(s.dz, s.w);
-    const double primal2 = over(s.apart, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
+    const double primal2 = over(s.split, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
     const double worst = std::max({primal1, dual1, primal2, dual2});
     if (!std::isfinite(worst)) throw SolveError("all pairs diverged: non-finite iterate");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));

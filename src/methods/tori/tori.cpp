@@ -7,8 +7,8 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "sources/distinct_points.h"
 #include "sources/likely_outliers.h"
+#include "sources/oriented_points.h"
 
 namespace littoral {
 
@@ -17,13 +17,13 @@ namespace {
 constexpr int blended = blended_tori;
 // Tori are believed on the side within this many spacings of the nearest point, or if no more than
 // this share of the weight disagrees; farther than this many spacings only if the winding number
-// is not this winding_margin of the contrary: patches of flipped normals agree among themselves.
+// does not say the contrary with this margin: patches of flipped normals agree among themselves.
 constexpr double near_surface = 1.5, disagreement_tolerance = 0.02, far_away = 3,
                  winding_margin = 0.25;
 constexpr double side_accuracy = 2;  // of the winding number: errors of 0.01 do not matter
-// Points in groups: their normals are trusted if the winding number is winding_margin on both sides
-// of the group, this many spacings away, and they agree among themselves to this extent; then on
-// places that see the nearest point within this cosine of its normal.
+// Points in groups: their normals are trusted if the winding number is clear by winding_margin on
+// both sides of the group, this many spacings away, and their mean is at least `agreement` long;
+// then on places that see the nearest point within this cosine of its normal.
 constexpr int group = 16;
 constexpr double probe = 2.5, agreement = 0.9, frontal = 0.7;
 
@@ -278,11 +278,11 @@ double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const V
   BlendedTori<S> out;
   BlendKernel<S>* const kernel = blend_kernel<S>();
   kernel(lanes, n, 0, out);
-  const SideCheck doubts(out.nearest, out.rho, out.negative);
+  const SideCheck check(out.nearest, out.rho, out.negative);
   const bool negative = out.phi < 0;
-  if (doubts.disputed || (doubts.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
-    const int side = side_of(x, negative, doubts.disputed);
-    if (doubts.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
+  if (check.disputed || (check.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
+    const int side = side_of(x, negative, check.disputed);
+    if (check.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
   }
   const double nearest = std::sqrt(found[0].squared_distance);
   return clamp_to_nearest<double>(out.phi, nearest, out.rho);
@@ -302,11 +302,11 @@ T ToriDistance::plain(const Vec3& x, const std::array<T, 3>& at) const {
       return v.value;
   };
   Blend<T> out = ask(0);
-  const SideCheck doubts(number(out.nearest), number(out.rho), out.negative);
-  if (doubts.disputed || (doubts.far && orientation_ != 0)) {
+  const SideCheck check(number(out.nearest), number(out.rho), out.negative);
+  if (check.disputed || (check.far && orientation_ != 0)) {
     const bool negative = number(out.phi) < 0;
-    const int side = side_of(x, negative, doubts.disputed);
-    if (doubts.disputed || (side < 0) != negative) out = ask(side);
+    const int side = side_of(x, negative, check.disputed);
+    if (check.disputed || (side < 0) != negative) out = ask(side);
   }
   return clamp_to_nearest<T>(out.phi, out.nearest, out.rho);
 }

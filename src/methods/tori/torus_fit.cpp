@@ -19,16 +19,16 @@ namespace {
 
 /// A neighbour in the frame of a point, lengths in units of the fit's scale.
 struct Seen {
-  double S, T, H;  // place along s, t and n
-  double A, B;     // its normal along s and t
-  double apart;    // distance, kept away from 0
+  double S, T, H;   // place along s, t and n
+  double A, B;      // its normal along s and t
+  double distance;  // distance, kept away from 0
   double height_weight, normal_weight;
 };
 
 /// What the network sees of a neighbour (python/train_torus_fit.py: fit).
 Eigen::Matrix<float, LearnedFit::features, 1> features_of(const Seen& j, const Vec3& d,
                                                           const Vec3& m, const Vec3& n) {
-  const double rises = j.H / j.apart, seen = d.dot(m) / j.apart;
+  const double rises = j.H / j.distance, seen = d.dot(m) / j.distance;
   const double inverse = 1 / std::sqrt(j.S * j.S + j.T * j.T + 1e-8);
   Eigen::Matrix<double, LearnedFit::features, 1> out;
   out << std::min(d.norm(), 4.0), rises, seen, m.dot(n), (j.A * j.S + j.B * j.T) * inverse,
@@ -53,11 +53,11 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   for (std::size_t j = 0; j < count; ++j) {
     const Vec3 d = (cloud.points.row(neighbours[j].point).transpose() - p) / scale;
     const Vec3 m = cloud.normals.row(neighbours[j].point);
-    const double apart = std::max(d.norm(), 0.05);
-    const double weight = fit.weight_exponent == 2   ? 1 / (apart * apart)
-                          : fit.weight_exponent == 1 ? 1 / apart
-                                                     : std::pow(apart, -fit.weight_exponent);
-    rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), apart, weight, 0};
+    const double distance = std::max(d.norm(), 0.05);
+    const double weight = fit.weight_exponent == 2   ? 1 / (distance * distance)
+                          : fit.weight_exponent == 1 ? 1 / distance
+                                                     : std::pow(distance, -fit.weight_exponent);
+    rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), distance, weight, 0};
     rows[j].normal_weight = weight * fit.normal_weight;
     if (learned) features.col(j) = features_of(rows[j], d, m, n);
   }

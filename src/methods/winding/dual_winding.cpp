@@ -112,8 +112,8 @@ void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
   int n = 0;
   for (std::size_t i = 0; i < turn.size(); ++i) {
     if (turn[i].empty()) continue;
-    char& hold = whole[node_component[i]];  // constants are free there: one is held
-    if (!std::exchange(hold, 0)) unknown[i] = n++;
+    char& fix = whole[node_component[i]];  // constants are free there: one is fixed
+    if (!std::exchange(fix, 0)) unknown[i] = n++;
   }
   if (n == 0) return;
   std::vector<std::vector<std::pair<int, int>>> at(J.n_edges);

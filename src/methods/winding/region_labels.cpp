@@ -1,10 +1,9 @@
-#include "methods/winding/region_labels.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <numbers>
 
+#include "methods/winding/surface_winding.h"
 #include "solve/network/l1_integration.h"
 
 namespace littoral {

@@ -14,17 +14,17 @@ namespace littoral {
 
 VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
   // Delta_2 = d1 star1^-1 d1^T; beta is 0 outside the boundary. Without one, constants are free on
-  // orientable components: their first face is held.
+  // orientable components: their first face is fixed.
   const VecX curl = J.d1(omega);
   std::vector<char> fixed(J.n_components, 0);
   for (int c = 0; c < J.n_components; ++c) fixed[c] = J.orientable[c];
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
       if (!J.interior(J.edge(f, k))) fixed[J.component[f]] = 0;
-  std::vector<char> held(J.n_faces, 0);
+  std::vector<char> fixed(J.n_faces, 0);
   for (int f = 0; f < J.n_faces; ++f)
     if (fixed[J.component[f]]) {
-      held[f] = 1;
+      fixed[f] = 1;
       fixed[J.component[f]] = 0;
     }
   Triplets entries;
@@ -34,14 +34,14 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
       const int e = J.edge(f, k);
       const JumpCalculus::Side at = J.across(f, k);
       entries.emplace_back(f, f, 1 / J.star1[e]);
-      if (at.face >= 0 && at.face < f && !held[f] && !held[at.face])
+      if (at.face >= 0 && at.face < f && !fixed[f] && !fixed[at.face])
         entries.emplace_back(f, at.face, J.along(f, k) * J.along(at.face, at.k) / J.star1[e]);
     }
   SpMat Delta(J.n_faces, J.n_faces);
   Delta.setFromTriplets(entries.begin(), entries.end());
   VecX b = curl;
   for (int f = 0; f < J.n_faces; ++f)
-    if (held[f]) b[f] = 0;
+    if (fixed[f]) b[f] = 0;
   const VecX beta = DefiniteSystem(Delta, task).solve(b);
   return omega - J.d1_transpose(beta).cwiseQuotient(J.star1);
 }

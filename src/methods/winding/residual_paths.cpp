@@ -1,11 +1,11 @@
-#include "methods/winding/residual_paths.h"
-
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
+
+#include "methods/winding/residual.h"
 
 namespace littoral {
 

@@ -14,7 +14,8 @@ namespace littoral {
 
 namespace {
 
-constexpr int narrow = 24;  // columns of a supernode up to which calls cost more than loops
+constexpr int small_supernode =
+    24;  // columns of a supernode up to which calls cost more than loops
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
@@ -144,8 +145,8 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
   const Elimination& E = *structure_;
   // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
   std::vector<char> nonzero(E.n_super, 0), needed = nonzero;
-  auto mark_up = [&](std::vector<char>& marks, int s) {
-    for (; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
+  auto mark_up = [&](std::vector<char>& marked, int s) {
+    for (; s >= 0 && !marked[s]; s = E.parent[s]) marked[s] = 1;
   };
   Dense x(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
@@ -205,8 +206,8 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
-    if (n_rhs == 1 && columns <= narrow) {
-      dense::forward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+    if (n_rhs == 1 && columns <= small_supernode) {
+      dense::forward_small(columns, height, block, &x(E.first[s], 0), y.data());
     } else {
       dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
       dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
@@ -231,12 +232,12 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
       y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
     const int* rows = E.rows.data() + E.rows_begin[s];
-    if (n_rhs == 1 && columns <= narrow) {
+    if (n_rhs == 1 && columns <= small_supernode) {
       Scalar* v = y.data();
       Scalar* own = &x(E.first[s], 0);
       std::copy(own, own + columns, v);
       for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], 0);
-      dense::backward_narrow(columns, height, block, v);
+      dense::backward_small(columns, height, block, v);
       std::copy(v, v + columns, own);
       continue;
     }

@@ -1,4 +1,4 @@
-// One right-hand side on a narrow supernode: most of the time of a repeated solve. Four doubles at
+// One right-hand side on a small supernode: most of the time of a repeated solve. Four doubles at
 // once where the processor can, which is asked when the program runs.
 
 #include <Eigen/Core>
@@ -208,7 +208,7 @@ LITTORAL_AVX2 void backward(int n, int height, const Scalar* block, Scalar* v) {
 }  // namespace
 
 template <class Scalar>
-void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
+void forward_small(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
   forward_top(n, height, block, x);
 #ifdef LITTORAL_AVX2
   if (has_avx2()) return times(height - n, n, block + n, height, x, y);
@@ -217,7 +217,7 @@ void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y
 }
 
 template <class Scalar>
-void backward_narrow(int n, int height, const Scalar* block, Scalar* v) {
+void backward_small(int n, int height, const Scalar* block, Scalar* v) {
 #ifdef LITTORAL_AVX2
   if (has_avx2()) return backward(n, height, block, v);
 #endif
@@ -225,9 +225,9 @@ void backward_narrow(int n, int height, const Scalar* block, Scalar* v) {
   backward_top(n, height, block, v);
 }
 
-template void forward_narrow(int, int, const double*, double*, double*);
-template void forward_narrow(int, int, const Complex*, Complex*, Complex*);
-template void backward_narrow(int, int, const double*, double*);
-template void backward_narrow(int, int, const Complex*, Complex*);
+template void forward_small(int, int, const double*, double*, double*);
+template void forward_small(int, int, const Complex*, Complex*, Complex*);
+template void backward_small(int, int, const double*, double*);
+template void backward_small(int, int, const Complex*, Complex*);
 
 }  // namespace littoral::dense

@@ -35,17 +35,16 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
 }  // namespace
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint expect,
-                               const Task& task, Ordering order)
+HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint hint, const Task& task,
+                               Ordering order)
     : A_(std::make_shared<const Matrix>(std::move(lower))),
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
-  if (A_->rows() > (expect == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
+  if (A_->rows() > (hint == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
     return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
-  const std::size_t limit =
-      expect == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
+  const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
 }
 
@@ -79,10 +78,10 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector
 }
 
 template <class Scalar>
-ScaledField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
-                                                   const std::vector<int>& piece, const Task& task,
-                                                   Report& report) const {
-  return solve(windows_.source_that_holds(held, task), piece, task, report);
+ScaledField<Scalar> HeatSystem<Scalar>::solve_prescribed(const Vector& values,
+                                                         const std::vector<int>& piece,
+                                                         const Task& task, Report& report) const {
+  return solve(windows_.source_prescribing(values, task), piece, task, report);
 }
 
 template <class Scalar>

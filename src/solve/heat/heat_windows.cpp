@@ -18,7 +18,8 @@ constexpr double window = 50;            // decay lengths kept of every window
 constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
                                          // arrives at what is kept exp(-2 * overlap) times smaller
 constexpr double longest_overlap = 120;
-constexpr double around_held = 18;  // what lies beyond does not change a source that holds values
+constexpr double around_prescribed =
+    18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The same with several layers made one where the range of numbers allows it.
@@ -273,28 +274,28 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
 }
 
 template <class Scalar>
-typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
-    const Vector& held, const Task& task) const {
+typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
+    const Vector& values, const Task& task) const {
   const FlushSubnormals flush;
   const int n = position_.size();
   std::vector<char> known(position_.size(), 0);
   std::vector<int> from, blocks, local(position_.size(), -1);
   for (int i = 0; i < n; ++i)
-    if (block_magnitude(held, i, block_) > 0) {
+    if (block_magnitude(values, i, block_) > 0) {
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, around_held, task);
+  const std::vector<double> d = distances(from, around_prescribed, task);
   for (int i = 0; i < n; ++i)
-    if (!known[i] && d[i] <= around_held) blocks.push_back(i);
+    if (!known[i] && d[i] <= around_prescribed) blocks.push_back(i);
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
-  Vector x = held;
+  Vector x = values;
   const Vector z =
-      solve_region(blocks, known, held, Vector::Zero(index(blocks.size()) * block_), local, task);
+      solve_region(blocks, known, values, Vector::Zero(index(blocks.size()) * block_), local, task);
   for (std::size_t k = 0; k < blocks.size(); ++k)
     x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(index(k) * block_, block_);
-  // b = A x in the rows of held blocks, whose entries are in their own columns and their
+  // b = A x in the rows of prescribed blocks, whose entries are in their own columns and their
   // neighbours'.
   std::vector<int> columns = from;
   for (int i : from)
@@ -302,7 +303,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
       if (!known[to_[e]]) columns.push_back(to_[e]);
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  Vector b = Vector::Zero(held.size());
+  Vector b = Vector::Zero(values.size());
   for (int c : columns)
     for (int j = c * block_; j < (c + 1) * block_; ++j)
       for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {

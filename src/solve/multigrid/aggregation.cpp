@@ -1,8 +1,8 @@
-#include "solve/multigrid/aggregation.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "solve/multigrid/multigrid.h"
 
 namespace littoral {
 

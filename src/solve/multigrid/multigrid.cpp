@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
-#include "solve/multigrid/aggregation.h"
 
 namespace littoral {
 

@@ -74,7 +74,7 @@ class Method {
     return s[columns_[k].f] - s[columns_[k].g];
   }
 
-  /// Pattern and positions of A Theta^-1 A^T, one node of every part held.
+  /// Pattern and positions of A Theta^-1 A^T, one node of every part fixed.
   void make_laplacian() {
     std::vector<int> f, g, order(columns_.size());
     for (const Column& column : columns_) {
@@ -125,7 +125,7 @@ class Method {
     return true;
   }
 
-  /// A q: what the columns' flow brings out of every node that is not held.
+  /// A q: what the columns' flow brings out of every node that is not fixed.
   VecX out_of_nodes(const VecX& q) const {
     VecX out = VecX::Zero(problem_.n);
     for (Eigen::Index k = 0; k < m_; ++k) {

@@ -6,13 +6,13 @@
 #include <tuple>
 
 #include "base/parallel.h"
-#include "solve/direct/refined_cholesky.h"
+#include "solve/direct/cholesky.h"
 #include "solve/optimization/paraboloid_rows.h"
 
 namespace littoral {
 
 namespace {
-using namespace parabolic;
+using namespace paraboloid;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = 256;  // elements per piece of a parallel loop

@@ -1,5 +1,5 @@
 #pragma once
-// The constraints of a parabolic program, all as rows bound + q^T x - |T G x|^2 / 4 >= 0, and the
+// The constraints of a paraboloid program, all as rows bound + q^T x - |T G x|^2 / 4 >= 0, and the
 // sums over an element's rows that Newton's equations are made of.
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "base/index.h"
 #include "solve/optimization/paraboloid_program.h"
 
-namespace littoral::parabolic {
+namespace littoral::paraboloid {
 
 /// A row and its interior-point state: slack s, multiplier z.
 struct Row {
@@ -138,4 +138,4 @@ struct ParaboloidRows {
   }
 };
 
-}  // namespace littoral::parabolic
+}  // namespace littoral::paraboloid

@@ -39,30 +39,22 @@ class Admm {
     int changes_left = o_.penalty_changes;
     for (int k = 1; k <= o_.max_iterations; ++k) {
       task_.checkpoint(progress_);
-      const bool check = k == 1 || k % check_every == 0 || k == o_.max_iterations;
+      const bool last = k == o_.max_iterations, check = k == 1 || k % check_every == 0 || last;
       iterate(check);
       result.iterations = k;
       if (!check) continue;
       residuals(result);
-      if (result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_) {
+      const bool small = result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_;
+      if (small || last || (o_.gap > 0 && k % 20 == 0)) {
         evaluate_duality_gap(result);
-        if (o_.gap <= 0 || result.gap <= o_.gap) {
-          result.converged = true;
-          break;
-        }
-      } else if (o_.gap > 0 && k % 20 == 0) {
-        evaluate_duality_gap(result);
-        if (result.gap <= o_.gap) {
-          result.converged = true;
-          break;
-        }
+        result.converged = o_.gap > 0 ? result.gap <= o_.gap : small;
+        if (result.converged) break;
       }
       const double ratio =
           std::max(result.primal / primal_tolerance_, result.dual / dual_tolerance_);
       progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
       if (changes_left > 0 && change_penalty(result, k)) --changes_left;
     }
-    if (!result.converged) evaluate_duality_gap(result);
     result.u = u_;
     return result;
   }

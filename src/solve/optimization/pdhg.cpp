@@ -47,7 +47,7 @@ AdmmResult pdhg(const SplitProblem& p, const VecX& M, const VecX& u0, const Admm
   for (int k = 1; k <= options.max_iterations; ++k) {
     task.checkpoint(progress);
     r.iterations = k;
-    const bool check = k % check_every == 0;
+    const bool check = k % check_every == 0 || k == options.max_iterations;
     // y + sigma G u, less sigma times the nearest allowed gradient (Moreau).
     multiply(p.G, ahead, g, task);
     VecX v = y / sigma + g, z(v.size());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "solve/optimization/pdhg.h"
 #include "sources/p2_sources.h"
@@ -54,8 +56,8 @@ TEST(P2Sources, RepeatedPointsCountOnce) {
   PolygonSoup soup;
   soup.points.resize(4, 3);
   soup.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-  soup.add_face({0, 1, 2});
-  soup.add_face({0, 2, 3});
+  soup.add_face(std::array{0, 1, 2});
+  soup.add_face(std::array{0, 2, 3});
   const SurfaceMesh mesh(std::move(soup));
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);

@@ -172,7 +172,7 @@ class Marcher {
       task_.checkpoint(0.35);
       for (std::size_t c = 0; c < crossed_[k].size(); ++c) {
         const Crossed& edge = crossed_[k][c];
-        const std::array<int, 3> p{edge.node % s_.n[0], edge.node / s_.n[0], k};
+        const std::array<int, 3> p{edge.node % s_.n[0], edge.node / s_.n[0], static_cast<int>(k)};
         std::array<int, 3> q = p;
         ++q[edge.axis];
         Vec3 along = Vec3::Zero();

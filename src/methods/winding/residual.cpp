@@ -21,10 +21,10 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
       if (!J.interior(J.edge(f, k))) fixed[J.component[f]] = 0;
-  std::vector<char> fixed(J.n_faces, 0);
+  std::vector<char> grounded(J.n_faces, 0);
   for (int f = 0; f < J.n_faces; ++f)
     if (fixed[J.component[f]]) {
-      fixed[f] = 1;
+      grounded[f] = 1;
       fixed[J.component[f]] = 0;
     }
   Triplets entries;
@@ -34,14 +34,14 @@ VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
       const int e = J.edge(f, k);
       const JumpCalculus::Side at = J.across(f, k);
       entries.emplace_back(f, f, 1 / J.star1[e]);
-      if (at.face >= 0 && at.face < f && !fixed[f] && !fixed[at.face])
+      if (at.face >= 0 && at.face < f && !grounded[f] && !grounded[at.face])
         entries.emplace_back(f, at.face, J.along(f, k) * J.along(at.face, at.k) / J.star1[e]);
     }
   SpMat Delta(J.n_faces, J.n_faces);
   Delta.setFromTriplets(entries.begin(), entries.end());
   VecX b = curl;
   for (int f = 0; f < J.n_faces; ++f)
-    if (fixed[f]) b[f] = 0;
+    if (grounded[f]) b[f] = 0;
   const VecX beta = DefiniteSystem(Delta, task).solve(b);
   return omega - J.d1_transpose(beta).cwiseQuotient(J.star1);
 }

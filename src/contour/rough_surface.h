@@ -45,8 +45,8 @@ void place_crossing(RoughSurface& rough, std::size_t c, double t, std::int64_t n
 }
 
 /// Merges points close to the same node along edges of the mesh, where the mesh stays manifold;
-/// points that remain together at one node are moved apart. Components that have
-/// collapsed to a point are dropped.
+/// points that remain together at one node are moved apart. Components that have collapsed to a
+/// point are dropped.
 PolygonSoup merge_close_points(RoughSurface rough, const Task& task);
 
 /// Counts the edges with one face and warns of them: the level set has met the boundary.

@@ -82,12 +82,12 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
     for (std::size_t k = 0; k < 3; ++k) all.row(3 * i + k) = corners_[i][k];
   }
   faces_ = std::move(sorted);
-  std::vector<Lanes> held;
-  add_node(splits, 0, held);
+  std::vector<Lanes> ranges;
+  add_node(splits, 0, ranges);
   parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at)
       for (int c = 0; c < width; ++c) {
-        const auto [from, to] = held[at][c];
+        const auto [from, to] = ranges[at][c];
         if (from == to)
           set_empty(nodes_[at], c);
         else
@@ -191,7 +191,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
   return splits;
 }
 
-int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held) {
+int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges) {
   // The boxes of most triangles under the root are opened as long as there is room.
   std::vector<int> members{root};
   const auto size = [&](int at) {
@@ -208,11 +208,11 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vecto
   }
   const auto at = nodes_.size();
   nodes_.emplace_back();
-  held.emplace_back();
+  ranges.emplace_back();
   for (std::size_t c = 0; c < members.size(); ++c) {
     const Split& s = splits[members[c]];
-    held[at][c] = {s.begin, s.end};
-    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], held);
+    ranges[at][c] = {s.begin, s.end};
+    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], ranges);
     nodes_[at].child[c] = child;
   }
   return at;

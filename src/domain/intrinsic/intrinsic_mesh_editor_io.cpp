@@ -85,8 +85,7 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
       T.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
       T.length(f, k) = edges[e].length;
       T.edge_use[E] = static_cast<std::uint8_t>(std::min(255, T.edge_use[E] + 1));
-      // Faces on the side of the first one lie to the left or right of the edge as that one
-      // does.
+      // Faces on the side of the first one lie to the left or right of the edge as that one does.
       if (first_side_sign[e] == 0) {
         first_side_sign[e] = faces[f].side_sign[k];
         first_left[e] = T.along(f, k);

@@ -145,7 +145,7 @@ TEST(HeatWindows, HeldVectorsAreHeld) {
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const VecX size = decay_lengths(V.M, t);
   const HeatSystem<Complex> system(*A, 1, size, SolveHint::many_rhs, {});
-  const auto field = system.solve_held(held, V.piece, {}, report);
+  const auto field = system.solve_prescribed(held, V.piece, {}, report);
   double worst = 0, residual = 0;
   int one = 0;  // the field has one layer, in units of its own: make a held vector one long
   while (held[one] == 0.0) ++one;

@@ -148,7 +148,8 @@ TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
     VecX x0 = b;
     solve(x0);
     Report report;
-    const VecX x = solve_held(solve, x0, {rows.A, VecX::Constant(m, soft), 1e-13}, Task(), report);
+    const VecX x =
+        solve_constrained(solve, x0, {rows.A, VecX::Constant(m, soft), 1e-13}, Task(), report);
     EXPECT_EQ(report.status, "converged");
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);
     K.topLeftCorner(n, n) = laplacian(grid);

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "brute_force.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
-#include "spatial/brute_force.h"
 #include "spatial/triangle_bvh.h"
 #include "test_meshes.h"
 

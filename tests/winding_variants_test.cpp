@@ -10,7 +10,7 @@
 #include "api/surface/winding.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/error.h"
-#include "methods/winding/residual_paths.h"
+#include "methods/winding/residual.h"
 #include "test_meshes.h"
 
 namespace littoral {

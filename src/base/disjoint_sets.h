@@ -10,11 +10,9 @@ namespace littoral {
 /// 0 to n - 1, each in a set of its own until joined; a set is led by its lowest number.
 class DisjointSets {
  public:
-  explicit DisjointSets(int n = 0) : leader_(static_cast<std::size_t>(n)) {
-    std::iota(leader_.begin(), leader_.end(), 0);
-  }
+  explicit DisjointSets(int n = 0) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
 
-  int size() const { return static_cast<int>(leader_.size()); }
+  int size() const { return leader_.size(); }
   /// One more number; returns it.
   int add() {
     leader_.push_back(size());

@@ -23,7 +23,7 @@ class ReadyNodes {
         begin_(parent.size() + 1, 0),
         child_(parent.size()),
         left_(parent.size()) {
-    const int n = static_cast<int>(parent.size());
+    const int n = parent.size();
     for (int p : parent)
       if (p >= 0) ++begin_[p];
     for (int i = 0, sum = 0; i <= n; ++i) sum += std::exchange(begin_[i], sum);
@@ -84,7 +84,7 @@ class ReadyNodes {
 
 void parallel_forest(const std::vector<int>& parent, Walk walk,
                      const std::function<void(int)>& body) {
-  const int n = static_cast<int>(parent.size());
+  const int n = parent.size();
   const std::size_t workers = std::min<std::size_t>(parent.size(), thread_count());
   if (workers <= 1) {
     for (int i = 0; i < n; ++i) body(walk == Walk::from_leaves ? i : n - 1 - i);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
+
 namespace littoral::cell {
 
 namespace {
@@ -152,7 +154,7 @@ class Spanner {
     p = Vec3::Constant(0.5) + 0.9 * (p - Vec3::Constant(0.5));  // off the faces
     if (cell_.trilinear) move_onto_level(p);
     patch_.inner.push_back(p);
-    return first_inner + static_cast<int>(patch_.inner.size()) - 1;
+    return first_inner + int_size(patch_.inner) - 1;
   }
 
   // A few damped Newton steps along the gradient of the trilinear function, inside the cell.

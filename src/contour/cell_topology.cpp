@@ -1,8 +1,8 @@
-#include "contour/cell_topology.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "contour/cell_surface.h"
 
 namespace littoral::cell {
 

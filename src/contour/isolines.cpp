@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -14,7 +15,7 @@ namespace {
 struct Segments {
   std::vector<int> end_edge;  // ends
   std::vector<int> link;      // ends: the other segment end at the same crossing, or -1
-  int count() const { return static_cast<int>(end_edge.size() / 2); }
+  int count() const { return end_edge.size() / 2; }
 };
 
 class Tracer {
@@ -41,7 +42,7 @@ class Tracer {
 
   void cross_face(int f) {
     const auto corners = mesh_.face(f);
-    const int n = static_cast<int>(corners.size());
+    const int n = corners.size();
     double mean = 0;
     for (int v : corners) {
       if (!std::isfinite(values_[v])) return;
@@ -54,7 +55,7 @@ class Tracer {
     // Crossings alternate between leaving and entering the part above. If the middle is above, each
     // run of corners below is cut off on its own: join a leaving side to the entering side after
     // it; otherwise to the one before it.
-    const int crossings = static_cast<int>(sides_.size());
+    const int crossings = sides_.size();
     const int step = mean > level_ ? 1 : crossings - 1;
     for (int i = 0; i < crossings; ++i) {
       if (!above(corners[sides_[i]])) continue;
@@ -66,7 +67,7 @@ class Tracer {
   void link_ends() {
     std::vector<int> waiting(mesh_.n_edges(), -1);
     segments_.link.assign(segments_.end_edge.size(), -1);
-    for (int end = 0; end < static_cast<int>(segments_.end_edge.size()); ++end) {
+    for (int end = 0; end < int_size(segments_.end_edge); ++end) {
       const int e = segments_.end_edge[end];
       if (mesh_.edge_faces(e).size() > 2) continue;
       if (waiting[e] < 0) {
@@ -153,10 +154,10 @@ std::vector<Polyline> isolines(const SurfaceMesh& mesh, const VecX& values, doub
 }
 
 MatX3 polyline_points(const SurfaceMesh& mesh, const Polyline& line) {
-  const auto n = static_cast<Eigen::Index>(line.nodes.size());
+  const Eigen::Index n = line.nodes.size();
   MatX3 points(n + (line.closed ? 1 : 0), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    points.row(i) = mesh.position(line.nodes[static_cast<std::size_t>(i % n)]).transpose();
+    points.row(i) = mesh.position(line.nodes[i % n]).transpose();
   }
   return points;
 }

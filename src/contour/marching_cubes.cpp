@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "contour/cell_surface.h"
@@ -23,23 +24,19 @@ class Samples {
       : grid_(grid), values_(values), level_(level), pad_(close ? 1 : 0) {
     for (int k = 0; k < 3; ++k) n[k] = grid.n[k] + 2 * pad_;
     if (close) outside_ = std::max(1e-300, (0.5 * values.array() - 0.5 * level).abs().maxCoeff());
-    const auto slice = static_cast<std::size_t>(n[0]) * static_cast<std::size_t>(n[1]);
-    positive_.resize(slice * static_cast<std::size_t>(n[2]));
-    parallel_for(static_cast<std::size_t>(n[2]), 1, [&](std::size_t k, std::size_t) {
+    const auto slice = std::size_t(n[0]) * n[1];
+    positive_.resize(slice * n[2]);
+    parallel_for(n[2], 1, [&](std::size_t k, std::size_t) {
       auto* sign = positive_.data() + k * slice;
       for (int j = 0; j < n[1]; ++j)
-        for (int i = 0; i < n[0]; ++i)
-          *sign++ =
-              padded(i, j, static_cast<int>(k)) || values[real(i, j, static_cast<int>(k))] > level;
+        for (int i = 0; i < n[0]; ++i) *sign++ = padded(i, j, k) || values[real(i, j, k)] > level;
     });
   }
   bool padded(int i, int j, int k) const {
     return pad_ != 0 &&
            (i == 0 || j == 0 || k == 0 || i == n[0] - 1 || j == n[1] - 1 || k == n[2] - 1);
   }
-  bool positive(int i, int j, int k) const {
-    return positive_[static_cast<std::size_t>(node(i, j, k))] != 0;
-  }
+  bool positive(int i, int j, int k) const { return positive_[node(i, j, k)] != 0; }
   // Half the value minus the level: the difference of two huge numbers stays finite.
   double value(int i, int j, int k) const {
     return padded(i, j, k) ? outside_ : 0.5 * values_[real(i, j, k)] - 0.5 * level_;
@@ -63,7 +60,7 @@ class Samples {
 
  private:
   Eigen::Index real(int i, int j, int k) const {
-    return static_cast<Eigen::Index>(grid_.node(i - pad_, j - pad_, k - pad_));
+    return index(grid_.node(i - pad_, j - pad_, k - pad_));
   }
   const Grid& grid_;
   const VecX& values_;
@@ -81,16 +78,16 @@ void check(const Grid& grid, const VecX& values, double level) {
       throw InputError("isosurface: the grid's spacing must be positive, its box finite");
     }
   }
-  if (static_cast<std::size_t>(values.size()) != grid.n_nodes()) {
+  if (values.size() != index(grid.n_nodes())) {
     throw InputError("isosurface: " + std::to_string(values.size()) + " values for " +
                      std::to_string(grid.n_nodes()) + " nodes");
   }
   if (!std::isfinite(level)) throw InputError("isosurface: the level must be a finite number");
-  const auto n = static_cast<std::size_t>(values.size());
+  const std::size_t n = values.size();
   std::atomic<std::size_t> first{n};
   parallel_for(n, 1 << 18, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (std::isfinite(values[static_cast<Eigen::Index>(i)])) continue;
+      if (std::isfinite(values[i])) continue;
       for (std::size_t seen = first; i < seen && !first.compare_exchange_weak(seen, i);) continue;
       return;
     }
@@ -99,8 +96,7 @@ void check(const Grid& grid, const VecX& values, double level) {
     const std::size_t x = first % grid.n[0], rest = first / grid.n[0];
     throw InputError("isosurface: the value of node (" + std::to_string(x) + ", " +
                      std::to_string(rest % grid.n[1]) + ", " + std::to_string(rest / grid.n[1]) +
-                     ") is " + number_text(values[static_cast<Eigen::Index>(first)]) +
-                     "; a level set needs finite values");
+                     ") is " + number_text(values[first]) + "; a level set needs finite values");
   }
 }
 
@@ -116,7 +112,7 @@ class Marcher {
   RoughSurface run() {
     find_crossings();
     RoughSurface rough;
-    const auto slices = static_cast<std::size_t>(s_.n[2]);
+    const std::size_t slices = s_.n[2];
     rough.points.resize(start_[slices]);
     rough.separated_points.resize(start_[slices]);
     rough.node.resize(start_[slices]);
@@ -129,7 +125,7 @@ class Marcher {
       for (std::size_t k = begin; k < end; ++k) {
         task_.checkpoint(0.4 + 0.6 * static_cast<double>(done++) / static_cast<double>(slices));
         enter(k + 1, above, true);
-        span_layer(static_cast<int>(k), below, above, layers[k]);
+        span_layer(k, below, above, layers[k]);
         enter(k, below, false);
         std::swap(below, above);
       }
@@ -144,16 +140,14 @@ class Marcher {
     std::vector<std::array<int, 3>> triangles;  // inner points as -1 - index
   };
 
-  std::size_t slice_size() const {
-    return static_cast<std::size_t>(s_.n[0]) * static_cast<std::size_t>(s_.n[1]);
-  }
+  std::size_t slice_size() const { return std::size_t(s_.n[0]) * s_.n[1]; }
 
   void find_crossings() {
-    const auto slices = static_cast<std::size_t>(s_.n[2]);
+    const std::size_t slices = s_.n[2];
     crossed_.resize(slices);
     std::atomic<std::size_t> done{0};
     parallel_for(slices, 1, [&](std::size_t begin, std::size_t) {
-      const int k = static_cast<int>(begin);
+      const int k = begin;
       task_.checkpoint(0.3 * static_cast<double>(done++) / static_cast<double>(slices));
       for (int j = 0; j < s_.n[1]; ++j) {
         for (int i = 0; i < s_.n[0]; ++i) {
@@ -196,8 +190,7 @@ class Marcher {
   void enter(std::size_t k, std::vector<int>& table, bool in) const {
     for (std::size_t c = 0; c < crossed_[k].size(); ++c) {
       const Crossed& edge = crossed_[k][c];
-      table[3 * static_cast<std::size_t>(edge.node) + static_cast<std::size_t>(edge.axis)] =
-          in ? static_cast<int>(start_[k] + c) : -1;
+      table[3 * std::size_t(edge.node) + edge.axis] = in ? static_cast<int>(start_[k] + c) : -1;
     }
   }
 
@@ -239,12 +232,12 @@ class Marcher {
       // Crossings that are about to become one point must not put two inner points in one place.
       one.crossing[e][edge.axis] =
           std::clamp(s_.crossing(from, to), close_to_node, 1 - close_to_node);
-      const auto node = static_cast<std::size_t>(from[0] + s_.n[0] * from[1]);
-      number[e] = (p[2] ? above : below)[3 * node + static_cast<std::size_t>(edge.axis)];
+      const std::size_t node = from[0] + s_.n[0] * from[1];
+      number[e] = (p[2] ? above : below)[3 * node + edge.axis];
     }
     patch.clear();
     cell::span_cell(one, patch);
-    const int inner = static_cast<int>(layer.inner.size());
+    const int inner = layer.inner.size();
     for (const Vec3& p : patch.inner) layer.inner.push_back(s_.point(Vec3(i, j, k) + p));
     for (const auto& t : patch.triangles) {
       std::array<int, 3> corners;
@@ -263,7 +256,7 @@ class Marcher {
     rough.triangles.reserve(triangles);
     for (const Layer& layer : layers) {
       task_.checkpoint(1);
-      const int base = static_cast<int>(rough.points.size());
+      const int base = rough.points.size();
       for (const Vec3& p : layer.inner) add_point(rough, p);
       for (auto t : layer.triangles) {
         for (int& v : t) v = v < 0 ? base - 1 - v : v;

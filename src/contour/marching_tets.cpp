@@ -121,7 +121,7 @@ PolygonSoup isosurface(const TetMesh& mesh, const VecX& values, double level, Re
     std::array<int, 3> corners;
     for (int k = 0; k < 3; ++k) {
       const auto at = std::lower_bound(edges.begin(), edges.end(), triangles[t][k]);
-      corners[k] = static_cast<int>(at - edges.begin());
+      corners[k] = at - edges.begin();
     }
     rough.triangles.push_back(corners);
   }

@@ -2,6 +2,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "contour/rough_surface.h"
 
@@ -59,7 +60,7 @@ void Merger::drop_points_without_size(const Task& task) {
     }
   }
   std::vector<bool> has_size(r_.points.size(), false);
-  for (int v = 0; v < static_cast<int>(root.size()); ++v) {
+  for (int v = 0; v < int_size(root); ++v) {
     const int first = find(v);
     if (r_.node[v] < 0 || r_.points[v] != r_.points[first]) has_size[first] = true;
   }
@@ -70,7 +71,7 @@ void Merger::drop_points_without_size(const Task& task) {
 
 void Merger::find_clusters() {
   std::vector<int> close;
-  for (int v = 0; v < static_cast<int>(r_.node.size()); ++v) {
+  for (int v = 0; v < int_size(r_.node); ++v) {
     if (r_.node[v] >= 0) close.push_back(v);
   }
   std::stable_sort(close.begin(), close.end(),
@@ -80,13 +81,12 @@ void Merger::find_clusters() {
   for (std::size_t i = 0, j = 0; i < close.size(); i = j) {
     for (j = i; j < close.size() && r_.node[close[j]] == r_.node[close[i]];) ++j;
     if (j - i < 2) continue;
-    clusters_.emplace_back(close.begin() + static_cast<std::ptrdiff_t>(i),
-                           close.begin() + static_cast<std::ptrdiff_t>(j));
+    clusters_.emplace_back(close.begin() + i, close.begin() + j);
     for (int v : clusters_.back()) slot_[v] = slots++;
   }
-  faces_.resize(static_cast<std::size_t>(slots));
-  merged_.assign(static_cast<std::size_t>(slots), 1);
-  for (int t = 0; t < static_cast<int>(r_.triangles.size()); ++t) {
+  faces_.resize(slots);
+  merged_.assign(slots, 1);
+  for (int t = 0; t < int_size(r_.triangles); ++t) {
     if (r_.triangles[t][0] == dead) continue;
     for (int v : r_.triangles[t]) {
       if (slot_[v] >= 0) faces_[slot_[v]].push_back(t);

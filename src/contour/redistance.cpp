@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
@@ -12,7 +13,7 @@ namespace littoral {
 
 VecX redistance(const Grid& grid, const VecX& values, double level, const PolygonSoup& surface,
                 double reach, const Task& task) {
-  if (static_cast<std::size_t>(values.size()) != grid.n_nodes())
+  if (values.size() != index(grid.n_nodes()))
     throw InputError("redistance: " + std::to_string(values.size()) + " values for " +
                      std::to_string(grid.n_nodes()) + " nodes");
   VecX distance = (values.array() > level).select(VecX::Constant(values.size(), reach), -reach);
@@ -25,8 +26,7 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
   constexpr int side = 8;
   std::array<int, 3> blocks;
   for (int a = 0; a < 3; ++a) blocks[a] = (grid.n[a] + side - 1) / side;
-  const auto count = static_cast<std::size_t>(blocks[0]) * static_cast<std::size_t>(blocks[1]) *
-                     static_cast<std::size_t>(blocks[2]);
+  const auto count = std::size_t(blocks[0]) * blocks[1] * blocks[2];
   std::atomic<std::size_t> done{0};
   parallel_for(count, 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -34,8 +34,8 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
       std::array<int, 3> low, high;
       std::size_t rest = b;
       for (int a = 0; a < 3; ++a) {
-        low[a] = side * static_cast<int>(rest % static_cast<std::size_t>(blocks[a]));
-        rest /= static_cast<std::size_t>(blocks[a]);
+        low[a] = side * static_cast<int>(rest % blocks[a]);
+        rest /= blocks[a];
         high[a] = std::min(grid.n[a], low[a] + side);
       }
       const Vec3 first = grid.point(low[0], low[1], low[2]);
@@ -47,7 +47,7 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
       for (int k = low[2]; k < high[2]; ++k) {
         for (int j = low[1]; j < high[1]; ++j) {
           for (int i = low[0]; i < high[0]; ++i) {
-            double& d = distance[static_cast<Eigen::Index>(grid.node(i, j, k))];
+            double& d = distance[grid.node(i, j, k)];
             const NearestPoint foot = bvh.closest_point(grid.point(i, j, k), before);
             before = foot.face;
             const double near = std::min(reach, foot.distance);

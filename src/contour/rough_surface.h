@@ -25,7 +25,7 @@ struct RoughSurface {
 inline constexpr double close_to_node = 0.05, apart_from_node = 1e-3;  // of an edge
 
 inline void check_count(std::size_t count) {
-  if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 3)
+  if (count > std::numeric_limits<int>::max() / 3)
     throw InputError("isosurface: the level set has too many triangles");
 }
 
@@ -45,8 +45,8 @@ void place_crossing(RoughSurface& rough, std::size_t c, double t, std::int64_t n
 }
 
 /// Merges points close to the same node along edges of the mesh, where the mesh stays manifold;
-/// points that remain together at one node are moved separated_points. Components that have
-/// collapsed to a point are dropped.
+/// points that remain together at one node are moved apart. Components that have collapsed to a
+/// point are dropped.
 PolygonSoup merge_close_points(RoughSurface rough, const Task& task);
 
 /// Counts the edges with one face and warns of them: the level set has met the boundary.

@@ -2,9 +2,11 @@
 // The operators a method may use: all it ever sees of a domain. Each discretization is translated
 // into this once (operators/triangles.cpp, ...); each method is written against it once.
 //
-// Vectors are complex numbers in the frame of their dof or cell, stored as interleaved pairs of
-// reals: entry 2 i is the real, 2 i + 1 the imaginary part. Symmetric matrices store their lower
-// triangle only. All lengths are in `unit`s of the domain.
+// Vector fields are given by vectors at edges or nodes, whichever the discretization puts them at:
+// its vector degrees of freedom, `dofs` for short. Vectors are complex numbers in the frame of
+// their dof or cell, stored as interleaved pairs of reals: entry 2 i is the real, 2 i + 1 the
+// imaginary part. Symmetric matrices store their lower triangle only. All lengths are in `unit`s of
+// the domain.
 
 #include <string>
 #include <utility>
@@ -31,23 +33,23 @@ struct Calculus {
   VecX divergence(const VecX& Y) const;
 };
 
-/// A node where pieces touch that no dof connects (two cubes sharing a vertex): what flows out
-/// of the node into one of the pieces.
+/// A node where pieces touch that no dof connects (two cubes sharing a vertex): what flows out of
+/// the node into one of the pieces.
 struct Pinch {
   int node;                                     // of the scalar calculus
   int piece;                                    // of the dofs
   std::vector<std::pair<int, Complex>> radial;  // dof, unit-mass radial measure (eq. 19)
 };
 
-/// Vector fields that can be diffused: the connection Laplacian on its dof.
+/// Vector fields that can be diffused: the connection Laplacian on the dofs.
 struct VectorDiffusion {
   int n = 0;               // dofs
   VecX M;                  // dofs; lumped mass [length^2]
   SpMatC L;                // dofs x dofs, lower triangle, Hermitian positive semidefinite;
                            //   empty if frames cannot be chosen so that it is complex-linear
   SpMat L_real;            // then: 2 dofs x 2 dofs, lower triangle, symmetric
-  Rows<int, 2> ends;       // dofs x 2: the nodes a dof lies between; no rows where dofs
-                           //   are not edges between nodes
+  Rows<int, 2> ends;       // dofs x 2: the nodes a dof lies between; no rows where dofs are
+                           //   not edges between nodes
   bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
   LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame
   double h = 0;            // mean distance between neighbouring dofs [length]

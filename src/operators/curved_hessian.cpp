@@ -11,10 +11,10 @@ namespace {
 SpMat real_laplacian(const VectorDiffusion& V) {
   if (!V.complex_linear()) return V.L_real.selfadjointView<Eigen::Lower>();
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(V.L.nonZeros()) * 8);
+  entries.reserve(V.L.nonZeros() * 8);
   for (int j = 0; j < V.L.outerSize(); ++j)
     for (SpMatC::InnerIterator it(V.L, j); it; ++it) {
-      const int i = static_cast<int>(it.row());
+      const int i = it.row();
       const double a = it.value().real(), b = it.value().imag();
       auto put = [&](int row, int col, double re, double im) {
         entries.emplace_back(2 * row, 2 * col, re);
@@ -76,7 +76,7 @@ SpMat curvature(const IntrinsicTriangulation& T) {
 /// du on the edges (2 edges x vertices): the mean of the gradients beside an edge, by area.
 SpMat edge_gradient(const IntrinsicTriangulation& T, const VecX& mass) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(T.n_faces()) * 18);
+  entries.reserve(std::size_t(T.n_faces()) * 18);
   for (int f = 0; f < T.n_faces(); ++f) {
     const TriangleShape t = T.shape(f);
     for (int k = 0; k < 3; ++k)

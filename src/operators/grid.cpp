@@ -6,23 +6,24 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 
 namespace littoral {
 
 VecX grid_divergence(const Grid& grid, const Directions& Y) {
   const int nx = grid.n[0], ny = grid.n[1], nz = grid.n[2];
-  VecX b(static_cast<Eigen::Index>(grid.n_nodes()));
-  parallel_for(static_cast<std::size_t>(nz), 4, [&](std::size_t begin, std::size_t end) {
-    for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
+  VecX b(grid.n_nodes());
+  parallel_for(nz, 4, [&](std::size_t begin, std::size_t end) {
+    for (int k = begin; k < index(end); ++k)
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) {
-          const auto at = static_cast<Eigen::Index>(grid.node(i, j, k));
+          const Eigen::Index at = grid.node(i, j, k);
           const std::array<int, 3> place{i, j, k};
           Eigen::Index step = 1;
           double sum = 0;
           for (int a = 0; a < 3; ++a) {
-            const auto s = static_cast<std::size_t>(a);
+            const std::size_t s = a;
             double flux = 0;  // through the edge before the node, minus that through the one after
             if (place[s] > 0) flux += 0.5 * (double(Y(at, a)) + Y(at - step, a));
             if (place[s] + 1 < grid.n[s]) flux -= 0.5 * (double(Y(at, a)) + Y(at + step, a));
@@ -43,11 +44,11 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights) {
   std::vector<Place> places;
   const auto lower = [&](Eigen::Index p, std::array<int, 3>& low, Vec3& t) {
     for (int a = 0; a < 3; ++a) {
-      const int n = grid.n[static_cast<std::size_t>(a)];
+      const int n = grid.n[a];
       const double u = (points(p, a) - grid.origin[a]) / grid.spacing[a];
       if (!(u >= 0 && u <= n - 1)) return false;
-      low[static_cast<std::size_t>(a)] = std::clamp(static_cast<int>(u), 0, std::max(0, n - 2));
-      t[a] = u - low[static_cast<std::size_t>(a)];
+      low[a] = std::clamp(static_cast<int>(u), 0, std::max(0, n - 2));
+      t[a] = u - low[a];
     }
     return true;
   };
@@ -71,19 +72,17 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights) {
                   (c & 4 ? t[2] : 1 - t[2]);
       total += weights[p];
     }
-    const int row = static_cast<int>(row_weight.size());
+    const int row = row_weight.size();
     for (int c = 0; c < 8; ++c)
-      if (sum[static_cast<std::size_t>(c)] != 0)
-        entries.emplace_back(
-            row,
-            static_cast<int>(grid.node(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2))),
-            sum[static_cast<std::size_t>(c)] / total);
+      if (sum[c] != 0)
+        entries.emplace_back(row,
+                             grid.node(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2)),
+                             sum[c] / total);
     row_weight.push_back(total);
   }
   GridRows rows;
-  rows.weight =
-      Eigen::Map<const VecX>(row_weight.data(), static_cast<Eigen::Index>(row_weight.size()));
-  rows.A.resize(rows.weight.size(), static_cast<Eigen::Index>(grid.n_nodes()));
+  rows.weight = Eigen::Map<const VecX>(row_weight.data(), row_weight.size());
+  rows.A.resize(rows.weight.size(), grid.n_nodes());
   rows.A.setFromTriplets(entries.begin(), entries.end());
   return rows;
 }

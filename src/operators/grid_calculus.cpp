@@ -1,5 +1,6 @@
 #include <array>
 
+#include "base/index.h"
 #include "operators/grid.h"
 
 namespace littoral {
@@ -13,7 +14,7 @@ void for_edges(const Grid& grid, const Put& put) {
     for (int j = 0; j < grid.n[1]; ++j)
       for (int i = 0; i < grid.n[0]; ++i) {
         const std::array<int, 3> at = {i, j, k};
-        const auto node = static_cast<int>(grid.node(i, j, k));
+        const int node = grid.node(i, j, k);
         int step = 1;
         for (int axis = 0; axis < 3; ++axis) {
           if (at[axis] + 1 < grid.n[axis]) put(axis, node, node + step);
@@ -23,8 +24,7 @@ void for_edges(const Grid& grid, const Put& put) {
 }
 
 SpRows gradient_rows(const Grid& grid) {
-  SpRows G(3 * static_cast<Eigen::Index>(grid.n_nodes()),
-           static_cast<Eigen::Index>(grid.n_nodes()));
+  SpRows G(3 * index(grid.n_nodes()), grid.n_nodes());
   G.reserve(Eigen::VectorXi::Constant(G.rows(), 2));
   for_edges(grid, [&](int axis, int node, int next) {
     G.insert(3 * Eigen::Index{node} + axis, node) = -1 / grid.spacing[axis];
@@ -37,13 +37,13 @@ SpRows gradient_rows(const Grid& grid) {
 }  // namespace
 
 Calculus grid_calculus(const Grid& grid) {
-  const auto n = static_cast<Eigen::Index>(grid.n_nodes());
+  const Eigen::Index n = grid.n_nodes();
   Calculus C;
   C.M = C.A = VecX::Constant(n, grid.spacing.prod());
   C.h = grid.spacing.mean();
-  C.component.assign(static_cast<std::size_t>(n), 0);
+  C.component.assign(n, 0);
   C.n_components = 1;
-  C.boundary.assign(static_cast<std::size_t>(n), 0);
+  C.boundary.assign(n, 0);
   for (int k = 0; k < grid.n[2]; ++k)
     for (int j = 0; j < grid.n[1]; ++j)
       for (int i = 0; i < grid.n[0]; ++i)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "operators/nodal_cells.h"
 
 namespace littoral {
@@ -12,13 +13,13 @@ namespace {
 /// Numbers the members of one patch, fine vertices or nodes, in ascending order.
 class Numbering {
  public:
-  explicit Numbering(Eigen::Index n) : local_(static_cast<std::size_t>(n), -1) {}
+  explicit Numbering(Eigen::Index n) : local_(n, -1) {}
   void clear() { items.clear(); }
   void add(int item) { items.push_back(item); }
   void number() {
     std::sort(items.begin(), items.end());
     items.erase(std::unique(items.begin(), items.end()), items.end());
-    for (std::size_t i = 0; i < items.size(); ++i) local_[items[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < items.size(); ++i) local_[items[i]] = i;
   }
   Eigen::Index operator()(int item) const { return local_[item]; }
   std::vector<int> items;
@@ -45,8 +46,8 @@ class Assembly {
  public:
   explicit Assembly(const NodalSurface& S)
       : cells(std::make_shared<NodalCells>(S)), S_(S), fine_(S.P.rows()), node_(S.P.cols()) {
-    L.reserve(static_cast<std::size_t>(S.cells->n_faces()) * 3);
-    connection.reserve(static_cast<std::size_t>(S.cells->n_faces()) * 3);
+    L.reserve(std::size_t(S.cells->n_faces()) * 3);
+    connection.reserve(std::size_t(S.cells->n_faces()) * 3);
   }
 
   void add_patch(int p) {
@@ -58,16 +59,14 @@ class Assembly {
       for (int k = 0; k < 3; ++k) fine_.add(T.faces(c, k));
     fine_.number();
     for (int v : fine_.items)
-      for (Interpolation::InnerIterator it(S_.P, v); it; ++it)
-        node_.add(static_cast<int>(it.col()));
+      for (Interpolation::InnerIterator it(S_.P, v); it; ++it) node_.add(it.col());
     node_.number();
-    const auto m = static_cast<Eigen::Index>(fine_.items.size()),
-               n = static_cast<Eigen::Index>(node_.items.size());
+    const Eigen::Index m = fine_.items.size(), n = index(node_.items.size());
     K_.setZero(m, m);
     P_.setZero(m, n);
     for (Eigen::Index v = 0; v < m; ++v)
       for (Interpolation::InnerIterator it(S_.P, fine_.items[v]); it; ++it)
-        P_(v, node_(static_cast<int>(it.col()))) = it.value();
+        P_(v, node_(it.col())) = it.value();
     const TangentFrame frame(S_.patch_normals.row(p));
     turn_.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -160,7 +159,7 @@ Operators nodal_operators(const NodalSurface& S) {
   C.h = S.spacing;
   C.component.assign(S.place->component.begin(), S.place->component.begin() + n);
   C.n_components = S.place->n_components;
-  C.boundary.assign(static_cast<std::size_t>(n), 0);
+  C.boundary.assign(n, 0);
   for (int e = 0; e < S.place->n_edges(); ++e)
     if (S.place->edge_use[e] == 1)
       for (int k = 0; k < 2; ++k)

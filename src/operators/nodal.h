@@ -16,7 +16,7 @@ struct TangentFrame {
   Complex turn_into(const TangentFrame& other) const;
 };
 
-/// The operators of a nodal surface (signed heat method, sections 8.3 to 8.5). VectorDofs are
+/// The operators of a nodal surface (signed heat method, sections 8.3 to 8.5). Vector dofs are
 /// nodes, cells are its triangles; on the patches L = P^T L_cells P, and the connection Laplacian
 /// is the same with the vectors of the nodes turned into the patch's plane by the smallest
 /// rotation: it is positive semidefinite whatever the weights, which L with its entries turned from

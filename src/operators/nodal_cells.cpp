@@ -42,7 +42,7 @@ void NodalCells::add_patch(const std::vector<int>& nodes, const VecXc& turn, con
   to_frame_.segment(cell_offsets_[n_patches()], axes.size()) = axes.conjugate();
   node_.insert(node_.end(), nodes.begin(), nodes.end());
   turn_.insert(turn_.end(), turn.data(), turn.data() + turn.size());
-  node_offsets_.push_back(static_cast<int>(node_.size()));
+  node_offsets_.push_back(node_.size());
 }
 
 LinearMap NodalCells::gradient(std::shared_ptr<const NodalCells> cells) {
@@ -50,16 +50,15 @@ LinearMap NodalCells::gradient(std::shared_ptr<const NodalCells> cells) {
   G.apply = [cells](const VecX& u) {
     const VecX v = cells->P_ * u;
     VecX g(2 * cells->n_cells());
-    parallel_for(
-        static_cast<std::size_t>(cells->n_cells()), grain, [&](std::size_t begin, std::size_t end) {
-          for (auto c = static_cast<Eigen::Index>(begin); c < Eigen::Index(end); ++c) {
-            const auto corner = cells->corner_.row(c);
-            const auto s = cells->slope_.row(c);
-            const double v1 = v[corner[1]] - v[corner[0]], v2 = v[corner[2]] - v[corner[0]];
-            g[2 * c] = v1 * s[0];
-            g[2 * c + 1] = v1 * s[1] + v2 * s[2];
-          }
-        });
+    parallel_for(cells->n_cells(), grain, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index c = begin; c < Eigen::Index(end); ++c) {
+        const auto corner = cells->corner_.row(c);
+        const auto s = cells->slope_.row(c);
+        const double v1 = v[corner[1]] - v[corner[0]], v2 = v[corner[2]] - v[corner[0]];
+        g[2 * c] = v1 * s[0];
+        g[2 * c + 1] = v1 * s[1] + v2 * s[2];
+      }
+    });
     return g;
   };
   G.adjoint = [cells](const VecX& g) {
@@ -99,7 +98,7 @@ void NodalCells::mean_in_patch(int p, const VecXc& X, std::vector<Complex>& in_p
   const int* node = node_.data() + node_offsets_[p];
   const Complex* turn = turn_.data() + node_offsets_[p];
   const int n = node_offsets_[p + 1] - node_offsets_[p];
-  in_patch.resize(static_cast<std::size_t>(n));
+  in_patch.resize(n);
   for (int i = 0; i < n; ++i) in_patch[i] = turn[i] * X[node[i]];
   int known = -1;  // the vertex between nodes at which the vector is known:
   Complex between;
@@ -142,12 +141,10 @@ LinearMap NodalCells::mean(std::shared_ptr<const NodalCells> cells) {
   Q.apply = [cells](const VecX& x) {
     const VecXc X = as_complex(x);
     VecXc Y(cells->n_cells());
-    parallel_for(static_cast<std::size_t>(cells->n_patches()), grain,
-                 [&](std::size_t begin, std::size_t end) {
-                   std::vector<Complex> in_patch;
-                   for (std::size_t p = begin; p < end; ++p)
-                     cells->mean_in_patch(static_cast<int>(p), X, in_patch, Y);
-                 });
+    parallel_for(cells->n_patches(), grain, [&](std::size_t begin, std::size_t end) {
+      std::vector<Complex> in_patch;
+      for (std::size_t p = begin; p < end; ++p) cells->mean_in_patch(p, X, in_patch, Y);
+    });
     return as_pairs(Y);
   };
   Q.adjoint = [cells](const VecX& y) {

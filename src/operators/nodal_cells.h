@@ -27,8 +27,8 @@ class NodalCells {
   /// Mean of the vectors at the corners of each cell, in its frame (2 cells x 2 nodes).
   static LinearMap mean(std::shared_ptr<const NodalCells> cells);
 
-  int n_cells() const { return static_cast<int>(corner_.rows()); }
-  int n_patches() const { return static_cast<int>(node_offsets_.size()) - 1; }
+  int n_cells() const { return corner_.rows(); }
+  int n_patches() const { return node_offsets_.size() - 1; }
 
  private:
   void mean_in_patch(int p, const VecXc& X, std::vector<Complex>& in_patch, VecXc& Y) const;

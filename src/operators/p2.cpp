@@ -143,7 +143,7 @@ P2Elements<2> p2_elements(const IntrinsicTriangulation& T) {
   E.n_components = T.n_components;
   E.edge_length = VecX::Zero(E.n_edges);
   E.measure.resize(T.n_faces());
-  E.node.resize(static_cast<std::size_t>(T.n_faces()));
+  E.node.resize(T.n_faces());
   E.grad.resize(E.node.size());
   for (int f = 0; f < T.n_faces(); ++f) {
     const auto l = T.length.row(f);
@@ -174,18 +174,18 @@ SpMat p2_interpolation(const P2Elements<D>& E, std::span<const P2Point<D>> point
   for (std::size_t r = 0; r < points.size(); ++r) {
     const auto q = P2Shape<D>::values(points[r].b);
     for (int i = 0; i < P2Shape<D>::nodes; ++i)
-      if (q[i] != 0) entries.emplace_back(static_cast<int>(r), E.node[points[r].element][i], q[i]);
+      if (q[i] != 0) entries.emplace_back(r, E.node[points[r].element][i], q[i]);
   }
-  SpMat B(static_cast<Eigen::Index>(points.size()), E.n_nodes());
+  SpMat B(points.size(), E.n_nodes());
   B.setFromTriplets(entries.begin(), entries.end());
   return B;
 }
 
 template <int D>
 VecX p2_values(const P2Elements<D>& E, const VecX& u, std::span<const P2Point<D>> points) {
-  VecX values(static_cast<Eigen::Index>(points.size()));
+  VecX values(points.size());
   for (std::size_t r = 0; r < points.size(); ++r)
-    values[static_cast<Eigen::Index>(r)] = E.value(u, points[r].element, points[r].b);
+    values[r] = E.value(u, points[r].element, points[r].b);
   return values;
 }
 

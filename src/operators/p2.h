@@ -56,7 +56,7 @@ struct P2Elements {
   double mollified = 0;  // added to every edge length so that no element is degenerate
 
   int n_nodes() const { return n_vertices + n_edges; }
-  int n_elements() const { return static_cast<int>(node.size()); }
+  int n_elements() const { return node.size(); }
 
   typename Shape::Values gather(const VecX& u, int element) const;
   /// u at a point of an element.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/index.h"
 #include "operators/p2.h"
 
 namespace littoral {
@@ -18,10 +19,10 @@ std::array<Shape::Slopes, 3> slopes_at_cells(const P2Elements<2>& E, int f) {
 
 LinearMap gradient_map(std::shared_ptr<const P2Elements<2>> E) {
   LinearMap G;
-  G.rows = 6 * static_cast<Eigen::Index>(E->n_elements());
+  G.rows = 6 * index(E->n_elements());
   G.cols = E->n_nodes();
   G.apply = [E](const VecX& u) {
-    VecX X(6 * static_cast<Eigen::Index>(E->n_elements()));
+    VecX X(6 * index(E->n_elements()));
     for (int f = 0; f < E->n_elements(); ++f)
       for (int k = 0; k < 3; ++k)
         X.segment<2>(6 * Eigen::Index{f} + 2 * k) = E->gradient(u, f, Shape::middle(k));
@@ -81,12 +82,12 @@ Calculus p2_calculus(const P2Elements<2>& E) {
   C.L = stiffness(E);
   C.G = gradient_map(std::make_shared<const P2Elements<2>>(E));
   C.M = VecX::Zero(E.n_nodes());
-  C.A.resize(3 * static_cast<Eigen::Index>(E.n_elements()));
+  C.A.resize(3 * index(E.n_elements()));
   C.h = 0.5 * E.h;
-  C.component.assign(static_cast<std::size_t>(E.n_nodes()), -1);
+  C.component.assign(E.n_nodes(), -1);
   C.n_components = E.n_components;
   C.boundary.assign(C.component.size(), 0);
-  std::vector<int> sides(static_cast<std::size_t>(E.n_edges), 0);
+  std::vector<int> sides(E.n_edges, 0);
   for (int f = 0; f < E.n_elements(); ++f) {
     const auto& node = E.node[f];
     for (int i = 0; i < Shape::nodes; ++i) {

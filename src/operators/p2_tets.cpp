@@ -12,7 +12,7 @@ P2Tets p2_elements(const TetMesh& mesh, const TetOperators& ops) {
   E.n_vertices = mesh.n_vertices();
   E.component = ops.component;
   E.n_components = ops.n_components;
-  out.element_of_tet.assign(static_cast<std::size_t>(mesh.n_tets()), -1);
+  out.element_of_tet.assign(mesh.n_tets(), -1);
   const auto key = [&mesh](int t, int k) {  // of an edge: its ends, the smaller first
     const auto [i, j] = Shape::edge(k);
     const auto ends = std::minmax(mesh.tets(t, i), mesh.tets(t, j));
@@ -22,29 +22,29 @@ P2Tets p2_elements(const TetMesh& mesh, const TetOperators& ops) {
   std::vector<double> measure;
   for (int t = 0; t < mesh.n_tets(); ++t) {
     if (!(ops.volumes[t] > 0)) continue;
-    out.element_of_tet[static_cast<std::size_t>(t)] = static_cast<int>(measure.size());
+    out.element_of_tet[t] = measure.size();
     measure.push_back(ops.volumes[t]);
-    E.grad.emplace_back(ops.gradients[static_cast<std::size_t>(t)].transpose());
+    E.grad.emplace_back(ops.gradients[t].transpose());
     for (int k = 0; k < Shape::edges; ++k) edges.push_back(key(t, k));
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  E.n_edges = static_cast<int>(edges.size());
-  E.measure = Eigen::Map<const VecX>(measure.data(), static_cast<Eigen::Index>(measure.size()));
+  E.n_edges = edges.size();
+  E.measure = Eigen::Map<const VecX>(measure.data(), measure.size());
   E.edge_length.resize(E.n_edges);
   for (int e = 0; e < E.n_edges; ++e) {
-    const auto a = static_cast<Eigen::Index>(edges[static_cast<std::size_t>(e)] >> 32);
-    const auto b = static_cast<Eigen::Index>(edges[static_cast<std::size_t>(e)] & 0xffffffffU);
+    const Eigen::Index a = edges[e] >> 32;
+    const Eigen::Index b = edges[e] & 0xffffffffU;
     E.edge_length[e] = (mesh.points.row(a) - mesh.points.row(b)).norm();
   }
   E.h = E.n_edges > 0 ? E.edge_length.mean() : 0;
   for (int t = 0; t < mesh.n_tets(); ++t) {
-    if (out.element_of_tet[static_cast<std::size_t>(t)] < 0) continue;
+    if (out.element_of_tet[t] < 0) continue;
     std::array<int, Shape::nodes> node{};
-    for (int i = 0; i < Shape::corners; ++i) node[static_cast<std::size_t>(i)] = mesh.tets(t, i);
+    for (int i = 0; i < Shape::corners; ++i) node[i] = mesh.tets(t, i);
     for (int k = 0; k < Shape::edges; ++k) {
       const auto at = std::lower_bound(edges.begin(), edges.end(), key(t, k)) - edges.begin();
-      node[static_cast<std::size_t>(Shape::corners + k)] = E.n_vertices + static_cast<int>(at);
+      node[Shape::corners + k] = E.n_vertices + at;
     }
     E.node.push_back(node);
   }

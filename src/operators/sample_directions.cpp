@@ -26,7 +26,7 @@ class Sampler {
   Sampler(const Grid& grid, const std::function<Vec3(const Vec3&, double&)>& sample)
       : grid_(grid),
         sample_(sample),
-        Y(Directions::Zero(static_cast<Eigen::Index>(grid.n_nodes()), 3)),
+        Y(Directions::Zero(grid.n_nodes(), 3)),
         known_(grid.n_nodes(), 0),
         distance_(grid.n_nodes(), 0) {}
 
@@ -49,7 +49,7 @@ class Sampler {
 
  private:
   int high(const Cell& c, int a) const {
-    const auto s = static_cast<std::size_t>(a);
+    const std::size_t s = a;
     return std::min(c.low[s] + stride_, grid_.n[s] - 1);
   }
   std::size_t corner(const Cell& c, int which) const {
@@ -72,18 +72,15 @@ class Sampler {
       for (int w = 0; w < 8; ++w) want(corner(c, w));
       if (stride_ > 1) want(middle(c));
     }
-    const auto row = static_cast<std::size_t>(grid_.n[0]);
-    const auto slab = row * static_cast<std::size_t>(grid_.n[1]);
+    const std::size_t row = grid_.n[0];
+    const std::size_t slab = row * grid_.n[1];
     parallel_for(wanted.size(), grain, [&](std::size_t begin, std::size_t end) {
       task.checkpoint();
       for (std::size_t w = begin; w < end; ++w) {
         const std::size_t node = wanted[w];
         double d = 0;
-        const Vec3 direction =
-            sample_(grid_.point(static_cast<int>(node % row), static_cast<int>(node % slab / row),
-                                static_cast<int>(node / slab)),
-                    d);
-        Y.row(static_cast<Eigen::Index>(node)) = direction.transpose().cast<float>();
+        const Vec3 direction = sample_(grid_.point(node % row, node % slab / row, node / slab), d);
+        Y.row(node) = direction.transpose().cast<float>();
         distance_[node] = static_cast<float>(d);
       }
     });
@@ -94,27 +91,26 @@ class Sampler {
     const std::array<int, 3> at{i, j, k};
     std::array<float, 3> t{};
     for (int a = 0; a < 3; ++a) {
-      const auto s = static_cast<std::size_t>(a);
+      const std::size_t s = a;
       const int width = high(c, a) - c.low[s];
       t[s] = width > 0 ? static_cast<float>(at[s] - c.low[s]) / static_cast<float>(width) : 0.0f;
     }
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (int w = 0; w < 8; ++w)
       sum += (w & 1 ? t[0] : 1 - t[0]) * (w & 2 ? t[1] : 1 - t[1]) * (w & 4 ? t[2] : 1 - t[2]) *
-             Y.row(static_cast<Eigen::Index>(corner(c, w))).transpose();
+             Y.row(corner(c, w)).transpose();
     const float size = sum.norm();
     return size > 0 ? Eigen::Vector3f(sum / size) : Eigen::Vector3f::Zero();
   }
 
   bool is_smooth(const Cell& c) const {
     Vec3 diagonal;
-    for (int a = 0; a < 3; ++a)
-      diagonal[a] = (high(c, a) - c.low[static_cast<std::size_t>(a)]) * grid_.spacing[a];
+    for (int a = 0; a < 3; ++a) diagonal[a] = (high(c, a) - c.low[a]) * grid_.spacing[a];
     const std::size_t m = middle(c);
     if (distance_[m] < diagonal.norm()) return false;
-    const Eigen::Vector3f y = Y.row(static_cast<Eigen::Index>(m));
+    const Eigen::Vector3f y = Y.row(m);
     for (int w = 0; w < 8; ++w)
-      if (Y.row(static_cast<Eigen::Index>(corner(c, w))).dot(y) < 0.5f) return false;
+      if (Y.row(corner(c, w)).dot(y) < 0.5f) return false;
     return (interpolate(c, (c.low[0] + high(c, 0)) / 2, (c.low[1] + high(c, 1)) / 2,
                         (c.low[2] + high(c, 2)) / 2) -
             y)
@@ -140,7 +136,7 @@ class Sampler {
         bool inside = true;
         for (int a = 0; a < 3; ++a) {
           if ((w >> a & 1) == 0) continue;
-          const auto s = static_cast<std::size_t>(a);
+          const std::size_t s = a;
           child.low[s] += half;
           inside = inside && child.low[s] < grid_.n[s] - 1;
         }
@@ -153,15 +149,14 @@ class Sampler {
   void fill(const Cell& c) {
     std::array<int, 3> end{};
     for (int a = 0; a < 3; ++a) {
-      const auto s = static_cast<std::size_t>(a);
+      const std::size_t s = a;
       end[s] = high(c, a) == grid_.n[s] - 1 ? grid_.n[s] : high(c, a);
     }
     for (int k = c.low[2]; k < end[2]; ++k)
       for (int j = c.low[1]; j < end[1]; ++j)
         for (int i = c.low[0]; i < end[0]; ++i) {
           const std::size_t node = grid_.node(i, j, k);
-          if (known_[node] == 0)
-            Y.row(static_cast<Eigen::Index>(node)) = interpolate(c, i, j, k).transpose();
+          if (known_[node] == 0) Y.row(node) = interpolate(c, i, j, k).transpose();
         }
   }
 

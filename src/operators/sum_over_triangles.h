@@ -35,7 +35,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
   const auto pair = [&](Eigen::Index f, int k) {
     return std::minmax(unknowns(f, k), unknowns(f, (k + 1) % 3));
   };
-  std::vector<char> used(static_cast<std::size_t>(n), 0);
+  std::vector<char> used(n, 0);
   for (Eigen::Index f = 0; f < unknowns.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
       used[unknowns(f, k)] = 1;
@@ -48,7 +48,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
   A.resizeNonZeros(sum);
   int* row_of = A.innerIndexPtr();
   Scalar* value = A.valuePtr();
-  std::vector<int> end(static_cast<std::size_t>(n));  // of what is there of each column
+  std::vector<int> end(n);  // of what is there of each column
   for (int j = 0; j < n; ++j) {
     end[j] = begin[j] + used[j];  // the diagonal comes first
     if (!used[j]) continue;
@@ -59,13 +59,13 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
   for (Eigen::Index first = 0; first < unknowns.rows(); first += at_once) {
     if (task.cancelled()) throw Cancelled();
     const Eigen::Index count = std::min(at_once, unknowns.rows() - first);
-    batch.resize(static_cast<std::size_t>(count));
+    batch.resize(count);
     parallel_for(batch.size(), triangle_grain, [&](std::size_t i, std::size_t last) {
-      for (; i < last; ++i) batch[i] = terms(static_cast<int>(first) + static_cast<int>(i));
+      for (; i < last; ++i) batch[i] = terms(first + i);
     });
     for (Eigen::Index i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
-        const TriangleTerms<Scalar>& t = batch[static_cast<std::size_t>(i)];
+        const TriangleTerms<Scalar>& t = batch[i];
         value[begin[unknowns(first + i, k)]] += t.diagonal[k];
         const auto [column, row] = pair(first + i, k);
         if (column == row) {
@@ -78,7 +78,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
   }
   if (task.cancelled()) throw Cancelled();
   // Sorts the columns and adds up what is in the same place, in the order it came.
-  parallel_for(static_cast<std::size_t>(n), column_grain, [&](std::size_t j, std::size_t last) {
+  parallel_for(n, column_grain, [&](std::size_t j, std::size_t last) {
     for (; j < last; ++j) {
       const int start = begin[j] + used[j];
       int stop = start;  // of what is sorted

@@ -33,11 +33,11 @@ LinearMap gradient(const Tets& T) {
   };
   G.matrix = [T, n] {
     Triplets entries;
-    entries.reserve(static_cast<std::size_t>(12 * n));
+    entries.reserve(12 * n);
     for (Eigen::Index t = 0; t < n; ++t)
       for (int k = 0; k < 4; ++k)
         for (int d = 0; d < 3; ++d)
-          entries.emplace_back(static_cast<int>(3 * t + d), T->tets()(t, k), T->gradients[t](k, d));
+          entries.emplace_back(3 * t + d, T->tets()(t, k), T->gradients[t](k, d));
     SpRows matrix(3 * n, T->L.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
@@ -56,7 +56,7 @@ Calculus tet_calculus(const Tets& T) {
   C.component = T->component;
   C.n_components = T->n_components;
   C.boundary.assign(C.component.size(), 0);
-  std::vector<int> uses(static_cast<std::size_t>(T->n_faces), 0);
+  std::vector<int> uses(T->n_faces, 0);
   double length = 0;
   for (Eigen::Index t = 0; t < C.A.size(); ++t)
     for (int k = 0; k < 4; ++k) {

@@ -36,7 +36,7 @@ int number_faces(const TetMesh& mesh, Rows<int, 4>& tet_faces) {
     for (int k = 0; k < 4; ++k) {
       Side s{{}, t, k};
       for (int j = 0, c = 0; j < 4; ++j)
-        if (j != k) s.corners[static_cast<std::size_t>(c++)] = mesh.tets(t, j);
+        if (j != k) s.corners[c++] = mesh.tets(t, j);
       std::sort(s.corners.begin(), s.corners.end());
       sides.push_back(s);
     }
@@ -61,17 +61,14 @@ TetOperators tet_operators(const TetMesh& mesh) {
   ops.n_faces = number_faces(mesh, ops.tet_faces);
   const int n = mesh.n_vertices();
   ops.volumes = VecX::Zero(mesh.n_tets());
-  ops.gradients.assign(static_cast<std::size_t>(mesh.n_tets()),
-                       Eigen::Matrix<double, 4, 3>::Zero());
-  std::vector<int> parent(static_cast<std::size_t>(n));
+  ops.gradients.assign(mesh.n_tets(), Eigen::Matrix<double, 4, 3>::Zero());
+  std::vector<int> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v)
-      v = parent[static_cast<std::size_t>(v)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(v)])];
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  std::vector<char> used(static_cast<std::size_t>(n), 0);
+  std::vector<char> used(n, 0);
   Triplets laplacian, face_laplacian, face_mass;
   for (int t = 0; t < mesh.n_tets(); ++t) {
     const Vec3 a = mesh.points.row(mesh.tets(t, 0));
@@ -82,13 +79,13 @@ TetOperators tet_operators(const TetMesh& mesh) {
     if (!(V > 1e-14 * std::pow(edges.rowwise().norm().maxCoeff(), 3))) continue;
     ops.volumes[t] = V;
     // grad lambda_k for k > 0 are the columns of the inverse; the four sum to zero.
-    auto& g = ops.gradients[static_cast<std::size_t>(t)];
+    auto& g = ops.gradients[t];
     g.bottomRows<3>() = edges.inverse().transpose();
     g.row(0) = -g.bottomRows<3>().colwise().sum();
     for (int i = 0; i < 4; ++i) {
       const int vi = mesh.tets(t, i), fi = ops.tet_faces(t, i);
-      used[static_cast<std::size_t>(vi)] = 1;
-      parent[static_cast<std::size_t>(root(vi))] = root(mesh.tets(t, 0));
+      used[vi] = 1;
+      parent[root(vi)] = root(mesh.tets(t, 0));
       for (int j = 0; j < 4; ++j) {
         const int vj = mesh.tets(t, j), fj = ops.tet_faces(t, j);
         // phi_f = 1 - 3 lambda of the opposite corner: nine times the products of the lambdas.
@@ -102,13 +99,13 @@ TetOperators tet_operators(const TetMesh& mesh) {
     }
   }
   if (!(ops.volumes.sum() > 0)) throw InputError("the tet mesh has no volume");
-  ops.component.assign(static_cast<std::size_t>(n), -1);
-  std::vector<int> number(static_cast<std::size_t>(n), -1);
+  ops.component.assign(n, -1);
+  std::vector<int> number(n, -1);
   for (int v = 0; v < n; ++v) {
-    if (used[static_cast<std::size_t>(v)] == 0) continue;
-    int& c = number[static_cast<std::size_t>(root(v))];
+    if (used[v] == 0) continue;
+    int& c = number[root(v)];
     if (c < 0) c = ops.n_components++;
-    ops.component[static_cast<std::size_t>(v)] = c;
+    ops.component[v] = c;
   }
   const auto matrix = [](SpMat& to, Eigen::Index size, const Triplets& entries) {
     to.resize(size, size);
@@ -123,8 +120,7 @@ TetOperators tet_operators(const TetMesh& mesh) {
 VecX TetOperators::divergence(const MatX3& Y) const {
   VecX b = VecX::Zero(L.rows());
   for (Eigen::Index t = 0; t < tets_.rows(); ++t) {
-    const Eigen::Vector4d flux =
-        volumes[t] * gradients[static_cast<std::size_t>(t)] * Y.row(t).transpose();
+    const Eigen::Vector4d flux = volumes[t] * gradients[t] * Y.row(t).transpose();
     for (int k = 0; k < 4; ++k) b[tets_(t, k)] += flux[k];
   }
   return b;
@@ -133,8 +129,7 @@ VecX TetOperators::divergence(const MatX3& Y) const {
 MatX3 TetOperators::gradient(const VecX& u) const {
   MatX3 g = MatX3::Zero(tets_.rows(), 3);
   for (Eigen::Index t = 0; t < tets_.rows(); ++t)
-    for (int k = 0; k < 4; ++k)
-      g.row(t) += u[tets_(t, k)] * gradients[static_cast<std::size_t>(t)].row(k);
+    for (int k = 0; k < 4; ++k) g.row(t) += u[tets_(t, k)] * gradients[t].row(k);
   return g;
 }
 

@@ -48,8 +48,8 @@ struct TetOperators {
 TetOperators tet_operators(const TetMesh& mesh);
 
 /// Linear functions on the vertices as a calculus, for methods that know no tets: cells are tets
-/// with three numbers each, M [length^3] is lumped, h the mean edge of
-/// regular tets of these volumes.
+/// with three numbers each, M [length^3] is lumped, h the mean edge of regular tets of these
+/// volumes.
 Calculus tet_calculus(const std::shared_ptr<const TetOperators>& T);
 
 }  // namespace littoral

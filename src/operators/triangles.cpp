@@ -45,9 +45,9 @@ class PerFace {
   PerFace(const IntrinsicTriangulation& T, Compute compute) : compute_(std::move(compute)) {
     constexpr int most_kept = 2'000'000;
     if (T.n_faces() > most_kept) return;
-    kept_.resize(static_cast<std::size_t>(T.n_faces()));
+    kept_.resize(T.n_faces());
     parallel_for(kept_.size(), face_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) kept_[f] = compute_(static_cast<int>(f));
+      for (std::size_t f = begin; f < end; ++f) kept_[f] = compute_(f);
     });
   }
   std::array<Complex, 3> operator()(int f) const { return kept_.empty() ? compute_(f) : kept_[f]; }
@@ -70,7 +70,7 @@ SpRows gradient_matrix(const IntrinsicTriangulation& T) {
   begin[2 * T.n_faces()] = 6 * T.n_faces();
   parallel_for(T.n_faces(), face_grain, [&](std::size_t first, std::size_t end) {
     for (std::size_t s = first; s < end; ++s) {
-      const int f = static_cast<int>(s);
+      const int f = s;
       const TriangleShape t = T.shape(f);
       std::array<int, 3> corner = {0, 1, 2};
       std::sort(corner.begin(), corner.end(),
@@ -101,7 +101,7 @@ LinearMap gradient(Triangulation T) {
     VecX g(2 * T->n_faces());
     parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
-        const int f = static_cast<int>(s);
+        const int f = s;
         const auto hat = (*hats)(f);
         Complex z = 0;
         for (int k = 0; k < 3; ++k) z += u[T->faces(f, k)] * hat[k];
@@ -140,7 +140,7 @@ LinearMap edges_to_faces(Triangulation T) {
     VecX Y(2 * T->n_faces());
     parallel_for(T->n_faces(), face_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
-        const int f = static_cast<int>(s);
+        const int f = s;
         const auto edge = (*edges)(f);
         double x = 0, y = 0;
         for (int k = 0; k < 3; ++k) {
@@ -212,7 +212,7 @@ SpMatC connection_laplacian(const IntrinsicTriangulation& T, const Task& task) {
 /// at a seam: conjugation is linear over the reals only.
 SpMat connection_laplacian_real(const IntrinsicTriangulation& T) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(T.n_faces()) * 27);
+  entries.reserve(std::size_t(T.n_faces()) * 27);
   for (int f = 0; f < T.n_faces(); ++f) {
     connection_entries(T, f, [&](int row, int col, Complex r, bool seam_row, bool seam_col) {
       const double s = seam_row ? -1 : 1, c = seam_col ? -1 : 1;

@@ -13,7 +13,7 @@ namespace littoral {
 Calculus triangle_calculus(const std::shared_ptr<const IntrinsicTriangulation>& T,
                            const Task& task = {});
 
-/// The operators of a triangle mesh (signed heat method, section 5). VectorDofs are edges, nodes
+/// The operators of a triangle mesh (signed heat method, section 5). Vector dofs are edges, nodes
 /// are vertices, cells are faces. The triangulation is shared, or copied.
 Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>& T,
                              const Task& task = {});

@@ -5,14 +5,14 @@
 namespace littoral {
 
 std::vector<Curve> boundary_curves(const SurfaceMesh& mesh) {
-  std::vector<std::vector<int>> at(static_cast<std::size_t>(mesh.n_vertices()));  // edges
+  std::vector<std::vector<int>> at(mesh.n_vertices());  // edges
   std::vector<int> on_boundary;
   for (int e = 0; e < mesh.n_edges(); ++e) {
     if (mesh.edge_faces(e).size() != 1 || mesh.edges()(e, 0) == mesh.edges()(e, 1)) continue;
     on_boundary.push_back(e);
     for (int k = 0; k < 2; ++k) at[mesh.edges()(e, k)].push_back(e);
   }
-  std::vector<char> walked(static_cast<std::size_t>(mesh.n_edges()), 0);
+  std::vector<char> walked(mesh.n_edges(), 0);
   std::vector<Curve> curves;
   for (int first : on_boundary) {
     if (walked[first]) continue;

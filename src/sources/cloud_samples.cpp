@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
@@ -48,23 +49,21 @@ double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, con
   const Vec3 p = points.row(i);
   const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
   for (int k = neighbours;; k *= 4) {
-    std::vector<Neighbour> near(static_cast<std::size_t>(k));
+    std::vector<Neighbour> near(k);
     const int n = tree.nearest(p, k, near.data());
-    const double reach = std::sqrt(near[static_cast<std::size_t>(n - 1)].squared_distance);
+    const double reach = std::sqrt(near[n - 1].squared_distance);
     int same = 0;  // points at this place, itself among them
-    while (same < n &&
-           near[static_cast<std::size_t>(same)].squared_distance <= 1e-20 * reach * reach)
-      ++same;
+    while (same < n && near[same].squared_distance <= 1e-20 * reach * reach) ++same;
     if (n - same < std::min<Eigen::Index>(6, tree.size() - same) && n < tree.size()) continue;
     const int rim = same + (std::min(n - same, 6) + 1) / 2 - 1;
-    const double radius = std::sqrt(near[static_cast<std::size_t>(rim)].squared_distance);
+    const double radius = std::sqrt(near[rim].squared_distance);
     Polygon cell;
     for (int c = 0; c < 12; ++c) {
       const double angle = 2 * M_PI * c / 12;
       cell.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
     for (int j = same; j < n; ++j) {
-      const Vec3 d = points.row(near[static_cast<std::size_t>(j)].point).transpose() - p;
+      const Vec3 d = points.row(near[j].point).transpose() - p;
       const Vec2 q(d.dot(e1), d.dot(e2));
       if (q.squaredNorm() > 1e-6 * d.squaredNorm()) clip_to_nearer(cell, q);
     }
@@ -85,8 +84,8 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   }
   if (kept.empty())
     throw InputError("no point has a normal that is not zero; --estimate-normals computes some");
-  if (static_cast<Eigen::Index>(kept.size()) < cloud.points.rows())
-    report.warn(std::to_string(cloud.points.rows() - static_cast<Eigen::Index>(kept.size())) +
+  if (index(kept.size()) < cloud.points.rows())
+    report.warn(std::to_string(cloud.points.rows() - index(kept.size())) +
                 " points without a usable normal are left out");
   OrientedPoints out;
   out.points = cloud.points(kept, Eigen::all);
@@ -96,7 +95,7 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   out.areas.resize(out.size());
   const PointTree tree(out.points);
   parallel_for(kept.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+    for (Eigen::Index i = begin; i < index(end); ++i)
       out.areas[i] = cell_area(out.points, tree, i, out.normals.row(i));
   });
   // Cells of collinear points may be empty; nothing may weigh nothing.

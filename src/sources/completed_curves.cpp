@@ -54,7 +54,7 @@ class Nearby {
       const auto near = around_.find(v);
       if (near == around_.end()) continue;
       for (int i : near->second) {
-        const Straight& s = straight_[static_cast<std::size_t>(i)];
+        const Straight& s = straight_[i];
         const Vec3 along = s.b - s.a;
         const double length2 = along.squaredNorm();
         const double t = length2 > 0 ? std::clamp((x - s.a).dot(along) / length2, 0.0, 1.0) : 0;
@@ -73,7 +73,7 @@ class Nearby {
     bool open_a = false, open_b = false;
   };
   void add(const Straight& s, int face) {
-    for (int v : mesh_.face(face)) around_[v].push_back(static_cast<int>(straight_.size()));
+    for (int v : mesh_.face(face)) around_[v].push_back(straight_.size());
     straight_.push_back(s);
   }
   Vec3 place(int face, const std::array<double, 3>& b) const {
@@ -121,13 +121,13 @@ PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sou
 
 CurveSides::CurveSides(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                        const PlacedSources& sources, const VecX& phi)
-    : T_(T), phi_(phi), first_(static_cast<std::size_t>(T.n_faces()) + 1, 0) {
+    : T_(T), phi_(phi), first_(T.n_faces() + 1, 0) {
   for (const CurvePiece& piece : sources.pieces)
     if (piece.is_signed && T.triangle_of_face[piece.face] >= 0)
       for (const TriangleSources::Segment& s : segments_of(mesh, T, piece)) segments_.push_back(s);
   std::stable_sort(segments_.begin(), segments_.end(),
                    [](const auto& s, const auto& t) { return s.triangle < t.triangle; });
-  for (const auto& s : segments_) ++first_[static_cast<std::size_t>(s.triangle) + 1];
+  for (const auto& s : segments_) ++first_[s.triangle + 1];
   for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
 }
 

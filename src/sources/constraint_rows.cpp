@@ -9,7 +9,7 @@ int SourceNodes::id(const SurfacePoint& p) {
   const auto key = p.on == SurfacePoint::On::vertex
                        ? std::make_tuple(0, p.element, std::array<double, 3>{1, 0, 0})
                        : std::make_tuple(int(p.on), p.element, p.b);
-  const auto [it, added] = ids_.try_emplace(key, static_cast<int>(points.size()));
+  const auto [it, added] = ids_.try_emplace(key, points.size());
   if (added) {
     points.push_back(p);
     weight.push_back(0);
@@ -49,26 +49,26 @@ void ConstraintRowBuilder::end_run() {
   run_.clear();
 }
 
-void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& terms) {
+void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes,
+                                 SourceSystem& system) {
   end_run();
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
     if (nodes.weight[i] > 0)
       rows_.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
   Triplets entries;
   std::map<int, int> group_of_root;
-  terms.weight.resize(static_cast<Eigen::Index>(rows_.size()));
+  system.weight.resize(rows_.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     double sum = 0;  // a mean, whatever the coefficients were weighted with
     for (const auto& [v, value] : rows_[r].entries) sum += value;
-    for (const auto& [v, value] : rows_[r].entries)
-      entries.emplace_back(static_cast<int>(r), v, value / sum);
-    terms.weight[static_cast<Eigen::Index>(r)] = rows_[r].weight;
-    const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), terms.n_groups);
-    if (added) ++terms.n_groups;
-    terms.group.push_back(it->second);
+    for (const auto& [v, value] : rows_[r].entries) entries.emplace_back(r, v, value / sum);
+    system.weight[r] = rows_[r].weight;
+    const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), system.n_groups);
+    if (added) ++system.n_groups;
+    system.group.push_back(it->second);
   }
-  terms.A.resize(static_cast<Eigen::Index>(rows_.size()), mesh.n_vertices());
-  terms.A.setFromTriplets(entries.begin(), entries.end());
+  system.A.resize(rows_.size(), mesh.n_vertices());
+  system.A.setFromTriplets(entries.begin(), entries.end());
 }
 
 }  // namespace littoral

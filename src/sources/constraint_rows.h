@@ -1,5 +1,5 @@
 #pragma once
-// What is held at a source: its nodes, its connected parts, and rows on the vertices.
+// What is constrained at a source: its nodes, its connected parts, and rows on the vertices.
 
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ class ConstraintRowBuilder {
   void end_run();
   /// Ends the last stretch, adds the nodes that have weight and writes A, weight, group and
   /// n_groups.
-  void write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& terms);
+  void write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& system);
 
  private:
   struct Row {

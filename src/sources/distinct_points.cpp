@@ -1,16 +1,16 @@
-#include "sources/distinct_points.h"
-
 #include <algorithm>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "base/index.h"
 #include "littoral/error.h"
+#include "sources/oriented_points.h"
 
 namespace littoral {
 
 OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
-  const auto n = static_cast<int>(cloud.size());
+  const int n = cloud.size();
   if (n == 0) throw InputError("the point cloud is empty");
   if (cloud.normals.rows() != n)
     throw InputError("the point cloud has " + std::to_string(n) + " points and " +
@@ -21,7 +21,7 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
     if (!(cloud.normals.row(i).stableNorm() > 0))
       throw InputError("point " + std::to_string(i) + " has no normal");
   }
-  std::vector<int> order(static_cast<std::size_t>(n));
+  std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   auto before = [&](int a, int b) {
     for (int d = 0; d < 3; ++d)
@@ -49,15 +49,15 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
                 " places where normals of coincident points cancel were left out");
   std::sort(kept.begin(), kept.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (static_cast<int>(kept.size()) < n - cancelled)
-    report.warn(std::to_string(n - static_cast<int>(kept.size())) +
+  if (int_size(kept) < n - cancelled)
+    report.warn(std::to_string(n - int_size(kept)) +
                 " points coincide with others; each place was used once");
   OrientedPoints out;
-  out.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  out.points.resize(kept.size(), 3);
   out.normals.resize(out.points.rows(), 3);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    out.points.row(static_cast<Eigen::Index>(i)) = cloud.points.row(kept[i].first);
-    out.normals.row(static_cast<Eigen::Index>(i)) = kept[i].second;
+    out.points.row(i) = cloud.points.row(kept[i].first);
+    out.normals.row(i) = kept[i].second;
   }
   return out;
 }

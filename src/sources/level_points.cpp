@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 
@@ -44,9 +45,7 @@ class CellCubic {
           const std::array<int, 3> node = {cell[0] + i - 1, cell[1] + j - 1, cell[2] + k - 1};
           bool inside = true;
           for (int a = 0; a < 3; ++a) inside = inside && node[a] >= 0 && node[a] < n[a];
-          at({i, j, k}) = inside ? field.values[static_cast<Eigen::Index>(
-                                       field.grid.node(node[0], node[1], node[2]))] -
-                                       level
+          at({i, j, k}) = inside ? field.values[field.grid.node(node[0], node[1], node[2])] - level
                                  : std::numeric_limits<double>::quiet_NaN();
         }
       }
@@ -106,12 +105,8 @@ class CellCubic {
   }
 
  private:
-  double& at(const std::array<int, 3>& i) {
-    return values_[static_cast<std::size_t>(i[0] + 4 * i[1] + 16 * i[2])];
-  }
-  double at(const std::array<int, 3>& i) const {
-    return values_[static_cast<std::size_t>(i[0] + 4 * i[1] + 16 * i[2])];
-  }
+  double& at(const std::array<int, 3>& i) { return values_[i[0] + 4 * i[1] + 16 * i[2]]; }
+  double at(const std::array<int, 3>& i) const { return values_[i[0] + 4 * i[1] + 16 * i[2]]; }
 
   /// Nodes beyond the box or without a value: linear along one axis after the other.
   void extend(int axis) {
@@ -146,8 +141,8 @@ bool find_point(const Volume& field, const std::array<int, 3>& cell, double leve
   // Most cells end here.
   bool below = false, above = false;
   for (int c = 0; c < 8; ++c) {
-    const double value = field.values[static_cast<Eigen::Index>(
-        grid.node(cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)))];
+    const double value =
+        field.values[grid.node(cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2))];
     if (!std::isfinite(value)) return false;
     (value <= level ? below : above) = true;
   }
@@ -177,7 +172,7 @@ bool find_point(const Volume& field, const std::array<int, 3>& cell, double leve
 void check(const Volume& field, double level) {
   for (int n : field.grid.n)
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");
-  if (static_cast<std::size_t>(field.values.size()) != field.grid.n_nodes())
+  if (field.values.size() != index(field.grid.n_nodes()))
     throw InputError("the volume has " + std::to_string(field.values.size()) + " values for " +
                      std::to_string(field.grid.n_nodes()) + " nodes");
   if (!field.grid.origin.allFinite() || !field.grid.spacing.allFinite() ||
@@ -192,7 +187,7 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
   check(field, level);
   const Grid& grid = field.grid;
   const int layers = grid.n[2] - 1;
-  std::vector<std::vector<LevelPoint>> by_layer(static_cast<std::size_t>(layers));
+  std::vector<std::vector<LevelPoint>> by_layer(layers);
   parallel_for(by_layer.size(), 1, [&](std::size_t k, std::size_t) {
     for (int j = 0; j + 1 < grid.n[1]; ++j) {
       if (j % 16 == 0) task.checkpoint(static_cast<double>(k) / layers);
@@ -204,22 +199,18 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
     }
   });
   // Cells that the level set hardly enters have points next to those of others.
-  const double apart = 0.5 * grid.spacing.minCoeff();
+  const double separation = 0.5 * grid.spacing.minCoeff();
   std::vector<LevelPoint> kept;
-  std::vector<int> last(
-      static_cast<std::size_t>(grid.n[0]) * static_cast<std::size_t>(grid.n[1]) * 3,
-      -1);  // the point kept of each cell of the last layers
+  std::vector<int> last(std::size_t(grid.n[0]) * grid.n[1] * 3,
+                        -1);  // the point kept of each cell of the last layers
   const auto slot = [&](int i, int j, int k) -> int& {
-    return last[static_cast<std::size_t>(i) +
-                static_cast<std::size_t>(grid.n[0]) *
-                    (static_cast<std::size_t>(j) +
-                     static_cast<std::size_t>(grid.n[1]) * static_cast<std::size_t>(k % 3))];
+    return last[i + std::size_t(grid.n[0]) * (j + std::size_t(grid.n[1]) * (k % 3))];
   };
   for (int k = 0; k < layers; ++k) {
     task.checkpoint();
     for (int j = 0; j < grid.n[1]; ++j)
       for (int i = 0; i < grid.n[0]; ++i) slot(i, j, k) = -1;
-    for (const LevelPoint& candidate : by_layer[static_cast<std::size_t>(k)]) {
+    for (const LevelPoint& candidate : by_layer[k]) {
       const auto [ci, cj, ck] = candidate.cell;
       bool alone = true;
       for (int z = std::max(0, ck - 2); z <= ck; ++z)
@@ -227,23 +218,21 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
           for (int x = std::max(0, ci - 2); x < std::min(grid.n[0], ci + 3); ++x) {
             const int other = slot(x, y, z);
             alone =
-                alone &&
-                (other < 0 ||
-                 (kept[static_cast<std::size_t>(other)].point - candidate.point).norm() >= apart);
+                alone && (other < 0 || (kept[other].point - candidate.point).norm() >= separation);
           }
       if (!alone) continue;
-      slot(ci, cj, ck) = static_cast<int>(kept.size());
+      slot(ci, cj, ck) = kept.size();
       kept.push_back(candidate);
     }
   }
   if (kept.empty())
     throw InputError("the values do not pass level " + std::to_string(level) + " anywhere");
   PolygonSoup cloud;
-  cloud.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  cloud.points.resize(kept.size(), 3);
   cloud.normals.resize(cloud.points.rows(), 3);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    cloud.points.row(static_cast<Eigen::Index>(i)) = kept[i].point;
-    cloud.normals.row(static_cast<Eigen::Index>(i)) = kept[i].normal;
+    cloud.points.row(i) = kept[i].point;
+    cloud.normals.row(i) = kept[i].normal;
   }
   return cloud;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/point_tree.h"
 
@@ -26,24 +27,23 @@ bool agree(const OrientedPoints& cloud, int i, int j, double distance) {
 /// Rows of points that enough neighbours agree with.
 std::vector<Eigen::Index> borne_out(const OrientedPoints& cloud, const Task& task) {
   const PointTree tree(cloud.points);
-  const auto n = static_cast<std::size_t>(cloud.size());
+  const std::size_t n = cloud.size();
   std::vector<char> good(n, 0);
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
     std::array<Neighbour, asked + 1> found;
     for (std::size_t i = begin; i < end; ++i) {
-      const int point = static_cast<int>(i);
+      const int point = i;
       const int count = tree.nearest(cloud.points.row(point), asked + 1, found.data());
       int votes = 0;
       for (int j = 1; j < count; ++j)
-        votes += agree(cloud, point, found[static_cast<std::size_t>(j)].point,
-                       std::sqrt(found[static_cast<std::size_t>(j)].squared_distance));
+        votes += agree(cloud, point, found[j].point, std::sqrt(found[j].squared_distance));
       good[i] = votes >= needed;
     }
   });
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < n; ++i)
-    if (good[i]) rows.push_back(static_cast<Eigen::Index>(i));
+    if (good[i]) rows.push_back(i);
   return rows;
 }
 
@@ -53,8 +53,8 @@ OrientedPoints without_outliers(const OrientedPoints& cloud, const Task& task, R
   OrientedPoints kept = cloud;
   for (int pass = 0; pass < passes; ++pass) {
     const std::vector<Eigen::Index> rows = borne_out(kept, task);
-    if (rows.size() == static_cast<std::size_t>(kept.size())) break;
-    if (rows.size() < 2 * asked || static_cast<Eigen::Index>(rows.size()) < cloud.size() / 4) {
+    if (index(rows.size()) == kept.size()) break;
+    if (rows.size() < 2 * asked || index(rows.size()) < cloud.size() / 4) {
       report.warn("too few points agree with their neighbours: none was taken for an outlier");
       return cloud;
     }

@@ -12,12 +12,12 @@ namespace {
 
 using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
 
-class NodeCarriers : public VectorDofs {
+class NodeDofs : public VectorDofs {
  public:
-  explicit NodeCarriers(const NodalSurface& S)
+  explicit NodeDofs(const NodalSurface& S)
       : S_(S), mesh_(*S.refined), unit_(S.place->unit), face_of_(S.place->n_faces()) {
     for (std::size_t f = 0; f < S.place->triangle_of_face.size(); ++f)
-      if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = static_cast<int>(f);
+      if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = f;
   }
 
   int count() const override { return S_.n_nodes(); }
@@ -31,8 +31,7 @@ class NodeCarriers : public VectorDofs {
         const double weight = 0.5 * (piece.a[k] + piece.b[k]) * it.value();
         if (weight == 0) continue;
         const TangentFrame frame(S_.normals.row(it.col()));
-        out.emplace_back(static_cast<int>(it.col()),
-                         weight * frame.coordinates(frame.n.cross(along)));
+        out.emplace_back(it.col(), weight * frame.coordinates(frame.n.cross(along)));
       }
   }
 
@@ -100,7 +99,7 @@ class NodeCarriers : public VectorDofs {
   std::vector<int> nodes_of(int face) const {
     std::vector<int> nodes;
     for (int v : mesh_.face(face))
-      for (Row it(S_.P, v); it; ++it) nodes.push_back(static_cast<int>(it.col()));
+      for (Row it(S_.P, v); it; ++it) nodes.push_back(it.col());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
@@ -118,33 +117,33 @@ class NodeCarriers : public VectorDofs {
 };
 
 /// From triangles sources are placed on to cells, where exact distances are known at all corners.
-void on_cells(const NodalSurface& S, SourceSystem& terms) {
-  std::vector<char> known(static_cast<std::size_t>(S.n_nodes()), 0);
-  for (int t : terms.near)
+void on_cells(const NodalSurface& S, SourceSystem& system) {
+  std::vector<char> known(S.n_nodes(), 0);
+  for (int t : system.near)
     for (int k = 0; k < 3; ++k) known[S.place->faces(t, k)] = 1;
-  terms.near.clear();
+  system.near.clear();
   for (int c = 0; c < S.cells->n_faces(); ++c) {
     const auto v = S.cells->faces.row(c);
-    if (known[v[0]] && known[v[1]] && known[v[2]]) terms.near.push_back(c);
+    if (known[v[0]] && known[v[1]] && known[v[2]]) system.near.push_back(c);
   }
 }
 
 }  // namespace
 
 SourceSystem nodal_source_system(const NodalSurface& S, const PlacedSources& sources) {
-  SourceSystem terms = source_system(*S.refined, *S.place, sources, NodeCarriers(S));
+  SourceSystem system = source_system(*S.refined, *S.place, sources, NodeDofs(S));
   // What is held at vertices of the refined mesh is held at the nodes that determine them.
   const SpMat P = S.P;
-  terms.u0 = SpMat(P.transpose() * terms.u0);
-  terms.A = SpMat(terms.A * P);
-  terms.mean = SpMat(terms.mean * P);
+  system.u0 = SpMat(P.transpose() * system.u0);
+  system.A = SpMat(system.A * P);
+  system.mean = SpMat(system.mean * P);
   if (P.rows() == P.cols())
-    on_cells(S, terms);
+    on_cells(S, system);
   else {  // exact distances would be needed at all nodes of a polygon
-    terms.d0 = VecX::Zero(P.cols());
-    terms.near.clear();
+    system.d0 = VecX::Zero(P.cols());
+    system.near.clear();
   }
-  return terms;
+  return system;
 }
 
 }  // namespace littoral

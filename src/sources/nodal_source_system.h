@@ -8,7 +8,7 @@
 
 namespace littoral {
 
-/// Terms of sources prepared on S.refined (signed heat method, sections 8.3 to 8.5), for any
+/// The system of sources prepared on S.refined (signed heat method, sections 8.3 to 8.5), for any
 /// mixture of curves and points anywhere: a signed piece gives each node its normal there,
 /// projected to the tangent plane; unsigned pieces and points give the nodes around them the
 /// directions away.

@@ -93,12 +93,12 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
   if (points.empty()) throw InputError("no face of the mesh has any area");
   if (flat > 0) report.warn(std::to_string(flat) + " faces without area are left out");
   OrientedPoints out;
-  const auto n = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index n = points.size();
   out.points.resize(n, 3);
   out.normals.resize(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    out.points.row(i) = points[static_cast<std::size_t>(i)];
-    out.normals.row(i) = normals[static_cast<std::size_t>(i)];
+    out.points.row(i) = points[i];
+    out.normals.row(i) = normals[i];
   }
   out.areas = Eigen::Map<const VecX>(areas.data(), n);
   return out;

@@ -38,6 +38,11 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
 /// normals that are all zero.
 OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report);
 
+/// Distinct points with unit normals, in the order given; no areas. Coincident points become one
+/// with their mean normal; where normals cancel the point is left out; both with a warning. Throws
+/// InputError if a number is not finite (naming the point), a normal is zero, or nothing remains.
+OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report);
+
 /// Mean distance between neighbouring samples, weighted by area: the side of an equilateral
 /// triangle of the samples' area. On meshes of even triangles this is the mean edge length.
 double sample_spacing(const OrientedPoints& samples);

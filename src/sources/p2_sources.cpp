@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "littoral/error.h"
 #include "sources/surface_points.h"
@@ -34,7 +36,9 @@ class Builder {
       if (T_.triangle_of_face[face] < 0 || !b) continue;
       source.where.push_back({T_.triangle_of_face[face], {(*b)[0], (*b)[1], (*b)[2]}});
     }
-    if (!source.where.empty()) sources.push_back(std::move(source));
+    if (source.where.empty()) return;
+    const auto& [element, b] = source.where.front();
+    if (points_.insert({element, b[0], b[1], b[2]}).second) sources.push_back(std::move(source));
   }
 
   /// The point at fraction s of a piece.
@@ -73,7 +77,8 @@ class Builder {
   std::vector<P2Source<2>> sources;
 
  private:
-  std::map<int, std::size_t> around_;  // node -> its place among the sources
+  std::set<std::tuple<int, double, double, double>> points_;  // so that each counts once
+  std::map<int, std::size_t> around_;                         // node -> its place among the sources
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
 };

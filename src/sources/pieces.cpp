@@ -143,7 +143,7 @@ PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Rep
   std::size_t index = 0;
   for (const Curve& curve : sources.curves) {
     const std::string label = curve_label(index++, curve.origin);
-    check_count(static_cast<Eigen::Index>(curve.nodes.size()), label);
+    check_count(curve.nodes.size(), label);
     preparation.add_curve(curve.nodes, curve.is_signed, label, task);
   }
   std::optional<CurveProjector> projector;

@@ -29,13 +29,13 @@ struct PlacedSources {
   int n_curves = 0;                              // = nodes.size()
 };
 
-/// Traces gaps across the mesh, carries space curves onto it and cuts all curves into pieces.
+/// Traces gaps across the mesh, projects space curves onto it and cuts all curves into pieces.
 ///
 /// Surface curves come first, in order, then space curves (one split between components counts as
-/// several). Warnings with counts tell of traced gaps,
-/// zero-length steps left out and curves that vanish. Throws UnsupportedError if the mesh has faces
-/// that are not triangles; InputError if an index is out of range, a curve has fewer than two nodes
-/// or spans two components (naming curve and element), or nothing remains.
+/// several). Warnings with counts tell of traced gaps, zero-length steps left out and curves that
+/// vanish. Throws UnsupportedError if the mesh has faces that are not triangles; InputError if an
+/// index is out of range, a curve has fewer than two nodes or spans two components (naming curve
+/// and element), or nothing remains.
 PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
                             const Task& task = {});
 

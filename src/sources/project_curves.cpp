@@ -46,7 +46,7 @@ std::vector<Vec3> resample(const SpaceCurve& curve, double step) {
                      " long, more than a million mean edge lengths (" + number(2 * step) +
                      ") of the mesh: check that both use the same unit");
   std::vector<Vec3> samples{node(0)};
-  samples.reserve(static_cast<std::size_t>(total));
+  samples.reserve(total);
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
     const int count = static_cast<int>(pieces(i));
     for (int k = 1; k < count; ++k) {
@@ -96,7 +96,7 @@ ProjectedCurve CurveProjector::project(const SpaceCurve& curve, Report& report,
 
   const std::vector<Vec3> samples = resample(curve, 0.5 * mean_edge_);
   ProjectedCurve projected;
-  projected.n_samples = static_cast<int>(samples.size());
+  projected.n_samples = samples.size();
   auto start = [&](const SurfacePoint& p) {
     projected.curves.push_back({{p}, curve.is_signed, curve.origin});
   };

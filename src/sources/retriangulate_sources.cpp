@@ -13,7 +13,7 @@ namespace {
 /// Pieces as segments between shared nodes; isolated points are nodes after all others.
 CurveNetwork curve_network_of(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                               const PlacedSources& sources) {
-  CurveNetwork marks;
+  CurveNetwork curves;
   SourceNodes nodes;
   for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
     const CurvePiece& piece = sources.pieces[i];
@@ -22,14 +22,14 @@ CurveNetwork curve_network_of(const SurfaceMesh& mesh, const IntrinsicTriangulat
     auto node = [&](const std::array<double, 3>& b) {
       return nodes.id(simplest(mesh, SurfacePoint::in_face(piece.face, b[0], b[1], b[2])));
     };
-    marks.segments.push_back({static_cast<int>(i), 0, 1, node(piece.a), node(piece.b),
-                              piece.edge < 0 ? t : -1, piece.edge});
+    curves.segments.push_back({static_cast<int>(i), 0, 1, node(piece.a), node(piece.b),
+                               piece.edge < 0 ? t : -1, piece.edge});
   }
-  marks.nodes = nodes.points;
-  marks.nodes.insert(marks.nodes.end(), sources.points.begin(), sources.points.end());
-  for (SurfacePoint& p : marks.nodes)
+  curves.nodes = nodes.points;
+  curves.nodes.insert(curves.nodes.end(), sources.points.begin(), sources.points.end());
+  for (SurfacePoint& p : curves.nodes)
     if (p.on == SurfacePoint::On::face) p.element = T.triangle_of_face[p.element];
-  return marks;
+  return curves;
 }
 
 /// A point on all the sheets of the cover.
@@ -91,17 +91,17 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
   std::erase_if(kept.points, [&](const SurfacePoint& p) {
     return p.on == SurfacePoint::On::face && T.triangle_of_face[p.element] < 0;
   });
-  CurveNetwork marks = curve_network_of(mesh, T, kept);
-  const std::size_t first_point = marks.nodes.size() - kept.points.size();
-  Retriangulation fine = intrinsic_delaunay(mesh, T, std::move(marks), options, report, task);
+  CurveNetwork curves = curve_network_of(mesh, T, kept);
+  const std::size_t first_point = curves.nodes.size() - kept.points.size();
+  Retriangulation fine = intrinsic_delaunay(mesh, T, std::move(curves), options, report, task);
 
   Retriangulated out{std::move(fine.mesh), std::move(fine.T), {}};
   std::vector<SurfacePoint> nodes;
-  for (const SurfacePoint& p : fine.marks.nodes) nodes.push_back(simplest(out.mesh, p));
+  for (const SurfacePoint& p : fine.curves.nodes) nodes.push_back(simplest(out.mesh, p));
   out.sources.n_curves = kept.n_curves;
   out.sources.nodes.resize(kept.nodes.size());
   int lost = 0;
-  for (const CurveNetwork::Segment& s : fine.marks.segments) {
+  for (const CurveNetwork::Segment& s : fine.curves.segments) {
     CurvePiece piece = kept.pieces[s.id];
     piece.face = s.edge >= 0 ? out.mesh.edge_faces(s.edge)[0] : s.face;
     piece.edge = s.edge;

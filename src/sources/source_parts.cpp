@@ -94,7 +94,7 @@ std::vector<int> batches_of_parts(const IntrinsicTriangulation& T,
       use(q, 1000);
       for (int r : neighbours[q]) use(r, 1);
     }
-    batch[p] = static_cast<int>(std::min_element(used.begin(), used.end()) - used.begin());
+    batch[p] = std::min_element(used.begin(), used.end()) - used.begin();
   }
   return batch;
 }

@@ -137,7 +137,7 @@ class Straightener {
   /// Shortest path between nodes `from` and `to` through the edges between them.
   void pull_strip(SurfacePath& path, std::size_t from, std::size_t to) const {
     const std::vector<Portal> portals = unfold(path, from, to);
-    const int m = static_cast<int>(portals.size());
+    const int m = portals.size();
     const Vec2 start = Vec2(1, -1).cwiseProduct(beside(
         scale_ * mesh_.position(path.nodes[from]), portals.front().left, portals.front().right));
     const Portal& last = portals.back();

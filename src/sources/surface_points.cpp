@@ -55,8 +55,7 @@ SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p) {
     vertex[k] = n == 2 ? mesh.edges()(p.element, k) : mesh.face(p.element)[k];
   std::array<double, 3> weight{};
   for (int k = 0; k < n; ++k) {
-    const int first =
-        static_cast<int>(std::find(vertex.begin(), vertex.begin() + k, vertex[k]) - vertex.begin());
+    const int first = std::find(vertex.begin(), vertex.begin() + k, vertex[k]) - vertex.begin();
     weight[first] += std::max(0.0, p.b[k]);
   }
   const double total = weight[0] + weight[1] + weight[2];

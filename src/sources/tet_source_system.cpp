@@ -8,49 +8,46 @@ namespace littoral {
 TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
                                   const OrientedPoints& source, const std::vector<TetPoint>& places,
                                   const std::vector<int>& group) {
-  TetSourceSystem terms;
-  terms.X0 = MatX3::Zero(ops.n_faces, 3);
+  TetSourceSystem system;
+  system.X0 = MatX3::Zero(ops.n_faces, 3);
   std::map<int, int> row_of;  // group -> row
   std::vector<double> weight;
   Triplets entries;
   for (Eigen::Index i = 0; i < source.size(); ++i) {
-    const TetPoint& p = places[static_cast<std::size_t>(i)];
+    const TetPoint& p = places[i];
     if (p.tet < 0 || ops.volumes[p.tet] == 0) {
-      ++terms.outside;
+      ++system.outside;
       continue;
     }
     const double area = source.areas[i];
-    const auto [at, is_new] =
-        row_of.try_emplace(group[static_cast<std::size_t>(i)], static_cast<int>(row_of.size()));
+    const auto [at, is_new] = row_of.try_emplace(group[i], row_of.size());
     if (is_new) weight.push_back(0);
-    weight[static_cast<std::size_t>(at->second)] += area;
+    weight[at->second] += area;
     for (int k = 0; k < 4; ++k) {
-      const double lambda = p.barycentric[static_cast<std::size_t>(k)];
+      const double lambda = p.barycentric[k];
       // phi of the face opposite corner k is 1 - 3 lambda_k.
-      terms.X0.row(ops.tet_faces(p.tet, k)) += area * (1 - 3 * lambda) * source.normals.row(i);
+      system.X0.row(ops.tet_faces(p.tet, k)) += area * (1 - 3 * lambda) * source.normals.row(i);
       entries.emplace_back(at->second, mesh.tets(p.tet, k), area * lambda);
     }
   }
-  terms.weight = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
-  for (auto& e : entries)
-    e = {e.row(), e.col(), e.value() / weight[static_cast<std::size_t>(e.row())]};
-  terms.A.resize(terms.weight.size(), mesh.n_vertices());
-  terms.A.setFromTriplets(entries.begin(), entries.end());
-  return terms;
+  system.weight = Eigen::Map<const VecX>(weight.data(), weight.size());
+  for (auto& e : entries) e = {e.row(), e.col(), e.value() / weight[e.row()]};
+  system.A.resize(system.weight.size(), mesh.n_vertices());
+  system.A.setFromTriplets(entries.begin(), entries.end());
+  return system;
 }
 
 TetSourceSystem vertex_source_system(const TetOperators& ops, std::vector<int> vertices) {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  TetSourceSystem terms;
+  TetSourceSystem system;
   Triplets entries;
   for (int v : vertices)
-    if (ops.component[static_cast<std::size_t>(v)] >= 0)
-      entries.emplace_back(static_cast<int>(entries.size()), v, 1);
-  terms.weight = VecX::Ones(static_cast<Eigen::Index>(entries.size()));
-  terms.A.resize(terms.weight.size(), ops.L.rows());
-  terms.A.setFromTriplets(entries.begin(), entries.end());
-  return terms;
+    if (ops.component[v] >= 0) entries.emplace_back(entries.size(), v, 1);
+  system.weight = VecX::Ones(entries.size());
+  system.A.resize(system.weight.size(), ops.L.rows());
+  system.A.setFromTriplets(entries.begin(), entries.end());
+  return system;
 }
 
 }  // namespace littoral

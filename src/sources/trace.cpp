@@ -65,9 +65,9 @@ class Search {
   SurfacePoint node(Key key) const {
     if (key == source) return from_;
     if (key == goal) return to_;
-    if (key < mesh_.n_vertices()) return SurfacePoint::at_vertex(static_cast<int>(key));
+    if (key < mesh_.n_vertices()) return SurfacePoint::at_vertex(key);
     const Key k = key - mesh_.n_vertices();
-    return SurfacePoint::on_edge(static_cast<int>(k / per_edge_),
+    return SurfacePoint::on_edge(k / per_edge_,
                                  static_cast<double>(k % per_edge_ + 1) / (per_edge_ + 1));
   }
 

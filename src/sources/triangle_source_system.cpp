@@ -14,9 +14,9 @@ Complex at(const TriangleShape& t, const std::array<double, 3>& b) {
   return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
 }
 
-class EdgeCarriers : public VectorDofs {
+class EdgeDofs : public VectorDofs {
  public:
-  EdgeCarriers(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) : mesh_(mesh), T_(T) {}
+  EdgeDofs(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) : mesh_(mesh), T_(T) {}
 
   int count() const override { return T_.n_edges(); }
 
@@ -74,7 +74,7 @@ class EdgeCarriers : public VectorDofs {
 
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources) {
-  return source_system(mesh, T, sources, EdgeCarriers(mesh, T));
+  return source_system(mesh, T, sources, EdgeDofs(mesh, T));
 }
 
 }  // namespace littoral

@@ -7,9 +7,9 @@
 
 namespace littoral {
 
-/// Terms of curves and points on a triangle mesh (signed heat method, section 5.6 and appendix A),
-/// also for unsigned curves and points inside faces. Throws InputError if no source lies on a face
-/// with three different vertices.
+/// The system of curves and points on a triangle mesh (signed heat method, section 5.6 and appendix
+/// A), also for unsigned curves and points inside faces. Throws InputError if no source lies on a
+/// face with three different vertices.
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "sources/constraint_rows.h"
 #include "sources/source_parts.h"
@@ -46,10 +47,10 @@ class Measure {
 /// have their midpoints mostly on one side, that side would otherwise win everywhere far away.
 void add_balanced(std::vector<SidedContribution>& stretch, Measure& X0) {
   double total[2] = {0, 0};
-  for (const SidedContribution& push : stretch) total[push.left] += std::abs(push.z);
+  for (const SidedContribution& side : stretch) total[side.left] += std::abs(side.z);
   const bool both = total[0] > 0 && total[1] > 0;
-  for (const SidedContribution& push : stretch)
-    X0.add(push.dof, both ? push.z * (0.5 * (total[0] + total[1]) / total[push.left]) : push.z);
+  for (const SidedContribution& side : stretch)
+    X0.add(side.dof, both ? side.z * (0.5 * (total[0] + total[1]) / total[side.left]) : side.z);
   stretch.clear();
 }
 
@@ -80,56 +81,55 @@ using Samples = std::vector<Sample>;
 
 /// The samples' rows `mean` and, by batches, the unsigned measure u0.
 void add_samples(const IntrinsicTriangulation& T, const Samples& samples, SourceNodes& nodes,
-                 SourceSystem& terms) {
+                 SourceSystem& system) {
   std::map<int, int> part_of_root;
   std::vector<char> is_point;  // parts
   std::vector<PartStart> starts;
   for (const Sample& s : samples) {
-    const auto [it, added] =
-        part_of_root.try_emplace(nodes.root(s.node), static_cast<int>(is_point.size()));
+    const auto [it, added] = part_of_root.try_emplace(nodes.root(s.node), is_point.size());
     if (added) is_point.push_back(1);
     if (!s.is_point) is_point[it->second] = 0;
     // Distances are needed roughly only.
     for (const auto& [v, value] : s.hats)
       starts.push_back({v, it->second, (1 - value) * T.mean_edge_length});
   }
-  const std::vector<int> batch = batches_of_parts(T, starts, static_cast<int>(is_point.size()));
+  const std::vector<int> batch = batches_of_parts(T, starts, int_size(is_point));
   std::map<std::pair<int, bool>, int> column;  // points and curves apart
   for (std::size_t p = 0; p < is_point.size(); ++p) {
-    const auto [it, added] = column.try_emplace({batch[p], is_point[p] != 0},
-                                                static_cast<int>(terms.batch_of_points.size()));
-    if (added) terms.batch_of_points.push_back(is_point[p]);
+    const auto [it, added] =
+        column.try_emplace({batch[p], is_point[p] != 0}, system.batch_of_points.size());
+    if (added) system.batch_of_points.push_back(is_point[p]);
   }
   Triplets mean, u0;
-  terms.mean_weight.resize(static_cast<Eigen::Index>(samples.size()));
+  system.mean_weight.resize(samples.size());
   for (std::size_t r = 0; r < samples.size(); ++r) {
     const Sample& s = samples[r];
     const int part = part_of_root.at(nodes.root(s.node));
     const int to = column.at({batch[part], is_point[part] != 0});
-    terms.mean_weight[static_cast<Eigen::Index>(r)] = s.length;
+    system.mean_weight[r] = s.length;
     for (const auto& [v, value] : s.hats) {
-      mean.emplace_back(static_cast<int>(r), v, value);
+      mean.emplace_back(r, v, value);
       u0.emplace_back(v, to, s.length * value);
-      if (T.component[v] >= 0) terms.reached[T.component[v]] = 1;
+      if (T.component[v] >= 0) system.reached[T.component[v]] = 1;
     }
   }
-  terms.mean.resize(static_cast<Eigen::Index>(samples.size()), T.n_vertices);
-  terms.mean.setFromTriplets(mean.begin(), mean.end());
-  terms.u0.resize(T.n_vertices, static_cast<Eigen::Index>(terms.batch_of_points.size()));
-  terms.u0.setFromTriplets(u0.begin(), u0.end());
+  system.mean.resize(samples.size(), T.n_vertices);
+  system.mean.setFromTriplets(mean.begin(), mean.end());
+  system.u0.resize(T.n_vertices, system.batch_of_points.size());
+  system.u0.setFromTriplets(u0.begin(), u0.end());
 }
 
 /// Exact distance to the nearest point, on the triangles that hold one. A point close to a curve is
 /// left out: what is held along the curve must not depend on it.
 void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-              const PlacedSources& sources, SourceSystem& terms) {
+              const PlacedSources& sources, SourceSystem& system) {
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<char> by_curve(T.n_vertices, 0);
   for (const CurvePiece& piece : sources.pieces)
     for (int k = 0; k < 3; ++k)
       if (piece.edge < 0 || piece.a[k] > 0 || piece.b[k] > 0)
         by_curve[mesh.face(piece.face)[k]] = 1;
-  terms.d0 = VecX::Constant(T.n_vertices, none);
+  system.d0 = VecX::Constant(T.n_vertices, none);
   for (const SurfacePoint& p : sources.points) {
     const auto where = triangles_around(mesh, T, p);
     bool free = true;
@@ -138,26 +138,26 @@ void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
     if (!free) continue;
     for (const PointInFace& place : where) {
       const TriangleShape t = T.shape(place.face);
-      terms.near.push_back(place.face);
+      system.near.push_back(place.face);
       for (int k = 0; k < 3; ++k) {
-        double& d = terms.d0[T.faces(place.face, k)];
+        double& d = system.d0[T.faces(place.face, k)];
         d = std::min(d, std::abs(t.p[k] - at(t, place.b)));
       }
     }
   }
-  std::sort(terms.near.begin(), terms.near.end());
-  terms.near.erase(std::unique(terms.near.begin(), terms.near.end()), terms.near.end());
-  terms.d0 = (terms.d0.array() < none).select(terms.d0, 0.0);
+  std::sort(system.near.begin(), system.near.end());
+  system.near.erase(std::unique(system.near.begin(), system.near.end()), system.near.end());
+  system.d0 = (system.d0.array() < none).select(system.d0, 0.0);
 }
 
 }  // namespace
 
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources, const VectorDofs& dofs) {
-  SourceSystem terms;
+  SourceSystem system;
   std::vector<DofVector> vectors;
-  terms.only_points = sources.pieces.empty();
-  terms.reached.assign(T.n_components, 0);
+  system.only_points = sources.pieces.empty();
+  system.reached.assign(T.n_components, 0);
   const double h = T.mean_edge_length;
   Measure X0(dofs.count()), X0_points(dofs.count());
   SourceNodes nodes;
@@ -212,14 +212,14 @@ SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation
     nodes.weight[node] += 1;
     samples.push_back({hats(mesh, p), h, node, true});
   }
-  add_samples(T, samples, nodes, terms);
-  if (std::find(terms.reached.begin(), terms.reached.end(), 1) == terms.reached.end())
+  add_samples(T, samples, nodes, system);
+  if (std::find(system.reached.begin(), system.reached.end(), 1) == system.reached.end())
     throw InputError("no source lies on a face with three different vertices");
-  terms.X0 = X0.take();
-  terms.X0_points = X0_points.take();
-  add_near(mesh, T, sources, terms);
-  rows.write(mesh, nodes, terms);
-  return terms;
+  system.X0 = X0.take();
+  system.X0_points = X0_points.take();
+  add_near(mesh, T, sources, system);
+  rows.write(mesh, nodes, system);
+  return system;
 }
 
 }  // namespace littoral

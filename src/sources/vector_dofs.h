@@ -1,6 +1,6 @@
 #pragma once
-// How the vectors of a source get onto the dofs of a discretization; the rest of a source's
-// terms is the same for all of them.
+// How the vectors of a source get onto the dofs of a discretization; the rest of a source system
+// is the same for all of them.
 
 #include <span>
 #include <utility>
@@ -37,7 +37,7 @@ class VectorDofs {
                           std::vector<DofVector>& out) const = 0;
 };
 
-/// Terms of curves and points placed on a triangle mesh, with nodes at its vertices. Throws
+/// The system of curves and points placed on a triangle mesh, with nodes at its vertices. Throws
 /// InputError if no source lies on a face with three different vertices.
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources, const VectorDofs& dofs);

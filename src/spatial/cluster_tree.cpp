@@ -8,7 +8,7 @@ namespace littoral {
 
 ClusterTree cluster(const MatX3& centres, int leaf_size) {
   ClusterTree tree;
-  tree.order.resize(static_cast<std::size_t>(centres.rows()));
+  tree.order.resize(centres.rows());
   std::iota(tree.order.begin(), tree.order.end(), 0);
   tree.clusters.push_back({0, static_cast<int>(centres.rows()), -1});
   for (std::size_t at = 0; at < tree.clusters.size(); ++at) {
@@ -16,7 +16,7 @@ ClusterTree cluster(const MatX3& centres, int leaf_size) {
     if (end - begin <= leaf_size) continue;
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (int i = begin; i < end; ++i) {
-      const Vec3 c = centres.row(tree.order[static_cast<std::size_t>(i)]);
+      const Vec3 c = centres.row(tree.order[i]);
       low = low.cwiseMin(c);
       high = high.cwiseMax(c);
     }
@@ -29,7 +29,7 @@ ClusterTree cluster(const MatX3& centres, int leaf_size) {
                        return centres(a, axis) < centres(b, axis) ||
                               (centres(a, axis) == centres(b, axis) && a < b);
                      });
-    tree.clusters[at].child = static_cast<int>(tree.clusters.size());
+    tree.clusters[at].child = tree.clusters.size();
     tree.clusters.push_back({begin, middle, -1});
     tree.clusters.push_back({middle, end, -1});
   }

@@ -22,7 +22,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 std::vector<int> morton_order(const MatX3& points) {
-  const auto n = static_cast<std::size_t>(points.rows());
+  const std::size_t n = points.rows();
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   if (n == 0 || !points.allFinite()) return order;
@@ -34,7 +34,7 @@ std::vector<int> morton_order(const MatX3& points) {
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t key = 0;
     for (int d = 0; d < 3; ++d) {
-      const double cell = (points(static_cast<Eigen::Index>(i), d) - low[d]) * cells;
+      const double cell = (points(i, d) - low[d]) * cells;
       key |= spread_bits(static_cast<std::uint64_t>(std::clamp(cell, 0.0, 1048575.0))) << d;
     }
     keys[i] = {key, static_cast<int>(i)};

@@ -34,7 +34,7 @@ class PointBlocks {
         box.high = box.high.cwiseMax(p);
       }
       if (c.child < 0) {
-        box.block = static_cast<int>(blocks_.size());
+        box.block = blocks_.size();
         Block b;
         for (int l = 0; l < lanes; ++l) {
           const int item = place(std::min(c.begin + l, c.end - 1));
@@ -63,13 +63,13 @@ class PointBlocks {
     std::size_t top = 0;
     stack[top++] = 0;
     while (top > 0) {
-      const auto at = static_cast<std::size_t>(stack[--top]);
+      const std::size_t at = stack[--top];
       const Box& box = boxes_[at];
       const Vec3 gap = (box.low - local).cwiseMax(local - box.high).cwiseMax(0.0);
       if (gap.squaredNorm() > radius * radius) continue;
       const int child = tree_.clusters[at].child;
       if (child < 0) {
-        visit(blocks_[static_cast<std::size_t>(box.block)]);
+        visit(blocks_[box.block]);
       } else {
         stack[top++] = child + 1;
         stack[top++] = child;
@@ -82,7 +82,7 @@ class PointBlocks {
     Vec3 low, high;
     int block = -1;
   };
-  int place(int i) const { return tree_.order[static_cast<std::size_t>(i)]; }
+  int place(int i) const { return tree_.order[i]; }
 
   ClusterTree tree_;
   Vec3 origin_;

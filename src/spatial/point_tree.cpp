@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -39,8 +41,8 @@ void split(const MatX3& points, Order& order, int begin, int end, int levels, in
 
 }  // namespace
 
-PointTree::PointTree(const MatX3& points) : size_(static_cast<int>(points.rows())) {
-  Order order(static_cast<std::size_t>(size_));
+PointTree::PointTree(const MatX3& points) : size_(points.rows()) {
+  Order order(size_);
   std::iota(order.begin(), order.end(), 0);
   if (size_ > 0) build(points, order, 0, size_);
 }
@@ -48,17 +50,17 @@ PointTree::PointTree(const MatX3& points) : size_(static_cast<int>(points.rows()
 int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
   std::vector<int> cuts;
   split(points, order, begin, end, 3, leaf_size, cuts);
-  const int at = static_cast<int>(nodes_.size());
+  const int at = nodes_.size();
   nodes_.emplace_back();
   for (int c = 0; c < width; ++c) {
     int child = -1;
-    if (c >= static_cast<int>(cuts.size())) {
+    if (c >= int_size(cuts)) {
       set_empty(nodes_[at], c);
     } else {
       const int from = c == 0 ? begin : cuts[c - 1], to = cuts[c];
       set_bounds(points, order.data() + from, order.data() + to, nodes_[at], c);
       if (to - from <= leaf_size) {
-        child = -1 - static_cast<int>(leaves_.size());
+        child = -1 - int_size(leaves_);
         Leaf& leaf = leaves_.emplace_back();
         leaf.size = to - from;
         for (int i = 0; i < leaf_size; ++i) {
@@ -77,7 +79,7 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
 
 std::vector<int> PointTree::order() const {
   std::vector<int> out;
-  out.reserve(static_cast<std::size_t>(size_));
+  out.reserve(size_);
   for (const Leaf& leaf : leaves_) out.insert(out.end(), leaf.point, leaf.point + leaf.size);
   return out;
 }

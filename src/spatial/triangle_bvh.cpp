@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 #include "spatial/closest_on_triangle.h"
@@ -48,7 +49,7 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
       if (finite) largest = std::max(largest, points.row(v).cwiseAbs().maxCoeff());
     }
     if (!finite) continue;
-    faces_.push_back(static_cast<int>(f));
+    faces_.push_back(f);
     magnitude = std::max(magnitude, largest);
   }
   if (faces_.empty())
@@ -71,23 +72,22 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
 
   std::vector<int> sorted(faces_.size()), rows(3 * faces_.size());
   std::iota(rows.begin(), rows.end(), 0);
-  MatX3 all(static_cast<Eigen::Index>(rows.size()), 3);  // corners in the order of the tree
+  MatX3 all(rows.size(), 3);  // corners in the order of the tree
   corners_.resize(corners.size());
-  place_.assign(static_cast<std::size_t>(faces.rows()), -1);
+  place_.assign(faces.rows(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted[i] = faces_[order[i]];
     corners_[i] = corners[order[i]];
-    place_[sorted[i]] = static_cast<int>(i);
-    for (std::size_t k = 0; k < 3; ++k)
-      all.row(static_cast<Eigen::Index>(3 * i + k)) = corners_[i][k];
+    place_[sorted[i]] = i;
+    for (std::size_t k = 0; k < 3; ++k) all.row(3 * i + k) = corners_[i][k];
   }
   faces_ = std::move(sorted);
-  std::vector<Lanes> held;
-  add_node(splits, 0, held);
+  std::vector<Lanes> ranges;
+  add_node(splits, 0, ranges);
   parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t at = begin; at < end; ++at)
       for (int c = 0; c < width; ++c) {
-        const auto [from, to] = held[at][static_cast<std::size_t>(c)];
+        const auto [from, to] = ranges[at][c];
         if (from == to)
           set_empty(nodes_[at], c);
         else
@@ -98,7 +98,7 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
 
 std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes,
                                                    std::vector<int>& order) {
-  const int n = static_cast<int>(boxes.size());
+  const int n = boxes.size();
   std::vector<Vec3> centre(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) centre[i] = 0.5 * (boxes[i].low + boxes[i].high);
   std::vector<Split> splits;
@@ -169,10 +169,9 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
         }
       }
       if (cut >= 0)
-        middle = static_cast<int>(std::stable_partition(order.begin() + job.begin,
-                                                        order.begin() + job.end,
-                                                        [&](int i) { return bin_of(i) <= cut; }) -
-                                  order.begin());
+        middle = std::stable_partition(order.begin() + job.begin, order.begin() + job.end,
+                                       [&](int i) { return bin_of(i) <= cut; }) -
+                 order.begin();
     }
     if (middle == job.begin || middle == job.end) {  // coincident centres, or too deep
       middle = job.begin + count / 2;
@@ -182,7 +181,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
                          return x < y || (x == y && i < j);
                        });
     }
-    const int left = static_cast<int>(splits.size());
+    const int left = splits.size();
     splits[job.node].child = left;
     splits.resize(splits.size() + 2);
     jobs.push_back({left + 1, middle, job.end, job.depth + 1});
@@ -192,7 +191,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
   return splits;
 }
 
-int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held) {
+int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges) {
   // The boxes of most triangles under the root are opened as long as there is room.
   std::vector<int> members{root};
   const auto size = [&](int at) {
@@ -209,14 +208,14 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vecto
   }
   const auto at = nodes_.size();
   nodes_.emplace_back();
-  held.emplace_back();
+  ranges.emplace_back();
   for (std::size_t c = 0; c < members.size(); ++c) {
     const Split& s = splits[members[c]];
-    held[at][c] = {s.begin, s.end};
-    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], held);
+    ranges[at][c] = {s.begin, s.end};
+    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], ranges);
     nodes_[at].child[c] = child;
   }
-  return static_cast<int>(at);
+  return at;
 }
 
 NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
@@ -240,8 +239,7 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
       best_at = i;
     }
   };
-  if (hint >= 0 && hint < static_cast<int>(place_.size()) && place_[hint] >= 0)
-    look_at(place_[hint]);
+  if (hint >= 0 && hint < int_size(place_) && place_[hint] >= 0) look_at(place_[hint]);
 
   std::array<BoundEntry, stack_size> stack;  // a node adds at most eight
   BoundKernel* const bounds = bound_kernel();

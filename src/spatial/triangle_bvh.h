@@ -51,7 +51,7 @@ class TriangleBvh {
   static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
   /// Stored triangles [begin, end) of the children of a node; none in empty lanes.
   using Lanes = std::array<std::pair<int, int>, width>;
-  int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& held);
+  int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges);
 
   int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
   std::vector<BoundNode> nodes_;              // child: another node, or -1 - (stored triangle)

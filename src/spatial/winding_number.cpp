@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -54,16 +56,16 @@ void add(Moments& m, const Vec3& centre, const Vec3& a, const Triangle* triangle
   const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
   for (int p = 0; p < 6; ++p) {
     const auto [i, j] = pair[p];
-    m.first[static_cast<std::size_t>(p)] += i == j ? a[i] * d[i] : a[i] * d[j] + a[j] * d[i];
+    m.first[p] += i == j ? a[i] * d[i] : a[i] * d[j] + a[j] * d[i];
   }
   m.second += 2 * (dd * a) + dd.trace() * a;
   // sum_ijk a_i dd_jk r_i r_j r_k by monomial: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz.
   auto& s = m.cubic;
-  for (int i = 0; i < 3; ++i) s[static_cast<std::size_t>(i)] += a[i] * dd(i, i);
+  for (int i = 0; i < 3; ++i) s[i] += a[i] * dd(i, i);
   const int mixed[6][2] = {{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}};
   for (int p = 0; p < 6; ++p) {
     const auto [i, j] = mixed[p];
-    s[static_cast<std::size_t>(3 + p)] += a[j] * dd(i, i) + 2 * a[i] * dd(i, j);
+    s[3 + p] += a[j] * dd(i, i) + 2 * a[i] * dd(i, j);
   }
   s[9] += 2 * (a[0] * dd(1, 2) + a[1] * dd(0, 2) + a[2] * dd(0, 1));
 }
@@ -84,21 +86,21 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
     Triangle t;
     bool finite = true;
     for (int k = 0; k < 3; ++k) {
-      t[static_cast<std::size_t>(k)] = points.row(faces(f, k));
-      finite = finite && t[static_cast<std::size_t>(k)].allFinite();
+      t[k] = points.row(faces(f, k));
+      finite = finite && t[k].allFinite();
     }
     if (finite) triangles.push_back(t);
   }
-  MatX3 centres(static_cast<Eigen::Index>(triangles.size()), 3);
+  MatX3 centres(triangles.size(), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
-    centres.row(static_cast<Eigen::Index>(i)) = a / 3 + b / 3 + c / 3;
+    centres.row(i) = a / 3 + b / 3 + c / 3;
   }
   set_frame(centres);
   Items items;
   items.tree = cluster(centres, leaf_size);
   for (int i : items.tree.order) {
-    Triangle t = triangles[static_cast<std::size_t>(i)];
+    Triangle t = triangles[i];
     for (Vec3& corner : t) corner = (corner - origin_) / unit_;
     items.triangles.push_back(t);
     items.centres.emplace_back((t[0] + t[1] + t[2]) / 3);
@@ -125,16 +127,16 @@ void WindingNumber::build(Items items) {
     m.centre.setZero();
     double weight = 0;
     for (int i = c.begin; i < c.end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
+      const std::size_t at = i;
       m.centre += items.centres[at] * items.areas[at].norm();
       weight += items.areas[at].norm();
     }
     if (weight > 0)
       m.centre /= weight;
     else if (c.begin < c.end)
-      m.centre = items.centres[static_cast<std::size_t>(c.begin)];
+      m.centre = items.centres[c.begin];
     for (int i = c.begin; i < c.end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
+      const std::size_t at = i;
       add(m, items.centres[at], items.areas[at],
           items.triangles.empty() ? nullptr : &items.triangles[at]);
     }
@@ -146,45 +148,45 @@ void WindingNumber::build(Items items) {
 
 int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
   // Unused lanes repeat one point.
-  const auto begin = static_cast<std::size_t>(cluster.begin);
-  const auto count = static_cast<std::size_t>(cluster.end - cluster.begin);
+  const std::size_t begin = cluster.begin;
+  const std::size_t count = cluster.end - cluster.begin;
   if (items.triangles.empty()) {
     DipoleLanes leaf;
     for (std::size_t l = 0; l < winding_lanes; ++l)
       for (std::size_t k = 0; k < 3; ++k) {
-        leaf.at[k][l] = items.centres[begin + std::min(l, count - 1)][static_cast<int>(k)];
-        leaf.area[k][l] = l < count ? items.areas[begin + l][static_cast<int>(k)] : 0;
+        leaf.at[k][l] = items.centres[begin + std::min(l, count - 1)][k];
+        leaf.area[k][l] = l < count ? items.areas[begin + l][k] : 0;
       }
     dipole_leaves_.push_back(leaf);
-    return static_cast<int>(dipole_leaves_.size()) - 1;
+    return int_size(dipole_leaves_) - 1;
   }
   TriangleLanes leaf;
   for (std::size_t l = 0; l < winding_lanes; ++l)
     for (std::size_t c = 0; c < 9; ++c) {
       const Triangle& t = items.triangles[begin + std::min(l, count - 1)];
-      leaf.corner[c][l] = t[l < count ? c / 3 : 0][static_cast<int>(c % 3)];
+      leaf.corner[c][l] = t[l < count ? c / 3 : 0][c % 3];
     }
   triangle_leaves_.push_back(leaf);
-  return static_cast<int>(triangle_leaves_.size()) - 1;
+  return int_size(triangle_leaves_) - 1;
 }
 
 int WindingNumber::add_node(const Items& items, const std::vector<Moments>& moments, int root) {
   // The largest clusters under the root, as long as there is room.
   const auto& clusters = items.tree.clusters;
   const auto size = [&](int c) {
-    const Cluster& cluster = clusters[static_cast<std::size_t>(c)];
+    const Cluster& cluster = clusters[c];
     return cluster.child < 0 ? 0 : cluster.end - cluster.begin;
   };
   std::vector<int> members{root};
   while (members.size() < winding_lanes) {
     const auto largest = std::max_element(members.begin(), members.end(),
                                           [&](int a, int b) { return size(a) < size(b); });
-    const int child = clusters[static_cast<std::size_t>(*largest)].child;
+    const int child = clusters[*largest].child;
     if (child < 0) break;
     *largest = child;
     members.push_back(child + 1);
   }
-  const int at = static_cast<int>(nodes_.size());
+  const int at = nodes_.size();
   nodes_.emplace_back();
   Node node;
   node.moments = {};
@@ -194,7 +196,7 @@ int WindingNumber::add_node(const Items& items, const std::vector<Moments>& mome
       node.moments.x[l] = 1e9f;  // of no area: counts as far, and adds nothing
       continue;
     }
-    const Moments& m = moments[static_cast<std::size_t>(members[l])];
+    const Moments& m = moments[members[l]];
     ClusterLanes& to = node.moments;
     const auto f = [](double x) { return static_cast<float>(x); };
     to.x[l] = f(m.centre[0]), to.y[l] = f(m.centre[1]), to.z[l] = f(m.centre[2]);
@@ -204,20 +206,19 @@ int WindingNumber::add_node(const Items& items, const std::vector<Moments>& mome
     to.sx[l] = f(m.second[0]), to.sy[l] = f(m.second[1]), to.sz[l] = f(m.second[2]);
     for (std::size_t k = 0; k < m.first.size(); ++k) to.first[k][l] = f(m.first[k]);
     for (std::size_t k = 0; k < m.cubic.size(); ++k) to.cubic[k][l] = f(m.cubic[k]);
-    const Cluster& cluster = clusters[static_cast<std::size_t>(members[l])];
+    const Cluster& cluster = clusters[members[l]];
     node.child[l] =
         cluster.child < 0 ? -1 - add_leaf(items, cluster) : add_node(items, moments, members[l]);
   }
-  nodes_[static_cast<std::size_t>(at)] = node;
+  nodes_[at] = node;
   return at;
 }
 
 double WindingNumber::leaf_sum(int leaf, const double* q) const {
   const WindingKernels& kernels = winding_kernels();
-  if (triangle_leaves_.empty())
-    return kernels.dipoles(dipole_leaves_[static_cast<std::size_t>(leaf)], q);
+  if (triangle_leaves_.empty()) return kernels.dipoles(dipole_leaves_[leaf], q);
   AngleLanes angles;
-  kernels.angles(triangle_leaves_[static_cast<std::size_t>(leaf)], q, angles);
+  kernels.angles(triangle_leaves_[leaf], q, angles);
   return 2 * sum_of_angles(angles);
 }
 
@@ -238,11 +239,11 @@ double WindingNumber::operator()(const Vec3& query, double accuracy) const {
   stack[top++] = root_;
   double sum = 0;
   while (top > 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack[--top])];
+    const Node& node = nodes_[stack[--top]];
     unsigned near = 0;
     sum += kernels.far(node.moments, near_q.data(), reach, near);
     for (; near != 0; near &= near - 1) {
-      const int child = node.child[static_cast<std::size_t>(std::countr_zero(near))];
+      const int child = node.child[std::countr_zero(near)];
       if (child == none) continue;
       if (child >= 0)
         stack[top++] = child;

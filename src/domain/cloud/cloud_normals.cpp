@@ -36,38 +36,37 @@ MatX3 estimate_normals(const MatX3& points, const Task& task) {
   check_cloud(points);
   const Eigen::Index n = points.rows();
   const PointTree tree(points);
-  const int k = static_cast<int>(std::min<Eigen::Index>(neighbours, n));
+  const int k = std::min<Eigen::Index>(neighbours, n);
   MatX3 normals(n, 3);
-  std::vector<std::vector<int>> graph(static_cast<std::size_t>(n));
-  parallel_for(static_cast<std::size_t>(n), 1024, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<int>> graph(n);
+  parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
     std::array<Neighbour, neighbours> near;
     for (std::size_t i = begin; i < end; ++i) {
-      const int found = tree.nearest(points.row(static_cast<Eigen::Index>(i)), k, near.data());
+      const int found = tree.nearest(points.row(i), k, near.data());
       Vec3 mean = Vec3::Zero();
-      for (int j = 0; j < found; ++j) mean += points.row(near[static_cast<std::size_t>(j)].point);
+      for (int j = 0; j < found; ++j) mean += points.row(near[j].point);
       mean /= found;
       Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
       for (int j = 0; j < found; ++j) {
-        const int p = near[static_cast<std::size_t>(j)].point;
+        const int p = near[j].point;
         const Vec3 d = points.row(p).transpose() - mean;
         covariance += d * d.transpose();
         if (p != static_cast<int>(i)) graph[i].push_back(p);
       }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(covariance);
-      normals.row(static_cast<Eigen::Index>(i)) = principal.eigenvectors().col(0);
+      normals.row(i) = principal.eigenvectors().col(0);
     }
   });
   for (std::size_t i = 0; i < graph.size(); ++i)  // neighbours both ways
     for (std::size_t j = 0, end = graph[i].size(); j < end; ++j) {
-      std::vector<int>& back = graph[static_cast<std::size_t>(graph[i][j])];
-      if (std::find(back.begin(), back.end(), static_cast<int>(i)) == back.end())
-        back.push_back(static_cast<int>(i));
+      std::vector<int>& back = graph[graph[i][j]];
+      if (std::find(back.begin(), back.end(), static_cast<int>(i)) == back.end()) back.push_back(i);
     }
 
   // Roots from the highest point down; from each, the tree of least turning (Prim).
-  std::vector<int> by_height(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) by_height[static_cast<std::size_t>(i)] = i;
+  std::vector<int> by_height(n);
+  for (int i = 0; i < n; ++i) by_height[i] = i;
   std::stable_sort(by_height.begin(), by_height.end(),
                    [&](int a, int b) { return points(a, 2) > points(b, 2); });
   struct Step {
@@ -77,9 +76,9 @@ MatX3 estimate_normals(const MatX3& points, const Task& task) {
       return std::tie(turning, to, from) > std::tie(other.turning, other.to, other.from);
     }
   };
-  std::vector<char> done(static_cast<std::size_t>(n), 0);
+  std::vector<char> done(n, 0);
   for (int root : by_height) {
-    if (done[static_cast<std::size_t>(root)]) continue;
+    if (done[root]) continue;
     if (normals(root, 2) < 0) normals.row(root) *= -1;
     std::priority_queue<Step> queue;
     queue.push({0, root, root});
@@ -87,11 +86,11 @@ MatX3 estimate_normals(const MatX3& points, const Task& task) {
       if (steps % 4096 == 0) task.checkpoint();
       const Step step = queue.top();
       queue.pop();
-      if (done[static_cast<std::size_t>(step.to)]) continue;
-      done[static_cast<std::size_t>(step.to)] = 1;
+      if (done[step.to]) continue;
+      done[step.to] = 1;
       if (normals.row(step.to).dot(normals.row(step.from)) < 0) normals.row(step.to) *= -1;
-      for (int next : graph[static_cast<std::size_t>(step.to)])
-        if (!done[static_cast<std::size_t>(next)])
+      for (int next : graph[step.to])
+        if (!done[next])
           queue.push({1 - std::abs(normals.row(next).dot(normals.row(step.to))), step.to, next});
     }
   }

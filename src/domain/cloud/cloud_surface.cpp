@@ -22,18 +22,16 @@ constexpr int n_neighbours = 30;
 std::vector<std::vector<Neighbour>> find_neighbours(const MatX3& points) {
   std::vector<int> finite;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (points.row(i).allFinite()) finite.push_back(static_cast<int>(i));
+    if (points.row(i).allFinite()) finite.push_back(i);
   if (finite.empty()) throw InputError("the point cloud has no finite point");
-  MatX3 kept(static_cast<Eigen::Index>(finite.size()), 3);
-  for (std::size_t i = 0; i < finite.size(); ++i)
-    kept.row(static_cast<Eigen::Index>(i)) = points.row(finite[i]);
+  MatX3 kept(finite.size(), 3);
+  for (std::size_t i = 0; i < finite.size(); ++i) kept.row(i) = points.row(finite[i]);
   const PointTree tree(kept);
-  std::vector<std::vector<Neighbour>> out(static_cast<std::size_t>(points.rows()));
+  std::vector<std::vector<Neighbour>> out(points.rows());
   parallel_for(kept.rows(), 256, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, n_neighbours + 1> found;
     for (std::size_t i = begin; i < end; ++i) {
-      const int n =
-          tree.nearest(kept.row(static_cast<Eigen::Index>(i)), n_neighbours + 1, found.data());
+      const int n = tree.nearest(kept.row(i), n_neighbours + 1, found.data());
       for (int k = 0; k < n; ++k)
         if (found[k].squared_distance > 0)
           out[finite[i]].push_back({found[k].squared_distance, finite[found[k].point]});
@@ -101,7 +99,7 @@ std::map<std::array<int, 3>, int> local_triangles(const MatX3& points, const Mat
   std::vector<std::vector<std::array<int, 2>>> stars(neighbours.size());
   parallel_for(points.rows(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Index row = i;
       const Vec3 n = normals.row(row), x = tangent_axis(n), y = n.cross(x);
       std::vector<Complex> q;
       std::vector<int> id;
@@ -204,7 +202,7 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
   T->component = place.component;
   T->n_components = place.n_components;
   T->mean_edge_length = place.mean_edge_length;
-  const auto n = static_cast<Eigen::Index>(cells.size());
+  const Eigen::Index n = cells.size();
   T->faces.resize(n, 3);
   T->length.resize(n, 3);
   T->orientation.assign(cells.size(), 1);

@@ -16,9 +16,9 @@ namespace littoral {
 ///
 /// Nodes are the points. Fields are linear on the triangles of the intrinsic Delaunay
 /// triangulations of tufted covers (TuftedCover), so that no weight of the Laplacian is negative;
-/// these are patches and cells. Repeated and non-finite points belong to
-/// no triangle. `normals` (points x 3) may be empty: then they are estimated, with a note in the
-/// report. Throws InputError if no triangle can be made.
+/// these are patches and cells. Repeated and non-finite points belong to no triangle. `normals`
+/// (points x 3) may be empty: then they are estimated, with a note in the report. Throws InputError
+/// if no triangle can be made.
 NodalSurface cloud_surface(const MatX3& points, const MatX3& normals, Report& report,
                            const Task& task = Task());
 

@@ -5,6 +5,7 @@
 #include <deque>
 #include <string>
 
+#include "base/index.h"
 #include "domain/intrinsic/intrinsic_mesh_editor.h"
 
 namespace littoral {
@@ -20,21 +21,21 @@ class Improvement {
       : M_(M),
         task_(task),
         cot_(1 / std::tan(std::max(options.smallest_angle, 1e-3) * degree)),
-        angle_(static_cast<std::size_t>(M.n_vertices()), 0.0),
+        angle_(M.n_vertices(), 0.0),
         least_angle_(3 * options.smallest_angle * degree),
         most_flips_(50 * static_cast<long long>(M.edges.size()) + 10000),
         most_vertices_(M.n_vertices() + 1000 +
                        static_cast<long long>(options.growth * M.n_vertices())) {
     double sum = 0;
     for (std::size_t f = 0; f < M_.faces.size(); ++f) {
-      const auto cot = M_.shape(static_cast<int>(f)).cot;
+      const auto cot = M_.shape(f).cot;
       for (int k = 0; k < 3; ++k) {
         angle_[M_.faces[f].v[k]] += std::atan2(1, cot[k]);
         sum += M_.edges[M_.faces[f].e[k]].length;
       }
     }
     for (std::size_t f = 0; f < M_.faces.size(); ++f) {  // wedges between fixed edges
-      const auto cot = M_.shape(static_cast<int>(f)).cot;
+      const auto cot = M_.shape(f).cot;
       const auto& face = M_.faces[f];
       for (int k = 0; k < 3; ++k)
         if (std::atan2(1, cot[k]) < least_angle_ && M_.fixed(face.e[k]) &&
@@ -74,7 +75,7 @@ class Improvement {
       else if (sharp(f))
         later.push_back(f);
     };
-    for (std::size_t f = 0; f < M_.faces.size(); ++f) add(static_cast<int>(f));
+    for (std::size_t f = 0; f < M_.faces.size(); ++f) add(f);
     while (M_.n_vertices() < most_vertices_ && flips < most_flips_) {
       task_.checkpoint();
       auto& queue = first.empty() ? later : first;
@@ -89,7 +90,7 @@ class Improvement {
       for (int g : M_.edges[e].faces) touched.push_back(g);
       M_.split(e);
       ++added;
-      for (std::size_t g = before; g < M_.faces.size(); ++g) touched.push_back(static_cast<int>(g));
+      for (std::size_t g = before; g < M_.faces.size(); ++g) touched.push_back(g);
       std::deque<int> edges;
       for (int g : touched)
         for (int s : M_.faces[g].e) edges.push_back(s);
@@ -112,9 +113,7 @@ class Improvement {
   bool sharp(int f) const {
     const auto cot = M_.shape(f).cot;
     const auto& face = M_.faces[f];
-    const auto is_tip = [&](int v) {
-      return v < static_cast<int>(angle_.size()) && angle_[v] < least_angle_;
-    };
+    const auto is_tip = [&](int v) { return v < int_size(angle_) && angle_[v] < least_angle_; };
     if (std::any_of(face.v.begin(), face.v.end(), is_tip)) return false;
     for (int k = 0; k < 3; ++k)
       if (cot[k] > cot_ && !(M_.fixed(face.e[k]) && M_.fixed(face.e[(k + 2) % 3]))) return true;
@@ -174,19 +173,18 @@ class Improvement {
 }  // namespace
 
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   CurveNetwork marks, const RefineOptions& options, Report& report,
-                                   const Task& task) {
-  IntrinsicMeshEditor M(mesh, T, std::move(marks));
+                                   CurveNetwork curves, const RefineOptions& options,
+                                   Report& report, const Task& task) {
+  IntrinsicMeshEditor M(mesh, T, std::move(curves));
   Improvement improvement(M, options, task);
   std::deque<int> all;
-  for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(static_cast<int>(e));
+  for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(e);
   improvement.flip(all);
   if (options.smallest_angle > 0) improvement.refine();
   int left = 0;
-  for (std::size_t e = 0; e < M.edges.size(); ++e)
-    left += M.delaunay_sum(static_cast<int>(e)) < delaunay_margin;
+  for (std::size_t e = 0; e < M.edges.size(); ++e) left += M.delaunay_sum(e) < delaunay_margin;
   Retriangulation out = std::move(M).finish(T);
-  out.flips = static_cast<int>(std::min<long long>(improvement.flips, 1 << 30));
+  out.flips = std::min<long long>(improvement.flips, 1 << 30);
   out.added = improvement.added;
   out.not_delaunay = left;
   report.sizes.emplace_back("intrinsic_flips", out.flips);

@@ -1,6 +1,6 @@
 #pragma once
 // Better triangles on the same surface: intrinsic Delaunay flips and refinement, with whatever is
-// drawn on the surface carried along.
+// drawn on the surface kept in place.
 
 #include <vector>
 
@@ -34,7 +34,7 @@ struct RefineOptions {
 struct Retriangulation {
   SurfaceMesh mesh;
   IntrinsicTriangulation T;
-  CurveNetwork marks;
+  CurveNetwork curves;
   int flips = 0, added = 0;  // operations
   int not_delaunay = 0;      // edges left with a negative weight in the cotan Laplacian
 };
@@ -45,10 +45,10 @@ struct Retriangulation {
 ///
 /// Edges of one or of more than two faces are never flipped; refinement splits them where they are
 /// not Delaunay. Several edges of the result may join two vertices, but no face has a vertex twice.
-/// Segments are cut where new edges cross them, in the plane of the two
-/// triangles of each flip, so nothing is traced and nothing moves. At most 50 flips an edge.
+/// Segments are cut where new edges cross them, in the plane of the two triangles of each flip, so
+/// nothing is traced and nothing moves. At most 50 flips an edge.
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   CurveNetwork marks, const RefineOptions& options, Report& report,
-                                   const Task& task);
+                                   CurveNetwork curves, const RefineOptions& options,
+                                   Report& report, const Task& task);
 
 }  // namespace littoral

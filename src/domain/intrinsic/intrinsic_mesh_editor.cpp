@@ -28,7 +28,7 @@ std::array<double, 3> barycentrics(Complex x, const std::array<Complex, 3>& p) {
 
 int IntrinsicMeshEditor::side_of(int f, int e) const {
   const auto& list = faces[f].e;
-  return static_cast<int>(std::find(list.begin(), list.end(), e) - list.begin());
+  return std::find(list.begin(), list.end(), e) - list.begin();
 }
 
 void IntrinsicMeshEditor::add_segment(CurveNetwork::Segment segment) {
@@ -98,9 +98,8 @@ IntrinsicMeshEditor::Drawing IntrinsicMeshEditor::lift(
 
 void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, const Corners& at_left,
                                 int right, const Corners& at_right) {
-  const int tail =
-      static_cast<int>(std::find(faces[left].v.begin(), faces[left].v.end(), edges[edge].tail) -
-                       faces[left].v.begin());
+  const int tail = std::find(faces[left].v.begin(), faces[left].v.end(), edges[edge].tail) -
+                   faces[left].v.begin();
   const Complex P = at_left[tail], Q = at_left[(tail + 1) % 3], PQ = Q - P;
   auto side = [&](Complex x) {
     const double s = cross(PQ, x - P) / std::norm(PQ);
@@ -146,7 +145,7 @@ void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, cons
     } else {
       const double t = sa / (sa - sb);
       CurveNetwork::Segment second = first;
-      first.b = second.a = static_cast<int>(nodes_.size());
+      first.b = second.a = nodes_.size();
       first.to = second.from = segment.from + t * (segment.to - segment.from);
       nodes_.push_back(on_edge(a + t * (b - a)));
       nodes_on_edge_[edge].push_back(first.b);
@@ -222,7 +221,7 @@ void IntrinsicMeshEditor::split(int e) {
     cuts.push_back({f, side_of(f, e), 0, 0, t.p, lift({{f, t.p}}, -1)});
   }
   // The edge itself and what lies on it.
-  const int e2 = static_cast<int>(edges.size());
+  const int e2 = edges.size();
   edges[e].length /= 2;
   edges[e].head = m;
   edges.push_back({m, head, edges[e].length, {}});
@@ -255,7 +254,7 @@ void IntrinsicMeshEditor::split(int e) {
     if ((ta - 0.5) * (tb - 0.5) < 0) {
       const double t = (0.5 - ta) / (tb - ta);
       CurveNetwork::Segment second = s;
-      s.b = second.a = static_cast<int>(nodes_.size());
+      s.b = second.a = nodes_.size();
       nodes_.push_back(SurfacePoint::at_vertex(m));
       s.to = second.from = s.from + t * (second.to - s.from);
       second.edge = tb < 0.5 ? e : e2;
@@ -273,8 +272,8 @@ void IntrinsicMeshEditor::split(int e) {
     const Face F = faces[f];
     const int a = F.v[i], b = F.v[(i + 1) % 3], c = F.v[(i + 2) % 3];
     const int at_a = a == tail ? e : e2, at_b = a == tail ? e2 : e;
-    cut.right = static_cast<int>(faces.size());
-    cut.edge = static_cast<int>(edges.size());
+    cut.right = faces.size();
+    cut.edge = edges.size();
     const Complex A = cut.at[i], B = cut.at[(i + 1) % 3], C = cut.at[(i + 2) % 3],
                   M = 0.5 * (A + B);
     edges.push_back({m, c, std::abs(C - M), {f, cut.right}});

@@ -1,5 +1,5 @@
 #pragma once
-// A triangulation that can be flipped and split, with marks on it.
+// A triangulation that can be flipped and split, with curves drawn on it.
 
 #include <array>
 #include <vector>
@@ -26,7 +26,8 @@ class IntrinsicMeshEditor {
     std::vector<int> faces;
   };
 
-  IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, CurveNetwork marks);
+  IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                      CurveNetwork curves);
 
   /// Sum of the cotangents opposite an edge, over all its faces: twice its weight in the cotan
   /// Laplacian; +infinity without a face.
@@ -46,7 +47,7 @@ class IntrinsicMeshEditor {
 
   std::vector<Face> faces;
   std::vector<Edge> edges;
-  int n_vertices() const { return static_cast<int>(points_.size()); }
+  int n_vertices() const { return points_.size(); }
 
  private:
   /// What is drawn in some triangles, with positions in their common plane.

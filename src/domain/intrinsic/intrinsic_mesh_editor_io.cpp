@@ -1,4 +1,4 @@
-// A marked triangulation from a mesh, and back.
+// An IntrinsicMeshEditor from a mesh, and back.
 
 #include <algorithm>
 #include <tuple>
@@ -8,7 +8,7 @@
 namespace littoral {
 
 IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                         CurveNetwork marks) {
+                                         CurveNetwork curves) {
   for (int v = 0; v < mesh.n_vertices(); ++v) points_.push_back(mesh.point(v));
   for (int e = 0; e < T.n_edges(); ++e) edges.push_back({T.edges(e, 0), T.edges(e, 1), 0, {}});
   for (int f = 0; f < T.n_faces(); ++f) {
@@ -36,19 +36,19 @@ IntrinsicMeshEditor::IntrinsicMeshEditor(const SurfaceMesh& mesh, const Intrinsi
   if (lift > 0)
     for (Edge& e : edges) e.length += lift;
 
-  nodes_ = std::move(marks.nodes);
+  nodes_ = std::move(curves.nodes);
   nodes_in_face_.resize(faces.size());
   in_face_.resize(faces.size());
   nodes_on_edge_.resize(edges.size());
   on_edge_.resize(edges.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     SurfacePoint& p = nodes_[i];
-    if (p.on == SurfacePoint::On::edge) nodes_on_edge_[p.element].push_back(static_cast<int>(i));
+    if (p.on == SurfacePoint::On::edge) nodes_on_edge_[p.element].push_back(i);
     if (p.on != SurfacePoint::On::face) continue;
     if (T.orientation[p.element] < 0) std::swap(p.b[1], p.b[2]);
-    nodes_in_face_[p.element].push_back(static_cast<int>(i));
+    nodes_in_face_[p.element].push_back(i);
   }
-  for (const CurveNetwork::Segment& s : marks.segments) add_segment(s);
+  for (const CurveNetwork::Segment& s : curves.segments) add_segment(s);
 }
 
 Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before) && {
@@ -65,14 +65,14 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   T.unit = before.unit;
   T.n_vertices = n_vertices();
   T.edges = out.mesh.edges();
-  const auto n = static_cast<Eigen::Index>(faces.size());
+  const Eigen::Index n = faces.size();
   T.faces.resize(n, 3);
   T.side_edge.resize(n, 3);
   T.along.resize(n, 3);
   T.length.resize(n, 3);
   T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
   T.orientation.assign(faces.size(), 1);
-  T.edge_use.assign(static_cast<std::size_t>(T.n_edges()), 0);
+  T.edge_use.assign(T.n_edges(), 0);
   std::vector<int> new_edge(edges.size(), -1), first_side_sign(edges.size(), 0),
       first_left(edges.size());
   for (int f = 0; f < T.n_faces(); ++f) {
@@ -85,8 +85,7 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
       T.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
       T.length(f, k) = edges[e].length;
       T.edge_use[E] = static_cast<std::uint8_t>(std::min(255, T.edge_use[E] + 1));
-      // Faces on the side_sign of the first one lie to the left or right of the edge as that one
-      // does.
+      // Faces on the side of the first one lie to the left or right of the edge as that one does.
       if (first_side_sign[e] == 0) {
         first_side_sign[e] = faces[f].side_sign[k];
         first_left[e] = T.along(f, k);
@@ -114,12 +113,12 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
     for (auto& list : *lists)
       for (CurveNetwork::Segment& s : list) {
         if (s.edge >= 0) s.edge = new_edge[s.edge];
-        out.marks.segments.push_back(s);
+        out.curves.segments.push_back(s);
       }
-  std::sort(out.marks.segments.begin(), out.marks.segments.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.id, a.from) < std::tie(b.id, b.from);
-  });
-  out.marks.nodes = std::move(nodes_);
+  std::sort(
+      out.curves.segments.begin(), out.curves.segments.end(),
+      [](const auto& a, const auto& b) { return std::tie(a.id, a.from) < std::tie(b.id, b.from); });
+  out.curves.nodes = std::move(nodes_);
   return out;
 }
 

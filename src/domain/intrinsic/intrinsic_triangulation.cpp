@@ -18,10 +18,10 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const auto c = mesh.face(f);
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-    T.triangle_of_face[f] = static_cast<int>(kept.size());
+    T.triangle_of_face[f] = kept.size();
     kept.push_back(f);
   }
-  const int n = static_cast<int>(kept.size());
+  const int n = kept.size();
   if (n == 0) throw InputError("the mesh has no face with three different vertices");
   if (n < mesh.n_faces())
     report.warn(std::to_string(mesh.n_faces() - n) + " faces that repeat a vertex were left out");

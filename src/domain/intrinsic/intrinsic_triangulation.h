@@ -37,8 +37,8 @@ struct IntrinsicTriangulation {
   int n_components = 0;
   std::vector<int> triangle_of_face;  // mesh face -> triangle, -1 where a vertex is repeated
 
-  int n_faces() const { return static_cast<int>(faces.rows()); }
-  int n_edges() const { return static_cast<int>(edges.rows()); }
+  int n_faces() const { return faces.rows(); }
+  int n_edges() const { return edges.rows(); }
 
   /// Layout of a face in its own frame.
   TriangleShape shape(int f) const {

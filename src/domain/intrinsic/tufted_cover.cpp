@@ -6,6 +6,7 @@
 #include <deque>
 #include <tuple>
 
+#include "base/index.h"
 #include "base/triangle.h"
 
 namespace littoral {
@@ -52,7 +53,7 @@ TuftedCover::TuftedCover(const MatX3& points, const MatX3i& triangles) {
 
 void TuftedCover::glue(const MatX3& points, const MatX3i& triangles) {
   std::vector<Wing> wings;
-  for (int t = 0; t < static_cast<int>(triangles.rows()); ++t)
+  for (int t = 0; t < triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(t, k), b = triangles(t, (k + 1) % 3);
       const int front = 6 * t + k, back = 6 * t + 3 + 2 - k;
@@ -76,11 +77,9 @@ void TuftedCover::glue(const MatX3& points, const MatX3i& triangles) {
         const Vec3 d = points.row(apex).transpose() - origin;
         wings[w].angle = std::atan2(y.dot(d), x.dot(d));
       }
-      std::sort(wings.begin() + static_cast<std::ptrdiff_t>(first),
-                wings.begin() + static_cast<std::ptrdiff_t>(last),
-                [](const Wing& a, const Wing& b) {
-                  return std::tie(a.angle, a.triangle) < std::tie(b.angle, b.triangle);
-                });
+      std::sort(wings.begin() + first, wings.begin() + last, [](const Wing& a, const Wing& b) {
+        return std::tie(a.angle, a.triangle) < std::tie(b.angle, b.triangle);
+      });
     }
     // The face that runs i -> j looks along growing angles: at the back of the next triangle.
     for (std::size_t w = first; w < last; ++w) {
@@ -138,8 +137,8 @@ bool TuftedCover::flip(int side) {
 
 long long TuftedCover::flip_to_delaunay(const Task& task) {
   std::deque<int> queue;
-  const int n_sides = 3 * static_cast<int>(faces_.size());
-  std::vector<char> waiting(static_cast<std::size_t>(n_sides), 0);
+  const int n_sides = 3 * int_size(faces_);
+  std::vector<char> waiting(n_sides, 0);
   auto push = [&](int side) {
     const int s = std::min(side, faces_[side / 3].twin[side % 3]);  // once for both
     if (waiting[s]) return;

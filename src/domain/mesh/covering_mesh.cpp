@@ -9,7 +9,7 @@ namespace littoral {
 
 CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) {
   const TuftedCover cover(MatX3(mesh.points() / T.unit), T.faces);
-  const int n = static_cast<int>(cover.faces().size());
+  const int n = cover.faces().size();
   PolygonSoup soup;
   soup.points = mesh.points();
   std::vector<int> edge_of_side;
@@ -24,11 +24,11 @@ CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation
   for (auto* table : {&C.faces, &C.side_edge}) table->resize(n, 3);
   C.along.resize(n, 3);
   C.length.resize(n, 3);
-  C.orientation.assign(static_cast<std::size_t>(n), 1);
+  C.orientation.assign(n, 1);
   C.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
   C.has_seams = false;
-  C.edge_use.assign(static_cast<std::size_t>(C.n_edges()), 2);
-  C.triangle_of_face.resize(static_cast<std::size_t>(n));
+  C.edge_use.assign(C.n_edges(), 2);
+  C.triangle_of_face.resize(n);
   std::iota(C.triangle_of_face.begin(), C.triangle_of_face.end(), 0);
   for (int f = 0; f < n; ++f)
     for (int k = 0; k < 3; ++k) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
+
 namespace littoral {
 
 FaceTriangulation::FaceTriangulation(const Vec2& a, const Vec2& b, const Vec2& c)
@@ -16,7 +18,7 @@ double FaceTriangulation::turn(int a, int b, int c) const {
 int FaceTriangulation::triangle_with(int p, int q) const {
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (int k = 0; k < 3; ++k)
-      if (triangles_[t][k] == p && triangles_[t][(k + 1) % 3] == q) return static_cast<int>(t);
+      if (triangles_[t][k] == p && triangles_[t][(k + 1) % 3] == q) return t;
   return -1;
 }
 
@@ -24,19 +26,19 @@ bool FaceTriangulation::has_edge(int p, int q) const {
   return triangle_with(p, q) >= 0 || triangle_with(q, p) >= 0;
 }
 
-bool FaceTriangulation::held(int p, int q) const {
-  return std::any_of(held_.begin(), held_.end(), [&](const Held& h) {
+bool FaceTriangulation::is_fixed(int p, int q) const {
+  return std::any_of(fixed_.begin(), fixed_.end(), [&](const FixedEdge& h) {
     return (h.p == p && h.q == q) || (h.p == q && h.q == p);
   });
 }
 
-void FaceTriangulation::hold(int p, int q, int segment) {
-  if (!held(p, q)) held_.push_back({p, q});
+void FaceTriangulation::fix(int p, int q, int segment) {
+  if (!is_fixed(p, q)) fixed_.push_back({p, q});
   paths_[segment].push_back(q);
 }
 
 int FaceTriangulation::split_edge(int p, int q, const Vec2& x) {
-  const int added = static_cast<int>(points_.size());
+  const int added = points_.size();
   points_.push_back(x);
   for (const auto& [a, b] : {std::pair(p, q), std::pair(q, p)}) {
     const int t = triangle_with(a, b);
@@ -48,15 +50,16 @@ int FaceTriangulation::split_edge(int p, int q, const Vec2& x) {
     }
     triangles_.push_back(other);
   }
-  if (held(p, q)) {
-    std::erase_if(held_,
-                  [&](const Held& h) { return (h.p == p && h.q == q) || (h.p == q && h.q == p); });
-    held_.push_back({p, added});
-    held_.push_back({added, q});
+  if (is_fixed(p, q)) {
+    std::erase_if(fixed_, [&](const FixedEdge& h) {
+      return (h.p == p && h.q == q) || (h.p == q && h.q == p);
+    });
+    fixed_.push_back({p, added});
+    fixed_.push_back({added, q});
     for (auto& path : paths_)
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
         if ((path[i] == p && path[i + 1] == q) || (path[i] == q && path[i + 1] == p)) {
-          path.insert(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, added);
+          path.insert(path.begin() + i + 1, added);
           break;
         }
   }
@@ -68,13 +71,13 @@ int FaceTriangulation::split_side(int p, int q, const Vec2& x) { return split_ed
 int FaceTriangulation::insert(const Vec2& x, double tolerance) {
   int nearest = 0;
   for (std::size_t i = 1; i < points_.size(); ++i)
-    if ((points_[i] - x).norm() < (points_[nearest] - x).norm()) nearest = static_cast<int>(i);
+    if ((points_[i] - x).norm() < (points_[nearest] - x).norm()) nearest = i;
   if ((points_[nearest] - x).norm() <= tolerance) return nearest;
   // The triangle in which the least barycentric coordinate is largest holds the point.
   int best = 0, side = 0;
   double most = -std::numeric_limits<double>::infinity();
   points_.push_back(x);
-  const int added = static_cast<int>(points_.size()) - 1;
+  const int added = int_size(points_) - 1;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     double least = std::numeric_limits<double>::infinity();
     int at = 0;
@@ -88,7 +91,7 @@ int FaceTriangulation::insert(const Vec2& x, double tolerance) {
     }
     if (least > most) {
       most = least;
-      best = static_cast<int>(t);
+      best = t;
       side = at;
     }
   }
@@ -122,13 +125,13 @@ bool FaceTriangulation::flip(int p, int q) {
 }
 
 void FaceTriangulation::connect(int a, int b, int segment) {
-  if (static_cast<int>(paths_.size()) <= segment) paths_.resize(segment + 1);
+  if (int_size(paths_) <= segment) paths_.resize(segment + 1);
   paths_[segment].assign(1, a);
   const double length = (points_[b] - points_[a]).norm();
   // Every turn holds an edge or removes a crossing; the bound stops what round-off could not.
   for (int guard = 0; a != b && guard < 10000; ++guard) {
     if (has_edge(a, b)) {
-      hold(a, b, segment);
+      fix(a, b, segment);
       return;
     }
     const Vec2 direction = (points_[b] - points_[a]) / (points_[b] - points_[a]).norm();
@@ -149,16 +152,16 @@ void FaceTriangulation::connect(int a, int b, int segment) {
       }
     }
     if (through >= 0) {
-      hold(a, through, segment);
+      fix(a, through, segment);
       a = through;
       continue;
     }
     if (p < 0) return;  // cannot be: the segment lies in the face
-    if (!held(p, q) && flip(p, q)) continue;
+    if (!is_fixed(p, q) && flip(p, q)) continue;
     const double left = turn(a, b, q), right = -turn(a, b, p);
     const double share = right / (left + right);
     const int x = split_edge(p, q, points_[p] + share * (points_[q] - points_[p]));
-    hold(a, x, segment);
+    fix(a, x, segment);
     a = x;
   }
 }

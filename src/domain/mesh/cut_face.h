@@ -27,20 +27,20 @@ class FaceTriangulation {
   const std::vector<int>& path(int segment) const { return paths_[segment]; }
 
  private:
-  struct Held {
+  struct FixedEdge {
     int p, q;
   };
   double turn(int a, int b, int c) const;
   int triangle_with(int p, int q) const;  // that has the directed side p -> q, or -1
   bool has_edge(int p, int q) const;
-  bool held(int p, int q) const;
-  void hold(int p, int q, int segment);
+  bool is_fixed(int p, int q) const;
+  void fix(int p, int q, int segment);
   int split_edge(int p, int q, const Vec2& x);
   bool flip(int p, int q);
 
   std::vector<Vec2> points_;
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<Held> held_;
+  std::vector<FixedEdge> fixed_;
   std::vector<std::vector<int>> paths_;
 };
 

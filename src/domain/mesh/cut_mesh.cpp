@@ -31,7 +31,7 @@ class Cutter {
       if (along >= 0)
         path_[i] = path_on_side(segments_[i], along);
       else
-        in_face[segments_[i].face].push_back(static_cast<int>(i));
+        in_face[segments_[i].face].push_back(i);
     }
     for (const auto& [e, points] : on_edge_)
       for (int f : mesh_.edge_faces(e)) touched[f] = 1;
@@ -45,9 +45,8 @@ class Cutter {
         parent_.push_back(f);
       }
     }
-    soup.points.resize(static_cast<Eigen::Index>(point_.size()), 3);
-    for (std::size_t v = 0; v < point_.size(); ++v)
-      soup.points.row(static_cast<Eigen::Index>(v)) = mesh_.position(point_[v]);
+    soup.points.resize(point_.size(), 3);
+    for (std::size_t v = 0; v < point_.size(); ++v) soup.points.row(v) = mesh_.position(point_[v]);
     return {SurfaceMesh(std::move(soup)), std::move(parent_), std::move(point_), std::move(path_)};
   }
 
@@ -157,8 +156,7 @@ class Cutter {
     };
     std::vector<std::array<int, 2>> ends;
     for (int i : segments) ends.push_back({place(segments_[i].a), place(segments_[i].b)});
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      local.connect(ends[i][0], ends[i][1], static_cast<int>(i));
+    for (std::size_t i = 0; i < ends.size(); ++i) local.connect(ends[i][0], ends[i][1], i);
     for (std::size_t v = global.size(); v < local.points().size(); ++v) {
       point_.push_back(point_in(f, shape, local.points()[v]));
       global.push_back(next_vertex_++);
@@ -169,7 +167,7 @@ class Cutter {
       parent_.push_back(f);
     }
     for (std::size_t i = 0; i < ends.size(); ++i)
-      for (int v : local.path(static_cast<int>(i))) path_[segments[i]].push_back(global[v]);
+      for (int v : local.path(i)) path_[segments[i]].push_back(global[v]);
   }
 
   static SurfacePoint point_in(int f, const TriangleShape& shape, const Vec2& x) {

@@ -30,8 +30,8 @@ struct NodalSurface {
   std::vector<int> patch_offsets;  // patches + 1, into cells
   MatX3 patch_normals{0, 3};       // patches x 3, unit
 
-  int n_nodes() const { return static_cast<int>(P.cols()); }
-  int n_patches() const { return static_cast<int>(patch_offsets.size()) - 1; }
+  int n_nodes() const { return P.cols(); }
+  int n_patches() const { return patch_offsets.size() - 1; }
 };
 
 /// A unit vector orthogonal to the unit vector n: the real axis of the tangent plane there.

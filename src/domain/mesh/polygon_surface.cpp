@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "base/index.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 
@@ -14,7 +15,7 @@ constexpr std::size_t most_corners = 64;  // the operators of a polygon are dens
 
 /// A virtual vertex: its affine weights on the corners of its polygon.
 VecX virtual_weights(const SurfaceMesh& mesh, std::span<const int> corners) {
-  const auto n = static_cast<Eigen::Index>(corners.size());
+  const Eigen::Index n = corners.size();
   Eigen::Matrix3Xd x(3, n);
   for (Eigen::Index i = 0; i < n; ++i) x.col(i) = mesh.point(corners[i]);
   const VecX equal = VecX::Constant(n, 1.0 / static_cast<double>(n));
@@ -52,11 +53,11 @@ VecX virtual_weights(const SurfaceMesh& mesh, std::span<const int> corners) {
 /// Adds the triangles of one polygon, cut on its own corners.
 void add_triangles(const SurfaceMesh& mesh, std::span<const int> corners, PolygonSoup& to) {
   PolygonSoup one;
-  one.points.resize(static_cast<Eigen::Index>(corners.size()), 3);
+  one.points.resize(corners.size(), 3);
   std::vector<int> all(corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    one.points.row(static_cast<Eigen::Index>(k)) = mesh.point(corners[k]);
-    all[k] = static_cast<int>(k);
+    one.points.row(k) = mesh.point(corners[k]);
+    all[k] = k;
   }
   one.add_face(all);
   const PolygonSoup cut = triangulate(one);
@@ -88,10 +89,10 @@ Refinement refine(const SurfaceMesh& mesh, Report& report) {
       ++cut;
     } else {
       const VecX w = virtual_weights(mesh, corners);
-      const int centre = n + static_cast<int>(added.size());
+      const int centre = n + int_size(added);
       Vec3 x = Vec3::Zero();
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        const double weight = w[static_cast<Eigen::Index>(k)];
+        const double weight = w[k];
         x += weight * (mesh.point(corners[k]) - mesh.point(corners[0]));
         out.weights.emplace_back(centre, corners[k], weight);
         const int triangle[3] = {corners[k], corners[(k + 1) % corners.size()], centre};
@@ -104,10 +105,9 @@ Refinement refine(const SurfaceMesh& mesh, Report& report) {
   if (cut)
     report.warn(std::to_string(cut) + " polygons of more than " + std::to_string(most_corners) +
                 " corners were cut into triangles");
-  out.soup.points.resize(n + static_cast<Eigen::Index>(added.size()), 3);
+  out.soup.points.resize(n + index(added.size()), 3);
   out.soup.points.topRows(n) = mesh.points();
-  for (std::size_t i = 0; i < added.size(); ++i)
-    out.soup.points.row(n + static_cast<Eigen::Index>(i)) = added[i];
+  for (std::size_t i = 0; i < added.size(); ++i) out.soup.points.row(n + index(i)) = added[i];
   return out;
 }
 

@@ -6,23 +6,22 @@
 namespace littoral {
 
 SplitSurface split_at_jumps(const SurfaceMesh& mesh, const Rows<std::int64_t, 3>& key) {
-  SplitSurface torn;
+  SplitSurface split;
   std::map<std::pair<int, std::int64_t>, int> vertex;
   for (int f = 0; f < mesh.n_faces(); ++f) {
     int corners[3];
     for (int k = 0; k < 3; ++k) {
       const auto [it, added] =
-          vertex.try_emplace({mesh.face(f)[k], key(f, k)}, static_cast<int>(torn.corner.size()));
-      if (added) torn.corner.push_back({f, k});
+          vertex.try_emplace({mesh.face(f)[k], key(f, k)}, split.corner.size());
+      if (added) split.corner.push_back({f, k});
       corners[k] = it->second;
     }
-    torn.soup.add_face(corners);
+    split.soup.add_face(corners);
   }
-  torn.soup.points.resize(static_cast<Eigen::Index>(torn.corner.size()), 3);
-  for (std::size_t v = 0; v < torn.corner.size(); ++v)
-    torn.soup.points.row(static_cast<Eigen::Index>(v)) =
-        mesh.point(mesh.face(torn.corner[v][0])[torn.corner[v][1]]);
-  return torn;
+  split.soup.points.resize(split.corner.size(), 3);
+  for (std::size_t v = 0; v < split.corner.size(); ++v)
+    split.soup.points.row(v) = mesh.point(mesh.face(split.corner[v][0])[split.corner[v][1]]);
+  return split;
 }
 
 }  // namespace littoral

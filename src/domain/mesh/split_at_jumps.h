@@ -1,5 +1,5 @@
 #pragma once
-// A surface torn where values at corners differ.
+// A surface split where values at corners differ.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace littoral {
 
-/// The torn surface: faces as before, and for every vertex a corner {face, k} that it came from.
+/// The split surface: faces as before, and for every vertex a corner {face, k} that it came from.
 struct SplitSurface {
   PolygonSoup soup;
   std::vector<std::array<int, 2>> corner;

@@ -14,13 +14,13 @@ namespace {
 /// Lists, for each of n keys, the items that carry it; items stay in order.
 void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_of_item, int n,
             std::vector<int>& offsets, std::vector<int>& values) {
-  offsets.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (int key : key_of_item) ++offsets[static_cast<std::size_t>(key) + 1];
+  offsets.assign(n + 1, 0);
+  for (int key : key_of_item) ++offsets[key + 1];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   values.resize(key_of_item.size());
   std::vector<int> next(offsets.begin(), offsets.end() - 1);
   for (std::size_t i = 0; i < key_of_item.size(); ++i)
-    values[static_cast<std::size_t>(next[key_of_item[i]]++)] = value_of_item[i];
+    values[next[key_of_item[i]]++] = value_of_item[i];
 }
 
 void check_faces(const PolygonSoup& soup) {
@@ -47,17 +47,17 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto corners = soup.face(f);
     for (std::size_t k = 0; k < corners.size(); ++k)
-      head[static_cast<std::size_t>(soup.face_offsets[f]) + k] = corners[(k + 1) % corners.size()];
+      head[soup.face_offsets[f] + k] = corners[(k + 1) % corners.size()];
   }
   const auto low = [&](std::size_t side) { return std::min(soup.corners[side], head[side]); };
   const auto high = [&](int side) { return std::max(soup.corners[side], head[side]); };
   // Sides with the same smaller vertex are few: match them there.
-  std::vector<int> begin(static_cast<std::size_t>(soup.n_vertices()) + 1, 0), by_low(n_corners);
+  std::vector<int> begin(soup.n_vertices() + 1, 0), by_low(n_corners);
   for (std::size_t c = 0; c < n_corners; ++c) ++begin[low(c)];
   int sum = 0;
   for (int& b : begin) sum += std::exchange(b, sum);
   for (std::size_t c = 0; c < n_corners; ++c)  // begin becomes the end of each
-    by_low[static_cast<std::size_t>(begin[low(c)]++)] = static_cast<int>(c);
+    by_low[begin[low(c)]++] = c;
   std::vector<int> first_side(n_corners);
   auto at = by_low.begin();
   for (int v = 0; v < soup.n_vertices(); ++v) {
@@ -74,7 +74,7 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
 }  // namespace
 
 void SurfaceMesh::check() {
-  if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max() / 2))
+  if (soup_.corners.size() > std::numeric_limits<int>::max() / 2)
     throw InputError("the mesh has too many face corners for 32-bit numbering");
   check_faces(soup_);
 }
@@ -91,7 +91,7 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
   std::vector<int> first_of(edge_of_side.size(), -1), first_side(edge_of_side.size());
   for (std::size_t c = 0; c < edge_of_side.size(); ++c) {
     int& first = first_of[edge_of_side[c]];
-    if (first < 0) first = static_cast<int>(c);
+    if (first < 0) first = c;
     first_side[c] = first;
   }
   connect(first_side);
@@ -100,8 +100,8 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
 
 void SurfaceMesh::connect(const std::vector<int>& first_side) {
   const std::size_t n_corners = soup_.corners.size();
-  const auto n_edges_found = static_cast<Eigen::Index>(std::count_if(
-      first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; }));
+  const Eigen::Index n_edges_found = std::count_if(
+      first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; });
   std::vector<int> face_of(n_corners);
   edges_.resize(n_edges_found, 2);
   int next = 0;
@@ -110,7 +110,7 @@ void SurfaceMesh::connect(const std::vector<int>& first_side) {
     const auto corners = face(f);
     triangles_ = triangles_ && corners.size() == 3;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::size_t c = static_cast<std::size_t>(soup_.face_offsets[f]) + k;
+      const std::size_t c = soup_.face_offsets[f] + k;
       face_of[c] = f;
       if (first_side[c] != static_cast<int>(c)) {
         side_edge_[c] = side_edge_[first_side[c]];
@@ -165,8 +165,7 @@ int SurfaceMesh::find_edge(int a, int b) const {
     const auto corners = face(f);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const int tail = corners[k], head = corners[(k + 1) % corners.size()];
-      if ((tail == a && head == b) || (tail == b && head == a))
-        return side_edge(f, static_cast<int>(k));
+      if ((tail == a && head == b) || (tail == b && head == a)) return side_edge(f, k);
     }
   }
   return -1;

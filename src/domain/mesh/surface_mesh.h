@@ -28,7 +28,7 @@ class SurfaceMesh {
 
   int n_vertices() const { return soup_.n_vertices(); }
   int n_faces() const { return soup_.n_faces(); }
-  int n_edges() const { return static_cast<int>(edges_.rows()); }
+  int n_edges() const { return edges_.rows(); }
   bool is_triangle_mesh() const { return triangles_; }
 
   const PolygonSoup& soup() const { return soup_; }

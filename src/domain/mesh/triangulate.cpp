@@ -58,7 +58,7 @@ bool is_ear(const std::vector<Vec2>& p, const std::vector<int>& rest, std::size_
 
 void cut(const PolygonSoup& soup, std::span<const int> face, PolygonSoup& out) {
   std::vector<int> rest(face.size());
-  for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = static_cast<int>(k);
+  for (std::size_t k = 0; k < rest.size(); ++k) rest[k] = k;
   const auto emit = [&](int a, int b, int c) {
     out.add_face(std::array{face[a], face[b], face[c]});
   };
@@ -74,7 +74,7 @@ void cut(const PolygonSoup& soup, std::span<const int> face, PolygonSoup& out) {
       continue;
     }
     emit(rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]);
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    rest.erase(rest.begin() + k);
     misses = 0;
   }
   for (std::size_t i = 1; i + 1 < rest.size(); ++i) emit(rest[0], rest[i], rest[i + 1]);

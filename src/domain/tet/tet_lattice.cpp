@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -37,17 +38,17 @@ struct Octree {
 
   int leaf(const Place& p) const {
     int at = 0;
-    while (child[static_cast<std::size_t>(at)] >= 0) {
-      const Cube& c = cubes[static_cast<std::size_t>(at)];
+    while (child[at] >= 0) {
+      const Cube& c = cubes[at];
       const int half = c.size / 2;
-      at = child[static_cast<std::size_t>(at)] + (p[0] >= c.low[0] + half ? 1 : 0) +
-           (p[1] >= c.low[1] + half ? 2 : 0) + (p[2] >= c.low[2] + half ? 4 : 0);
+      at = child[at] + (p[0] >= c.low[0] + half ? 1 : 0) + (p[1] >= c.low[1] + half ? 2 : 0) +
+           (p[2] >= c.low[2] + half ? 4 : 0);
     }
     return at;
   }
   void split(int at) {
-    const Cube c = cubes[static_cast<std::size_t>(at)];
-    child[static_cast<std::size_t>(at)] = static_cast<int>(cubes.size());
+    const Cube c = cubes[at];
+    child[at] = cubes.size();
     const int half = c.size / 2;
     for (int w = 0; w < 8; ++w) {
       cubes.push_back({{c.low[0] + (w & 1 ? half : 0), c.low[1] + (w & 2 ? half : 0),
@@ -63,12 +64,12 @@ void balance(Octree& tree) {
   const int whole = tree.cubes[0].size;
   std::deque<int> queue;
   for (std::size_t at = 0; at < tree.cubes.size(); ++at)
-    if (tree.child[at] < 0) queue.push_back(static_cast<int>(at));
+    if (tree.child[at] < 0) queue.push_back(at);
   while (!queue.empty()) {
     const int at = queue.front();
     queue.pop_front();
-    if (tree.child[static_cast<std::size_t>(at)] >= 0) continue;
-    const Cube c = tree.cubes[static_cast<std::size_t>(at)];
+    if (tree.child[at] >= 0) continue;
+    const Cube c = tree.cubes[at];
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
@@ -76,9 +77,9 @@ void balance(Octree& tree) {
           const Place p{c.low[0] + dx * c.size, c.low[1] + dy * c.size, c.low[2] + dz * c.size};
           if (std::any_of(p.begin(), p.end(), [&](int x) { return x < 0 || x >= whole; })) continue;
           const int other = tree.leaf(p);
-          if (tree.cubes[static_cast<std::size_t>(other)].size <= 2 * c.size) continue;
+          if (tree.cubes[other].size <= 2 * c.size) continue;
           tree.split(other);
-          const int first = tree.child[static_cast<std::size_t>(other)];
+          const int first = tree.child[other];
           for (int w = 0; w < 8; ++w) queue.push_back(first + w);
           queue.push_back(at);
         }
@@ -105,29 +106,27 @@ class Filler {
     for (int axis = 0; axis < 3; ++axis)
       for (int side = 0; side < 2; ++side) {
         Place low = c.low;
-        low[static_cast<std::size_t>(axis)] += side * c.size;
+        low[axis] += side * c.size;
         face(low, (axis + 1) % 3, (axis + 2) % 3, c.size, side == 0);
       }
   }
 
   void finish() {
-    mesh_.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
-    for (std::size_t v = 0; v < points_.size(); ++v)
-      mesh_.points.row(static_cast<Eigen::Index>(v)) = points_[v];
-    mesh_.tets = Eigen::Map<const Rows<int, 4>>(tets_.data(),
-                                                static_cast<Eigen::Index>(tets_.size() / 4), 4);
+    mesh_.points.resize(points_.size(), 3);
+    for (std::size_t v = 0; v < points_.size(); ++v) mesh_.points.row(v) = points_[v];
+    mesh_.tets = Eigen::Map<const Rows<int, 4>>(tets_.data(), tets_.size() / 4, 4);
   }
   std::size_t n_tets() const { return tets_.size() / 4; }
 
  private:
   static Place moved(Place p, int u, int du, int v, int dv) {
-    p[static_cast<std::size_t>(u)] += du;
-    p[static_cast<std::size_t>(v)] += dv;
+    p[u] += du;
+    p[v] += dv;
     return p;
   }
   bool is_corner(const Place& p) const { return corners_.count(key(p)) != 0; }
   int vertex(const Place& p) {
-    const auto [at, is_new] = vertices_.try_emplace(key(p), static_cast<int>(points_.size()));
+    const auto [at, is_new] = vertices_.try_emplace(key(p), points_.size());
     if (is_new) points_.emplace_back(origin_ + unit_ * Vec3(p[0], p[1], p[2]));
     return at->second;
   }
@@ -155,8 +154,7 @@ class Filler {
     if (std::none_of(hanging.begin(), hanging.end(), [](bool h) { return h; })) {
       const int parity = (low[0] / size + low[1] / size + low[2] / size) & 1;
       std::array<int, 4> n{};
-      for (std::size_t k = 0; k < 4; ++k)
-        n[k] = vertex(corner[(k + static_cast<std::size_t>(parity)) % 4]);
+      for (std::size_t k = 0; k < 4; ++k) n[k] = vertex(corner[(k + parity) % 4]);
       tet(n[0], n[1], n[2], inward);
       tet(n[0], n[2], n[3], inward);
       return;
@@ -185,8 +183,7 @@ class Filler {
 
 double interpolated(const TetMesh& mesh, const VecX& field, const TetPoint& p) {
   double value = 0;
-  for (int c = 0; c < 4; ++c)
-    value += p.barycentric[static_cast<std::size_t>(c)] * field[mesh.tets(p.tet, c)];
+  for (int c = 0; c < 4; ++c) value += p.barycentric[c] * field[mesh.tets(p.tet, c)];
   return value;
 }
 
@@ -204,11 +201,11 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
       for (int a = 0; a < 3; ++a) {
         const double x = at[a] + (w >> a & 1 ? 1 : -1);
         inside = inside && x >= 0 && x < whole;
-        p[static_cast<std::size_t>(a)] = inside ? static_cast<int>(x) : 0;
+        p[a] = inside ? static_cast<int>(x) : 0;
       }
       if (!inside) continue;
       int leaf = tree.leaf(p);
-      while (tree.cubes[static_cast<std::size_t>(leaf)].size > 2) {
+      while (tree.cubes[leaf].size > 2) {
         tree.split(leaf);
         leaf = tree.leaf(p);
       }
@@ -222,14 +219,14 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
   child_ = tree.child;
   for (std::size_t at = 0; at < tree.cubes.size(); ++at) {
     if (tree.child[at] >= 0) continue;
-    child_[at] = -1 - static_cast<int>(first_tet_.size());
-    first_tet_.push_back(static_cast<int>(filler.n_tets()));
+    child_[at] = -1 - int_size(first_tet_);
+    first_tet_.push_back(filler.n_tets());
     filler.fill(tree.cubes[at]);
-    cube_.resize(filler.n_tets(), static_cast<int>(first_tet_.size()) - 1);
+    cube_.resize(filler.n_tets(), int_size(first_tet_) - 1);
     if (filler.n_tets() > max_tets)
       throw InputError("the tet lattice would have too many tets; use a smaller --resolution");
   }
-  first_tet_.push_back(static_cast<int>(filler.n_tets()));
+  first_tet_.push_back(filler.n_tets());
   filler.finish();
 }
 
@@ -240,7 +237,7 @@ TetPoint TetLattice::locate(const Vec3& x) const {
   Vec3 t = (x - origin_) / side_;
   if (!((t.array() >= 0).all() && (t.array() <= 1).all())) return best;
   int at = 0;
-  while (child_[static_cast<std::size_t>(at)] >= 0) {
+  while (child_[at] >= 0) {
     int which = 0;
     for (int a = 0; a < 3; ++a) {
       t[a] *= 2;
@@ -249,9 +246,9 @@ TetPoint TetLattice::locate(const Vec3& x) const {
         t[a] -= 1;
       }
     }
-    at = child_[static_cast<std::size_t>(at)] + which;
+    at = child_[at] + which;
   }
-  const auto cube = static_cast<std::size_t>(-1 - child_[static_cast<std::size_t>(at)]);
+  const std::size_t cube = -1 - child_[at];
   double least = -1e300;
   for (int e = first_tet_[cube]; e < first_tet_[cube + 1]; ++e) {
     Eigen::Matrix3d edges;

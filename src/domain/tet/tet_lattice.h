@@ -31,12 +31,12 @@ class TetLattice {
 
   const TetMesh& mesh() const { return mesh_; }
   double finest() const;  // side of the smallest cubes
-  int n_cubes() const { return static_cast<int>(first_tet_.size()) - 1; }
+  int n_cubes() const { return first_tet_.size() - 1; }
 
   /// The tet that holds x; x outside the cube gives tet -1.
   TetPoint locate(const Vec3& x) const;
   /// The cube that holds the tet.
-  int cube_of(int tet) const { return cube_[static_cast<std::size_t>(tet)]; }
+  int cube_of(int tet) const { return cube_[tet]; }
 
  private:
   Vec3 origin_;

@@ -33,11 +33,11 @@ bool is_solid(const Eigen::Matrix3d& edges) {
 TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
   for (int t = 0; t < mesh.n_tets(); ++t)
     if (is_solid(edges_of(mesh, t))) tets_.push_back(t);
-  MatX3 centres(static_cast<Eigen::Index>(tets_.size()), 3);
+  MatX3 centres(tets_.size(), 3);
   for (std::size_t i = 0; i < tets_.size(); ++i) {
     Vec3 sum = Vec3::Zero();
     for (int k = 0; k < 4; ++k) sum += corner(mesh, tets_[i], k) / 4;
-    centres.row(static_cast<Eigen::Index>(i)) = sum;
+    centres.row(i) = sum;
   }
   tree_ = cluster(centres, leaf_size);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -48,14 +48,14 @@ TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
     const Cluster& group = tree_.clusters[c];
     if (group.child >= 0) {
       for (int k = 0; k < 2; ++k) {
-        const Box& part = boxes_[static_cast<std::size_t>(group.child + k)];
+        const Box& part = boxes_[group.child + k];
         box.low = box.low.cwiseMin(part.low);
         box.high = box.high.cwiseMax(part.high);
       }
       continue;
     }
     for (int i = group.begin; i < group.end; ++i) {
-      const int t = tets_[static_cast<std::size_t>(tree_.order[static_cast<std::size_t>(i)])];
+      const int t = tets_[tree_.order[i]];
       Vec3 low = corner(mesh, t, 0), high = low;
       for (int k = 1; k < 4; ++k) {
         low = low.cwiseMin(corner(mesh, t, k));
@@ -75,7 +75,7 @@ TetPoint TetLocator::locate(const Vec3& x) const {
   std::size_t top = 0;
   if (!tets_.empty()) stack[top++] = 0;
   while (top > 0) {
-    const auto at = static_cast<std::size_t>(stack[--top]);
+    const std::size_t at = stack[--top];
     const Box& box = boxes_[at];
     if ((box.low.array() > x.array()).any() || (box.high.array() < x.array()).any()) continue;
     const Cluster& group = tree_.clusters[at];
@@ -85,7 +85,7 @@ TetPoint TetLocator::locate(const Vec3& x) const {
       continue;
     }
     for (int i = group.begin; i < group.end; ++i) {
-      const int t = tets_[static_cast<std::size_t>(tree_.order[static_cast<std::size_t>(i)])];
+      const int t = tets_[tree_.order[i]];
       const Vec3 b = edges_of(mesh_, t).inverse() * (x - corner(mesh_, t, 0));
       const std::array<double, 4> barycentric{1 - b.sum(), b[0], b[1], b[2]};
       const double least = *std::min_element(barycentric.begin(), barycentric.end());
@@ -125,7 +125,7 @@ MatX3i boundary_faces(const TetMesh& mesh) {
   std::vector<int> corners;
   for (const auto& [key, outward] : faces)
     if (outward[0] >= 0) corners.insert(corners.end(), outward.begin(), outward.end());
-  return Eigen::Map<const MatX3i>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+  return Eigen::Map<const MatX3i>(corners.data(), corners.size() / 3, 3);
 }
 
 }  // namespace littoral

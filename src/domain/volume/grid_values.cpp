@@ -6,14 +6,13 @@ namespace littoral {
 
 VecX grid_values(const Grid& grid, const Task& task,
                  const std::function<double(const Vec3& x, int& last)>& value) {
-  VecX out(static_cast<Eigen::Index>(grid.n_nodes()));
+  VecX out(grid.n_nodes());
   const int rows = grid.n[1] * grid.n[2];
-  parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t row, std::size_t) {
+  parallel_for(rows, 1, [&](std::size_t row, std::size_t) {
     task.checkpoint(static_cast<double>(row) / rows);
     const int j = static_cast<int>(row) % grid.n[1], k = static_cast<int>(row) / grid.n[1];
     int last = -1;
-    for (int i = 0; i < grid.n[0]; ++i)
-      out[static_cast<Eigen::Index>(grid.node(i, j, k))] = value(grid.point(i, j, k), last);
+    for (int i = 0; i < grid.n[0]; ++i) out[grid.node(i, j, k)] = value(grid.point(i, j, k), last);
   });
   return out;
 }

@@ -81,11 +81,8 @@ VoxelSurface boundary_of_voxels(const Grid& grid, const std::vector<unsigned cha
   std::vector<Vec3> points;
   auto corner = [&](const Index3& c) {  // the low corner of voxel c
     const std::size_t key =
-        static_cast<std::size_t>(c[0]) +
-        static_cast<std::size_t>(grid.n[0] + 1) *
-            (static_cast<std::size_t>(c[1]) +
-             static_cast<std::size_t>(grid.n[1] + 1) * static_cast<std::size_t>(c[2]));
-    const auto [it, added] = number.try_emplace(key, static_cast<int>(points.size()));
+        c[0] + std::size_t(grid.n[0] + 1) * (c[1] + std::size_t(grid.n[1] + 1) * c[2]);
+    const auto [it, added] = number.try_emplace(key, points.size());
     if (added)
       points.emplace_back(grid.origin +
                           grid.spacing.cwiseProduct(Vec3(c[0] - 0.5, c[1] - 0.5, c[2] - 0.5)));
@@ -109,19 +106,17 @@ VoxelSurface boundary_of_voxels(const Grid& grid, const std::vector<unsigned cha
     }
     soup.add_face(quad);
   }
-  soup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    soup.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  soup.points.resize(points.size(), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) soup.points.row(i) = points[i];
 
   int extent = 1;
   for (int d = 0; d < 3; ++d) extent = std::max(extent, high[d] - low[d] + 1);
   const double radius = std::clamp(0.5 * std::pow(extent, 2.0 / 3.0), 2.5, 10.0);
-  MatX3 normals(static_cast<Eigen::Index>(surfels.size()), 3);
-  parallel_for(
-      static_cast<Eigen::Index>(surfels.size()), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s)
-          normals.row(static_cast<Eigen::Index>(s)) = corrected_normal(voxels, surfels[s], radius);
-      });
+  MatX3 normals(surfels.size(), 3);
+  parallel_for(surfels.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      normals.row(s) = corrected_normal(voxels, surfels[s], radius);
+  });
   return {SurfaceMesh(std::move(soup)), std::move(normals)};
 }
 

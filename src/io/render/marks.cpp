@@ -69,7 +69,7 @@ void MarkRaster::draw(const Mark& mark, double rim, bool core, Band& band) const
   if (high < band.y0 || low > band.y1 || right < 0 || left > band.width) return;
   const int y_end = static_cast<int>(std::min<double>(band.y1, high));
   const int x_end = static_cast<int>(std::min<double>(band.width, right));
-  // CurveNetwork lie on the surface: lift them so that their thickness does not sink into it.
+  // Marks lie on the surface: lift them so that their thickness does not sink into it.
   constexpr double lift = 0.02;
   for (int y = static_cast<int>(std::max<double>(band.y0, low)); y < y_end; ++y) {
     for (int x = static_cast<int>(std::max(0.0, left)); x < x_end; ++x) {

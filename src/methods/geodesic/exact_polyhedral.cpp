@@ -60,10 +60,10 @@ class Front {
   Front(const IntrinsicTriangulation& T) : T_(T), sides_(edge_sides(T)) {
     bends_ = bending_vertices(T, sides_);
     d_ = VecX::Constant(T.n_vertices, inf);
-    const std::size_t n_sides = 3 * static_cast<std::size_t>(T.n_faces());
+    const std::size_t n_sides = 3 * std::size_t(T.n_faces());
     apex_.resize(n_sides);
     winner_.assign(n_sides, {inf, 0});
-    corner_offsets_.assign(static_cast<std::size_t>(T.n_vertices) + 1, 0);
+    corner_offsets_.assign(T.n_vertices + 1, 0);
     for (int f = 0; f < T.n_faces(); ++f)
       for (int k = 0; k < 3; ++k) {
         const double a = T.length(f, k), b = T.length(f, (k + 1) % 3), c = T.length(f, (k + 2) % 3);
@@ -146,7 +146,7 @@ class Front {
         if (key <= d_[-1 - id]) leave_vertex(-1 - id);
         continue;
       }
-      Window w = pool_[static_cast<std::size_t>(id)];
+      Window w = pool_[id];
       free_.push_back(id);
       if (trim(w)) propagate(w);
     }
@@ -216,7 +216,7 @@ class Front {
       v.side = 3 * s.face + s.k;
       if (!trim(v)) continue;
       ++n_windows_;
-      int id = static_cast<int>(pool_.size());
+      int id = pool_.size();
       if (free_.empty()) {
         if (pool_.size() >= 200'000'000)
           throw SolveError("exact distance needs more than 2e8 open windows on this mesh");
@@ -224,7 +224,7 @@ class Front {
       } else {
         id = free_.back();
         free_.pop_back();
-        pool_[static_cast<std::size_t>(id)] = v;
+        pool_[id] = v;
       }
       queue_.push({v.least(), id});
     }
@@ -277,7 +277,7 @@ class Front {
     if (w.parallel) return;
     const double crossing =
         w.image.real() - w.image.imag() * (p.real() - w.image.real()) / (p.imag() - w.image.imag());
-    Winner& winner = winner_[static_cast<std::size_t>(w.side)];
+    Winner& winner = winner_[w.side];
     if (distance < winner.distance) {
       // The proof wants no image within another fan of rays, as a source inside a face may be.
       if (w.at_vertex) winner = {distance, crossing};

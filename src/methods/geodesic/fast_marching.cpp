@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "methods/heat/finalize.h"
 
@@ -31,13 +32,12 @@ class Stencils {
   explicit Stencils(const IntrinsicTriangulation& T) : T_(T), sides_(edge_sides(T)) {
     for (int f = 0; f < T.n_faces(); ++f)
       for (int k = 0; k < 3; ++k) add_corner(f, k);
-    offsets_.assign(static_cast<std::size_t>(T.n_vertices) + 1, 0);
+    offsets_.assign(T.n_vertices + 1, 0);
     for (const Stencil& s : all) ++offsets_[s.a + 1], ++offsets_[s.b + 1];
     for (int v = 0; v < T.n_vertices; ++v) offsets_[v + 1] += offsets_[v];
-    users_.resize(static_cast<std::size_t>(offsets_.back()));
+    users_.resize(offsets_.back());
     std::vector<int> next(offsets_.begin(), offsets_.end() - 1);
-    for (int i = 0; i < static_cast<int>(all.size()); ++i)
-      users_[next[all[i].a]++] = users_[next[all[i].b]++] = i;
+    for (int i = 0; i < int_size(all); ++i) users_[next[all[i].a]++] = users_[next[all[i].b]++] = i;
   }
   std::span<const int> using_vertex(int v) const {
     return {users_.data() + offsets_[v], users_.data() + offsets_[v + 1]};
@@ -141,7 +141,7 @@ class Front {
       if (fixed_[v] || key > d_[v]) continue;
       fixed_[v] = 1;
       if ((++n_fixed & 0xfff) == 0) task.checkpoint(double(n_fixed) / T_.n_vertices);
-      for (int i : stencils_.using_vertex(v)) reach(stencils_.all[static_cast<std::size_t>(i)], v);
+      for (int i : stencils_.using_vertex(v)) reach(stencils_.all[i], v);
     }
   }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/index.h"
+
 namespace littoral {
 
 CellField no_field(Eigen::Index cells) {
@@ -16,7 +18,7 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
   // and, in its units, in the second.
   constexpr double negligible = 1e-290;
   CellField out = no_field(map.rows / 2);
-  const auto n_layers = static_cast<int>(field.scale.size());
+  const int n_layers = field.scale.size();
   double log_scale = 0;
   VecX y = n_layers > 0 ? map.apply(n_layers == 1 ? field.x : field.in_layer(0)) : VecX(), next;
   for (int p = 0; p < n_layers; ++p, std::swap(y, next)) {
@@ -40,12 +42,12 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
 }
 
 void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece) {
-  const Eigen::Index block = b.size() / static_cast<Eigen::Index>(piece.size());
+  const Eigen::Index block = b.size() / index(piece.size());
   std::vector<double> largest;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0) continue;
-    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
-    const double m = b.segment(static_cast<Eigen::Index>(i) * block, block).cwiseAbs().maxCoeff();
+    if (piece[i] >= int_size(largest)) largest.resize(piece[i] + 1, 0.0);
+    const double m = b.segment(index(i) * block, block).cwiseAbs().maxCoeff();
     largest[piece[i]] = std::max(largest[piece[i]], m);
   }
   const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
@@ -54,8 +56,7 @@ void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<
   if (std::all_of(largest.begin(), largest.end(), [top](double m) { return m == top; })) return;
   for (std::size_t i = 0; i < piece.size(); ++i)
     if (piece[i] >= 0)  // bounded: fields of different pieces are never compared
-      field.x.segment(static_cast<Eigen::Index>(i) * block, block) *=
-          std::max(1e-20, largest[piece[i]] / top);
+      field.x.segment(index(i) * block, block) *= std::max(1e-20, largest[piece[i]] / top);
 }
 
 void take_longer(CellField& field, const CellField& other, double log_factor) {

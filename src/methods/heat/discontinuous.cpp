@@ -31,11 +31,11 @@ MatX3i pieces(const JumpCalculus& J, const std::vector<char>& joined, int& n) {
   return Eigen::Map<const MatX3i>(piece.data(), J.n_faces, 3);
 }
 
-/// One backward Euler step (M + t L) phi = M phi0 of heat flow on the torn surface, from the mean
+/// One backward Euler step (M + t L) phi = M phi0 of heat flow on the split surface, from the mean
 /// of the corners that share a value.
 void flow(const JumpCalculus& J, DiscontinuousField& field, int n, double t, const Task& task) {
   Triplets entries;
-  entries.reserve(12 * static_cast<std::size_t>(J.n_faces));
+  entries.reserve(12 * std::size_t(J.n_faces));
   VecX mass = VecX::Zero(n), b = mass;
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {

@@ -7,7 +7,7 @@
 
 namespace littoral {
 
-/// A function with values at corners, and where it is torn.
+/// A function with values at corners, and where it is split.
 struct DiscontinuousField {
   MatX3 phi{0, 3};       // faces x 3, units of the triangulation
   MatX3i piece{0, 3};    // faces x 3: corners at one vertex with one number share their value
@@ -22,7 +22,7 @@ VecX edge_curl(const JumpCalculus& J, const VecX& Y);
 /// Step III by eq. 16: Y (2 faces, unit vectors in the faces' frames) integrated exactly in every
 /// face, with the least jumps across edges, which cost |edge| exp(-|curl|). Jumps below
 /// `jump_threshold` [units] are then closed by heat flow for time `t` (figure 12) on the surface
-/// torn at the others; t = 0: left as they are.
+/// split at the others; t = 0: left as they are.
 DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const VecX& Y,
                                            double jump_threshold, double t, const Task& task,
                                            Report& report);

@@ -6,21 +6,21 @@
 
 namespace littoral {
 
-void set_near(const Calculus& C, const SourceSystem& terms, VecX& Y) {
-  if (terms.near.empty()) return;
-  const VecX g = C.G.apply(terms.d0);
-  for (int c : terms.near) Y.segment<2>(2 * c) = g.segment<2>(2 * c);
+void set_near(const Calculus& C, const SourceSystem& system, VecX& Y) {
+  if (system.near.empty()) return;
+  const VecX g = C.G.apply(system.d0);
+  for (int c : system.near) Y.segment<2>(2 * c) = g.segment<2>(2 * c);
 }
 
-void shift_to_mean_zero(const Calculus& C, const SourceSystem& terms, VecX& phi) {
+void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi) {
   VecX sum = VecX::Zero(C.n_components), length = VecX::Zero(C.n_components);
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> mean = terms.mean;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> mean = system.mean;
   for (int r = 0; r < mean.rows(); ++r) {
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(mean, r); it; ++it) {
       const int c = C.component[it.col()];
       if (c < 0) continue;
-      sum[c] += terms.mean_weight[r] * it.value() * phi[it.col()];
-      length[c] += terms.mean_weight[r] * it.value();
+      sum[c] += system.mean_weight[r] * it.value() * phi[it.col()];
+      length[c] += system.mean_weight[r] * it.value();
     }
   }
   for (Eigen::Index i = 0; i < phi.size(); ++i) {
@@ -32,18 +32,17 @@ void shift_to_mean_zero(const Calculus& C, const SourceSystem& terms, VecX& phi)
 void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
                    Report& report) {
   for (Eigen::Index i = 0; i < phi.size(); ++i) {
-    const int c = component[static_cast<std::size_t>(i)];
-    if (c < 0 || !reached[static_cast<std::size_t>(c)])
-      phi[i] = std::numeric_limits<double>::infinity();
+    const int c = component[i];
+    if (c < 0 || !reached[c]) phi[i] = std::numeric_limits<double>::infinity();
   }
   for (std::size_t c = 0; c < reached.size(); ++c)
-    if (!reached[c]) report.unreachable_components.push_back(static_cast<int>(c));
+    if (!reached[c]) report.unreachable_components.push_back(c);
 }
 
-VecX finalize_field(const Operators& ops, const SourceSystem& terms, const VecX& phi,
+VecX finalize_field(const Operators& ops, const SourceSystem& system, const VecX& phi,
                     Report& report) {
-  return finalize_field(ops.scalar.component, ops.scalar.n_components, ops.unit, terms.reached, phi,
-                        report);
+  return finalize_field(ops.scalar.component, ops.scalar.n_components, ops.unit, system.reached,
+                        phi, report);
 }
 
 VecX finalize_field(const std::vector<int>& component, int n_components, double unit,

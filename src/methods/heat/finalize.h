@@ -10,10 +10,10 @@ namespace littoral {
 
 /// Replaces the vectors Y (2 cells) of cells that touch isolated points by grad d0, the gradient of
 /// the exact distance there.
-void set_near(const Calculus& C, const SourceSystem& terms, VecX& Y);
+void set_near(const Calculus& C, const SourceSystem& system, VecX& Y);
 
 /// Shifts phi (nodes) on each component to mean zero along the component's sources (Alg. 13).
-void shift_to_mean_zero(const Calculus& C, const SourceSystem& terms, VecX& phi);
+void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi);
 
 /// phi is +inf where no source reaches: on components that `reached` is 0 for, which are listed,
 /// and at nodes of none (component -1).
@@ -22,7 +22,7 @@ void set_unreached(VecX& phi, const std::vector<int>& component, const std::vect
 
 /// phi in units of the input, +inf on components and nodes that no source reaches; lists them
 /// and warns of them.
-VecX finalize_field(const Operators& ops, const SourceSystem& terms, const VecX& phi,
+VecX finalize_field(const Operators& ops, const SourceSystem& system, const VecX& phi,
                     Report& report);
 
 /// The same for methods that have no operators: the component of each node (-1: in no cell), the

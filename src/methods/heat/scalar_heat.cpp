@@ -11,7 +11,7 @@ namespace {
 /// those of the identity.
 SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(C.L.nonZeros()) + static_cast<std::size_t>(C.L.rows()));
+  entries.reserve(C.L.nonZeros() + C.L.rows());
   auto drop = [&](Eigen::Index i) { return dropped[i] || !(C.M[i] > 0); };
   for (int j = 0; j < C.L.outerSize(); ++j) {
     entries.emplace_back(j, j, drop(j) ? 1.0 : C.M[j]);
@@ -25,11 +25,11 @@ SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped)
 
 }  // namespace
 
-ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint expect, const Ordering& order,
+ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order,
                        const Task& task) {
   auto system = [&](const std::vector<char>& dropped) {
     return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
-                                                      decay_lengths(C.M, t), expect, task, order);
+                                                      decay_lengths(C.M, t), hint, task, order);
   };
   neumann_ = system(std::vector<char>(C.boundary.size(), 0));
   if (std::find(C.boundary.begin(), C.boundary.end(), 1) != C.boundary.end())
@@ -58,16 +58,16 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
   return cell_field(C.G, u);
 }
 
-void ScalarHeat::add_nearest(const Calculus& C, const SourceSystem& terms, double point_weight,
+void ScalarHeat::add_nearest(const Calculus& C, const SourceSystem& system, double point_weight,
                              CellField& field, Task task, Report& report) const {
   Report least;  // what every batch has to say, one batch has to say
   double passes = 0;
-  const Eigen::Index n_batches = terms.u0.cols();
+  const Eigen::Index n_batches = system.u0.cols();
   for (Eigen::Index k = 0; k < n_batches; ++k) {
     Report inner;
-    const CellField flow =
-        this->flow(C, VecX(terms.u0.col(k)), task.stage(1.0 / double(n_batches), "diffuse"), inner);
-    take_longer(field, flow, terms.batch_of_points[k] ? std::log(point_weight) : 0);
+    const CellField flow = this->flow(C, VecX(system.u0.col(k)),
+                                      task.stage(1.0 / double(n_batches), "diffuse"), inner);
+    take_longer(field, flow, system.batch_of_points[k] ? std::log(point_weight) : 0);
     for (const auto& [loop, count] : inner.iterations) passes += count;
     if (k == 0 || inner.warnings.size() < least.warnings.size()) least = inner;
   }

@@ -17,14 +17,13 @@ namespace littoral {
 /// there.
 class ScalarHeat {
  public:
-  ScalarHeat(const Calculus& C, double t, SolveHint expect, const Ordering& order,
-             const Task& task);
+  ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order, const Task& task);
 
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources
   /// that face each other into their average, over a width of sqrt(t) on both sides of the line
   /// between. Points are weighted as point_weight (> 0) times the curves' measure.
-  void add_nearest(const Calculus& C, const SourceSystem& terms, double point_weight,
+  void add_nearest(const Calculus& C, const SourceSystem& system, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
   double nonzeros() const {

@@ -30,7 +30,7 @@ class SignedBall : public GradientEnergy {
     for (int d = 0; d < dim_; ++d) z[d] = 0;
     const Eigen::Index i = cell - cells_;
     if (i >= bound_.size()) return;
-    const int sign = sign_[static_cast<std::size_t>(i)];
+    const int sign = sign_[i];
     z[0] = sign * std::clamp(sign * w[0], 0.0, bound_[i]);
   }
   double value(Eigen::Index, const double*) const override { return 0; }
@@ -55,7 +55,7 @@ std::vector<int> signs_of(const Calculus& C, const std::vector<char>& reached, c
   double largest = 0;
   for (const double x : phi0)
     if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
-  std::vector<int> out(static_cast<std::size_t>(phi0.size()), 0);
+  std::vector<int> out(phi0.size(), 0);
   for (Eigen::Index i = 0; i < phi0.size(); ++i) {
     const int c = C.component[i];
     if (c >= 0 && reached[c] && std::abs(phi0[i]) > 1e-9 * largest) out[i] = sign(phi0[i]);
@@ -78,7 +78,7 @@ VecX distance_to_zero_set(const Calculus& C, const SpRows& G, int dim, const std
       double g = 0;
       for (SpRows::InnerIterator it(G, r); it; ++it) {
         if (it.value() == 0) continue;
-        const auto i = static_cast<int>(it.col());
+        const int i = it.col();
         g += it.value() * phi0[i];
         above = above || s[i] > 0;
         below = below || s[i] < 0;
@@ -101,14 +101,12 @@ VecX distance_to_zero_set(const Calculus& C, const SpRows& G, int dim, const std
 /// G, and below it each row of R as the first of `dim` rows.
 SpRows stacked(const SpRows& G, const SpMat& R, int dim) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(G.nonZeros() + R.nonZeros()));
+  entries.reserve(G.nonZeros() + R.nonZeros());
   for (int r = 0; r < G.outerSize(); ++r)
-    for (SpRows::InnerIterator it(G, r); it; ++it)
-      entries.emplace_back(r, static_cast<int>(it.col()), it.value());
+    for (SpRows::InnerIterator it(G, r); it; ++it) entries.emplace_back(r, it.col(), it.value());
   for (int j = 0; j < R.outerSize(); ++j)
     for (SpMat::InnerIterator it(R, j); it; ++it)
-      entries.emplace_back(static_cast<int>(G.rows()) + dim * static_cast<int>(it.row()), j,
-                           it.value());
+      entries.emplace_back(G.rows() + dim * it.row(), j, it.value());
   SpRows both(G.rows() + dim * R.rows(), G.cols());
   both.setFromTriplets(entries.begin(), entries.end());
   return both;
@@ -125,16 +123,16 @@ struct BandRows {
 
 /// A row of the source that touches those nodes is left out: phi0 has its zero set there, and a row
 /// all of whose nodes have one sign would hold them at 0, a dent.
-BandRows held_rows(const Calculus& C, const SpMat& source, int dim, const std::vector<int>& s,
+BandRows band_rows(const Calculus& C, const SpMat& source, int dim, const std::vector<int>& s,
                    const VecX& near) {
-  BandRows held;
+  BandRows band;
   Triplets entries;
   std::vector<double> weight, bound;
   for (Eigen::Index i = 0; i < near.size(); ++i) {
     const int c = C.component[i];
     if (near[i] < 0 || c < 0) continue;
-    entries.emplace_back(static_cast<int>(weight.size()), i, 1 / C.h);
-    held.sign.push_back(s[i]);
+    entries.emplace_back(weight.size(), i, 1 / C.h);
+    band.sign.push_back(s[i]);
     bound.push_back(near[i] / C.h);
     weight.push_back(C.M[i]);
   }
@@ -145,38 +143,37 @@ BandRows held_rows(const Calculus& C, const SpMat& source, int dim, const std::v
       if (it.value() != 0 && near[it.col()] >= 0) alone = false;
     if (!alone) continue;
     for (SpRows::InnerIterator it(rows, r); it; ++it)
-      entries.emplace_back(static_cast<int>(weight.size()), static_cast<int>(it.col()),
-                           it.value() / C.h);
+      entries.emplace_back(weight.size(), it.col(), it.value() / C.h);
     weight.push_back(10 * std::pow(C.h, dim));
   }
-  held.bound = Eigen::Map<const VecX>(bound.data(), static_cast<Eigen::Index>(bound.size()));
-  held.weight = Eigen::Map<const VecX>(weight.data(), static_cast<Eigen::Index>(weight.size()));
-  held.R.resize(held.weight.size(), near.size());
-  held.R.setFromTriplets(entries.begin(), entries.end());
-  return held;
+  band.bound = Eigen::Map<const VecX>(bound.data(), bound.size());
+  band.weight = Eigen::Map<const VecX>(weight.data(), weight.size());
+  band.R.resize(band.weight.size(), near.size());
+  band.R.setFromTriplets(entries.begin(), entries.end());
+  return band;
 }
 
 constexpr Eigen::Index most_for_a_factor = 60'000;  // nodes in space; a factor grows like n^(4/3)
 
 }  // namespace
 
-VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
+VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
   const Stopwatch watch(report, "sharpen");
   const Eigen::Index n = C.M.size(), cells = C.A.size();
-  const int dim = static_cast<int>(C.G.rows / cells);
-  const std::vector<int> s = signs_of(C, terms.reached, phi0);
-  std::vector<char> gone(static_cast<std::size_t>(n), 0);
+  const int dim = C.G.rows / cells;
+  const std::vector<int> s = signs_of(C, system.reached, phi0);
+  std::vector<char> gone(n, 0);
   VecX start(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int c = C.component[i];
-    gone[i] = c < 0 || !terms.reached[c];
+    gone[i] = c < 0 || !system.reached[c];
     start[i] = gone[i] ? 0 : phi0[i] / ops.unit;
   }
   const SpRows G = C.G.matrix();
-  const BandRows held = held_rows(C, terms.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
-  const VecX& w = held.weight;
+  const BandRows band = band_rows(C, system.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
+  const VecX& w = band.weight;
   const Eigen::Index extra = w.size();
 
   SplitProblem problem;
@@ -185,9 +182,9 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
   problem.A << C.A, w;
   problem.b = VecX::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) problem.b[i] = s[i] * C.M[i];
-  const SignedBall energy(dim, cells, held.sign, held.bound);
+  const SignedBall energy(dim, cells, band.sign, band.bound);
   problem.energy = &energy;
-  problem.G = stacked(G, held.R, dim);
+  problem.G = stacked(G, band.R, dim);
 
   AdmmState state;
   multiply(problem.G, start, state.z, task);
@@ -205,9 +202,9 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
   if (options.solver == SharpenSolver::pdhg) {
     result = pdhg(problem, C.M, start, admm_options, task);
   } else {
-    const SpMat matrix = eliminated(with_rows(C.L, held.R, w), gone);
+    const SpMat matrix = eliminated(with_rows(C.L, band.R, w), gone);
     const bool large = dim == 3 && n > most_for_a_factor;
-    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(held.R))
+    const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(band.R))
                                    : DefiniteSystem(matrix, task);
     VecX last = start;
     problem.solve = [&](const VecX& b, double rho) {
@@ -235,14 +232,14 @@ VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
 VecX sharpen_in_space(const Operators& ops, const SpMat& rows, const VecX& phi0,
                       SharpenSolver solver, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
-  SourceSystem terms;
-  terms.A = rows;
-  terms.reached.assign(static_cast<std::size_t>(C.n_components), 0);
+  SourceSystem system;
+  system.A = rows;
+  system.reached.assign(C.n_components, 0);
   for (const int i : unknowns_of(rows))
-    if (C.component[i] >= 0) terms.reached[C.component[i]] = 1;
+    if (C.component[i] >= 0) system.reached[C.component[i]] = 1;
   SharpenOptions options;
   options.solver = solver;
-  return sharpen(ops, terms, phi0, options, task, report);
+  return sharpen(ops, system, phi0, options, task, report);
 }
 
 }  // namespace littoral

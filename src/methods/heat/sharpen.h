@@ -22,7 +22,7 @@ struct SharpenOptions {
 /// nodes [length of the input], where the iteration starts; +inf where no source reaches, which
 /// stays. Operators of surfaces, tets and grids alike; in space, many nodes are solved for by
 /// multigrid, a few steps in each iteration, instead of a factor.
-VecX sharpen(const Operators& ops, const SourceSystem& terms, const VecX& phi0,
+VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report);
 
 /// The same in space, where the source is rows (rows x nodes) at which phi vanishes and a component

@@ -56,31 +56,31 @@ const OptionTable<SignedHeat>& signed_heat_options() {
   return table;
 }
 
-double automatic_time_scale(const SourceSystem& terms) { return terms.only_points ? 16 : 1; }
+double automatic_time_scale(const SourceSystem& system) { return system.only_points ? 16 : 1; }
 
 namespace {
 
 /// Do points enter as gradients of scalar heat? Beside curves they cannot: the two discrete kernels
 /// fall at different rates.
-bool by_gradient(const SourceSystem& terms, const SignedHeat& options) {
-  return options.point_sources == PointVectors::gradient && terms.only_points &&
+bool by_gradient(const SourceSystem& system, const SignedHeat& options) {
+  return options.point_sources == PointVectors::gradient && system.only_points &&
          !options.preserve_normals;
 }
 
 }  // namespace
 
-Diffusions needed_diffusions(const SourceSystem& terms, const SignedHeat& options) {
-  return {!by_gradient(terms, options), by_gradient(terms, options)};
+Diffusions needed_diffusions(const SourceSystem& system, const SignedHeat& options) {
+  return {!by_gradient(system, options), by_gradient(system, options)};
 }
 
 SignedHeatSolver::SignedHeatSolver(std::shared_ptr<const Operators> ops, double time_scale,
-                                   Task task, Diffusions diffusions, SolveHint expect)
+                                   Task task, Diffusions diffusions, SolveHint hint)
     : ops_(std::move(ops)),
-      expect_(expect),
+      hint_(hint),
       order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
       poisson_(std::make_shared<const Poisson>(
           ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-          task.stage(0.2, "factor Poisson"), order_, solver_for(expect))) {
+          task.stage(0.2, "factor Poisson"), order_, solver_for(hint))) {
   factor_heat(time_scale, diffusions, task);
 }
 
@@ -88,9 +88,9 @@ void SignedHeatSolver::factor_heat(double time_scale, Diffusions diffusions, Tas
   root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
-    scalar_heat_.emplace(ops_->scalar, t, expect_, order_, task.stage(0.2, "factor heat"));
+    scalar_heat_.emplace(ops_->scalar, t, hint_, order_, task.stage(0.2, "factor heat"));
   if (diffusions.vectors)
-    heat_.emplace(ops_->vector, t, expect_, order_, task.stage(0.4, "factor vector heat"));
+    heat_.emplace(ops_->vector, t, hint_, order_, task.stage(0.4, "factor vector heat"));
 }
 
 SignedHeatSolver SignedHeatSolver::with(double time_scale, Diffusions diffusions, Task task) const {
@@ -101,7 +101,7 @@ SignedHeatSolver SignedHeatSolver::with(double time_scale, Diffusions diffusions
   return out;
 }
 
-VecX SignedHeatSolver::integrate(const SourceSystem& terms, const VecX& Y,
+VecX SignedHeatSolver::integrate(const SourceSystem& system, const VecX& Y,
                                  const SignedHeat& options, const Task& task,
                                  Report& report) const {
   // Step III: L phi = G^T A Y (eq. 13), subject to the constraints of section 7.1.
@@ -110,52 +110,52 @@ VecX SignedHeatSolver::integrate(const SourceSystem& terms, const VecX& Y,
   const Calculus& C = ops_->scalar;
   const VecX b = C.divergence(Y);
   if (options.soft > 0)
-    return poisson_->solve_soft(b, terms.A, options.soft * terms.weight, task, report);
+    return poisson_->solve_soft(b, system.A, options.soft * system.weight, task, report);
   switch (options.constraint) {
     case Constraint::none: {
       VecX phi = poisson_->solve(b, report, task);
-      shift_to_mean_zero(C, terms, phi);
+      shift_to_mean_zero(C, system, phi);
       return phi;
     }
     case Constraint::zero_set:
-      return poisson_->solve_levels(b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}},
+      return poisson_->solve_levels(b, {system.A, std::vector<int>(system.group.size(), 0), {1}},
                                     task, report);
     case Constraint::level_sets:
       break;
   }
-  LevelRows rows{terms.A, terms.group, std::vector<int>(terms.n_groups, 0)};
+  LevelRows rows{system.A, system.group, std::vector<int>(system.n_groups, 0)};
   std::vector<char> anchored(C.n_components, 0);
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> A = terms.A;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> A = system.A;
   for (int r = 0; r < A.rows(); ++r)
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(A, r); it; ++it) {
       const int c = C.component[it.col()];
       if (c < 0 || anchored[c]) continue;
       anchored[c] = 1;
-      rows.anchor[terms.group[r]] = 1;
+      rows.anchor[system.group[r]] = 1;
     }
   VecX phi = poisson_->solve_levels(b, rows, task, report);
-  shift_to_mean_zero(C, terms, phi);
+  shift_to_mean_zero(C, system, phi);
   return phi;
 }
 
-VecX SignedHeatSolver::directions(const SourceSystem& terms, const SignedHeat& options,
+VecX SignedHeatSolver::directions(const SourceSystem& system, const SignedHeat& options,
                                   const Task& task, Report& report) const {
   // Steps I and II: X = diffused normals, Y = X / |X|.
   const Calculus& C = ops_->scalar;
   const VectorDiffusion& V = ops_->vector;
-  const VecX X0 = terms.X0 + terms.X0_points;
-  if (options.preserve_normals) return heat_->diffuse_held(V, normalize(X0), task, report).Y;
-  if (!by_gradient(terms, options)) return heat_->diffuse(V, X0, task, report).Y;
+  const VecX X0 = system.X0 + system.X0_points;
+  if (options.preserve_normals) return heat_->diffuse_prescribed(V, normalize(X0), task, report).Y;
+  if (!by_gradient(system, options)) return heat_->diffuse(V, X0, task, report).Y;
   CellField X = no_field(C.A.size());
-  scalar_heat_->add_nearest(C, terms, 1, X, task, report);
-  set_near(C, terms, X.Y);
+  scalar_heat_->add_nearest(C, system, 1, X, task, report);
+  set_near(C, system, X.Y);
   return X.Y;
 }
 
-VecX SignedHeatSolver::solve(const SourceSystem& terms, const SignedHeat& options, Task task,
+VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& options, Task task,
                              Report& report) const {
   const VectorDiffusion& V = ops_->vector;
-  const Diffusions needed = needed_diffusions(terms, options);
+  const Diffusions needed = needed_diffusions(system, options);
   if ((needed.vectors && !heat_) || (needed.scalars && !scalar_heat_))
     throw UnsupportedError("signed-heat was not prepared for sources of this kind");
   const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
@@ -163,29 +163,29 @@ VecX SignedHeatSolver::solve(const SourceSystem& terms, const SignedHeat& option
   VecX Y;
   {
     const Stopwatch watch(report, "diffuse");
-    Y = directions(terms, options, heat_stage, report);
+    Y = directions(system, options, heat_stage, report);
   }
   if (!(Y.cwiseAbs().maxCoeff() > 0))
     report.warn("the normals of the sources cancel everywhere; the distance is zero");
   std::vector<char> reached(V.n_pieces, needed.vectors ? 0 : 1);  // scalar heat reaches all
   for (int i = 0; i < V.n; ++i)
     if (V.piece[i] >= 0 &&
-        !(terms.X0.segment<2>(2 * i).isZero(0) && terms.X0_points.segment<2>(2 * i).isZero(0)))
+        !(system.X0.segment<2>(2 * i).isZero(0) && system.X0_points.segment<2>(2 * i).isZero(0)))
       reached[V.piece[i]] = 1;
 
   const Stopwatch watch(report, "integrate");
-  const bool near = needed.scalars && !terms.d0.isZero(0);
-  const VecX g0 = near ? ops_->scalar.G.apply(terms.d0) : VecX();
+  const bool near = needed.scalars && !system.d0.isZero(0);
+  const VecX g0 = near ? ops_->scalar.G.apply(system.d0) : VecX();
   const auto integrated = [&] {
-    if (!near) return integrate(terms, Y, options, poisson_stage, report);
-    return VecX(terms.d0 + integrate(terms, Y - g0, options, poisson_stage, report));
+    if (!near) return integrate(system, Y, options, poisson_stage, report);
+    return VecX(system.d0 + integrate(system, Y - g0, options, poisson_stage, report));
   };
   VecX phi = integrated();
   while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();
   report.residuals.emplace_back(misaligned_area_fraction,
                                 misaligned_fraction(ops_->scalar, phi, Y));
   report.sizes.emplace_back("factor_mb", factor_megabytes());
-  return finalize_field(*ops_, terms, phi, report);
+  return finalize_field(*ops_, system, phi, report);
 }
 
 double SignedHeatSolver::factor_megabytes() const {
@@ -200,7 +200,7 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
   // own, with point sources at those nodes, each as strong as its distance makes it and with its
   // sign.
   const VectorDiffusion& V = ops_->vector;
-  std::vector<char> node_reached(static_cast<std::size_t>(phi.size()), 0);
+  std::vector<char> node_reached(phi.size(), 0);
   for (const Pinch& pinch : V.pinches)
     if (reached[pinch.piece]) node_reached[pinch.node] = 1;
   std::vector<double> nearest(V.n_pieces, std::numeric_limits<double>::infinity());

@@ -21,13 +21,13 @@ namespace littoral {
 const OptionTable<SignedHeat>& signed_heat_options();
 
 /// Time scale used for a source set when the option is 0.
-double automatic_time_scale(const SourceSystem& terms);
+double automatic_time_scale(const SourceSystem& system);
 
 /// Which diffusions sources need: of vectors, of scalars.
 struct Diffusions {
   bool vectors = true, scalars = true;
 };
-Diffusions needed_diffusions(const SourceSystem& terms, const SignedHeat& options);
+Diffusions needed_diffusions(const SourceSystem& system, const SignedHeat& options);
 
 /// The factorizations of one domain; immutable, `solve` may be called from several threads.
 ///
@@ -39,7 +39,7 @@ class SignedHeatSolver {
   /// Factors M + t L with t = time_scale h^2, for vectors or scalars or both, and L. The operators
   /// are shared, not copied. Expecting one solve only, large heat matrices are left unfactored.
   SignedHeatSolver(std::shared_ptr<const Operators> ops, double time_scale, Task task = {},
-                   Diffusions diffusions = {}, SolveHint expect = SolveHint::many_rhs);
+                   Diffusions diffusions = {}, SolveHint hint = SolveHint::many_rhs);
 
   /// The same for another time scale and other diffusions; the order of elimination and the Poisson
   /// factor are shared.
@@ -47,14 +47,15 @@ class SignedHeatSolver {
 
   /// Generalized signed distance at the nodes (nodes) [length of the input], +inf on components
   /// that no source reaches. Throws UnsupportedError if a diffusion is needed that was left out.
-  VecX solve(const SourceSystem& terms, const SignedHeat& options, Task task, Report& report) const;
+  VecX solve(const SourceSystem& system, const SignedHeat& options, Task task,
+             Report& report) const;
 
   /// Steps I and II: unit vectors at the cells (2 cells), 0 where no source reaches.
-  VecX directions(const SourceSystem& terms, const SignedHeat& options, const Task& task,
+  VecX directions(const SourceSystem& system, const SignedHeat& options, const Task& task,
                   Report& report) const;
 
  private:
-  VecX integrate(const SourceSystem& terms, const VecX& Y, const SignedHeat& options,
+  VecX integrate(const SourceSystem& system, const VecX& Y, const SignedHeat& options,
                  const Task& task, Report& report) const;
   double factor_megabytes() const;
   bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
@@ -63,7 +64,7 @@ class SignedHeatSolver {
   void factor_heat(double time_scale, Diffusions diffusions, Task& task);
 
   std::shared_ptr<const Operators> ops_;
-  SolveHint expect_;
+  SolveHint hint_;
   Ordering order_;  // of the nodes
   std::shared_ptr<const Poisson> poisson_;
   double root_t_ = 0;

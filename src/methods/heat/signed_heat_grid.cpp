@@ -51,7 +51,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   const double root_t = std::sqrt(options.time_scale) * h;
   const Task diffuse_stage = task.stage(0.5, "diffusing normals");
   const Task solve_stage = task.stage(0.2, "integrating");
-  const Task hold_stage = task.stage(0.3, "holding the zero set");
+  const Task constrain_stage = task.stage(0.3, "holding the zero set");
 
   // Steps I and II: X_t by convolution, Y = X / |X|.
   Directions Y;
@@ -89,16 +89,16 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
     const double cell = grid.spacing.prod();
     softness = cell * h / (options.soft * rows.weight.array());
   }
-  const ConstraintRows held{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
+  const ConstraintRows constraints{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
   // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
   // speed.
   const GridPoisson<float> poisson(grid.n, grid.spacing);
   const auto solve = [&](VecX& b) {
     Eigen::VectorXf single = b.cast<float>();
-    poisson.solve(single, hold_stage);
+    poisson.solve(single, constrain_stage);
     b = single.cast<double>();
   };
-  return solve_held(solve, std::move(phi), held, hold_stage, report);
+  return solve_constrained(solve, std::move(phi), constraints, constrain_stage, report);
 }
 
 }  // namespace littoral

@@ -35,40 +35,39 @@ MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
 }  // namespace
 
 /// Step III: L phi = G^T A Y, held at the sources.
-VecX TetHeatSolver::integrate(const TetSourceSystem& terms, const MatX3& Y, double h,
+VecX TetHeatSolver::integrate(const TetSourceSystem& system, const MatX3& Y, double h,
                               double tolerance, const SpaceSignedHeat& options, Task task,
                               Report& report) const {
   const Task factor_stage = task.stage(0.7, "factoring");
-  const Task hold_stage = task.stage(0.3, "integrating");
+  const Task constrain_stage = task.stage(0.3, "integrating");
   const Stopwatch watch(report, "integrate");
   const TetOperators& ops = *ops_;
   const auto factored =
       poisson_.get([&] { return Poisson(ops.L, ops.component, ops.n_components, factor_stage); });
   const Poisson& poisson = *factored;
   VecX phi = poisson.solve(ops.divergence(Y), report);
-  std::vector<char> reached(static_cast<std::size_t>(ops.n_components), 0);
-  for (int v = 0; v < terms.A.outerSize(); ++v)
-    if (SpMat::InnerIterator(terms.A, v) && ops.component[static_cast<std::size_t>(v)] >= 0)
-      reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(v)])] = 1;
+  std::vector<char> reached(ops.n_components, 0);
+  for (int v = 0; v < system.A.outerSize(); ++v)
+    if (SpMat::InnerIterator(system.A, v) && ops.component[v] >= 0) reached[ops.component[v]] = 1;
 
   const auto constraint = options.constraint;
-  if (terms.A.rows() > 0 && constraint != SpaceConstraint::none) {
-    VecX softness = VecX::Zero(terms.A.rows());
-    if (constraint == SpaceConstraint::soft) softness = h / (options.soft * terms.weight.array());
-    phi = solve_held(
+  if (system.A.rows() > 0 && constraint != SpaceConstraint::none) {
+    VecX softness = VecX::Zero(system.A.rows());
+    if (constraint == SpaceConstraint::soft) softness = h / (options.soft * system.weight.array());
+    phi = solve_constrained(
         [&](VecX& b) {
           Report ignored;
           b = poisson.solve(b, ignored);
         },
-        std::move(phi), {terms.A, softness, tolerance}, hold_stage, report);
-  } else if (terms.A.rows() > 0) {
-    phi.array() -= terms.weight.dot(terms.A * phi) / terms.weight.sum();
+        std::move(phi), {system.A, softness, tolerance}, constrain_stage, report);
+  } else if (system.A.rows() > 0) {
+    phi.array() -= system.weight.dot(system.A * phi) / system.weight.sum();
   }
   set_unreached(phi, ops.component, reached, report);
   return phi;
 }
 
-VecX TetHeatSolver::signed_distance(const TetSourceSystem& terms, double h, double tolerance,
+VecX TetHeatSolver::signed_distance(const TetSourceSystem& system, double h, double tolerance,
                                     const SpaceSignedHeat& options, Task task,
                                     Report& report) const {
   const TetOperators& ops = *ops_;
@@ -84,17 +83,17 @@ VecX TetHeatSolver::signed_distance(const TetSourceSystem& terms, double h, doub
     const auto factor = faces_.get(t, [&] {
       return Cholesky<double>(SpMat(ops.face_mass + t * ops.face_laplacian), heat_stage);
     });
-    const MatX3 X = factor->solve(terms.X0);
+    const MatX3 X = factor->solve(system.X0);
     // Step II: Y = X / |X| on tets (B.2).
     int zeros = 0;
     Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn(std::to_string(zeros) + " tets have no direction: too far from the input");
   }
-  return integrate(terms, Y, h, tolerance, options, integrate_stage, report);
+  return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }
 
-VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& terms, double h, double tolerance,
+VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, double tolerance,
                                       const SpaceSignedHeat& options, Task task,
                                       Report& report) const {
   const TetOperators& ops = *ops_;
@@ -108,18 +107,18 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& terms, double h, do
     const double t = point_time * options.time_scale * h * h;
     VecX mass = ops.vertex_mass();
     for (Eigen::Index v = 0; v < mass.size(); ++v)  // those of no tet: an equation of their own
-      if (ops.component[static_cast<std::size_t>(v)] < 0) mass[v] = 1;
+      if (ops.component[v] < 0) mass[v] = 1;
     const auto factor = vertices_.get(t, [&] {
       return Cholesky<double>(SpMat(t * ops.L + SpMat(mass.asDiagonal())), heat_stage);
     });
-    const VecX u = factor->solve(VecX(terms.A.transpose() * VecX::Ones(terms.A.rows())));
+    const VecX u = factor->solve(VecX(system.A.transpose() * VecX::Ones(system.A.rows())));
     // Step II: Y = -grad u / |grad u|.
     int zeros = 0;
     Y = normalize_rows(-ops.gradient(u), ops.volumes, zeros);
     if (zeros > 0)
       report.warn(std::to_string(zeros) + " tets have no direction: too far from the sources");
   }
-  return integrate(terms, Y, h, tolerance, options, integrate_stage, report);
+  return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }
 
 }  // namespace littoral

@@ -24,18 +24,18 @@ class TetHeatSolver {
   /// reaches. h [length] sets the diffusion time t = time_scale h^2 and the scale of `soft`;
   /// `tolerance` [length] is how far from zero the rows of a held zero set may be in the mean. The
   /// options are settled.
-  VecX signed_distance(const TetSourceSystem& terms, double h, double tolerance,
+  VecX signed_distance(const TetSourceSystem& system, double h, double tolerance,
                        const SpaceSignedHeat& options, Task task, Report& report) const;
 
-  /// Distance without sign, from vertices (the rows of terms.A), by the diffusion of a scalar
+  /// Distance without sign, from vertices (the rows of system.A), by the diffusion of a scalar
   /// (Crane et al. 2013): t = 4 time_scale h^2. Otherwise as above.
-  VecX unsigned_distance(const TetSourceSystem& terms, double h, double tolerance,
+  VecX unsigned_distance(const TetSourceSystem& system, double h, double tolerance,
                          const SpaceSignedHeat& options, Task task, Report& report) const;
 
   const TetOperators& operators() const { return *ops_; }
 
  private:
-  VecX integrate(const TetSourceSystem& terms, const MatX3& Y, double h, double tolerance,
+  VecX integrate(const TetSourceSystem& system, const MatX3& Y, double h, double tolerance,
                  const SpaceSignedHeat& options, Task task, Report& report) const;
 
   std::shared_ptr<const TetOperators> ops_;

@@ -19,9 +19,9 @@ std::string in_short(double x) {
 
 }  // namespace
 
-double automatic_time_scale(const SourceSystem& terms, const Operators& ops) {
-  const double scale = automatic_time_scale(terms);
-  if (terms.only_points || ops.vector.at_nodes) return scale;
+double automatic_time_scale(const SourceSystem& system, const Operators& ops) {
+  const double scale = automatic_time_scale(system);
+  if (system.only_points || ops.vector.at_nodes) return scale;
   constexpr double enough_cells = 50'000, largest = 4;
   return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
 }

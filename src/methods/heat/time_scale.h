@@ -18,11 +18,11 @@
 
 namespace littoral {
 
-/// Time scale used for sources on a domain where none is given: automatic_time_scale(terms), and
+/// Time scale used for sources on a domain where none is given: automatic_time_scale(system), and
 /// for curves on meshes of more than 50,000 triangles up to 4 times as much. At scale 1 the
 /// discrete kernel is anisotropic at its own scale, so that the error grows with the distance in
 /// edges, and what larger scales round off is small on fine meshes.
-double automatic_time_scale(const SourceSystem& terms, const Operators& ops);
+double automatic_time_scale(const SourceSystem& system, const Operators& ops);
 
 /// Name of the residual that heat methods report: see misaligned_fraction.
 inline constexpr const char* misaligned_area_fraction = "misaligned area fraction";

@@ -19,39 +19,39 @@ const OptionTable<UnsignedHeat>& unsigned_heat_options() {
 }
 
 UnsignedHeatSolver::UnsignedHeatSolver(std::shared_ptr<const Operators> ops,
-                                       const UnsignedHeat& options, Task task, SolveHint expect)
+                                       const UnsignedHeat& options, Task task, SolveHint hint)
     : ops_(std::move(ops)),
-      expect_(expect),
+      hint_(hint),
       root_t_(ops_->scalar.h * std::sqrt(options.time_scale > 0 ? options.time_scale : 1)),
       order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
-      heat_(ops_->scalar, root_t_ * root_t_, expect, order_, task.stage(0.4, "factor heat")),
+      heat_(ops_->scalar, root_t_ * root_t_, hint, order_, task.stage(0.4, "factor heat")),
       poisson_(std::make_shared<const Poisson>(
           ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-          task.stage(0.3, "factor Poisson"), order_, solver_for(expect))) {}
+          task.stage(0.3, "factor Poisson"), order_, solver_for(hint))) {}
 
 UnsignedHeatSolver UnsignedHeatSolver::with_time_scale(double time_scale, const Task& task) const {
   UnsignedHeatSolver out = *this;
   out.root_t_ = ops_->scalar.h * std::sqrt(time_scale);
-  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, expect_, order_, task);
+  out.heat_ = ScalarHeat(ops_->scalar, out.root_t_ * out.root_t_, hint_, order_, task);
   return out;
 }
 
-VecX UnsignedHeatSolver::solve(const SourceSystem& terms, Task task, Report& report) const {
+VecX UnsignedHeatSolver::solve(const SourceSystem& system, Task task, Report& report) const {
   const Calculus& C = ops_->scalar;
   const Task heat_stage = task.stage(0.5, "diffuse"), poisson_stage = task.stage(0.5, "integrate");
 
   // Y = -grad u / |grad u|.
   CellField X = no_field(C.A.size());
-  heat_.add_nearest(C, terms, point_to_line * root_t_ / C.h, X, heat_stage, report);
-  set_near(C, terms, X.Y);
+  heat_.add_nearest(C, system, point_to_line * root_t_ / C.h, X, heat_stage, report);
+  set_near(C, system, X.Y);
 
   // L phi = G^T A Y, phi = d0 + psi with psi = 0 at the sources.
-  const VecX b = C.divergence(X.Y - C.G.apply(terms.d0));
+  const VecX b = C.divergence(X.Y - C.G.apply(system.d0));
   const VecX psi = poisson_->solve_levels(
-      b, {terms.A, std::vector<int>(terms.group.size(), 0), {1}}, poisson_stage, report);
+      b, {system.A, std::vector<int>(system.group.size(), 0), {1}}, poisson_stage, report);
   report.residuals.emplace_back(misaligned_area_fraction,
-                                misaligned_fraction(C, terms.d0 + psi, X.Y));
-  return finalize_field(*ops_, terms, (terms.d0 + psi).cwiseMax(0.0), report);
+                                misaligned_fraction(C, system.d0 + psi, X.Y));
+  return finalize_field(*ops_, system, (system.d0 + psi).cwiseMax(0.0), report);
 }
 
 }  // namespace littoral

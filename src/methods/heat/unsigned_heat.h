@@ -22,18 +22,18 @@ class UnsignedHeatSolver {
  public:
   /// An automatic time scale is 1 here.
   UnsignedHeatSolver(std::shared_ptr<const Operators> ops, const UnsignedHeat& options,
-                     Task task = {}, SolveHint expect = SolveHint::many_rhs);
+                     Task task = {}, SolveHint hint = SolveHint::many_rhs);
 
   /// The same with another time scale; the order of elimination and the Poisson factor are shared.
   UnsignedHeatSolver with_time_scale(double time_scale, const Task& task) const;
 
   /// Unsigned distance at the nodes (nodes) [length of the input], +inf on components that no
   /// source reaches; never negative.
-  VecX solve(const SourceSystem& terms, Task task, Report& report) const;
+  VecX solve(const SourceSystem& system, Task task, Report& report) const;
 
  private:
   std::shared_ptr<const Operators> ops_;
-  SolveHint expect_;
+  SolveHint hint_;
   double root_t_;
   Ordering order_;  // of the nodes
   ScalarHeat heat_;

@@ -21,7 +21,7 @@ Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, co
     if (first < A.outerIndexPtr()[i + 1] && A.innerIndexPtr()[first] == i)
       A.valuePtr()[first] += M[i / block] > 0 ? M[i / block] : 1.0;
     else
-      missing.push_back(static_cast<int>(i));
+      missing.push_back(i);
   }
   for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
   A.makeCompressed();
@@ -45,7 +45,7 @@ ScaledField<double> as_pairs(const ScaledField<Complex>& field) {
 
 }  // namespace
 
-VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint expect, const Ordering& nodes,
+VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint hint, const Ordering& nodes,
                        const Task& task) {
   Ordering order = V.at_nodes          ? nodes
                    : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)
@@ -53,10 +53,10 @@ VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint expect, con
   task.checkpoint();
   if (V.complex_linear())
     complex_ = std::make_shared<const HeatSystem<Complex>>(
-        heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), expect, task, std::move(order));
+        heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), hint, task, std::move(order));
   else
     real_ = std::make_shared<const HeatSystem<double>>(
-        heat_matrix(V.L_real, V.M, t), 2, decay_lengths(V.M, t), expect, task, std::move(order));
+        heat_matrix(V.L_real, V.M, t), 2, decay_lengths(V.M, t), hint, task, std::move(order));
 }
 
 CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
@@ -67,10 +67,11 @@ CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Ta
   return cell_field(V.to_cells, X);
 }
 
-CellField VectorHeat::diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
-                                   Report& report) const {
-  const auto X = complex_ ? as_pairs(complex_->solve_held(to_complex(held), V.piece, task, report))
-                          : real_->solve_held(held, V.piece, task, report);
+CellField VectorHeat::diffuse_prescribed(const VectorDiffusion& V, const VecX& values,
+                                         const Task& task, Report& report) const {
+  const auto X =
+      complex_ ? as_pairs(complex_->solve_prescribed(to_complex(values), V.piece, task, report))
+               : real_->solve_prescribed(values, V.piece, task, report);
   return cell_field(V.to_cells, X);
 }
 

@@ -16,16 +16,16 @@ namespace littoral {
 class VectorHeat {
  public:
   /// nodes: the order of elimination of the nodes between which the dofs lie.
-  VectorHeat(const VectorDiffusion& V, double t, SolveHint expect, const Ordering& nodes,
+  VectorHeat(const VectorDiffusion& V, double t, SolveHint hint, const Ordering& nodes,
              const Task& task);
 
   /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
   CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
                     Report& report) const;
 
-  /// The same with X held at `held` (2 dofs) wherever that is not zero.
-  CellField diffuse_held(const VectorDiffusion& V, const VecX& held, const Task& task,
-                         Report& report) const;
+  /// The same with X prescribed as `values` (2 dofs) wherever that is not zero.
+  CellField diffuse_prescribed(const VectorDiffusion& V, const VecX& values, const Task& task,
+                               Report& report) const;
 
   double nonzeros() const;
 

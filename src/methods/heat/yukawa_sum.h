@@ -13,7 +13,7 @@ struct YukawaPlace {
   float least;    // squared distances are at least this: the kernel is singular at a sample
 };
 
-/// sum w n and sum w for w = A exp((d0 - r) / sqrt(t)) / r, kept apart by lanes.
+/// sum w n and sum w for w = A exp((d0 - r) / sqrt(t)) / r, lane by lane.
 struct YukawaSums {
   alignas(64) float x[16] = {}, y[16] = {}, z[16] = {}, total[16] = {};
 };

@@ -36,22 +36,20 @@ class Pseudonormals {
       : faces_(faces), normals_(MatX3::Zero(faces.rows(), 3)) {
     std::map<std::array<double, 3>, int> place;
     for (Eigen::Index v = 0; v < points.rows(); ++v)
-      vertex_.push_back(place
-                            .try_emplace({points(v, 0), points(v, 1), points(v, 2)},
-                                         static_cast<int>(place.size()))
+      vertex_.push_back(place.try_emplace({points(v, 0), points(v, 1), points(v, 2)}, place.size())
                             .first->second);
-    at_vertex_ = MatX3::Zero(static_cast<Eigen::Index>(place.size()), 3);
+    at_vertex_ = MatX3::Zero(place.size(), 3);
     for (Eigen::Index f = 0; f < faces.rows(); ++f) {
       std::array<Vec3, 3> p;
-      for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(faces(f, k));
+      for (int k = 0; k < 3; ++k) p[k] = points.row(faces(f, k));
       const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
       if (!n.allFinite()) continue;
       normals_.row(f) = n;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
         const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-        at_vertex_.row(vertex(f, static_cast<int>(k))) += angle * n;
-        const auto [edge, is_new] = at_edge_.try_emplace(edge_key(f, static_cast<int>(k)), n);
+        at_vertex_.row(vertex(f, k)) += angle * n;
+        const auto [edge, is_new] = at_edge_.try_emplace(edge_key(f, k), n);
         if (!is_new) edge->second += n;
       }
     }
@@ -62,7 +60,7 @@ class Pseudonormals {
     constexpr double rounding = 1e-10;
     int zeros = 0, zero = 0, one = 0;
     for (int k = 0; k < 3; ++k) {
-      if (foot.barycentric[static_cast<std::size_t>(k)] <= rounding) {
+      if (foot.barycentric[k] <= rounding) {
         ++zeros;
         zero = k;
       } else {
@@ -79,9 +77,7 @@ class Pseudonormals {
   Vec3 of_face(int f) const { return normals_.row(f); }
 
  private:
-  int vertex(Eigen::Index f, int k) const {
-    return vertex_[static_cast<std::size_t>(faces_(f, k))];
-  }
+  int vertex(Eigen::Index f, int k) const { return vertex_[faces_(f, k)]; }
   std::pair<int, int> edge_key(Eigen::Index f, int k) const {
     return std::minmax({vertex(f, k), vertex(f, (k + 1) % 3)});
   }

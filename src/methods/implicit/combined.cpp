@@ -52,9 +52,9 @@ DistanceSample combine_asked(const Csg& csg, std::size_t n, const Ask& ask) {
 DistanceSample smooth_min(const DistanceSample& a, const DistanceSample& b, double blend) {
   const bool first = a.value <= b.value;
   const DistanceSample &less = first ? a : b, &more = first ? b : a;
-  const double apart = more.value - less.value;
-  if (!(apart < blend)) return less;  // also where both are infinite
-  const double h = 1 - apart / blend;
+  const double difference = more.value - less.value;
+  if (!(difference < blend)) return less;  // also where both are infinite
+  const double h = 1 - difference / blend;
   return {less.value - blend * h * h / 4, (1 - h / 2) * less.gradient + h / 2 * more.gradient};
 }
 

@@ -11,21 +11,20 @@ VecX evaluate(const PointwiseDistance& distance, const MatX3& queries, MatX3* gr
   if (gradients != nullptr) gradients->resize(queries.rows(), 3);
   // Neighbours in a row find the same things in the processor's caches.
   const std::vector<int> order = morton_order(queries);
-  parallel_for(static_cast<std::size_t>(queries.rows()), 256,
-               [&](std::size_t begin, std::size_t end) {
-                 task.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
-                 int last = -1;
-                 for (std::size_t at = begin; at < end; ++at) {
-                   const int i = order[at];
-                   if (gradients == nullptr) {
-                     values[i] = distance.value_after(queries.row(i), last);
-                     continue;
-                   }
-                   const DistanceSample sample = distance.at(queries.row(i));
-                   values[i] = sample.value;
-                   gradients->row(i) = sample.gradient;
-                 }
-               });
+  parallel_for(queries.rows(), 256, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
+    int last = -1;
+    for (std::size_t at = begin; at < end; ++at) {
+      const int i = order[at];
+      if (gradients == nullptr) {
+        values[i] = distance.value_after(queries.row(i), last);
+        continue;
+      }
+      const DistanceSample sample = distance.at(queries.row(i));
+      values[i] = sample.value;
+      gradients->row(i) = sample.gradient;
+    }
+  });
   return values;
 }
 

@@ -85,7 +85,7 @@ double trace_steepness(const PointwiseDistance& field, const Vec3& low, const Ve
     }
   }
   if (slopes.empty()) return 1;
-  const auto at = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() * 99 / 100);
+  const auto at = slopes.begin() + slopes.size() * 99 / 100;
   std::nth_element(slopes.begin(), at, slopes.end());
   return std::clamp(1.05 * *at, 1.0, 2.0);
 }

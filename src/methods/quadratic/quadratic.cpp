@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "methods/quadratic/quadratic_program.h"
 
@@ -57,8 +58,7 @@ struct QuadraticSolver<D>::Part {
   std::shared_ptr<const Solver> solver(const Task& task) {
     const std::lock_guard lock(mutex_);
     if (!solver_)
-      solver_ = std::make_shared<const Solver>(static_cast<int>(part.nodes.size()), part.local_node,
-                                               task);
+      solver_ = std::make_shared<const Solver>(int_size(part.nodes), part.local_node, task);
     return solver_;
   }
 
@@ -99,7 +99,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   bool converged = true;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     if (of_part[c].empty()) {
-      report.unreachable_components.push_back(static_cast<int>(c));
+      report.unreachable_components.push_back(c);
       continue;
     }
     const QuadraticPart<D>& part = parts_[c]->part;
@@ -120,7 +120,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
                                                   insert, stage.stage(0.9, "interior point"));
     const double to_input = std::pow(part.scale * E.unit, 2);
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      field.u[part.nodes[i]] = to_input * result.x[static_cast<Eigen::Index>(i)];
+      field.u[part.nodes[i]] = to_input * result.x[i];
     converged = converged && result.converged;
     iterations += result.iterations;
     samples += static_cast<double>(result.samples);

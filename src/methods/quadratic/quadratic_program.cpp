@@ -6,6 +6,8 @@
 #include <limits>
 #include <queue>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -53,14 +55,14 @@ VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
   };
   each_edge([&](int a, int b, double) { ++first[a + 1], ++first[b + 1]; });
   for (std::size_t v = 0; v < n; ++v) first[v + 1] += first[v];
-  neighbour.resize(static_cast<std::size_t>(first[n]));
+  neighbour.resize(first[n]);
   std::vector<int> next(first.begin(), first.end() - 1);
   each_edge([&](int a, int b, double length) {
     neighbour[next[a]++] = {b, length};
     neighbour[next[b]++] = {a, length};
   });
 
-  VecX d = VecX::Constant(static_cast<Eigen::Index>(n), infinity);
+  VecX d = VecX::Constant(n, infinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   auto reach = [&](int v, double distance) {
@@ -120,9 +122,9 @@ typename QuadraticProgram<D>::Program::Point reference_rows(const typename P2Sha
 
 template <int D>
 std::vector<QuadraticPart<D>> quadratic_parts(const P2Elements<D>& E) {
-  std::vector<QuadraticPart<D>> parts(static_cast<std::size_t>(E.n_components));
+  std::vector<QuadraticPart<D>> parts(E.n_components);
   std::vector<double> measure(parts.size(), 0);
-  std::vector<int> number(static_cast<std::size_t>(E.n_nodes()), -1);
+  std::vector<int> number(E.n_nodes(), -1);
   for (int e = 0; e < E.n_elements(); ++e) {
     const int c = E.component[E.node[e][0]];
     QuadraticPart<D>& part = parts[c];
@@ -131,7 +133,7 @@ std::vector<QuadraticPart<D>> quadratic_parts(const P2Elements<D>& E) {
     for (int i = 0; i < P2Shape<D>::nodes; ++i) {
       int& k = number[E.node[e][i]];
       if (k < 0) {
-        k = static_cast<int>(part.nodes.size());
+        k = part.nodes.size();
         part.nodes.push_back(E.node[e][i]);
       }
       local[i] = k;
@@ -211,9 +213,9 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
 
   // Objective: the integral of u, over the part's measure.
   const VecX integral = E.integral();
-  program_.c.resize(static_cast<Eigen::Index>(part.nodes.size()));
+  program_.c.resize(part.nodes.size());
   for (std::size_t i = 0; i < part.nodes.size(); ++i)
-    program_.c[static_cast<Eigen::Index>(i)] = integral[part.nodes[i]] / std::pow(part.scale, D);
+    program_.c[i] = integral[part.nodes[i]] / std::pow(part.scale, D);
 
   // Samples: the nodes and the centre of each element (section 5), and a source that is alone in
   // its elements: without a sample there, its elements are not exact in the plane.
@@ -226,7 +228,7 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
     program_.transform.push_back(E.grad[part.elements[e]].template rightCols<D>() * part.scale);
     program_.weight.push_back(E.measure[part.elements[e]]);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const int element = static_cast<int>(e);
+      const int element = e;
       program_.samples.push_back({element, static_cast<int>(i), size(element, points[i])});
     }
   }
@@ -235,7 +237,7 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
     for (const P2Point<D>& point : source.where) {
       const int e = local(point.element);
       if (e < 0 || holds[e] != 1 || point.b.maxCoeff() >= 1) continue;
-      program_.samples.push_back({e, static_cast<int>(program_.points.size()), size(e, point.b)});
+      program_.samples.push_back({e, int_size(program_.points), size(e, point.b)});
       program_.points.push_back(reference_rows<D>(point.b));
     }
   }
@@ -259,7 +261,7 @@ std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>
   using Shape = P2Shape<D>;
   std::vector<typename Program::Inserted> found;
   const auto insert = [&](std::size_t e, const typename Shape::Point& b) {
-    const int element = static_cast<int>(e);
+    const int element = e;
     found.push_back({element, reference_rows<D>(b), size(element, b)});
   };
   const double h2 = std::pow(E_.h / part_.scale, 2);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
@@ -56,10 +57,10 @@ void project(Row& x, Row& y) {
 /// Squared norms over the product of the domain with itself.
 struct Norms {
   double gap = 0, g = 0, z = 0, dz = 0, w = 0;    // G X - Z, G X, Z; D (Z - Z_old), D W
-  double apart = 0, x = 0, u = 0, du = 0, h = 0;  // X - U, X, U; U - U_old, H
+  double split = 0, x = 0, u = 0, du = 0, h = 0;  // X - U, X, U; U - U_old, H
   void add(const Norms& o) {
     gap += o.gap, g += o.g, z += o.z, dz += o.dz, w += o.w;
-    apart += o.apart, x += o.x, u += o.u, du += o.du, h += o.h;
+    split += o.split, x += o.x, u += o.u, du += o.du, h += o.h;
   }
 };
 
@@ -122,10 +123,9 @@ class AllPairs {
     if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
     factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
     response_.resize(n_, n_);
-    parallel_for(static_cast<std::size_t>(n_), block, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n_, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      const auto first = static_cast<Eigen::Index>(begin),
-                 width = static_cast<Eigen::Index>(end - begin);
+      const Eigen::Index first = begin, width = index(end - begin);
       Strip unit = Strip::Zero(n_, block);
       for (Eigen::Index k = 0; k < width; ++k) unit(first + k, k) = 1;
       factor_->solve(unit);
@@ -141,13 +141,12 @@ class AllPairs {
   }
 
   Norms iterate(bool check) {
-    const auto columns = static_cast<std::size_t>(n_);
+    const std::size_t columns = n_;
     std::vector<Norms> partial(S_.size());
     std::vector<double> longest(S_.size(), 0);
     parallel_for(columns, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      update_columns(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
-                     partial[begin / block], longest[begin / block]);
+      update_columns(begin, end, check, partial[begin / block], longest[begin / block]);
     });
     Norms norms;
     for (const Norms& p : partial) norms.add(p);
@@ -155,8 +154,7 @@ class AllPairs {
     std::fill(partial.begin(), partial.end(), Norms());
     parallel_for(columns, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
-      symmetrize(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end), check,
-                 partial[begin / block]);
+      symmetrize(begin, end, check, partial[begin / block]);
     });
     for (const Norms& p : partial) norms.add(p);
     return norms;
@@ -167,7 +165,7 @@ class AllPairs {
   void update_columns(Eigen::Index begin, Eigen::Index end, bool check, Norms& norms,
                       double& longest) {
     const Eigen::Index width = end - begin;
-    StripOf<Number>& S = S_[static_cast<std::size_t>(begin / block)];
+    StripOf<Number>& S = S_[begin / block];
     Strip p(2 * cells_, block);
     for (Eigen::Index c = 0; c < 2 * cells_; c += 2) {
       const Row sx = S.row(c).template cast<double>(), sy = S.row(c + 1).template cast<double>();
@@ -246,7 +244,7 @@ class AllPairs {
         const auto norm2 = [&](const auto& v) {
           return C_.M[j] * C_.M.dot(v.template cast<double>().cwiseAbs2().matrix());
         };
-        norms.apart += norm2(X_.col(j) - next);
+        norms.split += norm2(X_.col(j) - next);
         norms.x += norm2(X_.col(j));
         norms.u += norm2(next);
         norms.du += norm2(next - U_.col(j));
@@ -262,7 +260,7 @@ class AllPairs {
       return std::sqrt(residual) / (o_.tolerance * (std::sqrt(compared) + 1e-300));
     };
     const double primal1 = over(s.gap, std::max(s.g, s.z)), dual1 = over(s.dz, s.w);
-    const double primal2 = over(s.apart, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
+    const double primal2 = over(s.split, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
     const double worst = std::max({primal1, dual1, primal2, dual2});
     if (!std::isfinite(worst)) throw SolveError("all pairs diverged: non-finite iterate");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));
@@ -291,7 +289,7 @@ class AllPairs {
         S.row(c) = (x + (sx - x) / f1).template cast<Number>();
         S.row(c + 1) = (y + (sy - y) / f1).template cast<Number>();
       }
-      const auto begin = static_cast<Eigen::Index>(at) * block, width = std::min(block, n_ - begin);
+      const auto begin = index(at) * block, width = std::min(block, n_ - begin);
       auto T = T_.middleCols(begin, width);
       const auto U = U_.middleCols(begin, width);
       T = U + (T - U) / Number(f2);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "methods/regularized/all_pairs.h"
 
@@ -32,11 +33,11 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
   struct Count {
     double triplets = 0, violated = 0, largest = 0;
   };
-  std::vector<Count> counts(static_cast<std::size_t>((n + step - 1) / step));
+  std::vector<Count> counts((n + step - 1) / step);
   parallel_for(counts.size(), 4, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
     for (std::size_t p = begin; p < end; ++p) {
-      const Eigen::Index i = static_cast<Eigen::Index>(p) * step;
+      const Eigen::Index i = index(p) * step;
       Count& count = counts[p];
       for (Eigen::Index j = i + 1; j < n; ++j) {
         const double d = S(i, j);

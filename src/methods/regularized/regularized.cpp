@@ -5,7 +5,7 @@
 
 #include "littoral/error.h"
 #include "methods/heat/finalize.h"
-#include "solve/optimization/gradient_prox.h"
+#include "solve/optimization/gradient_energy.h"
 
 namespace littoral {
 
@@ -147,7 +147,7 @@ AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& opt
     area += problem.b[i];
   }
   if (sign) problem.b = problem.b.cwiseProduct(*sign);
-  const int dim = static_cast<int>(C.G.rows / C.A.size());
+  const int dim = C.G.rows / C.A.size();
   const double alpha = alpha_of(options, regularizer_, area, dim);
   const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
   problem.A = C.A;
@@ -161,42 +161,44 @@ AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& opt
   admm_options.gap = options.gap;
   admm_options.max_iterations = options.max_iterations;
 
-  ConstrainedSystem::Held held;
-  double held_rho = -1;  // Hessian: the penalty for which `held` was factored
+  ConstrainedSystem::Constrained constrained;
+  double constrained_rho = -1;  // Hessian: the penalty for which `constrained` was factored
   if (regularizer_ == Regularizer::hessian) {
     const SpMat& W = data_->W;
     problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
     problem.solve = [&](const VecX& b, double rho) {
-      if (rho != held_rho) {
-        held = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components, task,
-                                 ConstrainedSystem::Rows::many)
-                   .hold(rows, task);
-        held_rho = rho;
+      if (rho != constrained_rho) {
+        constrained = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components,
+                                        task, ConstrainedSystem::Rows::many)
+                          .constrain(rows, task);
+        constrained_rho = rho;
       }
-      return held.solve(b);
+      return constrained.solve(b);
     };
     admm_options.penalty_changes = 8;
   } else if (regularizer_ == Regularizer::dirichlet) {
     // Alg. 1: alpha W + rho W_D = (alpha + rho) W_D, so the factor of W_D serves every penalty.
-    held = laplacian_->hold(rows, task);
+    constrained = laplacian_->constrain(rows, task);
     if (alpha > 0)
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
-    problem.solve = [&held, alpha](const VecX& b, double rho) {
-      return VecX(held.solve(b) / (alpha + rho));
+    problem.solve = [&constrained, alpha](const VecX& b, double rho) {
+      return VecX(constrained.solve(b) / (alpha + rho));
     };
   } else {
-    held = laplacian_->hold(rows, task);
-    problem.solve = [&held](const VecX& b, double rho) { return VecX(held.solve(b) / rho); };
+    constrained = laplacian_->constrain(rows, task);
+    problem.solve = [&constrained](const VecX& b, double rho) {
+      return VecX(constrained.solve(b) / rho);
+    };
   }
   return admm(problem, admm_options, state, task);
 }
 
-VecX RegularizedSolver::solve(const SourceSystem& terms, const Regularized& options,
+VecX RegularizedSolver::solve(const SourceSystem& system, const Regularized& options,
                               const Task& task, Report& report, AdmmState* state) const {
   AdmmState own;
-  const AdmmResult result = minimize(terms.A, options, state ? *state : own, task);
+  const AdmmResult result = minimize(system.A, options, state ? *state : own, task);
   report_admm(result, report);
-  return finalize_field(*ops_, terms, result.u.cwiseMax(0.0), report);
+  return finalize_field(*ops_, system, result.u.cwiseMax(0.0), report);
 }
 
 }  // namespace littoral

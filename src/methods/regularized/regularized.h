@@ -46,7 +46,7 @@ class RegularizedSolver {
   /// Distance to the sources at the nodes (nodes) [length of the input], not negative, +inf on
   /// components that no source reaches: minimises eq. 11 by Alg. 1. `state`: from an earlier solve
   /// with the same sources, to start from; left as it is at the end.
-  VecX solve(const SourceSystem& terms, const Regularized& options, const Task& task,
+  VecX solve(const SourceSystem& system, const Regularized& options, const Task& task,
              Report& report, AdmmState* state = nullptr) const;
 
   /// The same for the rows (rows x nodes) at which u = 0, without units and without infinities.

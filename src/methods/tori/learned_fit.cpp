@@ -1,9 +1,8 @@
-#include "methods/tori/learned_fit.h"
-
 #include <charconv>
 #include <cmath>
 
 #include "littoral/error.h"
+#include "methods/tori/torus_fit.h"
 
 namespace littoral {
 

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "sources/distinct_points.h"
 #include "sources/likely_outliers.h"
+#include "sources/oriented_points.h"
 
 namespace littoral {
 
@@ -16,13 +17,13 @@ namespace {
 constexpr int blended = blended_tori;
 // Tori are believed on the side within this many spacings of the nearest point, or if no more than
 // this share of the weight disagrees; farther than this many spacings only if the winding number
-// is not this winding_margin of the contrary: patches of flipped normals agree among themselves.
+// does not say the contrary with this margin: patches of flipped normals agree among themselves.
 constexpr double near_surface = 1.5, disagreement_tolerance = 0.02, far_away = 3,
                  winding_margin = 0.25;
 constexpr double side_accuracy = 2;  // of the winding number: errors of 0.01 do not matter
-// Points in groups: their normals are trusted if the winding number is winding_margin on both sides
-// of the group, this many spacings away, and they agree among themselves to this extent; then on
-// places that see the nearest point within this cosine of its normal.
+// Points in groups: their normals are trusted if the winding number is clear by winding_margin on
+// both sides of the group, this many spacings away, and their mean is at least `agreement` long;
+// then on places that see the nearest point within this cosine of its normal.
 constexpr int group = 16;
 constexpr double probe = 2.5, agreement = 0.9, frontal = 0.7;
 
@@ -58,25 +59,23 @@ Blend<T> blend(const MatX3& points, const std::vector<Torus>& tori, const std::v
                const Neighbour* found, int n, const std::array<T, 3>& x, int known) {
   using std::exp;
   using std::sqrt;
-  const auto point = [&](int j) { return order[static_cast<std::size_t>(found[j].point)]; };
-  const auto torus = [&](int j) -> const Torus& {
-    return tori[static_cast<std::size_t>(point(j))];
-  };
+  const auto point = [&](int j) { return order[found[j].point]; };
+  const auto torus = [&](int j) -> const Torus& { return tori[point(j)]; };
   std::array<T, blended> d;
   d.fill(T(0.0));
   for (int j = 0; j < n; ++j) {
     T squared = T(torus_tiny<double>);
     for (int k = 0; k < 3; ++k) {
-      const T y = x[static_cast<std::size_t>(k)] - T(points(point(j), k));
+      const T y = x[k] - T(points(point(j), k));
       squared += y * y;
     }
-    d[static_cast<std::size_t>(j)] = sqrt(squared);
+    d[j] = sqrt(squared);
   }
   const T& nearest = d[0];
-  const T& farthest = d[static_cast<std::size_t>(n - 1)];
+  const T& farthest = d[n - 1];
   T sum = T(0.0), total = T(0.0);
   for (int j = 0; j < n; ++j) {
-    const T closeness = 1.0 - d[static_cast<std::size_t>(j)] / farthest;
+    const T closeness = 1.0 - d[j] / farthest;
     const T w = closeness * closeness + 1e-9;
     sum += w * torus(j).rho;
     total += w;
@@ -87,7 +86,7 @@ Blend<T> blend(const MatX3& points, const std::vector<Torus>& tori, const std::v
   total = T(0.0);
   T negative = T(0.0);  // weight of those that see x inside
   for (int j = 0; j < n; ++j) {
-    const T decay = exp(T(-blend_sharpness * (d[static_cast<std::size_t>(j)] - nearest) / rho));
+    const T decay = exp(T(-blend_sharpness * (d[j] - nearest) / rho));
     const T w = std::exp(torus(j).log_weight) * (decay - last) + blend_floor;
     T g = patch_distance<T>(torus(j), x);
     if (g < 0.0) negative += w;
@@ -104,18 +103,17 @@ Blend<T> blend(const MatX3& points, const std::vector<Torus>& tori, const std::v
 
 /// One torus stands for about this area: 5 (hexagons) to 6 (random points) lie within rho of it.
 VecX areas_of(const std::vector<Torus>& tori) {
-  VecX areas(static_cast<Eigen::Index>(tori.size()));
+  VecX areas(tori.size());
   for (std::size_t i = 0; i < tori.size(); ++i) {
     const double area = std::acos(-1.0) * tori[i].rho * tori[i].rho / 5.5;
-    areas[static_cast<Eigen::Index>(i)] = std::isfinite(area) ? area : 0;  // a lone point's plane
+    areas[i] = std::isfinite(area) ? area : 0;  // a lone point's plane
   }
   return areas;
 }
 
 MatX3 normals_of(const std::vector<Torus>& tori) {
-  MatX3 normals(static_cast<Eigen::Index>(tori.size()), 3);
-  for (std::size_t i = 0; i < tori.size(); ++i)
-    normals.row(static_cast<Eigen::Index>(i)) = tori[i].n;
+  MatX3 normals(tori.size(), 3);
+  for (std::size_t i = 0; i < tori.size(); ++i) normals.row(i) = tori[i].n;
   return normals;
 }
 
@@ -127,7 +125,7 @@ int orientation_of(const MatX3& points, const std::vector<Torus>& tori) {
   const Eigen::RowVector3d centre = points.colwise().mean();
   double volume = 0;
   for (std::size_t i = 0; i < tori.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const Eigen::Index row = i;
     volume += areas[row] * (points.row(row) - centre).dot(tori[i].n) / 3;
   }
   const double least = hardly * std::pow(areas.sum(), 1.5);
@@ -144,7 +142,7 @@ std::vector<TorusRecord<S>> records_of(const MatX3& points, const std::vector<To
   };
   std::vector<TorusRecord<S>> records(tori.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const Torus& t = tori[static_cast<std::size_t>(order[i])];
+    const Torus& t = tori[order[i]];
     TorusRecord<S>& r = records[i];
     for (int d = 0; d < 3; ++d) {
       r.p[d] = points(order[i], d);
@@ -166,7 +164,7 @@ void gather(const std::vector<TorusRecord<S>>& records, const Neighbour* found, 
             const Vec3& x, TorusLanes<S>& lanes) {
   for (int l = 0; l < torus_lanes; ++l) {
     const Neighbour& neighbour = found[l < n ? l : 0];
-    const TorusRecord<S>& r = records[static_cast<std::size_t>(neighbour.point)];
+    const TorusRecord<S>& r = records[neighbour.point];
     for (int d = 0; d < 3; ++d) {
       lanes.x[d][l] = static_cast<S>(x[d] - r.p[d]) - r.q[d];
       lanes.n[d][l] = r.n[d];
@@ -212,7 +210,7 @@ ToriDistance::ToriDistance(MatX3 points, std::vector<Torus> tori, PointTree tree
       order_(tree_.renumber()),
       winding_(points_, normals_of(tori_), areas_of(tori_)),
       orientation_(orientation_of(points_, tori_)) {
-  if (points_.rows() == 0 || static_cast<std::size_t>(points_.rows()) != tori_.size())
+  if (points_.rows() == 0 || points_.rows() != index(tori_.size()))
     throw InputError("tori need one point each, and at least one");
   if (precision == ToriPrecision::single)
     single_ = records_of<float>(points_, tori_, order_);
@@ -231,7 +229,7 @@ void ToriDistance::find_trusted() {
       Vec3 centre = Vec3::Zero(), normal = Vec3::Zero();
       double rho = 0;
       for (std::size_t i = from; i < to; ++i) {
-        const Torus& t = tori_[static_cast<std::size_t>(order_[i])];
+        const Torus& t = tori_[order_[i]];
         centre += points_.row(order_[i]);
         normal += t.n;
         rho += t.rho;
@@ -252,11 +250,10 @@ void ToriDistance::find_trusted() {
 /// The ball around x up to the nearest point is empty, so that x is on the side that this point's
 /// normal says, if it is seen from the front.
 bool ToriDistance::trusted(const Neighbour& nearest, const Vec3& x, bool negative) const {
-  const auto place = static_cast<std::size_t>(nearest.point);
+  const std::size_t place = nearest.point;
   if (trusted_[place / group] == 0) return false;
   const int point = order_[place];
-  const double height =
-      (x - points_.row(point).transpose()).dot(tori_[static_cast<std::size_t>(point)].n);
+  const double height = (x - points_.row(point).transpose()).dot(tori_[point].n);
   return height * height > frontal * frontal * nearest.squared_distance && (height < 0) == negative;
 }
 
@@ -281,11 +278,11 @@ double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const V
   BlendedTori<S> out;
   BlendKernel<S>* const kernel = blend_kernel<S>();
   kernel(lanes, n, 0, out);
-  const SideCheck doubts(out.nearest, out.rho, out.negative);
+  const SideCheck check(out.nearest, out.rho, out.negative);
   const bool negative = out.phi < 0;
-  if (doubts.disputed || (doubts.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
-    const int side = side_of(x, negative, doubts.disputed);
-    if (doubts.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
+  if (check.disputed || (check.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
+    const int side = side_of(x, negative, check.disputed);
+    if (check.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
   }
   const double nearest = std::sqrt(found[0].squared_distance);
   return clamp_to_nearest<double>(out.phi, nearest, out.rho);
@@ -305,11 +302,11 @@ T ToriDistance::plain(const Vec3& x, const std::array<T, 3>& at) const {
       return v.value;
   };
   Blend<T> out = ask(0);
-  const SideCheck doubts(number(out.nearest), number(out.rho), out.negative);
-  if (doubts.disputed || (doubts.far && orientation_ != 0)) {
+  const SideCheck check(number(out.nearest), number(out.rho), out.negative);
+  if (check.disputed || (check.far && orientation_ != 0)) {
     const bool negative = number(out.phi) < 0;
-    const int side = side_of(x, negative, doubts.disputed);
-    if (doubts.disputed || (side < 0) != negative) out = ask(side);
+    const int side = side_of(x, negative, check.disputed);
+    if (check.disputed || (side < 0) != negative) out = ask(side);
   }
   return clamp_to_nearest<T>(out.phi, out.nearest, out.rho);
 }

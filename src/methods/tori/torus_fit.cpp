@@ -19,16 +19,16 @@ namespace {
 
 /// A neighbour in the frame of a point, lengths in units of the fit's scale.
 struct Seen {
-  double S, T, H;  // place along s, t and n
-  double A, B;     // its normal along s and t
-  double apart;    // distance, kept away from 0
+  double S, T, H;   // place along s, t and n
+  double A, B;      // its normal along s and t
+  double distance;  // distance, kept away from 0
   double height_weight, normal_weight;
 };
 
 /// What the network sees of a neighbour (python/train_torus_fit.py: fit).
 Eigen::Matrix<float, LearnedFit::features, 1> features_of(const Seen& j, const Vec3& d,
                                                           const Vec3& m, const Vec3& n) {
-  const double rises = j.H / j.apart, seen = d.dot(m) / j.apart;
+  const double rises = j.H / j.distance, seen = d.dot(m) / j.distance;
   const double inverse = 1 / std::sqrt(j.S * j.S + j.T * j.T + 1e-8);
   Eigen::Matrix<double, LearnedFit::features, 1> out;
   out << std::min(d.norm(), 4.0), rises, seen, m.dot(n), (j.A * j.S + j.B * j.T) * inverse,
@@ -53,19 +53,19 @@ HeightPolynomial fit_heights(const TorusFit& fit, const OrientedPoints& cloud, i
   for (std::size_t j = 0; j < count; ++j) {
     const Vec3 d = (cloud.points.row(neighbours[j].point).transpose() - p) / scale;
     const Vec3 m = cloud.normals.row(neighbours[j].point);
-    const double apart = std::max(d.norm(), 0.05);
-    const double weight = fit.weight_exponent == 2   ? 1 / (apart * apart)
-                          : fit.weight_exponent == 1 ? 1 / apart
-                                                     : std::pow(apart, -fit.weight_exponent);
-    rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), apart, weight, 0};
+    const double distance = std::max(d.norm(), 0.05);
+    const double weight = fit.weight_exponent == 2   ? 1 / (distance * distance)
+                          : fit.weight_exponent == 1 ? 1 / distance
+                                                     : std::pow(distance, -fit.weight_exponent);
+    rows[j] = {d.dot(s), d.dot(t), d.dot(n), m.dot(s), m.dot(t), distance, weight, 0};
     rows[j].normal_weight = weight * fit.normal_weight;
-    if (learned) features.col(static_cast<Eigen::Index>(j)) = features_of(rows[j], d, m, n);
+    if (learned) features.col(j) = features_of(rows[j], d, m, n);
   }
   double self_weight = fit.self_weight, log_weight = 0;
   if (learned) {
     const LearnedFit::Factors factors = (*fit.learned)(features);
     for (std::size_t j = 0; j < count; ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
+      const Eigen::Index column = j;
       // Those that the closed form does not look at begin with little weight.
       const double base = static_cast<int>(j) < fit.neighbours ? 0 : -4;
       rows[j].height_weight *= std::exp(base + factors.of_neighbours(0, column));
@@ -150,17 +150,17 @@ Torus torus_of(const HeightPolynomial& a, const Vec3& p, const Vec3& n, double r
 std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, const TorusFit& fit,
                             const Task& task) {
   constexpr int spacing_neighbour = 6;  // rho is the distance of this one
-  const auto n = static_cast<std::size_t>(cloud.size());
+  const std::size_t n = cloud.size();
   std::vector<Torus> tori(n);
   const int seen = fit.learned ? LearnedFit::neighbours : fit.neighbours;
   const int wanted = std::max(seen, spacing_neighbour) + 1;
   const std::vector<int> order = tree.order();  // what is near is fitted soon after
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
-    std::vector<Neighbour> found(static_cast<std::size_t>(wanted));
+    std::vector<Neighbour> found(wanted);
     for (std::size_t place = begin; place < end; ++place) {
       const int point = order[place];
-      const auto i = static_cast<std::size_t>(point);
+      const std::size_t i = point;
       const Vec3 p = cloud.points.row(point), normal = cloud.normals.row(point);
       // The first neighbour is the point itself, as points are distinct.
       const int others = tree.nearest(p, wanted, found.data()) - 1;
@@ -169,10 +169,9 @@ std::vector<Torus> fit_tori(const OrientedPoints& cloud, const PointTree& tree, 
         continue;
       }
       const int unit = std::min(others, fit.neighbours);  // lengths are in units of its distance
-      const auto used = static_cast<std::size_t>(others >= seen ? seen : unit);
-      const double scale = std::sqrt(found[static_cast<std::size_t>(unit)].squared_distance);
-      const double rho = std::sqrt(
-          found[static_cast<std::size_t>(std::min(others, spacing_neighbour))].squared_distance);
+      const std::size_t used = others >= seen ? seen : unit;
+      const double scale = std::sqrt(found[unit].squared_distance);
+      const double rho = std::sqrt(found[std::min(others, spacing_neighbour)].squared_distance);
       const HeightPolynomial a =
           fit_heights(fit, cloud, point, std::span(found).subspan(1, used), scale);
       tori[i] = torus_of(a, p, normal, rho, fit.curvature_limit);

@@ -74,7 +74,7 @@ using Turn = std::vector<std::pair<int, int>>;
 /// Turns round all nodes inside the surface; empty on the boundary and where the surface is not
 /// glued. The sense of each is its own.
 std::vector<Turn> turns(const JumpCalculus& J) {
-  std::vector<Turn> all(static_cast<std::size_t>(J.n_nodes));
+  std::vector<Turn> all(J.n_nodes);
   std::vector<char> seen(all.size(), 0);
   for (int start = 0; start < 3 * J.n_faces; ++start) {
     int f = start / 3, c = start % 3, k = c;
@@ -102,7 +102,7 @@ std::vector<Turn> turns(const JumpCalculus& J) {
 void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
   const std::vector<Turn> turn = turns(J);
   std::vector<int> unknown(turn.size(), -1), node_component(turn.size(), -1);
-  std::vector<char> whole(static_cast<std::size_t>(J.n_components), 0);
+  std::vector<char> whole(J.n_components, 0);
   for (int c = 0; c < J.n_components; ++c) whole[c] = J.orientable[c];
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
@@ -112,11 +112,11 @@ void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
   int n = 0;
   for (std::size_t i = 0; i < turn.size(); ++i) {
     if (turn[i].empty()) continue;
-    char& hold = whole[node_component[i]];  // constants are free there: one is held
-    if (!std::exchange(hold, 0)) unknown[i] = n++;
+    char& fix = whole[node_component[i]];  // constants are free there: one is fixed
+    if (!std::exchange(fix, 0)) unknown[i] = n++;
   }
   if (n == 0) return;
-  std::vector<std::vector<std::pair<int, int>>> at(static_cast<std::size_t>(J.n_edges));
+  std::vector<std::vector<std::pair<int, int>>> at(J.n_edges);
   VecX curl = VecX::Zero(n);
   for (std::size_t i = 0; i < turn.size(); ++i) {
     if (unknown[i] < 0) continue;
@@ -143,7 +143,7 @@ void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
 void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const SurfaceWinding& options,
                           const Task& task, std::vector<DualEdge>& edges, WindingNumbers& result,
                           Report& report) {
-  const auto m = static_cast<Eigen::Index>(edges.size());
+  const Eigen::Index m = edges.size();
   L1Integration problem;
   problem.n = D.n_faces;
   problem.c = gamma;
@@ -174,7 +174,7 @@ void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const Surfac
 }
 
 CornerFunction at_corners(const JumpCalculus& J, const VecX& u) {
-  return {u.replicate(1, 3), std::vector<char>(static_cast<std::size_t>(J.n_nodes), 0)};
+  return {u.replicate(1, 3), std::vector<char>(J.n_nodes, 0)};
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
   if (!options.keep_nonbounding && curve.pairs.empty()) {
     const Stopwatch watch(report, "residual function");
     // Steps 2 to 4.
-    VecX omega = VecX::Zero(J.n_edges), gamma(static_cast<Eigen::Index>(edges.size()));
+    VecX omega = VecX::Zero(J.n_edges), gamma(edges.size());
     for (std::size_t a = 0; a < edges.size(); ++a) {
       const DualEdge& e = edges[a];
       omega[e.edge] = u[e.left] - u[e.right] - e.jump;

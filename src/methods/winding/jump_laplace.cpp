@@ -44,7 +44,7 @@ bool walk_round(const JumpCalculus& J, const VecX& jump, int face, int corner, M
 /// The unknown of every node: its own, or one for each stretch of the boundary.
 std::vector<int> unknowns(const JumpCalculus& J, const VecX& jump, Boundary boundary) {
   DisjointSets sets(J.n_nodes);
-  std::vector<char> touched(static_cast<std::size_t>(J.n_nodes), 0);
+  std::vector<char> touched(J.n_nodes, 0);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
       if (jump[J.edge(f, k)] != 0) touched[J.node(f, k)] = touched[J.node(f, (k + 1) % 3)] = 1;
@@ -103,7 +103,7 @@ void finish(const JumpCalculus& J, CornerFunction& f) {
 
 CornerFunction jump_offsets(const JumpCalculus& J, const VecX& jump) {
   CornerFunction offset{MatX3::Zero(J.n_faces, 3), std::vector<char>(J.n_nodes, 0)};
-  std::vector<char> seen(3 * static_cast<std::size_t>(J.n_faces), 0);
+  std::vector<char> seen(3 * std::size_t(J.n_faces), 0);
   for (int e = 0; e < J.n_edges; ++e) {
     if (jump[e] == 0 || !J.interior(e)) continue;
     const JumpCalculus::Side& s = J.sides[e][0];
@@ -121,7 +121,7 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
   CornerFunction u = jump_offsets(J, jump);
   const std::vector<int> unknown = unknowns(J, jump, boundary);
   Triplets entries;
-  entries.reserve(9 * static_cast<std::size_t>(J.n_faces));
+  entries.reserve(9 * std::size_t(J.n_faces));
   for (int i = 0; i < J.n_nodes; ++i) entries.emplace_back(i, i, 0.0);
   VecX b = VecX::Zero(J.n_nodes);
   for (int f = 0; f < J.n_faces; ++f)

@@ -10,7 +10,7 @@
 namespace littoral {
 
 /// Values at corners. `open` marks nodes where no value makes all jumps right, the ends of curves:
-/// there a function takes every value between those at the opposite side, and `u` holds their mean.
+/// there a function takes every value between those at the opposite side, and `u` is their mean.
 struct CornerFunction {
   MatX3 u{0, 3};           // faces x 3
   std::vector<char> open;  // nodes

@@ -1,10 +1,9 @@
-#include "methods/winding/region_labels.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <numbers>
 
+#include "methods/winding/surface_winding.h"
 #include "solve/network/l1_integration.h"
 
 namespace littoral {
@@ -81,8 +80,8 @@ VecXi cut_labels(const JumpCalculus& J, const VecX& jump, const std::vector<Face
   for (int e = 0; e < J.n_edges; ++e)
     if (J.interior(e)) arc(J.sides[e][0].face, J.sides[e][1].face, jump[e], weight[e]);
   for (const FacePair& p : pairs) arc(p.left, p.right, p.jump, weight[p.edge]);
-  problem.c = Eigen::Map<const VecX>(c.data(), static_cast<Eigen::Index>(c.size()));
-  problem.w = Eigen::Map<const VecX>(w.data(), static_cast<Eigen::Index>(w.size()));
+  problem.c = Eigen::Map<const VecX>(c.data(), c.size());
+  problem.w = Eigen::Map<const VecX>(w.data(), w.size());
   const L1Solution solution = integrate_l1(problem, {}, task, report);
   VecXi region(J.n_faces);
   for (int f = 0; f < J.n_faces; ++f) region[f] = static_cast<int>(std::lround(solution.s[f]));

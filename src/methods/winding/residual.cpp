@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "methods/winding/jump_laplace.h"
 #include "solve/poisson/poisson.h"
@@ -13,34 +14,34 @@ namespace littoral {
 
 VecX harmonic_part(const JumpCalculus& J, const VecX& omega, const Task& task) {
   // Delta_2 = d1 star1^-1 d1^T; beta is 0 outside the boundary. Without one, constants are free on
-  // orientable components: their first face is held.
+  // orientable components: their first face is fixed.
   const VecX curl = J.d1(omega);
   std::vector<char> fixed(J.n_components, 0);
   for (int c = 0; c < J.n_components; ++c) fixed[c] = J.orientable[c];
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
       if (!J.interior(J.edge(f, k))) fixed[J.component[f]] = 0;
-  std::vector<char> held(J.n_faces, 0);
+  std::vector<char> grounded(J.n_faces, 0);
   for (int f = 0; f < J.n_faces; ++f)
     if (fixed[J.component[f]]) {
-      held[f] = 1;
+      grounded[f] = 1;
       fixed[J.component[f]] = 0;
     }
   Triplets entries;
-  entries.reserve(6 * static_cast<std::size_t>(J.n_faces));
+  entries.reserve(6 * std::size_t(J.n_faces));
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
       const int e = J.edge(f, k);
       const JumpCalculus::Side at = J.across(f, k);
       entries.emplace_back(f, f, 1 / J.star1[e]);
-      if (at.face >= 0 && at.face < f && !held[f] && !held[at.face])
+      if (at.face >= 0 && at.face < f && !grounded[f] && !grounded[at.face])
         entries.emplace_back(f, at.face, J.along(f, k) * J.along(at.face, at.k) / J.star1[e]);
     }
   SpMat Delta(J.n_faces, J.n_faces);
   Delta.setFromTriplets(entries.begin(), entries.end());
   VecX b = curl;
   for (int f = 0; f < J.n_faces; ++f)
-    if (held[f]) b[f] = 0;
+    if (grounded[f]) b[f] = 0;
   const VecX beta = DefiniteSystem(Delta, task).solve(b);
   return omega - J.d1_transpose(beta).cwiseQuotient(J.star1);
 }
@@ -82,7 +83,7 @@ ResidualFunction integrate_jumps(const JumpCalculus& J, const MatX3& local, cons
       problem.g.push_back(node[J.sides[e][1].face]);
     }
   const auto gather = [&](const VecX& all) {
-    VecX some(all.size() ? static_cast<Eigen::Index>(edges.size()) : 0);
+    VecX some(all.size() ? index(edges.size()) : 0);
     for (Eigen::Index i = 0; i < some.size(); ++i) some[i] = all[edges[i]];
     return some;
   };

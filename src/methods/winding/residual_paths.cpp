@@ -1,11 +1,11 @@
-#include "methods/winding/residual_paths.h"
-
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
+
+#include "methods/winding/residual.h"
 
 namespace littoral {
 
@@ -133,7 +133,7 @@ MatX3 integrate_parts(const JumpCalculus& J, const VecX& gamma, const std::vecto
 
 std::vector<char> completing_paths(const JumpCalculus& J, const VecX& curve, const Task& task) {
   const EdgeGraph graph(J);
-  std::vector<int> surplus(static_cast<std::size_t>(J.n_nodes), 0);
+  std::vector<int> surplus(J.n_nodes, 0);
   for (int e = 0; e < J.n_edges; ++e) {
     const int times = static_cast<int>(std::lround(curve[e]));
     if (times == 0) continue;
@@ -154,7 +154,7 @@ std::vector<char> completing_paths(const JumpCalculus& J, const VecX& curve, con
   };
   for (int i = 0; i < J.n_nodes; ++i)
     if (surplus[i] > 0) look(i);
-  std::vector<char> on_path(static_cast<std::size_t>(J.n_edges), 0);
+  std::vector<char> on_path(J.n_edges, 0);
   while (!ends.empty()) {
     const auto [expected, i] = ends.top();
     ends.pop();

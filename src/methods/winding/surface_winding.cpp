@@ -5,7 +5,6 @@
 
 #include "base/stopwatch.h"
 #include "methods/winding/residual.h"
-#include "methods/winding/residual_paths.h"
 
 namespace littoral {
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <string>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
 #include "littoral/error.h"
@@ -13,7 +14,8 @@ namespace littoral {
 
 namespace {
 
-constexpr int narrow = 24;  // columns of a supernode up to which calls cost more than loops
+constexpr int small_supernode =
+    24;  // columns of a supernode up to which calls cost more than loops
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
@@ -26,7 +28,7 @@ void subtract_trapezoid(int rows, int m, int k, const Scalar* A, int lda, Scalar
   for (int j = 0; j < m; j += width) {
     if (task.cancelled()) throw Cancelled();
     const int w = std::min(width, m - j);
-    Scalar* D = C + j + static_cast<std::ptrdiff_t>(j) * ldc;
+    Scalar* D = C + j + index(j) * ldc;
     dense::subtract_square(w, k, A + j, lda, D, ldc);
     dense::subtract_product(rows - j - w, w, k, A + j + w, lda, A + j, lda, D + w, ldc);
   }
@@ -38,11 +40,11 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
   constexpr int panel = 128;
   for (int j = 0; j < columns; j += panel) {
     const int w = std::min(panel, columns - j), rest = height - j - w;
-    Scalar* D = block + j + static_cast<std::ptrdiff_t>(j) * height;
+    Scalar* D = block + j + index(j) * height;
     if (!dense::cholesky(w, D, height)) return false;
     dense::solve_right(rest, w, D, height, D + w, height);
-    subtract_trapezoid(rest, columns - j - w, w, D + w, height,
-                       D + w + static_cast<std::ptrdiff_t>(w) * height, height, task);
+    subtract_trapezoid(rest, columns - j - w, w, D + w, height, D + w + index(w) * height, height,
+                       task);
   }
   return true;
 }
@@ -86,7 +88,7 @@ void Cholesky<Scalar>::factor(const Matrix& lower, const std::vector<char>& stal
                               const Task& task) {
   const FlushSubnormals flush;
   const Elimination& E = *structure_;
-  supernodes_.resize(static_cast<std::size_t>(E.n_super));
+  supernodes_.resize(E.n_super);
   task.checkpoint();
   try {
     parallel_forest(E.task_parent, Walk::from_leaves, [&](int t) {
@@ -109,14 +111,14 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];
   node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
-  node.update = zeros<Scalar>(static_cast<std::size_t>(below) * static_cast<std::size_t>(below));
+  node.update = zeros<Scalar>(std::size_t(below) * below);
   Scalar* block = node.block.get();
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
   for (int k = 0; k < columns; ++k)
     for (int e = E.entry_begin[E.first[s] + k]; e < E.entry_begin[E.first[s] + k + 1]; ++e) {
       const int from = E.entry_from[e];
-      block[E.entry_row[e] + static_cast<std::ptrdiff_t>(k) * height] +=
+      block[E.entry_row[e] + index(k) * height] +=
           from >= 0 ? values[from] : Eigen::numext::conj(values[~from]);
     }
   for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
@@ -142,9 +144,9 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
   const FlushSubnormals flush;
   const Elimination& E = *structure_;
   // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
-  std::vector<char> nonzero(static_cast<std::size_t>(E.n_super), 0), needed = nonzero;
-  auto mark_up = [&](std::vector<char>& marks, int s) {
-    for (; s >= 0 && !marks[s]; s = E.parent[s]) marks[s] = 1;
+  std::vector<char> nonzero(E.n_super, 0), needed = nonzero;
+  auto mark_up = [&](std::vector<char>& marked, int s) {
+    for (; s >= 0 && !marked[s]; s = E.parent[s]) marked[s] = 1;
   };
   Dense x(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k)
@@ -163,7 +165,7 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
       for (int i = E.first[s]; i < E.first[s + 1] && !needed[s]; ++i)
         if (wanted[E.old_of[i]]) mark_up(needed, s);
   }
-  std::vector<Dense> passed_on(static_cast<std::size_t>(E.n_tasks()));
+  std::vector<Dense> passed_on(E.n_tasks());
   parallel_forest(E.task_parent, Walk::from_leaves,
                   [&](int t) { forward(t, nonzero, x, passed_on); });
   parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, needed, x); });
@@ -179,7 +181,7 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
   // x := L^-1 x on the columns of the task; what that subtracts from later rows is passed on to the
   // task that holds them, so that tasks may run side by side.
   const Elimination& E = *structure_;
-  const int n_rhs = static_cast<int>(x.cols()), root = E.task_first[t + 1] - 1;
+  const int n_rhs = x.cols(), root = E.task_first[t + 1] - 1;
   Dense& out = passed_on[t];
   out = Dense::Zero(E.below(root), n_rhs);
   auto subtract_at = [&](int target, int k) -> Scalar& {
@@ -203,9 +205,9 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
     const Scalar* block = supernodes_[s].block.get();
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
-    const int ldy = static_cast<int>(y.rows());
-    if (n_rhs == 1 && columns <= narrow) {
-      dense::forward_narrow(columns, height, block, &x(E.first[s], 0), y.data());
+    const int ldy = y.rows();
+    if (n_rhs == 1 && columns <= small_supernode) {
+      dense::forward_small(columns, height, block, &x(E.first[s], 0), y.data());
     } else {
       dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
       dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
@@ -220,7 +222,7 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
 template <class Scalar>
 void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x) const {
   const Elimination& E = *structure_;
-  const int n_rhs = static_cast<int>(x.cols());
+  const int n_rhs = x.cols();
   Dense y;
   for (int s = E.task_first[t + 1]; s-- > E.task_first[t];) {
     if (!active[s]) continue;
@@ -228,14 +230,14 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
     const Scalar* block = supernodes_[s].block.get();
     if (y.rows() < height || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
-    const int ldy = static_cast<int>(y.rows());
+    const int ldy = y.rows();
     const int* rows = E.rows.data() + E.rows_begin[s];
-    if (n_rhs == 1 && columns <= narrow) {
+    if (n_rhs == 1 && columns <= small_supernode) {
       Scalar* v = y.data();
       Scalar* own = &x(E.first[s], 0);
       std::copy(own, own + columns, v);
       for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], 0);
-      dense::backward_narrow(columns, height, block, v);
+      dense::backward_small(columns, height, block, v);
       std::copy(v, v + columns, own);
       continue;
     }

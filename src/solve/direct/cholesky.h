@@ -2,6 +2,7 @@
 // Sparse Cholesky factorization of symmetric (Hermitian) positive definite matrices.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/task.h"
@@ -60,5 +61,20 @@ class Cholesky {
 
 extern template class Cholesky<double>;
 extern template class Cholesky<Complex>;
+
+/// For matrices that are positive definite but for round-off, as in the last steps of an
+/// interior-point method: the diagonal is raised, by as little as possible, where a pivot fails,
+/// and solutions are refined with the matrix itself.
+class RefinedCholesky {
+ public:
+  /// False if raising the diagonal by 1e-7 of itself does not help.
+  bool factor(SpMat lower, const std::shared_ptr<const Elimination>& structure, const Task& task);
+  /// Refines until |rhs - A x| <= allowed, or as long as that helps, five times at most.
+  VecX solve(const VecX& rhs, double allowed, const Task& task) const;
+
+ private:
+  SpMat lower_;
+  std::optional<Cholesky<double>> factor_;
+};
 
 }  // namespace littoral

@@ -44,7 +44,7 @@ SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {
 SpMat eliminated(const SpMat& K, const std::vector<char>& gone) {
   SpMat P(K.rows(), K.cols());
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(K.nonZeros()));
+  entries.reserve(K.nonZeros());
   for (int j = 0; j < K.outerSize(); ++j) {
     if (gone[j]) {
       entries.emplace_back(j, j, 1);

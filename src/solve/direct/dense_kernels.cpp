@@ -7,6 +7,8 @@
 
 #if LITTORAL_BLAS
 #include <dlfcn.h>
+
+#include "base/index.h"
 extern "C" {
 #define LITTORAL_BLAS_DECLARE(S, p, herk)                                                         \
   void p##gemm_(const char*, const char*, const int*, const int*, const int*, const S*, const S*, \
@@ -101,7 +103,7 @@ void forward_small(int n, const Scalar* L, int ldl, Scalar* x) {
 template <class Scalar>
 void backward_small(int n, const Scalar* L, int ldl, Scalar* x) {
   for (int j = n; j-- > 0;) {
-    const Scalar* l = L + static_cast<std::ptrdiff_t>(j) * ldl;
+    const Scalar* l = L + index(j) * ldl;
     x[j] -= ConstColumn<Scalar>(l + j + 1, n - j - 1).dot(Column<Scalar>(x + j + 1, n - j - 1));
     x[j] /= std::real(l[j]);
   }
@@ -128,7 +130,7 @@ bool cholesky(int n, Scalar* A, int lda) {
   constexpr int panel = 48;
   for (int j = 0; j < n; j += panel) {
     const int w = std::min(panel, n - j);
-    Scalar* D = A + j + static_cast<std::ptrdiff_t>(j) * lda;
+    Scalar* D = A + j + index(j) * lda;
     auto block = view(D, w, w, lda);
     for (int k = 0; k < w; ++k) {
       const double pivot = std::real(block(k, k));
@@ -140,7 +142,7 @@ bool cholesky(int n, Scalar* A, int lda) {
     const int below = n - j - w;
     if (below == 0) break;
     solve_right(below, w, D, lda, D + w, lda);
-    subtract_square(below, w, D + w, lda, D + w + static_cast<std::ptrdiff_t>(w) * lda, lda);
+    subtract_square(below, w, D + w, lda, D + w + index(w) * lda, lda);
   }
   return true;
 }

@@ -29,13 +29,13 @@ void forward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
 template <class Scalar>
 void backward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
 
-/// One right-hand side on a narrow supernode, where calls would cost more than their work: L is the
+/// One right-hand side on a small supernode, where calls would cost more than their work: L is the
 /// top of `block` (height x n), A what is below. x := L^-1 x, then y := A x; and, of v = (x, y)
 /// (height), x := L^-* (x - A^* y).
 template <class Scalar>
-void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y);
+void forward_small(int n, int height, const Scalar* block, Scalar* x, Scalar* y);
 template <class Scalar>
-void backward_narrow(int n, int height, const Scalar* block, Scalar* v);
+void backward_small(int n, int height, const Scalar* block, Scalar* v);
 
 /// y := A x (A m x n, x n x k) and x := x - A^* y.
 template <class Scalar>

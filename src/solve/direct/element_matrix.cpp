@@ -7,7 +7,7 @@ namespace littoral {
 template <int K>
 ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements, const Task& task)
     : n_(n), elements_(std::move(elements)) {
-  std::vector<int> count(static_cast<std::size_t>(n) + 1, 0);  // column -> entries, with repeats
+  std::vector<int> count(n + 1, 0);  // column -> entries, with repeats
   auto each = [&](auto&& visit) {
     for (const auto& e : elements_)
       for (int i = 0; i < K; ++i)
@@ -15,7 +15,7 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
   };
   each([&](int, int column) { ++count[column + 1]; });
   for (int j = 0; j < n; ++j) count[j + 1] += count[j];
-  std::vector<int> rows(static_cast<std::size_t>(count[n])), next(count.begin(), count.end() - 1);
+  std::vector<int> rows(count[n]), next(count.begin(), count.end() - 1);
   each([&](int row, int column) { rows[next[column]++] = row; });
 
   zero_.resize(n, n);
@@ -23,13 +23,13 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
   kept.reserve(rows.size() / 2);
   int* start = zero_.outerIndexPtr();
   for (int j = 0; j < n; ++j) {
-    start[j] = static_cast<int>(kept.size());
+    start[j] = kept.size();
     std::sort(rows.begin() + count[j], rows.begin() + count[j + 1]);
     std::unique_copy(rows.begin() + count[j], rows.begin() + count[j + 1],
                      std::back_inserter(kept));
   }
-  start[n] = static_cast<int>(kept.size());
-  zero_.resizeNonZeros(static_cast<Eigen::Index>(kept.size()));
+  start[n] = kept.size();
+  zero_.resizeNonZeros(kept.size());
   std::copy(kept.begin(), kept.end(), zero_.innerIndexPtr());
   zero_.coeffs().setZero();
 
@@ -42,8 +42,7 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
         const int column = std::min(elements_[f][i], elements_[f][j]);
         const int* first = zero_.innerIndexPtr() + start[column];
         const int* last = zero_.innerIndexPtr() + start[column + 1];
-        position_[f][at++] =
-            static_cast<int>(std::lower_bound(first, last, row) - zero_.innerIndexPtr());
+        position_[f][at++] = std::lower_bound(first, last, row) - zero_.innerIndexPtr();
       }
   }
   structure_ = std::make_shared<const Elimination>(zero_, dissection(zero_, task));

@@ -23,7 +23,7 @@ class ElementMatrix {
   ElementMatrix(int n, std::vector<std::array<int, K>> elements, const Task& task);
 
   int n() const { return n_; }
-  int n_elements() const { return static_cast<int>(elements_.size()); }
+  int n_elements() const { return elements_.size(); }
   double nonzeros() const { return static_cast<double>(structure_->values()); }  // of a factor
   const std::shared_ptr<const Elimination>& structure() const { return structure_; }
 

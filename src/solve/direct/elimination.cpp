@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -52,7 +53,7 @@ Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<i
   });
   sums_to_begins(p.begin);
   sums_to_begins(p.row_begin);
-  p.to.resize(static_cast<std::size_t>(p.begin[n]));
+  p.to.resize(p.begin[n]);
   p.row_from.resize(p.to.size());
   std::vector<int> at = p.begin, row_at = p.row_begin;
   for_edges([&](int c, int r) {
@@ -63,7 +64,7 @@ Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<i
 }
 
 std::vector<int> elimination_tree(const Pattern& p, const Task& task) {
-  const int n = static_cast<int>(p.begin.size()) - 1;
+  const int n = int_size(p.begin) - 1;
   std::vector<int> parent(n, -1), ancestor(n, -1);
   for (int i = 0; i < n; ++i) {
     stop_now_and_then(i, task);
@@ -79,7 +80,7 @@ std::vector<int> elimination_tree(const Pattern& p, const Task& task) {
 
 /// Children before parents, every subtree in one run: post[k] is the k-th node.
 std::vector<int> postorder(const std::vector<int>& parent) {
-  const int n = static_cast<int>(parent.size());
+  const int n = parent.size();
   std::vector<int> child(n, -1), sibling(n, -1), post, stack;
   for (int i = n - 1; i >= 0; --i)
     if (parent[i] >= 0) sibling[i] = std::exchange(child[parent[i]], i);
@@ -104,7 +105,7 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 /// entries are the paths of the tree from the columns of its leaves up to the row (Gilbert, Ng,
 /// Peyton 1994).
 std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent, const Task& task) {
-  const int n = static_cast<int>(parent.size());
+  const int n = parent.size();
   std::vector<int> first(n, -1), last_leaf(n, -1), reach(n, -1), set(n), count(n, 0);
   std::iota(set.begin(), set.end(), 0);
   for (int j = 0; j < n; ++j) {
@@ -136,7 +137,7 @@ std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent,
 /// First columns of supernodes: columns of one structure, then neighbours on the tree joined where
 /// that adds few zeros.
 std::vector<int> supernodes(const std::vector<int>& parent, const std::vector<int>& count) {
-  const int n = static_cast<int>(parent.size());
+  const int n = parent.size();
   std::vector<int> children(n, 0), first;
   for (int j = 0; j < n; ++j)
     if (parent[j] >= 0) ++children[parent[j]];
@@ -179,7 +180,7 @@ std::vector<int> supernodes(const std::vector<int>& parent, const std::vector<in
 template <class Scalar>
 Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order,
                          const Task& task)
-    : n(static_cast<int>(lower.cols())), old_of(order), new_of(order.size()) {
+    : n(lower.cols()), old_of(order), new_of(order.size()) {
   auto invert = [&] {
     for (int k = 0; k < n; ++k) new_of[old_of[k]] = k;
   };
@@ -196,18 +197,18 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
     first = supernodes(tree, column_counts(p, tree, task));
     stop_if_cancelled(task);
     if (n == 0) first.assign(1, 0);
-    n_super = static_cast<int>(first.size()) - 1;
-    super_of.resize(static_cast<std::size_t>(n));
+    n_super = int_size(first) - 1;
+    super_of.resize(n);
     for (int s = 0; s < n_super; ++s)
       std::fill(super_of.begin() + first[s], super_of.begin() + first[s + 1], s);
     find_rows(p.begin, p.to, task);
   }
-  entry_begin.assign(static_cast<std::size_t>(n) + 1, 0);
+  entry_begin.assign(n + 1, 0);
   for (int j = 0; j < n; ++j)
     for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
       ++entry_begin[std::min(new_of[j], new_of[it.row()])];
   sums_to_begins(entry_begin);
-  entry_from.resize(static_cast<std::size_t>(entry_begin[n]));
+  entry_from.resize(entry_begin[n]);
   entry_row.resize(entry_from.size());
   std::vector<int> at = entry_begin;
   int e = 0;
@@ -217,11 +218,10 @@ Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Orderin
       const int a = new_of[j], b = new_of[it.row()], c = std::min(a, b), r = std::max(a, b);
       const int s = super_of[c];
       entry_from[at[c]] = b >= a ? e : ~e;
-      const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(rows_begin[s]);
-      const auto end = rows.begin() + static_cast<std::ptrdiff_t>(rows_begin[s + 1]);
+      const auto begin = rows.begin() + rows_begin[s];
+      const auto end = rows.begin() + rows_begin[s + 1];
       entry_row[at[c]++] =
-          r < first[s + 1] ? r - first[s]
-                           : columns(s) + static_cast<int>(std::lower_bound(begin, end, r) - begin);
+          r < first[s + 1] ? r - first[s] : columns(s) + (std::lower_bound(begin, end, r) - begin);
     }
   }
   stop_if_cancelled(task);
@@ -246,19 +246,18 @@ void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int
     for (int e = begin[first[s]]; e < begin[end]; ++e) add(to[e]);
     for (int c = last_child[s]; c >= 0; c = sibling[c])
       for (std::size_t r = rows_begin[c]; r < rows_begin[c + 1]; ++r) add(rows[r]);
-    std::sort(rows.begin() + static_cast<std::ptrdiff_t>(start), rows.end());
+    std::sort(rows.begin() + start, rows.end());
     rows_begin.push_back(rows.size());
-    values_begin.push_back(values_begin.back() + static_cast<std::size_t>(height(s)) *
-                                                     static_cast<std::size_t>(columns(s)));
+    values_begin.push_back(values_begin.back() + std::size_t(height(s)) * columns(s));
     if (rows.size() == start) continue;
     parent[s] = super_of[rows[start]];
     sibling[s] = std::exchange(last_child[parent[s]], s);
   }
-  child_begin.assign(static_cast<std::size_t>(n_super) + 1, 0);
+  child_begin.assign(n_super + 1, 0);
   for (int s = 0; s < n_super; ++s)
     if (parent[s] >= 0) ++child_begin[parent[s]];
   sums_to_begins(child_begin);
-  children.resize(static_cast<std::size_t>(child_begin[n_super]));
+  children.resize(child_begin[n_super]);
   std::vector<int> at = child_begin;
   for (int s = 0; s < n_super; ++s)
     if (parent[s] >= 0) children[at[parent[s]]++] = s;
@@ -274,7 +273,7 @@ void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int
         continue;
       }
       while (rows[k] != rows[r]) ++k;
-      at_parent[r] = columns(p) + static_cast<int>(k - rows_begin[p]);
+      at_parent[r] = columns(p) + (k - rows_begin[p]);
     }
   }
 }
@@ -318,8 +317,8 @@ void Elimination::cut_into_tasks() {
   target.resize(rows.size());
   for (int t = 0; t < n_tasks(); ++t) {
     const int root = task_parent[t];
-    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(rows_begin[root]);
-    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(rows_begin[root + 1]);
+    const auto begin = rows.begin() + rows_begin[root];
+    const auto end = rows.begin() + rows_begin[root + 1];
     for (std::size_t r = rows_begin[task_first[t]]; r < rows_begin[root + 1]; ++r)
       target[r] = rows[r] < first[root + 1]
                       ? rows[r]

@@ -43,10 +43,10 @@ struct Elimination {
                                  //   else ~(place among the rows of the task's last supernode)
 
   int columns(int s) const { return first[s + 1] - first[s]; }
-  int below(int s) const { return static_cast<int>(rows_begin[s + 1] - rows_begin[s]); }
+  int below(int s) const { return rows_begin[s + 1] - rows_begin[s]; }
   int height(int s) const { return columns(s) + below(s); }
   std::size_t values() const { return values_begin[n_super]; }
-  int n_tasks() const { return static_cast<int>(task_parent.size()); }
+  int n_tasks() const { return task_parent.size(); }
   double flops() const;  // multiply-adds of the factorization
 
  private:

@@ -15,14 +15,14 @@ using RowMap = Eigen::Map<Row>;
 }  // namespace
 
 MultiRhsCholesky::MultiRhsCholesky(const SpMat& lower, const Elimination& E) {
-  const auto n = static_cast<std::size_t>(E.n);
+  const std::size_t n = E.n;
   begin_.assign(n + 1, 0);
   for (int s = 0; s < E.n_super; ++s)
     for (int k = E.first[s]; k < E.first[s + 1]; ++k) {
       for (int i = k + 1; i < E.first[s + 1]; ++i) row_.push_back(i);
-      row_.insert(row_.end(), E.rows.begin() + static_cast<std::ptrdiff_t>(E.rows_begin[s]),
-                  E.rows.begin() + static_cast<std::ptrdiff_t>(E.rows_begin[s + 1]));
-      begin_[static_cast<std::size_t>(k) + 1] = row_.size();
+      row_.insert(row_.end(), E.rows.begin() + E.rows_begin[s],
+                  E.rows.begin() + E.rows_begin[s + 1]);
+      begin_[k + 1] = row_.size();
     }
   value_.assign(row_.size(), 0);
   inverse_.assign(n, 0);
@@ -31,29 +31,26 @@ MultiRhsCholesky::MultiRhsCholesky(const SpMat& lower, const Elimination& E) {
   std::vector<int> first_of(n, -1), next_of(n, -1);
   std::vector<std::size_t> at(n, 0);
   const auto wait = [&](int j) {
-    const auto c = static_cast<std::size_t>(j);
+    const std::size_t c = j;
     if (at[c] == begin_[c + 1]) return;
-    const auto row = static_cast<std::size_t>(row_[at[c]]);
+    const std::size_t row = row_[at[c]];
     next_of[c] = first_of[row];
     first_of[row] = j;
   };
   for (int k = 0; k < E.n; ++k) {
-    const auto c = static_cast<std::size_t>(k);
+    const std::size_t c = k;
     const int s = E.super_of[c], columns = E.columns(s);
     for (int e = E.entry_begin[c]; e < E.entry_begin[c + 1]; ++e) {
-      const int from = E.entry_from[static_cast<std::size_t>(e)],
-                place = E.entry_row[static_cast<std::size_t>(e)];
-      const int row = place < columns
-                          ? E.first[s] + place
-                          : E.rows[E.rows_begin[s] + static_cast<std::size_t>(place - columns)];
-      column[static_cast<std::size_t>(row)] += lower.valuePtr()[from >= 0 ? from : ~from];
+      const int from = E.entry_from[e], place = E.entry_row[e];
+      const int row =
+          place < columns ? E.first[s] + place : E.rows[E.rows_begin[s] + place - columns];
+      column[row] += lower.valuePtr()[from >= 0 ? from : ~from];
     }
     for (int j = first_of[c]; j >= 0;) {
-      const auto d = static_cast<std::size_t>(j);
+      const std::size_t d = j;
       const int following = next_of[d];
       const double f = value_[at[d]];
-      for (std::size_t e = at[d]; e < begin_[d + 1]; ++e)
-        column[static_cast<std::size_t>(row_[e])] -= f * value_[e];
+      for (std::size_t e = at[d]; e < begin_[d + 1]; ++e) column[row_[e]] -= f * value_[e];
       ++at[d];
       wait(j);
       j = following;
@@ -64,7 +61,7 @@ MultiRhsCholesky::MultiRhsCholesky(const SpMat& lower, const Elimination& E) {
     inverse_[c] = 1 / std::sqrt(column[c]);
     column[c] = 0;
     for (std::size_t e = begin_[c]; e < begin_[c + 1]; ++e) {
-      double& from = column[static_cast<std::size_t>(row_[e])];
+      double& from = column[row_[e]];
       value_[e] = from * inverse_[c];
       from = 0;
     }
@@ -72,7 +69,7 @@ MultiRhsCholesky::MultiRhsCholesky(const SpMat& lower, const Elimination& E) {
     wait(k);
   }
   pivot_ = E.old_of;
-  for (int& row : row_) row = E.old_of[static_cast<std::size_t>(row)];
+  for (int& row : row_) row = E.old_of[row];
 }
 
 void MultiRhsCholesky::solve(Strip& x) const {

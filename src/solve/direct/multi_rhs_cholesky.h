@@ -12,7 +12,7 @@ namespace littoral {
 
 constexpr Eigen::Index strip_width = 16;
 
-/// Sixteen columns, row by row.
+/// A strip of sixteen right-hand sides, row by row.
 template <class Number>
 using StripOf = Eigen::Matrix<Number, Eigen::Dynamic, strip_width, Eigen::RowMajor>;
 using Strip = StripOf<double>;

@@ -30,11 +30,11 @@ struct Graph {
 template <class Scalar>
 Graph graph_of(const Eigen::SparseMatrix<Scalar>& lower) {
   Graph g;
-  g.begin.assign(static_cast<std::size_t>(lower.cols()) + 1, 0);
+  g.begin.assign(lower.cols() + 1, 0);
   auto for_edges = [&](const auto& put) {
     for (int j = 0; j < lower.outerSize(); ++j)
       for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
-        if (it.row() != j) put(static_cast<int>(it.row()), j);
+        if (it.row() != j) put(it.row(), j);
   };
   for_edges([&](int i, int j) {
     ++g.begin[i];
@@ -42,7 +42,7 @@ Graph graph_of(const Eigen::SparseMatrix<Scalar>& lower) {
   });
   int sum = 0;
   for (int& b : g.begin) sum += std::exchange(b, sum);
-  g.to.resize(static_cast<std::size_t>(sum));
+  g.to.resize(sum);
   std::vector<int> at = g.begin;
   for_edges([&](int i, int j) {
     g.to[at[i]++] = j;
@@ -103,10 +103,9 @@ Ordering dissect(Graph& g) {
     throw SolveError("not enough memory to order a matrix of order " + std::to_string(n));
 #else
   // With its diagonal: Eigen puts every column without one at the end, as it does dense ones.
-  const Eigen::Index n = static_cast<Eigen::Index>(order.size());
+  const Eigen::Index n = order.size();
   const std::vector<double> ones(g.to.size(), 1.0);
-  SpMat full = Eigen::Map<const SpMat>(n, n, static_cast<Eigen::Index>(g.to.size()), g.begin.data(),
-                                       g.to.data(), ones.data());
+  SpMat full = Eigen::Map<const SpMat>(n, n, g.to.size(), g.begin.data(), g.to.data(), ones.data());
   SpMat I(n, n);
   I.setIdentity();
   full += I;
@@ -122,7 +121,7 @@ Ordering dissect(Graph& g) {
 template <class Scalar>
 Ordering dissection(const Eigen::SparseMatrix<Scalar>& lower, const Task& task) {
   if (lower.cols() < 3) {
-    Ordering order(static_cast<std::size_t>(lower.cols()));
+    Ordering order(lower.cols());
     std::iota(order.begin(), order.end(), 0);
     return order;
   }
@@ -134,10 +133,10 @@ Ordering dissection(const Eigen::SparseMatrix<Scalar>& lower, const Task& task) 
 }
 
 Ordering between_nodes(const Ordering& nodes_order, const Rows<int, 2>& nodes) {
-  const int n_nodes = static_cast<int>(nodes_order.size());
+  const int n_nodes = nodes_order.size();
   std::vector<int> position(nodes_order.size());
   for (int k = 0; k < n_nodes; ++k) position[nodes_order[k]] = k;
-  std::vector<int> begin(nodes_order.size() + 1, 0), first(static_cast<std::size_t>(nodes.rows()));
+  std::vector<int> begin(nodes_order.size() + 1, 0), first(nodes.rows());
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     first[i] = std::min(position[nodes(i, 0)], position[nodes(i, 1)]);
     ++begin[first[i]];
@@ -145,13 +144,13 @@ Ordering between_nodes(const Ordering& nodes_order, const Rows<int, 2>& nodes) {
   int sum = 0;
   for (int& b : begin) sum += std::exchange(b, sum);
   Ordering order(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) order[begin[first[i]]++] = static_cast<int>(i);
+  for (std::size_t i = 0; i < first.size(); ++i) order[begin[first[i]]++] = i;
   return order;
 }
 
 Ordering in_blocks(const Ordering& order, int block) {
   Ordering out;
-  out.reserve(order.size() * static_cast<std::size_t>(block));
+  out.reserve(order.size() * block);
   for (int i : order)
     for (int k = 0; k < block; ++k) out.push_back(i * block + k);
   return out;

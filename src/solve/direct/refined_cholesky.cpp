@@ -1,9 +1,8 @@
-#include "solve/direct/refined_cholesky.h"
-
 #include <limits>
 #include <utility>
 
 #include "littoral/error.h"
+#include "solve/direct/cholesky.h"
 
 namespace littoral {
 

@@ -1,9 +1,10 @@
-// One right-hand side on a narrow supernode: most of the time of a repeated solve. Four doubles at
+// One right-hand side on a small supernode: most of the time of a repeated solve. Four doubles at
 // once where the processor can, which is asked when the program runs.
 
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "base/index.h"
 #include "solve/direct/dense_kernels.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -34,7 +35,7 @@ void forward_top(int n, int height, const Scalar* block, Scalar* x) {
 
 template <class Scalar>
 void backward_top(int n, int height, const Scalar* block, Scalar* x) {
-  block += static_cast<std::ptrdiff_t>(n) * height;
+  block += index(n) * height;
   for (int j = n; j-- > 0;) {
     block -= height;
     Scalar sum = x[j];
@@ -110,7 +111,7 @@ LITTORAL_AVX2 void times(int m, int n, const Complex* A, int lda, const Complex*
   for (; i + 4 <= m; i += 4) {
     __m256d s = _mm256_setzero_pd(), s_im = s, t = s, t_im = s;
     const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * static_cast<std::ptrdiff_t>(lda)) {
+    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
       const __m256d re = _mm256_broadcast_sd(in + 2 * j), im = _mm256_broadcast_sd(in + 2 * j + 1);
       const __m256d u = _mm256_loadu_pd(a), v = _mm256_loadu_pd(a + 4);
       s = _mm256_fmadd_pd(u, re, s);
@@ -126,7 +127,7 @@ LITTORAL_AVX2 void times(int m, int n, const Complex* A, int lda, const Complex*
     const __m256i mask = first_of_four(2 * std::min(2, m - i));
     __m256d s = _mm256_setzero_pd(), s_im = s;
     const auto* a = reinterpret_cast<const double*>(A + i);
-    for (int j = 0; j < n; ++j, a += 2 * static_cast<std::ptrdiff_t>(lda)) {
+    for (int j = 0; j < n; ++j, a += 2 * index(lda)) {
       const __m256d u = _mm256_maskload_pd(a, mask);
       s = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j), s);
       s_im = _mm256_fmadd_pd(u, _mm256_broadcast_sd(in + 2 * j + 1), s_im);
@@ -189,7 +190,7 @@ LITTORAL_AVX2 void subtract_adjoint_of(int m, const Complex* A, std::ptrdiff_t l
 /// v := L^-* (v - A^* of what is below), the last of n columns first, v being `height` long.
 template <int columns, class Scalar>
 LITTORAL_AVX2 void backward_columns(int j, int height, const Scalar* block, Scalar* v) {
-  const Scalar* A = block + j + static_cast<std::ptrdiff_t>(j) * height;
+  const Scalar* A = block + j + index(j) * height;
   subtract_adjoint_of<columns>(height - j - columns, A + columns, height, v + j + columns, v + j);
   backward_top(columns, height, A, v + j);
 }
@@ -207,7 +208,7 @@ LITTORAL_AVX2 void backward(int n, int height, const Scalar* block, Scalar* v) {
 }  // namespace
 
 template <class Scalar>
-void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
+void forward_small(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
   forward_top(n, height, block, x);
 #ifdef LITTORAL_AVX2
   if (has_avx2()) return times(height - n, n, block + n, height, x, y);
@@ -216,7 +217,7 @@ void forward_narrow(int n, int height, const Scalar* block, Scalar* x, Scalar* y
 }
 
 template <class Scalar>
-void backward_narrow(int n, int height, const Scalar* block, Scalar* v) {
+void backward_small(int n, int height, const Scalar* block, Scalar* v) {
 #ifdef LITTORAL_AVX2
   if (has_avx2()) return backward(n, height, block, v);
 #endif
@@ -224,9 +225,9 @@ void backward_narrow(int n, int height, const Scalar* block, Scalar* v) {
   backward_top(n, height, block, v);
 }
 
-template void forward_narrow(int, int, const double*, double*, double*);
-template void forward_narrow(int, int, const Complex*, Complex*, Complex*);
-template void backward_narrow(int, int, const double*, double*);
-template void backward_narrow(int, int, const Complex*, Complex*);
+template void forward_small(int, int, const double*, double*, double*);
+template void forward_small(int, int, const Complex*, Complex*, Complex*);
+template void backward_small(int, int, const double*, double*);
+template void backward_small(int, int, const Complex*, Complex*);
 
 }  // namespace littoral::dense

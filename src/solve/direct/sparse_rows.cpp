@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 
@@ -42,8 +43,7 @@ SpRows full_rows(const SpMat& lower) {
     for (SpMat::InnerIterator it(lower, j); it; ++it)
       if (it.row() != j) put(it.row(), j, it.value());
   for (int j = 0; j < n; ++j)
-    for (SpMat::InnerIterator it(lower, j); it; ++it)
-      put(j, static_cast<int>(it.row()), it.value());
+    for (SpMat::InnerIterator it(lower, j); it; ++it) put(j, it.row(), it.value());
   return A;
 }
 
@@ -53,18 +53,18 @@ void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   const int* to = A.innerIndexPtr();
   const double* a = A.valuePtr();
   const double* from = x.data();
-  parallel_for(static_cast<std::size_t>(A.rows()), row_grain, [&](std::size_t i, std::size_t end) {
+  parallel_for(A.rows(), row_grain, [&](std::size_t i, std::size_t end) {
     if (task.cancelled()) throw Cancelled();
     for (; i < end; ++i) {
       double sum = 0;
       for (int e = begin[i]; e < begin[i + 1]; ++e) sum += a[e] * from[to[e]];
-      y[static_cast<Eigen::Index>(i)] = sum;
+      y[i] = sum;
     }
   });
 }
 
 SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
-  const auto n = static_cast<std::size_t>(A.rows());
+  const std::size_t n = A.rows();
   // Pieces of rows, each with a marker of its own over the columns of B.
   const std::size_t grain = std::max<std::size_t>(row_grain, (n + 31) / 32);
   struct Piece {
@@ -77,24 +77,24 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
   begin[0] = 0;
   parallel_for(n, grain, [&](std::size_t first, std::size_t end) {
     Piece& piece = pieces[first / grain];
-    std::vector<int> place(static_cast<std::size_t>(B.cols()), -1);
+    std::vector<int> place(B.cols(), -1);
     for (std::size_t i = first; i < end; ++i) {
       if (i % 4096 == 0 && task.cancelled()) throw Cancelled();
-      const auto start = static_cast<int>(piece.to.size());
+      const int start = piece.to.size();
       for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
         const int k = A.innerIndexPtr()[e];
         const double a = A.valuePtr()[e];
         for (int g = B.outerIndexPtr()[k]; g < B.outerIndexPtr()[k + 1]; ++g) {
           int& at = place[B.innerIndexPtr()[g]];
           if (at < start) {
-            at = static_cast<int>(piece.to.size());
+            at = piece.to.size();
             piece.to.push_back(B.innerIndexPtr()[g]);
             piece.value.push_back(0);
           }
           piece.value[at] += a * B.valuePtr()[g];
         }
       }
-      begin[i + 1] = static_cast<int>(piece.to.size()) - start;
+      begin[i + 1] = int_size(piece.to) - start;
     }
   });
   counts_to_begins(begin, C.rows());

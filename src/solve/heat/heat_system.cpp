@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/index.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
 
@@ -24,7 +25,7 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
   std::vector<Eigen::Triplet<Scalar>> entries;
   for (int j = 0; j < lower.outerSize(); ++j)
     for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
-      entries.emplace_back(static_cast<int>(it.row()) / block, j / block, it.value());
+      entries.emplace_back(it.row() / block, j / block, it.value());
   const Eigen::Index n = lower.cols() / block;
   Eigen::SparseMatrix<Scalar> blocks(n, n);
   blocks.setFromTriplets(entries.begin(), entries.end());
@@ -34,17 +35,16 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
 }  // namespace
 
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint expect,
-                               const Task& task, Ordering order)
+HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint hint, const Task& task,
+                               Ordering order)
     : A_(std::make_shared<const Matrix>(std::move(lower))),
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
-  if (A_->rows() > (expect == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
+  if (A_->rows() > (hint == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
     return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
-  const std::size_t limit =
-      expect == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
+  const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
 }
 
@@ -59,15 +59,14 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector
   std::vector<double> largest;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0) continue;
-    if (piece[i] >= static_cast<int>(largest.size())) largest.resize(piece[i] + 1, 0.0);
-    largest[piece[i]] =
-        std::max(largest[piece[i]], block_magnitude(b, static_cast<Eigen::Index>(i), block_));
+    if (piece[i] >= int_size(largest)) largest.resize(piece[i] + 1, 0.0);
+    largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, i, block_));
   }
   Vector r = Vector::Zero(b.size());
   std::vector<int> reached(piece.size(), -1);
   for (std::size_t i = 0; i < piece.size(); ++i) {
     if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
-    const auto at = static_cast<Eigen::Index>(i) * block_;
+    const auto at = index(i) * block_;
     r.segment(at, block_) = b.segment(at, block_) / largest[piece[i]];
     reached[i] = piece[i];
   }
@@ -79,10 +78,10 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector
 }
 
 template <class Scalar>
-ScaledField<Scalar> HeatSystem<Scalar>::solve_held(const Vector& held,
-                                                   const std::vector<int>& piece, const Task& task,
-                                                   Report& report) const {
-  return solve(windows_.source_that_holds(held, task), piece, task, report);
+ScaledField<Scalar> HeatSystem<Scalar>::solve_prescribed(const Vector& values,
+                                                         const std::vector<int>& piece,
+                                                         const Task& task, Report& report) const {
+  return solve(windows_.source_prescribing(values, task), piece, task, report);
 }
 
 template <class Scalar>
@@ -90,13 +89,12 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
                                                         const std::vector<int>& piece,
                                                         const Task& task, Report& report) const {
   const Eigen::Index n = r.size() / block_;
-  ScaledField<Scalar> field{
-      Vector::Zero(r.size()), std::vector<int>(static_cast<std::size_t>(n), -1), {1.0}};
+  ScaledField<Scalar> field{Vector::Zero(r.size()), std::vector<int>(n, -1), {1.0}};
   Eigen::Index left = n - std::count(piece.begin(), piece.end(), -1);
 
   int passes = 0;
   constexpr char older = 0, outside = 1, fresh = 2;  // unknowns of earlier layers, none, this one
-  std::vector<char> side(static_cast<std::size_t>(r.size()), outside);
+  std::vector<char> side(r.size(), outside);
   while (left > 0) {
     task.checkpoint();
     const int p = passes++;  // side: all outside or older

@@ -17,9 +17,9 @@ namespace littoral {
 /// What a system is built for: many solves are worth a large factorization, one is not.
 enum class SolveHint { single_rhs, many_rhs };
 
-inline PoissonSolver solver_for(SolveHint expect) {
-  return expect == SolveHint::single_rhs ? PoissonSolver::automatic_for_one_solve
-                                         : PoissonSolver::automatic;
+inline PoissonSolver solver_for(SolveHint hint) {
+  return hint == SolveHint::single_rhs ? PoissonSolver::automatic_for_one_solve
+                                       : PoissonSolver::automatic;
 }
 
 /// A positive definite matrix whose inverse decays exponentially; immutable.
@@ -33,7 +33,7 @@ class HeatSystem {
   /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
   /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
   /// solves, .4 GB for one.
-  HeatSystem(Matrix lower, int block, VecX size, SolveHint expect, const Task& task,
+  HeatSystem(Matrix lower, int block, VecX size, SolveHint hint, const Task& task,
              Ordering order = {});
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
@@ -44,9 +44,10 @@ class HeatSystem {
   ScaledField<Scalar> solve(const Vector& b, const std::vector<int>& piece, const Task& task,
                             Report& report) const;
 
-  /// The same with x held at `held` on the blocks where that is not zero, and b = 0 elsewhere.
-  ScaledField<Scalar> solve_held(const Vector& held, const std::vector<int>& piece,
-                                 const Task& task, Report& report) const;
+  /// The same with x prescribed as `values` on the blocks where that is not zero, and b = 0
+  /// elsewhere.
+  ScaledField<Scalar> solve_prescribed(const Vector& values, const std::vector<int>& piece,
+                                       const Task& task, Report& report) const;
 
   double nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }  // 0 without a factor
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
@@ -17,7 +18,8 @@ constexpr double window = 50;            // decay lengths kept of every window
 constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
                                          // arrives at what is kept exp(-2 * overlap) times smaller
 constexpr double longest_overlap = 120;
-constexpr double around_held = 18;  // what lies beyond does not change a source that holds values
+constexpr double around_prescribed =
+    18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The same with several layers made one where the range of numbers allows it.
@@ -33,12 +35,12 @@ ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
     } else {
       unit.push_back(unit.back() * s);
     }
-    layer.push_back(static_cast<int>(scale.size()) - 1);
+    layer.push_back(int_size(scale) - 1);
   }
   for (std::size_t i = 0; i < field.layer.size(); ++i) {
     int& p = field.layer[i];
     if (p < 0) continue;
-    field.x.segment(static_cast<Eigen::Index>(i) * block, block) *= unit[p];
+    field.x.segment(index(i) * block, block) *= unit[p];
     p = layer[p];
   }
   field.scale = std::move(scale);
@@ -53,12 +55,11 @@ template <class Scalar>
 HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size,
                                  const Ordering& order)
     : A_(std::move(lower)), block_(block), size_(std::move(size)), position_(order.size()) {
-  for (std::size_t k = 0; k < order.size(); ++k) position_[order[k]] = static_cast<int>(k);
+  for (std::size_t k = 0; k < order.size(); ++k) position_[order[k]] = k;
   auto for_edges = [&](const auto& put) {
     for (int j = 0; j < A_->outerSize(); j += block_)  // the first unknown's column names them all
       for (typename Matrix::InnerIterator it(*A_, j); it; ++it)
-        if (it.row() % block_ == 0 && it.row() != j)
-          put(static_cast<int>(it.row()) / block_, j / block_);
+        if (it.row() % block_ == 0 && it.row() != j) put(it.row() / block_, j / block_);
   };
   begin_.assign(order.size() + 1, 0);
   for_edges([&](int i, int j) {
@@ -67,7 +68,7 @@ HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block,
   });
   int sum = 0;
   for (int& b : begin_) sum += std::exchange(b, sum);
-  to_.resize(static_cast<std::size_t>(sum));
+  to_.resize(sum);
   std::vector<int> at = begin_;
   for_edges([&](int i, int j) {
     to_[at[i]++] = j;
@@ -95,7 +96,7 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
         const double next = at + 2 * std::asinh(0.25 * (size_[i] + size_[j]) + 1e-3);
         if (!(next < d[j])) continue;
         d[j] = next;
-        const auto bucket = static_cast<std::size_t>(next);
+        const std::size_t bucket = next;
         if (bucket >= buckets.size()) buckets.resize(bucket + 1);
         buckets[bucket].emplace_back(next, j);
       }
@@ -111,7 +112,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
     std::vector<int>& local, const Task& task) const {
   // Columns that hold entries of these rows: their own and those of known neighbours.
   std::vector<int> columns = blocks;
-  for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = static_cast<int>(k);
+  for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = k;
   std::vector<int> neighbours;
   for (int i : blocks)
     for (int e = begin_[i]; e < begin_[i + 1]; ++e)
@@ -120,13 +121,13 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
   columns.insert(columns.end(), neighbours.begin(), neighbours.end());
 
-  const auto n = static_cast<Eigen::Index>(blocks.size()) * block_;
+  const auto n = index(blocks.size()) * block_;
   Matrix K(n, n);
   auto for_entries = [&](const auto& put) {
     for (int block_column : columns)
       for (int j = block_column * block_; j < (block_column + 1) * block_; ++j)
         for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
-          const int i = static_cast<int>(it.row()), li = local[i / block_], lj = local[j / block_];
+          const int i = it.row(), li = local[i / block_], lj = local[j / block_];
           const int a = li < 0 ? -1 : li * block_ + i % block_;
           const int b = lj < 0 ? -1 : lj * block_ + j % block_;
           put(i, j, a, b, it.value());
@@ -150,7 +151,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
     K.valuePtr()[e] = a >= b ? z : Eigen::numext::conj(z);
   });
   for (int i : blocks) local[i] = -1;
-  Ordering in_order(static_cast<std::size_t>(n));
+  Ordering in_order(n);
   std::iota(in_order.begin(), in_order.end(), 0);
   return Cholesky<Scalar>(K, task, in_order).solve(r);
 }
@@ -161,7 +162,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
                                                               const Task& task,
                                                               Report& report) const {
   const FlushSubnormals flush;
-  const auto n = static_cast<int>(position_.size());
+  const int n = position_.size();
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
     if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
@@ -181,7 +182,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     const double error = misfit(*field, b, task);
     if (best && !(error < 0.1 * least)) break;  // round-off
     if (!(error < least)) continue;
-    best_windows = static_cast<int>(field->scale.size());
+    best_windows = field->scale.size();
     best = std::move(field);
     least = error;
     if (error < 1e-13) break;
@@ -209,15 +210,13 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     while (kept < order.size() && d[order[kept]] <= reach) ++kept;
     for (end = kept; end < order.size() && d[order[end]] <= reach + overlap;) ++end;
     if (kept == start) return std::nullopt;  // steps longer than a window
-    std::vector<int> blocks(order.begin() + static_cast<std::ptrdiff_t>(start),
-                            order.begin() + static_cast<std::ptrdiff_t>(end));
+    std::vector<int> blocks(order.begin() + start, order.begin() + end);
     std::sort(blocks.begin(), blocks.end(),
               [&](int i, int j) { return position_[i] < position_[j]; });
-    Vector r = Vector::Zero(static_cast<Eigen::Index>(blocks.size()) * block_);
+    Vector r = Vector::Zero(index(blocks.size()) * block_);
     if (windows == 0)
       for (std::size_t k = 0; k < blocks.size(); ++k)
-        r.segment(static_cast<Eigen::Index>(k) * block_, block_) =
-            b.segment(Eigen::Index(blocks[k]) * block_, block_);
+        r.segment(index(k) * block_, block_) = b.segment(Eigen::Index(blocks[k]) * block_, block_);
     const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
     double top = 0;
     for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k)
@@ -275,30 +274,28 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
 }
 
 template <class Scalar>
-typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
-    const Vector& held, const Task& task) const {
+typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
+    const Vector& values, const Task& task) const {
   const FlushSubnormals flush;
-  const auto n = static_cast<int>(position_.size());
+  const int n = position_.size();
   std::vector<char> known(position_.size(), 0);
   std::vector<int> from, blocks, local(position_.size(), -1);
   for (int i = 0; i < n; ++i)
-    if (block_magnitude(held, i, block_) > 0) {
+    if (block_magnitude(values, i, block_) > 0) {
       known[i] = 1;
       from.push_back(i);
     }
-  const std::vector<double> d = distances(from, around_held, task);
+  const std::vector<double> d = distances(from, around_prescribed, task);
   for (int i = 0; i < n; ++i)
-    if (!known[i] && d[i] <= around_held) blocks.push_back(i);
+    if (!known[i] && d[i] <= around_prescribed) blocks.push_back(i);
   std::sort(blocks.begin(), blocks.end(),
             [&](int i, int j) { return position_[i] < position_[j]; });
-  Vector x = held;
+  Vector x = values;
   const Vector z =
-      solve_region(blocks, known, held,
-                   Vector::Zero(static_cast<Eigen::Index>(blocks.size()) * block_), local, task);
+      solve_region(blocks, known, values, Vector::Zero(index(blocks.size()) * block_), local, task);
   for (std::size_t k = 0; k < blocks.size(); ++k)
-    x.segment(Eigen::Index(blocks[k]) * block_, block_) =
-        z.segment(static_cast<Eigen::Index>(k) * block_, block_);
-  // b = A x in the rows of held blocks, whose entries are in their own columns and their
+    x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(index(k) * block_, block_);
+  // b = A x in the rows of prescribed blocks, whose entries are in their own columns and their
   // neighbours'.
   std::vector<int> columns = from;
   for (int i : from)
@@ -306,7 +303,7 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_that_holds(
       if (!known[to_[e]]) columns.push_back(to_[e]);
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  Vector b = Vector::Zero(held.size());
+  Vector b = Vector::Zero(values.size());
   for (int c : columns)
     for (int j = c * block_; j < (c + 1) * block_; ++j)
       for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {

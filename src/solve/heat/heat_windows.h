@@ -36,9 +36,9 @@ class HeatWindows {
   std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
                                            const Task& task, Report& report) const;
 
-  /// The b, zero where nothing is held, for which A x = b has x = held on the blocks where that is
-  /// not zero: found next to these, as x decays away from them.
-  Vector source_that_holds(const Vector& held, const Task& task) const;
+  /// The b, zero where nothing is prescribed, for which A x = b has x = values on the blocks where
+  /// that is not zero: found next to these, as x decays away from them.
+  Vector source_prescribing(const Vector& values, const Task& task) const;
 
  private:
   std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;

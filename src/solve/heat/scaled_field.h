@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/index.h"
 #include "littoral/types.h"
 
 namespace littoral {
@@ -21,10 +22,9 @@ struct ScaledField {
   /// The entries of layer p, in its units; 0 elsewhere.
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> in_layer(int p) const {
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> y = decltype(y)::Zero(x.size());
-    const auto block =
-        x.size() / std::max<Eigen::Index>(1, static_cast<Eigen::Index>(layer.size()));
+    const auto block = x.size() / std::max<Eigen::Index>(1, index(layer.size()));
     for (std::size_t i = 0; i < layer.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i) * block;
+      const auto at = index(i) * block;
       if (layer[i] == p) y.segment(at, block) = x.segment(at, block);
     }
     return y;

@@ -1,8 +1,8 @@
-#include "solve/multigrid/aggregation.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "solve/multigrid/multigrid.h"
 
 namespace littoral {
 
@@ -11,7 +11,7 @@ namespace {
 /// Which entries of A are strong couplings.
 std::vector<char> strong_couplings(const SpRows& A, double strength) {
   const VecX d = A.diagonal();
-  std::vector<char> strong(static_cast<std::size_t>(A.nonZeros()), 0);
+  std::vector<char> strong(A.nonZeros(), 0);
   for (int i = 0; i < A.rows(); ++i)
     for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
       const int j = A.innerIndexPtr()[e];
@@ -23,10 +23,10 @@ std::vector<char> strong_couplings(const SpRows& A, double strength) {
 /// Group of each unknown, -1 for those that are coupled to nothing; returns the number of groups.
 int find_groups(const SpRows& A, const std::vector<char>& strong, std::vector<int>& group,
                 const Task& task) {
-  const int n = static_cast<int>(A.rows());
+  const int n = A.rows();
   const int* begin = A.outerIndexPtr();
   const int* to = A.innerIndexPtr();
-  group.assign(static_cast<std::size_t>(n), -1);
+  group.assign(n, -1);
   int n_groups = 0;
   auto checked = [&](int i) {
     if (i % 65536 == 0) task.checkpoint();
@@ -93,14 +93,14 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
   // P = (1 - damping D^-1 A') P0, A' = A with weak couplings added to the diagonal D.
   std::vector<int> begin(1, 0), columns;
   std::vector<double> values;
-  begin.reserve(static_cast<std::size_t>(A.rows()) + 1);
-  std::vector<int> place(static_cast<std::size_t>(n_groups), -1);
+  begin.reserve(A.rows() + 1);
+  std::vector<int> place(n_groups, -1);
   for (int i = 0; i < A.rows(); ++i) {
     if (i % 65536 == 0) task.checkpoint();
-    const auto start = static_cast<int>(columns.size());
+    const int start = columns.size();
     auto at_group = [&](int g) -> double& {
       if (place[g] < start) {
-        place[g] = static_cast<int>(columns.size());
+        place[g] = columns.size();
         columns.push_back(g);
         values.push_back(0);
       }
@@ -120,11 +120,11 @@ SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task) 
       for (std::size_t k = start; k < values.size(); ++k) values[k] *= scale;
       at_group(group[i]) += D > 0 ? 1 - damping : 1;
     }
-    begin.push_back(static_cast<int>(columns.size()));
+    begin.push_back(columns.size());
   }
   // Copied as they are: Eigen wants columns ascending where it copies.
   SpRows P(A.rows(), n_groups);
-  P.resizeNonZeros(static_cast<Eigen::Index>(columns.size()));
+  P.resizeNonZeros(columns.size());
   std::copy(begin.begin(), begin.end(), P.outerIndexPtr());
   std::copy(columns.begin(), columns.end(), P.innerIndexPtr());
   std::copy(values.begin(), values.end(), P.valuePtr());

@@ -14,7 +14,7 @@ constexpr int max_iterations = 500;
 
 /// The unknowns within some steps of the given ones, ascending.
 std::vector<int> around(const SpRows& A, const std::vector<int>& from, int steps) {
-  std::vector<char> seen(static_cast<std::size_t>(A.rows()), 0);
+  std::vector<char> seen(A.rows(), 0);
   std::vector<int> out = from;
   for (int i : out) seen[i] = 1;
   for (std::size_t begin = 0; steps-- > 0;) {
@@ -23,7 +23,7 @@ std::vector<int> around(const SpRows& A, const std::vector<int>& from, int steps
       for (SpRows::InnerIterator it(A, out[begin]); it; ++it)
         if (!seen[it.col()]) {
           seen[it.col()] = 1;
-          out.push_back(static_cast<int>(it.col()));
+          out.push_back(it.col());
         }
   }
   std::sort(out.begin(), out.end());
@@ -31,9 +31,9 @@ std::vector<int> around(const SpRows& A, const std::vector<int>& from, int steps
 }
 
 SpMat lower_block(const SpRows& A, const std::vector<int>& unknowns) {
-  std::vector<int> local(static_cast<std::size_t>(A.rows()), -1);
-  for (std::size_t k = 0; k < unknowns.size(); ++k) local[unknowns[k]] = static_cast<int>(k);
-  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  std::vector<int> local(A.rows(), -1);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) local[unknowns[k]] = k;
+  const Eigen::Index n = unknowns.size();
   Triplets entries;
   for (int i : unknowns)
     for (SpRows::InnerIterator it(A, i); it && it.col() <= i; ++it)
@@ -59,16 +59,15 @@ double BandedMultigrid::nonzeros() const {
 
 void BandedMultigrid::add_in_band(const VecX& r, VecX& x) const {
   const VecX dx = band_factor_->solve(r);
-  for (std::size_t k = 0; k < band_.size(); ++k) x[band_[k]] += dx[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < band_.size(); ++k) x[band_[k]] += dx[k];
 }
 
 VecX BandedMultigrid::precondition(const VecX& b, const Task& task) const {
   if (band_.empty()) return multigrid_.cycle(b, task);
   const SpRows& A = multigrid_.matrix();
   VecX x = VecX::Zero(b.size()), r = b;
-  VecX in_band(static_cast<Eigen::Index>(band_.size()));
-  for (std::size_t k = 0; k < band_.size(); ++k)
-    in_band[static_cast<Eigen::Index>(k)] = b[band_[k]];
+  VecX in_band(band_.size());
+  for (std::size_t k = 0; k < band_.size(); ++k) in_band[k] = b[band_[k]];
   add_in_band(in_band, x);
   for (int i : band_)
     for (SpRows::InnerIterator it(A, i); it; ++it) r[it.col()] -= it.value() * x[i];
@@ -76,7 +75,7 @@ VecX BandedMultigrid::precondition(const VecX& b, const Task& task) const {
   for (std::size_t k = 0; k < band_.size(); ++k) {
     double sum = b[band_[k]];
     for (SpRows::InnerIterator it(A, band_[k]); it; ++it) sum -= it.value() * x[it.col()];
-    in_band[static_cast<Eigen::Index>(k)] = sum;
+    in_band[k] = sum;
   }
   add_in_band(in_band, x);
   return x;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/parallel.h"
 
 namespace littoral {
@@ -59,8 +60,8 @@ void transform_rows(const Matrix<S>& even, const Matrix<S>& odd, bool forward, S
 template <class S>
 CosineTransform<S>::CosineTransform(std::array<int, 3> n) {
   for (int a = 0; a < 3; ++a) {
-    Axis& axis = axes_[static_cast<std::size_t>(a)];
-    axis.n = n[static_cast<std::size_t>(a)];
+    Axis& axis = axes_[a];
+    axis.n = n[a];
     const int m = (axis.n + 1) / 2, o = axis.n / 2;
     const auto cosine = [&](int k, int j) {
       // The angle is reduced first: k (2 j + 1) may be large.
@@ -80,7 +81,7 @@ CosineTransform<S>::CosineTransform(std::array<int, 3> n) {
 template <class S>
 std::vector<int> CosineTransform<S>::frequencies(int axis) const {
   std::vector<int> out;
-  const int n = axes_[static_cast<std::size_t>(axis)].n;
+  const int n = axes_[axis].n;
   for (int k = 0; k < n; k += 2) out.push_back(k);
   for (int k = 1; k < n; k += 2) out.push_back(k);
   return out;
@@ -88,18 +89,18 @@ std::vector<int> CosineTransform<S>::frequencies(int axis) const {
 
 template <class S>
 void CosineTransform<S>::transform(Vector& v, int axis, bool forward, const Task& task) const {
-  const auto& [n, even, odd] = axes_[static_cast<std::size_t>(axis)];
+  const auto& [n, even, odd] = axes_[axis];
   if (n == 1) return;
   Eigen::Index stride = 1;
-  for (int a = 0; a < axis; ++a) stride *= axes_[static_cast<std::size_t>(a)].n;
+  for (int a = 0; a < axis; ++a) stride *= axes_[a].n;
   // Columns of n entries where the axis runs fastest; elsewhere, in each slab of stride x n
   // entries, rows.
   if (axis == 0) {
     const Eigen::Index lines = v.size() / n;
-    const auto pieces = static_cast<std::size_t>((lines + columns_at_once - 1) / columns_at_once);
+    const std::size_t pieces = (lines + columns_at_once - 1) / columns_at_once;
     parallel_for(pieces, 1, [&, n = n, &even = even, &odd = odd](std::size_t p, std::size_t) {
       task.checkpoint();
-      const Eigen::Index first = static_cast<Eigen::Index>(p) * columns_at_once;
+      const Eigen::Index first = index(p) * columns_at_once;
       const Eigen::Index count = std::min(columns_at_once, lines - first);
       transform_columns<S>(even, odd, forward,
                            Strided<S>(v.data() + first * n, n, count, Eigen::OuterStride<>(n)));
@@ -108,16 +109,15 @@ void CosineTransform<S>::transform(Vector& v, int axis, bool forward, const Task
   }
   const Eigen::Index slabs = v.size() / (stride * n);
   const Eigen::Index blocks = (stride + columns_at_once - 1) / columns_at_once;
-  parallel_for(static_cast<std::size_t>(slabs * blocks), 1,
-               [&, n = n, &even = even, &odd = odd](std::size_t p, std::size_t) {
-                 task.checkpoint();
-                 const Eigen::Index slab = static_cast<Eigen::Index>(p) / blocks;
-                 const Eigen::Index first = static_cast<Eigen::Index>(p) % blocks * columns_at_once;
-                 const Eigen::Index count = std::min(columns_at_once, stride - first);
-                 transform_rows<S>(even, odd, forward,
-                                   Strided<S>(v.data() + slab * stride * n + first, count, n,
-                                              Eigen::OuterStride<>(stride)));
-               });
+  parallel_for(slabs * blocks, 1, [&, n = n, &even = even, &odd = odd](std::size_t p, std::size_t) {
+    task.checkpoint();
+    const Eigen::Index slab = index(p) / blocks;
+    const Eigen::Index first = index(p) % blocks * columns_at_once;
+    const Eigen::Index count = std::min(columns_at_once, stride - first);
+    transform_rows<S>(
+        even, odd, forward,
+        Strided<S>(v.data() + slab * stride * n + first, count, n, Eigen::OuterStride<>(stride)));
+  });
 }
 
 template <class S>
@@ -133,11 +133,11 @@ void CosineTransform<S>::backward(Vector& coefficients, const Task& task) const 
 template <class S>
 GridPoisson<S>::GridPoisson(std::array<int, 3> n, const Vec3& spacing) : cosine_(n), n_(n) {
   for (int a = 0; a < 3; ++a) {
-    const auto s = static_cast<std::size_t>(a);
+    const std::size_t s = a;
     eigenvalues_[s].resize(n[s]);
     const std::vector<int> frequencies = cosine_.frequencies(a);
     for (int i = 0; i < n[s]; ++i) {
-      const double sine = std::sin(M_PI * frequencies[static_cast<std::size_t>(i)] / (2.0 * n[s]));
+      const double sine = std::sin(M_PI * frequencies[i] / (2.0 * n[s]));
       eigenvalues_[s][i] = static_cast<S>(4 * sine * sine / (spacing[a] * spacing[a]));
     }
   }
@@ -147,8 +147,8 @@ template <class S>
 void GridPoisson<S>::solve(Vector& b, const Task& task) const {
   cosine_.forward(b, task);
   const Eigen::Index nx = n_[0], ny = n_[1];
-  parallel_for(static_cast<std::size_t>(n_[2]), 4, [&](std::size_t begin, std::size_t end) {
-    for (auto k = static_cast<Eigen::Index>(begin); k < static_cast<Eigen::Index>(end); ++k)
+  parallel_for(n_[2], 4, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index k = begin; k < index(end); ++k)
       for (Eigen::Index j = 0; j < ny; ++j) {
         const S yz = eigenvalues_[1][j] + eigenvalues_[2][k];
         b.segment((k * ny + j) * nx, nx).array() /= eigenvalues_[0].array() + yz;

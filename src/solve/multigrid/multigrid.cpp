@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
-#include "solve/multigrid/aggregation.h"
 
 namespace littoral {
 
@@ -31,7 +31,7 @@ SpMat lower_triangle(const SpRows& A) {
   Triplets entries;
   for (int i = 0; i < A.rows(); ++i)
     for (SpRows::InnerIterator it(A, i); it; ++it)
-      if (it.col() <= i) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      if (it.col() <= i) entries.emplace_back(i, it.col(), it.value());
   SpMat lower(A.rows(), A.cols());
   lower.setFromTriplets(entries.begin(), entries.end());
   return lower;
@@ -92,14 +92,13 @@ void Multigrid::smooth(const Level& level, const VecX& b, VecX& x, bool from_zer
     const double keep = k == 0 ? 0 : rho_next * rho;
     const double step = k == 0 ? 1 / middle : 2 * rho_next / half;
     rho = rho_next;
-    parallel_for(
-        static_cast<std::size_t>(b.size()), grain, [&](std::size_t begin, std::size_t end) {
-          for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
-            const double r = level.inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
-            d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
-            x[i] = zero ? d[i] : x[i] + d[i];
-          }
-        });
+    parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index i = begin; i < index(end); ++i) {
+        const double r = level.inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
+        d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
+        x[i] = zero ? d[i] : x[i] + d[i];
+      }
+    });
   }
 }
 

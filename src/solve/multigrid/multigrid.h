@@ -42,4 +42,9 @@ class Multigrid {
 /// The factor of a matrix or, where that is numerically singular, of one lifted on the diagonal.
 std::shared_ptr<const Cholesky<double>> factor_for_preconditioning(SpMat lower, const Task& task);
 
+/// Piecewise constant functions on groups of strongly coupled unknowns (-A_ij > strength
+/// sqrt(A_ii A_jj)), smoothed by a step of damped Jacobi on the strong couplings: unknowns x
+/// groups. Rows of unknowns that are coupled to nothing are empty.
+SpRows smoothed_aggregation(const SpRows& A, double strength, const Task& task);
+
 }  // namespace littoral

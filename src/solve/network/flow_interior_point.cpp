@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 #include "solve/network/spanning_tree.h"
@@ -37,7 +38,7 @@ class Method {
         add(e, -1, {problem.g[e], problem.f[e], (c - problem.lo[e]) / unit_c_, 0});
     }
     make_laplacian();
-    m_ = static_cast<Eigen::Index>(columns_.size());
+    m_ = index(columns_.size());
   }
 
   InteriorPoint run(double tolerance, const Task& task) {
@@ -73,7 +74,7 @@ class Method {
     return s[columns_[k].f] - s[columns_[k].g];
   }
 
-  /// Pattern and positions of A Theta^-1 A^T, one node of every part held.
+  /// Pattern and positions of A Theta^-1 A^T, one node of every part fixed.
   void make_laplacian() {
     std::vector<int> f, g, order(columns_.size());
     for (const Column& column : columns_) {
@@ -124,7 +125,7 @@ class Method {
     return true;
   }
 
-  /// A q: what the columns' flow brings out of every node that is not held.
+  /// A q: what the columns' flow brings out of every node that is not fixed.
   VecX out_of_nodes(const VecX& q) const {
     VecX out = VecX::Zero(problem_.n);
     for (Eigen::Index k = 0; k < m_; ++k) {

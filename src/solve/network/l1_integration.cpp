@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "solve/network/flow_interior_point.h"
 #include "solve/network/network_simplex.h"
@@ -17,13 +18,13 @@ namespace {
 constexpr int simplex_alone = 15000;  // nodes
 
 void check(const L1Integration& p) {
-  const auto m = static_cast<std::size_t>(p.c.size());
+  const std::size_t m = p.c.size();
   const bool bounded = p.lo.size() > 0 || p.hi.size() > 0;
   if (p.f.size() != m || p.g.size() != m || p.w.size() != p.c.size() ||
       (bounded && (p.lo.size() != p.c.size() || p.hi.size() != p.c.size())))
     throw InputError("L1 integration: the lists have different lengths");
   for (std::size_t k = 0; k < m; ++k) {
-    const auto e = static_cast<Eigen::Index>(k);
+    const Eigen::Index e = k;
     const std::string arc = "L1 integration: arc " + std::to_string(k);
     if (p.f[k] < 0 || p.f[k] >= p.n || p.g[k] < 0 || p.g[k] >= p.n || p.f[k] == p.g[k])
       throw InputError(arc + " does not join two nodes");
@@ -208,8 +209,7 @@ L1Solution integrate_l1(const L1Integration& problem, const L1Options& options, 
   VecX hi = VecX::Zero(p.n_arcs()), lo = hi;
   for (std::size_t k = 0; k < scaled.bound_arc.size(); ++k)
     (scaled.bound_sign[k] > 0 ? hi : lo)[scaled.bound_arc[k]] =
-        scaled.flow_unit *
-        static_cast<double>(flow.flow[p.n_arcs() + static_cast<Eigen::Index>(k)]);
+        scaled.flow_unit * static_cast<double>(flow.flow[p.n_arcs() + index(k)]);
   evaluate(problem, solution, hi, lo);
   report.iterations.emplace_back("L1 interior point", solution.iterations);
   report.iterations.emplace_back("L1 pivots", solution.pivots);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "solve/network/spanning_tree.h"
 
@@ -25,7 +26,7 @@ class Simplex {
     Int dearest = 1;
     for (Int c : network.cost) dearest = std::max(dearest, std::abs(c));
     artificial_cost_ = (dearest + 1) * (Int{n_} + 1);
-    arcs_.resize(static_cast<std::size_t>(n_real_));
+    arcs_.resize(n_real_);
     for (int e = 0; e < n_real_; ++e) {
       Arc& arc = arcs_[e];
       arc = {network.cost[e],  network.tail[e],  network.head[e],
@@ -132,14 +133,14 @@ class Simplex {
             std::abs(sends),  State::tree};
     if (sends < 0) std::swap(arc.tail, arc.head);
     arcs_.push_back(arc);
-    return static_cast<int>(arcs_.size()) - 1;
+    return int_size(arcs_) - 1;
   }
 
   Int reduced_cost(const Arc& arc) const { return arc.cost + pi_[arc.tail] - pi_[arc.head]; }
 
   /// 1 + the arc with the largest violation in the next block that has one; 0 at the optimum.
   int entering() {
-    const int m = static_cast<int>(arcs_.size());
+    const int m = arcs_.size();
     int best = -1, left = block_;
     Int largest = 0;
     for (int seen = 0; seen < m; ++seen) {
@@ -227,7 +228,7 @@ class Simplex {
 };
 
 void check(const FlowNetwork& network, const FlowStart& start) {
-  const std::size_t m = network.tail.size(), n = static_cast<std::size_t>(network.n_nodes);
+  const std::size_t m = network.tail.size(), n = network.n_nodes;
   if (network.head.size() != m || network.lower.size() != m || network.upper.size() != m ||
       network.cost.size() != m || (!network.supply.empty() && network.supply.size() != n) ||
       (!start.flow.empty() && start.flow.size() != m) ||

@@ -18,7 +18,7 @@ struct FlowNetwork {
   std::vector<std::int64_t> cost;          // arcs; |cost| (nodes + 1) must stay below 2^60
   std::vector<std::int64_t> supply;        // nodes; or empty: none (a circulation)
 
-  int n_arcs() const { return static_cast<int>(tail.size()); }
+  int n_arcs() const { return tail.size(); }
 };
 
 /// Where to begin: flows (moved into their bounds) and how much an arc is wanted in the first

@@ -7,7 +7,7 @@ namespace littoral {
 Forest spanning_forest(int n_nodes, const std::vector<int>& tail, const std::vector<int>& head,
                        const std::vector<int>& order) {
   DisjointSets joined(n_nodes);
-  std::vector<int> taken, offset(static_cast<std::size_t>(n_nodes) + 1, 0);
+  std::vector<int> taken, offset(n_nodes + 1, 0);
   for (int e : order) {
     if (!joined.join(tail[e], head[e])) continue;
     taken.push_back(e);
@@ -21,9 +21,9 @@ Forest spanning_forest(int n_nodes, const std::vector<int>& tail, const std::vec
     arcs[at[head[e]]++] = e;
   }
   Forest forest;
-  forest.parent_arc.assign(static_cast<std::size_t>(n_nodes), -1);
-  forest.order.reserve(static_cast<std::size_t>(n_nodes));
-  std::vector<char> seen(static_cast<std::size_t>(n_nodes), 0);
+  forest.parent_arc.assign(n_nodes, -1);
+  forest.order.reserve(n_nodes);
+  std::vector<char> seen(n_nodes, 0);
   for (int root = 0; root < n_nodes; ++root) {
     if (seen[root]) continue;
     seen[root] = 1;

@@ -20,7 +20,7 @@ Forest spanning_forest(int n_nodes, const std::vector<int>& tail, const std::vec
 /// node n - 1 at first and changes as parts move.
 class RootedTree {
  public:
-  explicit RootedTree(int n) : node_(static_cast<std::size_t>(n)) {}
+  explicit RootedTree(int n) : node_(n) {}
 
   int parent(int u) const { return node_[u].parent; }
   int arc(int u) const { return node_[u].arc; }  // to the parent

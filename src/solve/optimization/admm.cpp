@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 
@@ -38,30 +39,22 @@ class Admm {
     int changes_left = o_.penalty_changes;
     for (int k = 1; k <= o_.max_iterations; ++k) {
       task_.checkpoint(progress_);
-      const bool check = k == 1 || k % check_every == 0 || k == o_.max_iterations;
+      const bool last = k == o_.max_iterations, check = k == 1 || k % check_every == 0 || last;
       iterate(check);
       result.iterations = k;
       if (!check) continue;
       residuals(result);
-      if (result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_) {
+      const bool small = result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_;
+      if (small || last || (o_.gap > 0 && k % 20 == 0)) {
         evaluate_duality_gap(result);
-        if (o_.gap <= 0 || result.gap <= o_.gap) {
-          result.converged = true;
-          break;
-        }
-      } else if (o_.gap > 0 && k % 20 == 0) {
-        evaluate_duality_gap(result);
-        if (result.gap <= o_.gap) {
-          result.converged = true;
-          break;
-        }
+        result.converged = o_.gap > 0 ? result.gap <= o_.gap : small;
+        if (result.converged) break;
       }
       const double ratio =
           std::max(result.primal / primal_tolerance_, result.dual / dual_tolerance_);
       progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
       if (changes_left > 0 && change_penalty(result, k)) --changes_left;
     }
-    if (!result.converged) evaluate_duality_gap(result);
     result.u = u_;
     return result;
   }
@@ -70,20 +63,17 @@ class Admm {
   /// body(c, i) for every cell c, whose first number is entry i.
   template <class Body>
   void for_cells(const Body& body) const {
-    parallel_for(static_cast<std::size_t>(p_.A.size()), grain, [&](std::size_t c, std::size_t end) {
-      for (; c < end; ++c)
-        body(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c) * p_.dim);
+    parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
+      for (; c < end; ++c) body(c, index(c) * p_.dim);
     });
   }
 
   /// Sum over cells of A times term(c, i), the same for any number of threads.
   template <class Term>
   double sum_cells(const Term& term) const {
-    const auto cells = static_cast<std::size_t>(p_.A.size());
+    const std::size_t cells = p_.A.size();
     std::vector<double> part((cells + grain - 1) / grain, 0);
-    for_cells([&](Eigen::Index c, Eigen::Index i) {
-      part[static_cast<std::size_t>(c) / grain] += p_.A[c] * term(c, i);
-    });
+    for_cells([&](Eigen::Index c, Eigen::Index i) { part[c / grain] += p_.A[c] * term(c, i); });
     return std::accumulate(part.begin(), part.end(), 0.0);
   }
   double norm2(const VecX& z) const {

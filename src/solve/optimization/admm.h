@@ -32,7 +32,7 @@ struct AdmmOptions {
   double rho = 2;          // first penalty, times the length of the problem
   double relative = 1e-2;  // eps^rel
   double absolute = 5e-6;  // eps^abs
-  double gap = 0;          // > 0: stop only below this relative duality gap as well
+  double gap = 0;          // > 0: stop below this relative duality gap, whatever the residuals
   int max_iterations = 10000;
   double relaxation = 1.8;     // over-relaxation (3.4.3)
   int penalty_changes = 1000;  // at most (3.4.1); 0 keeps rho

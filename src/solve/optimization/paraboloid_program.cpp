@@ -6,13 +6,13 @@
 #include <tuple>
 
 #include "base/parallel.h"
-#include "solve/direct/refined_cholesky.h"
+#include "solve/direct/cholesky.h"
 #include "solve/optimization/paraboloid_rows.h"
 
 namespace littoral {
 
 namespace {
-using namespace parabolic;
+using namespace paraboloid;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = 256;  // elements per piece of a parallel loop
@@ -117,7 +117,7 @@ class Run {
   Partial for_elements(F&& f, Combine&& combine) {
     std::vector<Partial> partial((local_.size() + grain - 1) / grain);
     parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e), partial[begin / grain]);
+      for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / grain]);
     });
     Partial total{};
     for (const Partial& p : partial) combine(total, p);
@@ -126,7 +126,7 @@ class Run {
   template <class F>
   void each_element(F&& f) {
     parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) f(static_cast<int>(e));
+      for (std::size_t e = begin; e < end; ++e) f(e);
     });
   }
   template <class F>

@@ -4,7 +4,7 @@
 //   maximise c^T x   subject to   g_p(x) = q_p^T x - |T_e G_p x|^2 / 4 >= 0  for each sample p,
 //                                 bound_b - q_b^T x >= 0                     for each cap b,
 //
-// each row touching only the unknowns of one element e.
+// each row touching only the unknowns of one element e. Solved by an interior-point method.
 
 #include <functional>
 #include <memory>

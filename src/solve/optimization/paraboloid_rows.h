@@ -1,5 +1,5 @@
 #pragma once
-// The constraints of a parabolic program, all as rows bound + q^T x - |T G x|^2 / 4 >= 0, and the
+// The constraints of a paraboloid program, all as rows bound + q^T x - |T G x|^2 / 4 >= 0, and the
 // sums over an element's rows that Newton's equations are made of.
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/index.h"
 #include "solve/optimization/paraboloid_program.h"
 
-namespace littoral::parabolic {
+namespace littoral::paraboloid {
 
 /// A row and its interior-point state: slack s, multiplier z.
 struct Row {
@@ -47,13 +48,13 @@ struct RowAt {
   }
   Small slopes(const Local& x) const {
     Small y;
-    for (int d = 0; d < D; ++d) y[d] = p.g[static_cast<std::size_t>(d)].dot(x);
+    for (int d = 0; d < D; ++d) y[d] = p.g[d].dot(x);
     return T * y;
   }
   Local adjoint(const Small& y) const {
     const Small v = T.transpose() * y;
     Local out = v[0] * p.g[0];
-    for (int d = 1; d < D; ++d) out += v[d] * p.g[static_cast<std::size_t>(d)];
+    for (int d = 1; d < D; ++d) out += v[d] * p.g[d];
     return out;
   }
 };
@@ -114,14 +115,14 @@ struct ParaboloidRows {
     }
     std::stable_sort(row.begin(), row.end(),
                      [](const Row& a, const Row& b) { return a.element < b.element; });
-    index(static_cast<int>(program.transform.size()));
+    index(int_size(program.transform));
   }
   int add_point(const typename Program::Point& p) {
     points.push_back(p);
-    return static_cast<int>(points.size()) - 1;
+    return int_size(points) - 1;
   }
   void index(int n_elements) {
-    first.assign(static_cast<std::size_t>(n_elements) + 1, 0);
+    first.assign(n_elements + 1, 0);
     for (const Row& r : row) ++first[r.element + 1];
     for (int e = 0; e < n_elements; ++e) first[e + 1] += first[e];
   }
@@ -137,4 +138,4 @@ struct ParaboloidRows {
   }
 };
 
-}  // namespace littoral::parabolic
+}  // namespace littoral::paraboloid

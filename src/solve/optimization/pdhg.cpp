@@ -47,13 +47,13 @@ AdmmResult pdhg(const SplitProblem& p, const VecX& M, const VecX& u0, const Admm
   for (int k = 1; k <= options.max_iterations; ++k) {
     task.checkpoint(progress);
     r.iterations = k;
-    const bool check = k % check_every == 0;
+    const bool check = k % check_every == 0 || k == options.max_iterations;
     // y + sigma G u, less sigma times the nearest allowed gradient (Moreau).
     multiply(p.G, ahead, g, task);
     VecX v = y / sigma + g, z(v.size());
-    parallel_for(static_cast<std::size_t>(p.A.size()), grain, [&](std::size_t i, std::size_t end) {
+    parallel_for(p.A.size(), grain, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) {
-        const auto c = static_cast<Eigen::Index>(i);
+        const Eigen::Index c = i;
         p.energy->prox(c, sigma, v.data() + c * dim, z.data() + c * dim);
       }
     });

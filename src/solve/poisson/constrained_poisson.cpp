@@ -10,8 +10,8 @@ constexpr int max_iterations = 200;
 void remove_mean(VecX& v) { v.array() -= v.mean(); }
 }  // namespace
 
-VecX solve_held(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
-                const Task& task, Report& report) {
+VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
+                       const Task& task, Report& report) {
   const SpMat& A = rows.A;
   if (A.rows() == 0) return x;
   // Stationarity: L x + A^T mu = b, A x = softness mu; L x sums to zero, so mu does too (the rows

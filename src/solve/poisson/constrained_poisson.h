@@ -23,7 +23,7 @@ struct ConstraintRows {
 /// A L^+ A^T by conjugate gradients over multipliers of sum zero, one solve per iteration, so
 /// nothing is assembled or factored. x comes in as L^+ b. Iterations and the residual go to the
 /// report, with the status "not converged" where 200 iterations do not reach the tolerance.
-VecX solve_held(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
-                const Task& task, Report& report);
+VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
+                       const Task& task, Report& report);
 
 }  // namespace littoral

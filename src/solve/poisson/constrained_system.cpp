@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -59,86 +61,89 @@ ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_
 }
 
 /// Single unknowns by elimination, other rows by a penalty.
-void ConstrainedSystem::hold_many(const SpMat& A, Held& held, const Task& task) const {
+void ConstrainedSystem::constrain_many(const SpMat& A, Constrained& constrained,
+                                       const Task& task) const {
   const RowMatrix rows = A;
-  std::vector<char> fixed(static_cast<std::size_t>(n_components_), 0);
+  std::vector<char> fixed(n_components_, 0);
   Triplets others;
   int n = 0;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int c = component_of_row(rows, r, component_);
     if (c < 0) continue;
-    fixed[static_cast<std::size_t>(c)] = 1;
+    fixed[c] = 1;
     const bool single = holds_one_unknown(rows, r);
     for (RowMatrix::InnerIterator it(rows, r); it; ++it) {
       if (it.value() == 0) continue;
       if (single)
-        held.gone_[static_cast<std::size_t>(it.col())] = 1;
+        constrained.gone_[it.col()] = 1;
       else
-        others.emplace_back(n, static_cast<int>(it.col()), it.value());
+        others.emplace_back(n, it.col(), it.value());
     }
     n += single ? 0 : 1;
   }
-  held.pinned_ = pin_first(component_, fixed, held.gone_);
+  constrained.pinned_ = pin_first(component_, fixed, constrained.gone_);
   SpMat K = *K_;
   if (n > 0) {
     SpMat stiff(n, K.cols());
     stiff.setFromTriplets(others.begin(), others.end());
     K = with_rows(K, stiff, VecX::Constant(n, stiffness * K.diagonal().mean()));
   }
-  held.factor_ = std::make_shared<const DefiniteSystem>(eliminated(K, held.pinned_), task);
+  constrained.factor_ =
+      std::make_shared<const DefiniteSystem>(eliminated(K, constrained.pinned_), task);
 }
 
-ConstrainedSystem::Held ConstrainedSystem::hold(const SpMat& A, const Task& task) const {
+ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
+                                                            const Task& task) const {
   const RowMatrix rows = A;
-  Held held;
-  held.factor_ = factor_;
-  held.component_ = component_;
-  held.active_.assign(n_components_, 0);
-  held.gone_.assign(component_.size(), 0);
-  held.pinned_ = pinned_;
+  Constrained constrained;
+  constrained.factor_ = factor_;
+  constrained.component_ = component_;
+  constrained.active_.assign(n_components_, 0);
+  constrained.gone_.assign(component_.size(), 0);
+  constrained.pinned_ = pinned_;
   std::vector<Eigen::Index> rest;
   Triplets gauge, others;
   auto put = [&](Triplets& out, Eigen::Index r, int column) {
     double sum = 0;
     for (RowMatrix::InnerIterator it(rows, r); it; ++it) sum += it.value();
     for (RowMatrix::InnerIterator it(rows, r); it; ++it)
-      out.emplace_back(static_cast<int>(it.col()), column, it.value() / sum);
+      out.emplace_back(it.col(), column, it.value() / sum);
   };
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int c = component_of_row(rows, r, component_);
     if (c < 0) continue;
-    if (held.active_[c]) {
+    if (constrained.active_[c]) {
       rest.push_back(r);
       continue;
     }
-    held.active_[c] = 1;
+    constrained.active_[c] = 1;
     put(gauge, r, c);
   }
-  const auto n = static_cast<Eigen::Index>(component_.size());
-  held.gauge_.resize(n, n_components_);
-  if (!factor_ || static_cast<Eigen::Index>(rest.size()) > few_rows) {
-    hold_many(A, held, task);
-    return held;
+  const Eigen::Index n = component_.size();
+  constrained.gauge_.resize(n, n_components_);
+  if (!factor_ || index(rest.size()) > few_rows) {
+    constrain_many(A, constrained, task);
+    return constrained;
   }
-  held.gauge_.setFromTriplets(gauge.begin(), gauge.end());
-  if (rest.empty()) return held;
-  for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], static_cast<int>(i));
-  SpMat columns(n, static_cast<Eigen::Index>(rest.size()));
+  constrained.gauge_.setFromTriplets(gauge.begin(), gauge.end());
+  if (rest.empty()) return constrained;
+  for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], i);
+  SpMat columns(n, rest.size());
   columns.setFromTriplets(others.begin(), others.end());
   Eigen::MatrixXd response(n, columns.cols());
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
     task.checkpoint(double(i) / double(columns.cols()));
-    response.col(i) = held.solve_gauged(VecX(columns.col(i)));
+    response.col(i) = constrained.solve_gauged(VecX(columns.col(i)));
   }
-  held.inverse_ = pseudo_inverse(columns.transpose() * response);
-  held.rest_ = std::move(columns);
-  held.response_ = std::move(response);
-  return held;
+  constrained.inverse_ = pseudo_inverse(columns.transpose() * response);
+  constrained.rest_ = std::move(columns);
+  constrained.response_ = std::move(response);
+  return constrained;
 }
 
-/// With the gauge rows alone: what they carry is the sum of b, so that K u = b - a sum(b) has a
+/// With the gauge rows alone: what they exert is the sum of b, so that K u = b - a sum(b) has a
 /// solution; then the constant that makes a^T u = 0.
-VecX ConstrainedSystem::Held::solve_gauged(const VecX& b) const {
+VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
   VecX rhs = b;
   VecX sum = VecX::Zero(gauge_.cols());
   for (Eigen::Index i = 0; i < rhs.size(); ++i) {
@@ -163,7 +168,7 @@ VecX ConstrainedSystem::Held::solve_gauged(const VecX& b) const {
   return u;
 }
 
-VecX ConstrainedSystem::Held::solve(const VecX& b) const {
+VecX ConstrainedSystem::Constrained::solve(const VecX& b) const {
   VecX u = solve_gauged(b);
   if (rest_.cols() == 0) return u;
   u -= response_ * (inverse_ * (rest_.transpose() * u));

@@ -23,7 +23,7 @@ class ConstrainedSystem {
 
   /// min 1/2 u^T K u - b^T u subject to A u = 0, over the components that have a row; u = 0
   /// elsewhere. Const, from several threads.
-  class Held {
+  class Constrained {
    public:
     /// One pass through a factor for each column.
     VecX solve(const VecX& b) const;
@@ -46,10 +46,10 @@ class ConstrainedSystem {
   /// Rows (rows x unknowns) whose entries sum to 1. One row a component reuses the factorization
   /// as it is; up to 64 rows more cost a solve each. Beyond, K is factored again: rows that hold
   /// single unknowns are eliminated, the others added as a stiff penalty.
-  Held hold(const SpMat& rows, const Task& task) const;
+  Constrained constrain(const SpMat& rows, const Task& task) const;
 
  private:
-  void hold_many(const SpMat& rows, Held& held, const Task& task) const;
+  void constrain_many(const SpMat& rows, Constrained& constrained, const Task& task) const;
 
   std::shared_ptr<const SpMat> K_;
   std::vector<int> component_;

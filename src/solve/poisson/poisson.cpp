@@ -19,7 +19,7 @@ double mean_diagonal(const SpMat& L) {
 std::vector<int> first_of_components(const std::vector<int>& component, int n_components) {
   std::vector<int> first(n_components, -1);
   for (std::size_t i = 0; i < component.size(); ++i)
-    if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = static_cast<int>(i);
+    if (component[i] >= 0 && first[component[i]] < 0) first[component[i]] = i;
   return first;
 }
 
@@ -60,7 +60,7 @@ Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, c
       first_(first_of_components(component_, n_components)),
       free_(solved_by(solver, pinned(std::vector<char>(n_components, 0)), order, task)) {}
 
-SpMat Poisson::pinned(const std::vector<char>& held) const {
+SpMat Poisson::pinned(const std::vector<char>& fixed) const {
   // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
   // force if b sums to 0, and changes one entry of the matrix only.
   SpMat K = L_;
@@ -69,21 +69,21 @@ SpMat Poisson::pinned(const std::vector<char>& held) const {
   for (Eigen::Index i = 0; i < K.rows(); ++i)
     if (component_[i] < 0) lift(i);
   for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) lift(first_[c]);
+    if (!fixed[c]) lift(first_[c]);
   return K;
 }
 
 std::vector<char> Poisson::components_of(const SpMat& A) const {
-  std::vector<char> held(first_.size(), 0);
+  std::vector<char> fixed(first_.size(), 0);
   for (int j : unknowns_of(A))
-    if (component_[j] >= 0) held[component_[j]] = 1;
-  return held;
+    if (component_[j] >= 0) fixed[component_[j]] = 1;
+  return fixed;
 }
 
-void Poisson::drop_constants(const std::vector<char>& held, VecX& x) const {
-  VecX constant = VecX::Zero(static_cast<Eigen::Index>(first_.size()));
+void Poisson::drop_constants(const std::vector<char>& fixed, VecX& x) const {
+  VecX constant = VecX::Zero(first_.size());
   for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!held[c]) constant[static_cast<Eigen::Index>(c)] = x[first_[c]];
+    if (!fixed[c]) constant[c] = x[first_[c]];
   for (Eigen::Index i = 0; i < x.size(); ++i)
     x[i] = component_[i] < 0 ? 0 : x[i] - constant[component_[i]];
 }
@@ -96,14 +96,14 @@ VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
 }
 
 DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
-                                     const std::vector<char>& held, const Task& task) const {
+                                     const std::vector<char>& fixed, const Task& task) const {
   if (free_.iterates())
     return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A));
   if (auto in_place = with_rows_in_place(K, A, weight)) {
     if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
     std::vector<int> changed = unknowns_of(A);
     for (std::size_t c = 0; c < first_.size(); ++c)
-      if (held[c]) changed.push_back(first_[c]);
+      if (fixed[c]) changed.push_back(first_[c]);
     return free_.patched(std::move(*in_place), changed, task);
   }
   SpMat wider = with_rows(K, A, weight);
@@ -114,11 +114,11 @@ DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX&
 
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                          Report& report) const {
-  const auto held = components_of(A);
-  const DefiniteSystem system = with_penalty(pinned(held), A, weight, held, task);
+  const auto fixed = components_of(A);
+  const DefiniteSystem system = with_penalty(pinned(fixed), A, weight, fixed, task);
   VecX x = system.solve(b, task, report);
   report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
-  drop_constants(held, x);
+  drop_constants(fixed, x);
   return x;
 }
 
@@ -145,10 +145,10 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   // Augmented Lagrangian: every step solves with the factor of K = L + w A^T A, and c by what is
   // left for it; dependent rows only make multipliers y that are not unique.
   const double w = 1e7 * mean_diagonal_;
-  const auto held = components_of(rows.A);
-  const SpMat K0 = pinned(held);
+  const auto fixed = components_of(rows.A);
+  const SpMat K0 = pinned(fixed);
   const DefiniteSystem system =
-      with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), held, task);
+      with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
   const SpMat At = rows.A.transpose();
   Eigen::LDLT<MatX> rest;
   if (n_free > 0) {
@@ -199,7 +199,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     report.status = "not converged";
     report.warn("the constraints could not be met exactly; the result is their least-squares fit");
   }
-  drop_constants(held, x);
+  drop_constants(fixed, x);
   return x;
 }
 

@@ -48,11 +48,11 @@ class Poisson {
   bool iterates() const { return free_.iterates(); }
 
  private:
-  SpMat pinned(const std::vector<char>& held) const;
+  SpMat pinned(const std::vector<char>& fixed) const;
   std::vector<char> components_of(const SpMat& A) const;
-  void drop_constants(const std::vector<char>& held, VecX& x) const;
+  void drop_constants(const std::vector<char>& fixed, VecX& x) const;
   DefiniteSystem with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
-                              const std::vector<char>& held, const Task& task) const;
+                              const std::vector<char>& fixed, const Task& task) const;
 
   SpMat L_;
   double mean_diagonal_;

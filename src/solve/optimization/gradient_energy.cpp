@@ -1,4 +1,4 @@
-#include "solve/optimization/gradient_prox.h"
+#include "solve/optimization/gradient_energy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,8 @@ build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
   libtbb-dev libboost-dev libimath-dev)
 test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
   libbenchmark-dev python3-venv chromium)
-arm_packages=(g++-aarch64-linux-gnu qemu-user googletest libpng-dev:arm64 zlib1g-dev:arm64)
+arm_packages=(g++-aarch64-linux-gnu qemu-user libpng-dev:arm64 zlib1g-dev:arm64 libgtest-dev:arm64
+  libgmock-dev:arm64 librapidcheck-dev:arm64)
 oldest_node=18
 
 die() { echo "setup: error: $*" >&2; exit 1; }
@@ -104,7 +105,7 @@ case "${1:-}" in
   tidy) install_packages "${build_packages[@]}" clang-tidy-14 ;;
   aarch64)
     if command -v dpkg >/dev/null && ! dpkg --print-foreign-architectures | grep -qx arm64; then
-      missing=(the-architecture-arm64)
+      missing=(libpng-dev:arm64)
       as_root dpkg --add-architecture arm64
     fi
     install_packages "${build_packages[@]}" "${test_packages[@]}" "${arm_packages[@]}"

@@ -112,8 +112,8 @@ stage_single() { build single; }  # every file on its own, so that none lives of
 stage_aarch64() {
   scripts/setup.sh aarch64 && build aarch64 &&
     run_tests aarch64/tests/littoral_tests --without "$slow" --limit 1800 \
-      --run "qemu-aarch64 -L /usr/aarch64-linux-gnu" &&
-    qemu-aarch64 -L /usr/aarch64-linux-gnu build/aarch64/littoral --help >/dev/null
+      --run qemu-aarch64 &&
+    qemu-aarch64 build/aarch64/littoral --help >/dev/null
 }
 
 stages=()

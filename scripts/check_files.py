@@ -25,12 +25,14 @@ def tracked(root: Path) -> list[Path]:
 
 
 def repeated_lines(lines: list[str]) -> list[tuple[int, int]]:
-    """The numbers of long lines of a page that stood before, and where; rows of tables aside."""
+    """The numbers of long lines of a page that stood before, and where; tables and code aside."""
     first: dict[str, int] = {}
     found = []
+    code = False
     for number, line in enumerate(lines, 1):
         text = line.strip()
-        if len(text) <= LONG_LINE or text.startswith("|"):
+        code ^= text.startswith("```")
+        if code or len(text) <= LONG_LINE or text.startswith("|"):
             continue
         if text in first:
             found.append((number, first[text]))

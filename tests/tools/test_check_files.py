@@ -45,6 +45,7 @@ def test_a_long_line_that_stands_twice_in_a_page_is_found(tmp_path: Path) -> Non
         "a.md": f"{line}short\nshort\n{line}",
         "b.md": line,
         "c.md": row + row,
+        "e.md": f"```sh\n{line}{line}```\n",
         "d.py": line * 2,
     }
     (found,) = check_files.findings(repository(tmp_path, pages))

@@ -1,9 +1,9 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build test format tidy docs bench peers domains clean
+.PHONY: help demo build check test test-long format tidy docs bench peers domains clean
 
 help:  ## this list
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
 
 demo:  ## build, and compute signed distance to a broken curve on a shipped mesh
 	scripts/demo.sh
@@ -13,9 +13,17 @@ build:  ## the program and the library, in build/release
 	cmake --preset release -DLITTORAL_TESTS=OFF
 	cmake --build build/release
 
+check:  ## layout, layers, documentation, quick tests: a few minutes, while working
+	scripts/setup.sh test
+	scripts/test.sh check
+
 test:  ## everything that is checked before a change is accepted (STAGES="release cli" for some of it)
 	scripts/setup.sh test
 	scripts/test.sh $(STAGES)
+
+test-long:  ## what takes hours: long fuzzing, slow suites under sanitizers, studies, 64-bit ARM
+	scripts/setup.sh test
+	scripts/test.sh long
 
 format:  ## lay out C++ and Python sources
 	scripts/setup.sh python
@@ -25,7 +33,7 @@ format:  ## lay out C++ and Python sources
 tidy:  ## clang-tidy over the library and the program
 	scripts/setup.sh tidy
 	cmake --preset tidy
-	cd build/tidy && run-clang-tidy-14 -quiet -p . '/src/(littoral|cli)/'
+	cd build/tidy && run-clang-tidy-14 -quiet -p . '/src/'
 
 docs:  ## the documentation, in build/site
 	scripts/setup.sh python

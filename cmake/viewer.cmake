@@ -35,4 +35,4 @@ add_custom_command(
 target_sources(littoral PRIVATE ${viewer_to}/page_template.cpp)
 set_source_files_properties(${viewer_to}/page_template.cpp PROPERTIES
   SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
-target_compile_definitions(littoral PRIVATE LITTORAL_HAS_VIEWER=1)
+set_property(SOURCE src/io/page/page.cpp APPEND PROPERTY COMPILE_DEFINITIONS LITTORAL_HAS_VIEWER=1)

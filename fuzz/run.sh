@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs every fuzz target of a build for a bounded time and fails if one crashes, hangs or eats memory.
-# Usage: fuzz/run.sh BUILD_DIR SECONDS
+# Usage: fuzz/run.sh BUILD_DIR SECONDS      JOBS: targets at once (all cores)
 #   cmake -S . -B BUILD_DIR -DLITTORAL_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ && \
 #   cmake --build BUILD_DIR --target fuzzers
 # Inputs found on the way, and those that failed, go to BUILD_DIR/fuzz/NAME.
@@ -11,13 +11,14 @@ if [ $# -ne 2 ]; then
 fi
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
-status=0
-for name in obj off ply stl pc xyz pcd vti nrrd npy vol mesh tet vtk sources; do
-  found="$build/fuzz/$name"
-  mkdir -p "$found/corpus" "$found/failed"
-  echo "== $name"
-  "$build/fuzz/fuzz_$name" -max_total_time="$2" -rss_limit_mb=512 -timeout=5 -max_len=4096 \
-    -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/failed/" \
-    "$found/corpus" "$here/corpus/$name" || status=1
-done
-exit $status
+export here build seconds="$2"
+# Each prints when it is done, so that the outputs do not mix.
+printf '%s\n' obj off ply stl pc xyz pcd vti nrrd npy vol mesh tet vtk sources |
+  xargs -P "${JOBS:-$(nproc)}" -n 1 sh -c '
+    found="$build/fuzz/$0"
+    mkdir -p "$found/corpus" "$found/failed"
+    if "$build/fuzz/fuzz_$0" -max_total_time="$seconds" -rss_limit_mb=512 -timeout=5 -max_len=4096 \
+      -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/failed/" \
+      "$found/corpus" "$here/corpus/$0" >"$found/log" 2>&1
+    then echo "== $0"; cat "$found/log"
+    else echo "== $0 FAILED"; cat "$found/log"; exit 1; fi'

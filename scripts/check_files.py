@@ -1,4 +1,4 @@
-"""Checks the tracked files: none too long to live in, and none with a path of somebody's machine.
+"""Checks the tracked files: length, paths of machines, pages that repeat themselves.
 
 usage: check_files.py [ROOT]    prints one line per finding; exit status 1 if there are any
 """
@@ -12,6 +12,7 @@ LONGEST = 400  # lines
 SOURCES = {".h", ".cpp", ".py", ".sh", ".js", ".mjs", ".ts", ".css", ".html", ".cmake"}
 DATA = ("examples/data/", "tests/fixtures/", "fuzz/corpus/")
 GENERATED = {"package-lock.json"}
+LONG_LINE = 70  # characters; a longer line twice in one page is a repetition
 MACHINE_PATH = re.compile(r"(?<![\w.$}])/(?:work|home|root|Users|tmp|mnt|workspace)/\w")
 
 
@@ -23,8 +24,24 @@ def tracked(root: Path) -> list[Path]:
     return [Path(name) for name in names if name and (root / name).is_file()]
 
 
+def repeated_lines(lines: list[str]) -> list[tuple[int, int]]:
+    """The numbers of long lines of a page that stood before, and where; tables and code aside."""
+    first: dict[str, int] = {}
+    found = []
+    code = False
+    for number, line in enumerate(lines, 1):
+        text = line.strip()
+        code ^= text.startswith("```")
+        if code or len(text) <= LONG_LINE or text.startswith("|"):
+            continue
+        if text in first:
+            found.append((number, first[text]))
+        first.setdefault(text, number)
+    return found
+
+
 def findings(root: Path) -> list[str]:
-    """One line per file that is too long and per line with a machine path."""
+    """One line per file that is too long and per line with a machine path or that stands twice."""
     found = []
     for path in tracked(root):
         if path.as_posix().startswith(DATA) or path.name in GENERATED:
@@ -35,6 +52,9 @@ def findings(root: Path) -> list[str]:
         lines = content.decode("utf-8", errors="replace").splitlines()
         if path.suffix in SOURCES and len(lines) > LONGEST:
             found.append(f"{path}: {len(lines)} lines; split this file (at most {LONGEST})")
+        if path.suffix == ".md":
+            for number, before in repeated_lines(lines):
+                found.append(f"{path}:{number}: the same as line {before}")
         for number, line in enumerate(lines, 1):
             if match := MACHINE_PATH.search(line):
                 found.append(f"{path}:{number}: a path of one machine: {match[0]}...")
@@ -44,7 +64,11 @@ def findings(root: Path) -> list[str]:
 def main(arguments: list[str]) -> int:
     root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
     found = findings(root)
-    print("\n".join(found) if found else f"files: none over {LONGEST} lines, no machine paths")
+    print(
+        "\n".join(found)
+        if found
+        else f"files: none over {LONGEST} lines, no machine paths, no repeated lines"
+    )
     return 1 if found else 0
 
 

@@ -4,6 +4,11 @@ A layer may include itself and everything below it along the arrows of BELOW. Me
 against operators, not meshes: they may not include domain, except for the few in NEEDS_DOMAIN whose
 algorithms walk the mesh itself.
 
+Public headers are include/littoral/*.h. Those in PLAIN hold types that every layer may include; the
+others, only api and cli. They include each other, the standard library and Eigen, nothing else.
+
+What belongs to one system (ONE_SYSTEM) is included in src/base/platform alone.
+
 usage: check_layers.py [ROOT]    prints one line per violation; exit status 1 if there are any
 """
 
@@ -27,6 +32,28 @@ BELOW: dict[str, set[str]] = {
 }
 WITHOUT_DOMAIN = "methods"
 NEEDS_DOMAIN = ("fast_marching", "exact_polyhedral", "cutting")
+PLAIN = {
+    "context",
+    "error",
+    "methods",
+    "options",
+    "polygon_soup",
+    "report",
+    "sources",
+    "surface_point",
+    "tet_mesh",
+    "types",
+    "volume",
+}
+ABOVE_PUBLIC = ("api", "cli")
+PLATFORM = "src/base/platform/"
+ONE_SYSTEM = re.compile(
+    r"^\s*#\s*include\s*<((?:sys|arpa|netinet)/.*|unistd\.h|dlfcn\.h|signal\.h|csignal|poll\.h"
+    r"|fcntl\.h|malloc\.h|xmmintrin\.h|pthread\.h|spawn\.h|windows\.h)>"
+)
+PUBLIC_INCLUDE = re.compile(r'^\s*#\s*include\s*"littoral/(\w+)\.h"')
+ANY_INCLUDE = re.compile(r"^\s*#\s*include\s*(\S+)")
+ALLOWED_IN_PUBLIC = re.compile(r'"littoral/\w+\.h"|<[a-z_]+>|<Eigen/\w+>')
 SUFFIXES = {".h", ".cpp"}
 INCLUDE = re.compile(rf'^\s*#\s*include\s*"({"|".join(BELOW)})/')
 
@@ -61,10 +88,32 @@ def violations(root: Path) -> list[str]:
             continue
         may = allowed(layer, path.stem)
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            if match := INCLUDE.match(line):
-                if (target := match[1]) not in may:
-                    names = ", ".join(name for name in BELOW if name in may)
-                    found.append(f"{where}:{number}: {layer} may not include {target} ({names})")
+            if (match := INCLUDE.match(line)) and (target := match[1]) not in may:
+                names = ", ".join(name for name in BELOW if name in may)
+                found.append(f"{where}:{number}: {layer} may not include {target} ({names})")
+            elif (
+                (match := PUBLIC_INCLUDE.match(line))
+                and match[1] not in PLAIN
+                and layer not in ABOVE_PUBLIC
+            ):
+                found.append(
+                    f"{where}:{number}: {layer} may not include littoral/{match[1]}.h; only"
+                    f" {' and '.join(ABOVE_PUBLIC)} may"
+                )
+            elif (match := ONE_SYSTEM.match(line)) and not where.as_posix().startswith(PLATFORM):
+                found.append(f"{where}:{number}: <{match[1]}> belongs in {PLATFORM}")
+    return found + public_violations(root)
+
+
+def public_violations(root: Path) -> list[str]:
+    """One line per include of a public header that is not public, standard or Eigen's."""
+    found = []
+    for path in sorted((root / "include").rglob("*.h")):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            if (match := ANY_INCLUDE.match(line)) and not ALLOWED_IN_PUBLIC.fullmatch(match[1]):
+                found.append(
+                    f"{path.relative_to(root)}:{number}: a public header may not include {match[1]}"
+                )
     return found
 
 

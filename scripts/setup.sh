@@ -3,6 +3,7 @@
 #   scripts/setup.sh build   what a build and the demo need
 #   scripts/setup.sh test    build, and what `make test` needs besides
 #   scripts/setup.sh tidy    build, and clang-tidy
+#   scripts/setup.sh aarch64 test, and what compiles and runs programs for 64-bit ARM
 #   scripts/setup.sh python  the Python environment in build/venv alone
 # Does nothing, quickly, when all of it is there. Works as root or through sudo.
 set -euo pipefail
@@ -13,6 +14,8 @@ build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
   libtbb-dev libboost-dev libimath-dev)
 test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
   libbenchmark-dev python3-venv chromium)
+arm_packages=(g++-aarch64-linux-gnu qemu-user libpng-dev:arm64 zlib1g-dev:arm64 libgtest-dev:arm64
+  libgmock-dev:arm64 librapidcheck-dev:arm64)
 oldest_node=18
 
 die() { echo "setup: error: $*" >&2; exit 1; }
@@ -100,9 +103,16 @@ case "${1:-}" in
     python_environment
     ;;
   tidy) install_packages "${build_packages[@]}" clang-tidy-14 ;;
+  aarch64)
+    if command -v dpkg >/dev/null && ! dpkg --print-foreign-architectures | grep -qx arm64; then
+      missing=(libpng-dev:arm64)
+      as_root dpkg --add-architecture arm64
+    fi
+    install_packages "${build_packages[@]}" "${test_packages[@]}" "${arm_packages[@]}"
+    ;;
   python)
     install_packages python3-venv
     python_environment
     ;;
-  *) die "usage: scripts/setup.sh build|test|tidy|python" ;;
+  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python" ;;
 esac

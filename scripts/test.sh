@@ -1,33 +1,48 @@
 #!/usr/bin/env bash
-# Runs the test suite, stage by stage, and prints what passed and how long it took.
-#   scripts/test.sh            every stage
+# Runs checks and tests, stage by stage, and prints what passed and how long it took.
+#   scripts/test.sh            every stage of `make test`
+#   scripts/test.sh check      the tier of `make check`: what takes a few minutes
+#   scripts/test.sh long       the tier of `make test-long`: what takes hours
 #   scripts/test.sh STAGE...   these only, e.g. `scripts/test.sh release cli`
 # A stage that fails does not stop the others; the exit status tells whether any did.
 # LITTORAL_SHARED names a larger collection of test data (by default ../shared beside the checkout);
 # tests that need it are reported as skipped where it is absent.
-# FUZZ_SECONDS: time for each fuzz target (10).   JOBS: processes at once (all cores).
+# FUZZ_SECONDS: time for each fuzz target (10; 300 in the long tier).   JOBS: processes at once (all cores).
 set -uo pipefail
 cd "$(dirname "$0")/.."
 export LITTORAL_SHARED="${LITTORAL_SHARED:-$(dirname "$PWD")/shared}"
 jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
-all_stages=(files format tools release cli install permissive sanitize fuzz viewer docs)
+check_stages=(files format tools docs quick)
+test_stages=(files format tools docs release cli install permissive sanitize threads fuzz viewer)
+long_stages=(slow sanitize_slow fuzz_long studies single aarch64)
+all_stages=("${test_stages[@]}" quick "${long_stages[@]}")
 
-configure_and_build() {  # preset, further arguments of cmake
+# Suites that take longer than a few seconds each; `quick` leaves them out.
+slow='Slow|OnSharedData|Regularized|Quadratic|AllPairs|Reference'
+# Suites that several threads work in.
+shared_between_threads='Parallel|Threads|Registry|Solver'
+
+build() {  # preset, further arguments of cmake --build
   local preset=$1
   shift
-  cmake --preset "$preset" -DLITTORAL_WERROR=ON "$@" && cmake --build "build/$preset" -j "$jobs"
+  cmake --preset "$preset" ${compilers[@]+"${compilers[@]}"} >/dev/null && cmake --build "build/$preset" -j "$jobs" "$@"
+}
+compilers=()
+# The presets name Clang 14, Debian 12's; newer releases have theirs under the plain name.
+with_clang() {
+  command -v clang++-14 >/dev/null || local compilers=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
+  build "$@"
 }
 
-run_ctest() {  # preset, further arguments of ctest
-  local preset=$1
+run_tests() {  # program below build/, further arguments of run_tests.py
+  local program=$1
   shift
-  ctest --test-dir "build/$preset" --no-tests=error --output-on-failure -j "$jobs" "$@" |
-    grep --line-buffered -vE '^ +Start +[0-9]+: |^ *[0-9]+/[0-9]+ Test +#.* Passed '
+  "$venv/python" scripts/run_tests.py "build/$program" --jobs "$jobs" "$@"
 }
 
-stage_files() {  # layers, lengths and paths
+stage_files() {  # layers, lengths, paths, repeated lines
   "$venv/python" scripts/check_layers.py && "$venv/python" scripts/check_files.py
 }
 
@@ -38,46 +53,82 @@ stage_format() {
 
 stage_tools() { "$venv/python" -m pytest -q tests/tools; }  # tests of the checks themselves
 
-stage_release() { configure_and_build release && run_ctest release; }
+stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
+
+stage_quick() { build release && run_tests release/tests/littoral_tests --without "$slow"; }
+
+stage_release() { build release && run_tests release/tests/littoral_tests; }
 
 stage_cli() {
-  configure_and_build release &&
-    LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
+  build release && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
 }
 
-stage_install() { configure_and_build release && scripts/test_install.sh build/release; }
+stage_install() { build release && scripts/test_install.sh build/release; }
 
-stage_permissive() { configure_and_build permissive && run_ctest permissive; }
+# Without BLAS and METIS: two files are compiled again, everything else is the release's.
+stage_permissive() {
+  build release --target littoral_tests_permissive &&
+    ! ldd build/release/tests/littoral_tests_permissive | grep -iE 'blas|metis' &&
+    run_tests release/tests/littoral_tests_permissive
+}
 
-# The presets name Clang 14, Debian 12's; newer releases have theirs under the plain name.
-clang=()
-command -v clang++-14 >/dev/null || clang=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
-
-# Address and undefined-behaviour sanitizers; suites named *Slow* would take too long under them.
+# Address and undefined-behaviour sanitizers; the suites named *Slow* wait for `make test-long`.
 stage_sanitize() {
-  cmake --preset asan -DLITTORAL_WERROR=ON "${clang[@]}" &&
-    cmake --build build/asan -j "$jobs" --target littoral_tests && run_ctest asan -E Slow
+  with_clang asan --target littoral_tests && run_tests asan/tests/littoral_tests --without Slow
+}
+
+stage_threads() {  # ThreadSanitizer
+  with_clang tsan --target littoral_tests &&
+    TSAN_OPTIONS=halt_on_error=1 run_tests tsan/tests/littoral_tests --only "$shared_between_threads" --without Slow
 }
 
 stage_fuzz() {
-  cmake --preset fuzz -DLITTORAL_WERROR=ON "${clang[@]}" &&
-    cmake --build build/fuzz -j "$jobs" --target fuzzers && fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-10}"
+  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-10}"
 }
 
 stage_viewer() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
-  configure_and_build release &&
+  build release &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
     (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
 }
 
-stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
+# What follows makes up the long tier.
+stage_slow() { build release && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
 
-stages=("$@")
-[ ${#stages[@]} -gt 0 ] || stages=("${all_stages[@]}")
+stage_sanitize_slow() {
+  with_clang asan --target littoral_tests &&
+    run_tests asan/tests/littoral_tests --only Slow --limit 7200
+}
+
+stage_fuzz_long() {
+  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-300}"
+}
+
+stage_studies() { build bench; }  # benchmarks and studies compile
+
+stage_single() { build single; }  # every file on its own, so that none lives off its neighbours
+
+stage_aarch64() {
+  scripts/setup.sh aarch64 && build aarch64 &&
+    run_tests aarch64/tests/littoral_tests --without "$slow" --limit 1800 \
+      --run qemu-aarch64 &&
+    qemu-aarch64 build/aarch64/littoral --help >/dev/null
+}
+
+stages=()
+for name in "$@"; do
+  case "$name" in
+    check) stages+=("${check_stages[@]}") ;;
+    test) stages+=("${test_stages[@]}") ;;
+    long) stages+=("${long_stages[@]}") ;;
+    *) stages+=("$name") ;;
+  esac
+done
+[ ${#stages[@]} -gt 0 ] || stages=("${test_stages[@]}")
 for stage in "${stages[@]}"; do
   [[ " ${all_stages[*]} " == *" $stage "* ]] ||
-    { echo "there is no stage '$stage'; there are: ${all_stages[*]}" >&2; exit 2; }
+    { echo "there is no stage '$stage'; there are: check test long ${all_stages[*]}" >&2; exit 2; }
 done
 
 mkdir -p "$logs"
@@ -87,10 +138,10 @@ for stage in "${stages[@]}"; do
   start=$SECONDS
   if "stage_$stage" 2>&1 | tee "$logs/$stage.log"; then result=passed; else result=FAILED failed=$((failed + 1)); fi
   echo "stage $stage $result" >>"$logs/$stage.log"
-  summary+=$(printf '%-12s %-8s %5d s' "$stage" "$result" $((SECONDS - start)))$'\n'
+  summary+=$(printf '%-14s %-8s %5d s' "$stage" "$result" $((SECONDS - start)))$'\n'
 done
 
-# ctest and pytest state their counts in their closing lines.
+# The test programs state their counts in their closing lines.
 logs_run=("${stages[@]/#/$logs/}")
 counts=$(python3 scripts/count_tests.py "${logs_run[@]/%/.log}")
 echo "==== summary"

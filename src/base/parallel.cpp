@@ -9,18 +9,11 @@
 
 #include "base/platform/memory.h"
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
 namespace littoral {
 
 namespace {
 thread_local int requested_threads = 0;
 thread_local bool inside_parallel = false;
-#if defined(__SSE2__)
-constexpr unsigned ftz_and_daz = 0x8040;
-#endif
 }  // namespace
 
 void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
@@ -30,25 +23,6 @@ int requested_thread_count() { return requested_threads; }
 int thread_count() {
   if (requested_threads > 0) return requested_threads;
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-void flush_subnormals() {
-#if defined(__SSE2__)
-  _mm_setcsr(_mm_getcsr() | ftz_and_daz);
-#endif
-}
-
-FlushSubnormals::FlushSubnormals() : saved_(0) {
-#if defined(__SSE2__)
-  saved_ = _mm_getcsr();
-#endif
-  flush_subnormals();
-}
-
-FlushSubnormals::~FlushSubnormals() {
-#if defined(__SSE2__)
-  _mm_setcsr(saved_);
-#endif
 }
 
 void parallel_for(std::size_t n, std::size_t grain,
@@ -65,16 +39,12 @@ void parallel_for(std::size_t n, std::size_t grain,
   std::mutex mutex;
   std::exception_ptr error;
   std::size_t error_piece = pieces;
-#if defined(__SSE2__)
-  const unsigned mode = _mm_getcsr();
-#endif
+  const std::uint64_t mode = floating_point_mode();
   const double limit = memory_limit();
   auto work = [&] {
     inside_parallel = true;
     set_memory_limit(limit);
-#if defined(__SSE2__)
-    _mm_setcsr(mode);
-#endif
+    set_floating_point_mode(mode);
     for (std::size_t p; (p = next.fetch_add(1)) < pieces;) {
       try {
         body(p * grain, std::min(n, (p + 1) * grain));

@@ -1,7 +1,5 @@
 #include "cli/session.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -11,6 +9,7 @@
 
 #include "api/report_json.h"
 #include "base/option_table.h"
+#include "base/platform/process.h"
 #include "io/render/scene.h"
 #include "littoral/error.h"
 
@@ -38,7 +37,7 @@ void draw_progress(double fraction, const std::string& stage) {
 
 Task Session::task() {
   const bool wanted =
-      progress == "always" || (progress == "auto" && !quiet && ::isatty(STDERR_FILENO) == 1);
+      progress == "always" || (progress == "auto" && !quiet && errors_go_to_terminal());
   if (!wanted) return Task(cancel);
   using Clock = std::chrono::steady_clock;
   return Task(cancel, [this, last = Clock::time_point(), stage_before = std::string()](

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -8,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/platform/process.h"
 #include "io/write.h"
 #include "littoral/error.h"
 
@@ -38,7 +37,7 @@ class Unfinished {
     }
   }
   ~Unfinished() {
-    if (!kept_) ::unlink(path_.c_str());
+    if (!kept_) remove_file(path_.c_str());
     if (slot_) slot_->state = Slot::empty;
   }
   Unfinished(const Unfinished&) = delete;
@@ -72,7 +71,7 @@ void write_stream(const std::filesystem::path& path, const std::string& file,
 std::string temporary_name(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter{0};
   std::string name(1, '.');
-  name.append(target.filename().string()).append(1, '.').append(std::to_string(::getpid()));
+  name.append(target.filename().string()).append(1, '.').append(std::to_string(process_id()));
   name.append(1, '-').append(std::to_string(counter++)).append(".tmp");
   return (target.parent_path() / name).string();
 }
@@ -99,7 +98,7 @@ void write_atomically(const std::filesystem::path& path,
 
 void remove_unfinished_files() noexcept {
   for (Slot& slot : slots) {
-    if (slot.state == Slot::named) ::unlink(slot.path.data());
+    if (slot.state == Slot::named) remove_file(slot.path.data());
   }
 }
 

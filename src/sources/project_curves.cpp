@@ -12,7 +12,7 @@ namespace littoral {
 namespace {
 
 constexpr double most_samples = 2e6;
-constexpr double snap = 1e-9;
+constexpr double corner_snap = 1e-9;
 
 MatX3i triangles(const SurfaceMesh& mesh) {
   MatX3i faces(mesh.n_faces(), 3);
@@ -62,7 +62,7 @@ SurfacePoint snapped(const SurfaceMesh& mesh, const NearestPoint& hit) {
   std::array<double, 3> b = hit.barycentric;
   double sum = 0;
   for (double& x : b) {
-    if (x < snap) x = 0;
+    if (x < corner_snap) x = 0;
     sum += x;
   }
   return simplest(mesh, SurfacePoint::in_face(hit.face, b[0] / sum, b[1] / sum, b[2] / sum));

@@ -15,7 +15,7 @@ namespace littoral {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double beyond_all = std::numeric_limits<double>::infinity();
 constexpr int bins = 12;
 constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
 constexpr int stack_size = 8 * 80;
@@ -226,7 +226,7 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
   const Vec3 q = scaled(query, -exponent_ - shift);
 
-  double best = infinity;
+  double best = beyond_all;
   TriangleFoot best_foot;
   int best_at = -1;
   const auto look_at = [&](int i) {

@@ -36,3 +36,17 @@ def test_untracked_files_do_not_count(tmp_path: Path) -> None:
     (root / "notes.md").write_text("/" + "root/secret\n")
     assert check_files.findings(root) == []
     assert check_files.main([str(root)]) == 0
+
+
+def test_a_long_line_that_stands_twice_in_a_page_is_found(tmp_path: Path) -> None:
+    line = "A sentence that says something that is so long that nobody writes it twice.\n"
+    row = f"| {line.strip()} |\n"
+    pages = {
+        "a.md": f"{line}short\nshort\n{line}",
+        "b.md": line,
+        "c.md": row + row,
+        "e.md": f"```sh\n{line}{line}```\n",
+        "d.py": line * 2,
+    }
+    (found,) = check_files.findings(repository(tmp_path, pages))
+    assert found == "a.md:4: the same as line 1"

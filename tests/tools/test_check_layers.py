@@ -63,3 +63,41 @@ def test_a_folder_that_is_no_layer_is_a_violation(tmp_path: Path) -> None:
     write(tmp_path, "helpers/a.h")
     (found,) = check_layers.violations(tmp_path)
     assert "'helpers' is not a layer" in found
+
+
+@pytest.mark.parametrize("name", ["base/a.h", "methods/heat/a.cpp", "io/a.cpp"])
+def test_only_plain_public_headers_are_for_every_layer(tmp_path: Path, name: str) -> None:
+    write(tmp_path, name, "littoral/types.h", "littoral/surface.h")
+    (found,) = check_layers.violations(tmp_path)
+    assert found.startswith(f"src/{name}:2: ")
+
+
+def test_api_and_cli_may_include_every_public_header(tmp_path: Path) -> None:
+    write(tmp_path, "api/surface/a.cpp", "littoral/surface.h")
+    write(tmp_path, "cli/a.cpp", "littoral/surface.h")
+    assert check_layers.violations(tmp_path) == []
+
+
+def test_public_headers_include_public_ones_the_standard_library_and_eigen(tmp_path: Path) -> None:
+    (tmp_path / "src").mkdir()
+    header = tmp_path / "include" / "littoral" / "a.h"
+    header.parent.mkdir(parents=True)
+    lines = ['"littoral/types.h"', "<vector>", "<Eigen/Core>", '"api/method.h"', "<png.h>"]
+    header.write_text("".join(f"#include {line}\n" for line in lines))
+    found = check_layers.violations(tmp_path)
+    assert [line.split(": ")[0] for line in found] == [
+        "include/littoral/a.h:4",
+        "include/littoral/a.h:5",
+    ]
+
+
+@pytest.mark.parametrize("header", ["unistd.h", "sys/wait.h", "dlfcn.h", "csignal", "poll.h"])
+def test_what_belongs_to_one_system_stands_in_the_platform_folder(
+    tmp_path: Path, header: str
+) -> None:
+    for name in ("base/platform/a.cpp", "io/a.cpp"):
+        path = tmp_path / "src" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"#include <vector>\n#include <{header}>\n")
+    (found,) = check_layers.violations(tmp_path)
+    assert found == f"src/io/a.cpp:2: <{header}> belongs in src/base/platform/"

@@ -15,7 +15,7 @@ namespace littoral {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// The faces of one component, and the vertices they use.
 std::pair<PolygonSoup, std::vector<int>> component_of(const SurfaceMesh& mesh, int component) {
@@ -41,7 +41,7 @@ std::pair<PolygonSoup, std::vector<int>> component_of(const SurfaceMesh& mesh, i
 
 /// All rows, component by component (Alg. 2).
 MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Report& report) {
-  MatX D = MatX::Constant(mesh.n_vertices(), mesh.n_vertices(), infinity);
+  MatX D = MatX::Constant(mesh.n_vertices(), mesh.n_vertices(), unreached);
   D.diagonal().setZero();
   const Stopwatch watch(report, "solve");
   for (int c = 0; c < mesh.n_components(); ++c) {
@@ -132,7 +132,7 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
     const SurfacePoint& p = points[i];
     const bool at_vertex = p.on == SurfacePoint::On::vertex;
     if (at_vertex && mesh.n_faces() > 0 && mesh.vertex_component()[p.element] < 0)
-      D.row(row).setConstant(infinity);  // in no face
+      D.row(row).setConstant(unreached);  // in no face
     else
       D.row(row) = solver.solve(Sources(p), stage, one).values;
     if (at_vertex) D(row, p.element) = 0;

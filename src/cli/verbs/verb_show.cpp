@@ -1,7 +1,5 @@
 // littoral view and render: pages and pictures of a surface with its field and sources.
 
-#include <unistd.h>
-
 #include <iostream>
 #include <memory>
 

@@ -1,6 +1,5 @@
 #include "domain/cloud/cloud_normals.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <queue>
@@ -10,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "littoral/error.h"
+#include "solve/direct/dense_decompositions.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {
@@ -54,8 +54,7 @@ MatX3 estimate_normals(const MatX3& points, const Task& task) {
         covariance += d * d.transpose();
         if (p != static_cast<int>(i)) graph[i].push_back(p);
       }
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(covariance);
-      normals.row(i) = principal.eigenvectors().col(0);
+      normals.row(i) = symmetric_eigenvectors(covariance).vectors.col(0);
     }
   });
   for (std::size_t i = 0; i < graph.size(); ++i)  // neighbours both ways

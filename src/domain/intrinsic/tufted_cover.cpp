@@ -14,9 +14,9 @@ namespace littoral {
 namespace {
 
 constexpr double margin = 1e-10;  // how far from collinear triangles stay, of their longest side
-constexpr double delaunay_margin = -1e-9;
+constexpr double flip_margin = -1e-9;
 
-double slack(const std::array<double, 3>& l) {
+double flip_slack(const std::array<double, 3>& l) {
   const double longest = std::max({l[0], l[1], l[2]});
   return l[0] + l[1] + l[2] - 2 * longest - margin * longest;
 }
@@ -39,7 +39,7 @@ TuftedCover::TuftedCover(const MatX3& points, const MatX3i& triangles) {
       front.length[k] =
           (points.row(triangles(t, (k + 1) % 3)) - points.row(triangles(t, k))).norm();
     }
-    lift = std::max(lift, -slack(front.length));
+    lift = std::max(lift, -flip_slack(front.length));
     faces_.push_back(front);
     faces_.push_back({{front.v[0], front.v[2], front.v[1]},
                       {front.length[2], front.length[1], front.length[0]},
@@ -115,7 +115,7 @@ bool TuftedCover::flip(int side) {
   if (!((std::conj(DC) * -D).imag() > 0) || !((std::conj(DC) * (ab - D)).imag() < 0)) return false;
   const double cd = std::abs(DC);
   const std::array<double, 3> at_f{ca, ad, cd}, at_g{db, bc, cd};
-  if (!(slack(at_f) > 0) || !(slack(at_g) > 0)) return false;
+  if (!(flip_slack(at_f) > 0) || !(flip_slack(at_g) > 0)) return false;
 
   const std::array<int, 4> before{3 * f + (i + 2) % 3, 3 * g + (j + 1) % 3, 3 * g + (j + 2) % 3,
                                   3 * f + (i + 1) % 3},
@@ -154,7 +154,7 @@ long long TuftedCover::flip_to_delaunay(const Task& task) {
     queue.pop_front();
     waiting[s] = 0;
     const int f = s / 3, g = faces_[f].twin[s % 3] / 3;
-    if (!(delaunay_sum(s) < delaunay_margin) || !flip(s)) continue;
+    if (!(delaunay_sum(s) < flip_margin) || !flip(s)) continue;
     ++flips;
     for (int face : {f, g})
       for (int k = 0; k < 2; ++k) push(3 * face + k);

@@ -1,11 +1,11 @@
 #include "domain/mesh/polygon_surface.h"
 
-#include <Eigen/Dense>
 #include <string>
 
 #include "base/index.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
+#include "solve/direct/dense_decompositions.h"
 
 namespace littoral {
 
@@ -35,17 +35,15 @@ VecX virtual_weights(const SurfaceMesh& mesh, std::span<const int> corners) {
     H += Q;
     b += Q * x.col(i);
   }
-  const Eigen::LDLT<Eigen::Matrix3d> ldlt(H);
-  const Vec3 centre = H.fullPivLu().rcond() > 1e-12 ? Vec3(ldlt.solve(b)) : Vec3(Vec3::Zero());
+  const Vec3 centre = solve_symmetric(H, b);
 
   // Least-norm w with sum w = 1 and x w = centre; the corners are centred, so they part.
   const Eigen::Matrix3d C = x * x.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(C);
+  const Eigenvectors3 eigen = symmetric_eigenvectors(C);
   Vec3 y = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
-    if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[2])
-      y += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(centre) /
-           eigen.eigenvalues()[k];
+    if (eigen.values[k] > 1e-12 * eigen.values[2])
+      y += eigen.vectors.col(k) * eigen.vectors.col(k).dot(centre) / eigen.values[k];
   const VecX w = equal + x.transpose() * y;
   return w.allFinite() ? w : equal;
 }

@@ -1,10 +1,9 @@
 // Finding the module that writes .vdb.
 
-#include <dlfcn.h>
-
 #include <filesystem>
 #include <vector>
 
+#include "base/platform/shared_library.h"
 #include "io/volume/vdb_module.h"
 #include "io/volume/volume_formats.h"
 #include "littoral/error.h"
@@ -15,19 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* file_name = "littoral_vdb.so";
-
-/// The folder of the program or shared library that this code is part of.
-fs::path own_folder() {
-  std::error_code none;
-  Dl_info info{};
-  static const int here = 0;
-  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
-  // Of the program itself, the loader knows no more than how it was called.
-  fs::path object = fs::canonical(info.dli_fname, none);
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  if (object.empty() || object.filename() == program.filename()) object = program;
-  return object.parent_path();
-}
 
 /// Beside the program, one folder up (a build's tests), or where it is installed.
 const VdbModule* find_module() {
@@ -40,9 +26,8 @@ const VdbModule* find_module() {
     std::error_code none;
     const fs::path file = place / file_name;
     if (!fs::exists(file, none)) continue;
-    void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) continue;
-    const auto entry = reinterpret_cast<const VdbModule* (*)()>(dlsym(module, vdb_module_symbol));
+    const auto entry =
+        reinterpret_cast<const VdbModule* (*)()>(symbol_of_library(file, vdb_module_symbol));
     if (entry == nullptr) continue;
     const VdbModule* found = entry();
     if (std::string(found->version) == LITTORAL_VERSION) return found;

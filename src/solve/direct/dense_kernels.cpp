@@ -5,10 +5,10 @@
 #include <cmath>
 #include <mutex>
 
-#if LITTORAL_BLAS
-#include <dlfcn.h>
-
 #include "base/index.h"
+#include "base/platform/shared_library.h"
+
+#if LITTORAL_BLAS
 extern "C" {
 #define LITTORAL_BLAS_DECLARE(S, p, herk)                                                         \
   void p##gemm_(const char*, const char*, const int*, const int*, const int*, const S*, const S*, \
@@ -54,7 +54,7 @@ void use_one_thread() {
   static std::once_flag once;
   std::call_once(once, [] {
     using Setter = void (*)(int);
-    if (void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
+    if (void* symbol = loaded_symbol("openblas_set_num_threads"))
       reinterpret_cast<Setter>(symbol)(1);
   });
 }

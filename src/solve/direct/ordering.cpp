@@ -7,14 +7,12 @@
 #include <numeric>
 #include <utility>
 
+#include "base/platform/process.h"
 #include "littoral/error.h"
 
 #if LITTORAL_METIS
 #include <metis.h>
 
-#include <atomic>
-#include <csignal>
-#include <thread>
 static_assert(sizeof(idx_t) == sizeof(int), "METIS with 32-bit indices");
 #endif
 
@@ -51,39 +49,6 @@ Graph graph_of(const Eigen::SparseMatrix<Scalar>& lower) {
   return g;
 }
 
-#if LITTORAL_METIS
-/// METIS puts handlers on SIGTERM and SIGABRT that jump back into METIS from whatever thread the
-/// signal meets. This puts the previous ones back as soon as it has done so.
-class KeepSignalHandlers {
- public:
-  KeepSignalHandlers() {
-    for (int k = 0; k < 2; ++k) sigaction(signals[k], nullptr, &before_[k]);
-    watcher_ = std::thread([this] {
-      for (int restored = 0; restored != 3 && !over_; std::this_thread::yield())
-        for (int k = 0; k < 2; ++k) {
-          struct sigaction now = {};
-          sigaction(signals[k], nullptr, &now);
-          if (now.sa_handler == before_[k].sa_handler) continue;
-          sigaction(signals[k], &before_[k], nullptr);
-          restored |= 1 << k;
-        }
-    });
-  }
-  ~KeepSignalHandlers() {
-    over_ = true;
-    watcher_.join();
-  }
-  KeepSignalHandlers(const KeepSignalHandlers&) = delete;
-  KeepSignalHandlers& operator=(const KeepSignalHandlers&) = delete;
-
- private:
-  static constexpr int signals[2] = {SIGTERM, SIGABRT};
-  struct sigaction before_[2] = {};
-  std::atomic<bool> over_{false};
-  std::thread watcher_;
-};
-#endif
-
 Ordering dissect(Graph& g) {
   Ordering order(g.begin.size() - 1);
   std::iota(order.begin(), order.end(), 0);
@@ -92,6 +57,8 @@ Ordering dissect(Graph& g) {
   static std::mutex one_at_a_time;  // METIS draws from the C library's random numbers, which it
                                     // seeds: two runs at once would draw from each other's
   const std::lock_guard lock(one_at_a_time);
+  // METIS puts handlers on SIGTERM and SIGABRT that jump back into METIS from whatever thread the
+  // signal meets.
   const KeepSignalHandlers keep;
   std::vector<int> position(order.size());
   idx_t n = static_cast<idx_t>(order.size());

@@ -15,7 +15,7 @@ namespace {
 using namespace paraboloid;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t grain = 256;  // elements per piece of a parallel loop
+constexpr std::size_t elements_at_once = 256;  // elements per piece of a parallel loop
 
 /// One run of the interior-point method.
 ///
@@ -115,9 +115,9 @@ class Run {
   /// Calls f(element, partial) with a partial result per piece, combined in order.
   template <class Partial, class F, class Combine>
   Partial for_elements(F&& f, Combine&& combine) {
-    std::vector<Partial> partial((local_.size() + grain - 1) / grain);
-    parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / grain]);
+    std::vector<Partial> partial((local_.size() + elements_at_once - 1) / elements_at_once);
+    parallel_for(local_.size(), elements_at_once, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / elements_at_once]);
     });
     Partial total{};
     for (const Partial& p : partial) combine(total, p);
@@ -125,7 +125,7 @@ class Run {
   }
   template <class F>
   void each_element(F&& f) {
-    parallel_for(local_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(local_.size(), elements_at_once, [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) f(e);
     });
   }

@@ -10,8 +10,8 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t grain = 16384;
-constexpr int check_every = 10;
+constexpr std::size_t rows_at_once = 16384;
+constexpr int steps_between_checks = 10;
 
 /// Largest eigenvalue of M^-1 D G, from below, by the power method; starts rough.
 double largest_eigenvalue(const SpRows& G, const SpRows& D, const VecX& inverse, const Task& task) {
@@ -47,11 +47,11 @@ AdmmResult pdhg(const SplitProblem& p, const VecX& M, const VecX& u0, const Admm
   for (int k = 1; k <= options.max_iterations; ++k) {
     task.checkpoint(progress);
     r.iterations = k;
-    const bool check = k % check_every == 0 || k == options.max_iterations;
+    const bool check = k % steps_between_checks == 0 || k == options.max_iterations;
     // y + sigma G u, less sigma times the nearest allowed gradient (Moreau).
     multiply(p.G, ahead, g, task);
     VecX v = y / sigma + g, z(v.size());
-    parallel_for(p.A.size(), grain, [&](std::size_t i, std::size_t end) {
+    parallel_for(p.A.size(), rows_at_once, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) {
         const Eigen::Index c = i;
         p.energy->prox(c, sigma, v.data() + c * dim, z.data() + c * dim);

@@ -1,6 +1,6 @@
 #include "solve/poisson/constrained_system.h"
 
-#include <Eigen/Eigenvalues>
+#include "solve/direct/dense_decompositions.h"
 
 #include "base/index.h"
 
@@ -24,15 +24,6 @@ int component_of_row(const RowMatrix& rows, Eigen::Index r, const std::vector<in
   for (RowMatrix::InnerIterator it(rows, r); it; ++it)
     if (it.value() != 0) return component[it.col()];
   return -1;
-}
-
-/// Inverse of a semidefinite matrix, 0 on its null space: dependent rows do no harm.
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& S) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (S + S.transpose()));
-  const double least = 1e-11 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-  const VecX inverse =
-      eigen.eigenvalues().unaryExpr([least](double x) { return x > least ? 1 / x : 0.0; });
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
 /// `pinned` and the first unknown of every component that is not fixed, and unknowns in none.

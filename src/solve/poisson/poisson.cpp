@@ -1,10 +1,11 @@
 #include "solve/poisson/poisson.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "littoral/error.h"
+#include "solve/direct/dense_decompositions.h"
 
 namespace littoral {
 
@@ -150,7 +151,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   const DefiniteSystem system =
       with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
   const SpMat At = rows.A.transpose();
-  Eigen::LDLT<MatX> rest;
+  std::optional<SymmetricFactor> rest;
   if (n_free > 0) {
     MatX S(n_free, n_free);
     constexpr int at_once = 16;
@@ -160,7 +161,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
       const MatX B = spread(MatX::Identity(n_free, n_free).middleCols(g, k));
       S.middleCols(g, k) = w * gather(B - rows.A * system.approximate(MatX(w * (At * B)), task));
     }
-    rest.compute(0.5 * (S + S.transpose()));
+    rest.emplace(0.5 * (S + S.transpose()));
   }
   VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
   VecX miss = y;  // A x - B c
@@ -175,7 +176,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     const VecX u = system.approximate(r, task);
     VecX dx = u;
     if (n_free > 0) {
-      const VecX dc = rest.solve(gather(VecX(force + w * (rows.A * u))));
+      const VecX dc = rest->solve(gather(VecX(force + w * (rows.A * u))));
       dx += system.approximate(VecX(w * (At * spread(dc))), task);
       c += dc;
     }

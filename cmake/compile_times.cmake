@@ -1,0 +1,49 @@
+# What keeps a build short: -O2 but for the kernels, precompiled headers, and small files of one folder
+# compiled together.
+option(LITTORAL_UNITY "Compile the files of a folder together" ON)
+
+# -O3 takes a third longer to compile and pays in few places, which are named below.
+if(PROJECT_IS_TOP_LEVEL)
+  string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+endif()
+set(littoral_hot_sources
+  src/methods/geodesic/exact_polyhedral.cpp src/methods/geodesic/fast_marching.cpp
+  src/methods/tori/torus_kernels.cpp
+  src/solve/direct/dense_kernels.cpp src/solve/direct/small_supernode_kernels.cpp
+  src/solve/multigrid/cosine_transform.cpp
+  src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
+  src/spatial/bound_kernels.cpp src/spatial/point_kernels.cpp src/spatial/winding_kernels.cpp
+  src/spatial/winding_number.cpp)
+set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+
+# Compiles the files of each folder together, in portions of up to `bytes`; those with compile options
+# of their own stay alone, as do the ones named after `bytes`. Names in the unnamed namespaces of a
+# folder must differ.
+function(littoral_compile_together target bytes)
+  if(NOT LITTORAL_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  set(folder_before "")
+  set(portion 0)
+  set(size_so_far 0)
+  foreach(source ${sources})
+    get_property(options SOURCE ${source} PROPERTY COMPILE_OPTIONS)
+    get_property(definitions SOURCE ${source} PROPERTY COMPILE_DEFINITIONS)
+    if(options OR definitions OR source IN_LIST ARGN OR NOT source MATCHES "/src/.*[.]cpp$")
+      continue()
+    endif()
+    get_filename_component(folder ${source} DIRECTORY)
+    file(SIZE ${source} size)
+    math(EXPR size_so_far "${size_so_far} + ${size}")
+    if(NOT folder STREQUAL folder_before OR size_so_far GREATER bytes)
+      math(EXPR portion "${portion} + 1")
+      set(size_so_far ${size})
+      set(folder_before ${folder})
+    endif()
+    string(REGEX REPLACE ".*/src/" "" name ${folder})
+    string(REPLACE "/" "_" name ${name})
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${name}_${portion})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "api/surface/distance.h"
 #include "api/surface/pairs.h"
 #include "base/parallel.h"
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
@@ -33,9 +33,9 @@ MatX pairs_on(const SurfaceMesh& mesh, double alpha, double tolerance = 1e-3) {
 }
 
 PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
-                      std::vector<int> vertices = {}, const OptionValues& options = {}) {
+                      const std::vector<int>& vertices = {}, const OptionValues& options = {}) {
   Report report;
-  return pair_distances(mesh, {method, options, std::move(vertices)}, {}, report);
+  return test::pair_distances(mesh, vertices, AnyMethod::named(method, options), report);
 }
 
 TEST(AllPairs, CircleWithDirichletEnergy) {
@@ -172,12 +172,12 @@ TEST(Pairs, SmoothingMakesTheTriangleInequalityHold) {
 
 TEST(Pairs, EveryMethodGivesTheRowsOfItsSingleSolves) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
-  for (const MethodInfo& method : methods()) {
+  for (const MethodInfo& method : Registry<SurfaceDomain>::instance().infos()) {
     Report report;
     const MatX rows = by_method(mesh, method.name, {5, 17}).distances;
     ASSERT_EQ(rows.rows(), 2);
-    const VecX alone =
-        surface_distance(mesh, test::vertex_points({17}), {method.name, {}}, {}, report);
+    const VecX alone = test::surface_distance(mesh, test::vertex_points({17}),
+                                              AnyMethod::named(method.name), report);
     const double far = alone.maxCoeff();
     EXPECT_EQ(rows(1, 17), 0) << method.name;
     EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * far) << method.name;

@@ -115,7 +115,7 @@ TEST(TraceCarry, SplitsBetweenComponents) {
   sources.space_curves[0].points.resize(2, 3);
   sources.space_curves[0].points << 0.3, 0.4, 0, 2.2, 0.4, 0;
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   EXPECT_EQ(prepared.n_curves, 2);
   double sum = 0;
   for (const CurvePiece& piece : prepared.pieces) sum += piece.length;
@@ -153,7 +153,7 @@ TEST(TraceCarry, TorusCurvesOnSharedMeshes) {
       space_curves(io::read_surface(test::shared() / "data/curves/rc-multi-on-torus.obj"));
   ASSERT_FALSE(sources.space_curves.empty());
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   EXPECT_EQ(prepared.n_curves, static_cast<int>(sources.space_curves.size()));
   EXPECT_GT(prepared.pieces.size(), 100u);
 }
@@ -206,7 +206,7 @@ TEST(TraceCarry, NodesThatShareNoFaceAreTraced) {
        true,
        "bad_nonadjacent.txt:2"});
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0], HasSubstr("bad_nonadjacent.txt:2"));
   const Vec3 a = mesh.point(0).normalized(), b = mesh.point(5).normalized(),

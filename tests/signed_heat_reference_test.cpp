@@ -6,7 +6,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
 #include "io/read.h"
 #include "shared_data.h"
@@ -100,9 +99,9 @@ TEST_P(OtherDomainReference, IsCloseToTheAuthorsProgram) {
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
-  VecX phi = surface_distance(example.mesh, example.sources,
-                              {"signed-heat", {{"constraint", c.constraint}, {"time-scale", "1"}}},
-                              {}, report);
+  VecX phi = test::surface_distance(
+      example.mesh, example.sources,
+      AnyMethod::named("signed-heat", {{"constraint", c.constraint}, {"time-scale", "1"}}), report);
   const VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());
   ASSERT_TRUE(phi.allFinite());

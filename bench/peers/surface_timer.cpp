@@ -70,7 +70,7 @@ int run(char** argv) {
   say("first", seconds([&] {
         const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
         const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-        const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
+        const auto terms = source_system(mesh, T, place_sources(mesh, sources, report));
         const SignedHeatSolver method(ops, 1, {}, {true, false}, SolveHint::single_rhs);
         phi = method.solve(terms, constrained(Constraint::zero_set), {}, report);
       }));
@@ -82,7 +82,7 @@ int run(char** argv) {
     const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
     const auto ops = std::make_shared<const Operators>(triangle_operators(T));
     const SignedHeatSolver method(ops, 1, {}, {true, false});
-    const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
+    const auto terms = source_system(mesh, T, place_sources(mesh, sources, report));
     struct Case {
       const char* name;
       SignedHeat options;
@@ -103,7 +103,7 @@ int run(char** argv) {
       }
       const Sources& next = round % 2 ? sources : others;
       const double t = seconds([&] {
-        const auto fresh = source_system(mesh, T, place_sources(mesh, next, false, report));
+        const auto fresh = source_system(mesh, T, place_sources(mesh, next, report));
         method.solve(fresh, cases[1].options, {}, report);
       });
       if (round > 0) moved.push_back(t);

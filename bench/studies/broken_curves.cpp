@@ -48,7 +48,7 @@ int run(int n_meshes, char** meshes) {
     const SignedHeatSolver method(ops, 1);
     auto distance = [&](const Sources& sources) {
       const SourceSystem terms =
-          source_system(mesh, T, place_sources(mesh, sources, false, report));
+          source_system(mesh, T, place_sources(mesh, sources, report));
       return method.solve(terms, {}, {}, report);
     };
     std::vector<double> error(n_damages, 0.0), area(n_damages, 0.0);
@@ -68,7 +68,7 @@ int run(int n_meshes, char** meshes) {
         SignedHeat options;
         options.constraint = Constraint::none;
         const SourceSystem terms =
-            source_system(mesh, T, place_sources(mesh, input, false, report));
+            source_system(mesh, T, place_sources(mesh, input, report));
         const VecX broken = method.solve(terms, options, {}, report);
         const VecX& M = ops->scalar.M;
         double e = 0, wrong = 0;

@@ -35,7 +35,7 @@ double given_scale = 0;  // 0: automatic
 VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, double& scale, Report& report) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-  const SourceSystem terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
+  const SourceSystem terms = source_system(mesh, T, place_sources(mesh, sources, report));
   SignedHeat options;
   options.time_scale = given_scale > 0 ? given_scale : automatic_time_scale(terms, *ops);
   SignedHeatSolver method(ops, options.time_scale, {}, needed_diffusions(terms, options),
@@ -53,7 +53,7 @@ VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, double& scale,
 VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)),
+  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, report)),
                           {}, report);
 }
 

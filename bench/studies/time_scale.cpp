@@ -58,9 +58,9 @@ void study(const char* path) {
   std::vector<VecX> truth;
   std::vector<SourceSystem> terms;
   for (const Case& c : all) {
-    const auto sources = triangle_sources(mesh, T, place_sources(mesh, c.whole, false, report));
+    const auto sources = triangle_sources(mesh, T, place_sources(mesh, c.whole, report));
     truth.push_back(exact_polyhedral(T, sources, {}, report));
-    terms.push_back(source_system(mesh, T, place_sources(mesh, c.given, false, report)));
+    terms.push_back(source_system(mesh, T, place_sources(mesh, c.given, report)));
   }
   const VecX& M = ops->scalar.M;
   for (const double scale : scales) {

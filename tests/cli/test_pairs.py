@@ -20,7 +20,7 @@ def test_matrix_and_statistics(run: Run, tmp_path: Path) -> None:
     assert report["method"] == "symmetric"
 
 
-def test_rows_of_operand_methods(run: Run, tmp_path: Path) -> None:
+def test_rows_of_other_methods(run: Run, tmp_path: Path) -> None:
     mesh = octahedron(tmp_path / "o.obj")
     out = tmp_path / "d.csv"
     run("pairs", mesh, "-o", out, "--method", "exact", "--vertex", "4", "--vertex", "0")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
+#include "one_call.h"
 #include "sources/retriangulate_sources.h"
 #include "test_meshes.h"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/curved_hessian.h"
 #include "operators/line_field.h"
 #include "regularized_helpers.h"

@@ -10,6 +10,7 @@
 #include "api/space/sdf.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/grid.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"

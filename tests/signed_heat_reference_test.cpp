@@ -8,6 +8,7 @@
 
 #include "heat_helpers.h"
 #include "io/read.h"
+#include "one_call.h"
 #include "shared_data.h"
 
 namespace littoral {
@@ -69,8 +70,8 @@ TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
-  SignedHeat options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
-  options.points = PointVectors::radial;  // as theirs
+  SignedHeat options{1, c.constraint, c.soft, c.preserve};
+  options.point_sources = PointVectors::radial;  // as theirs
   const VecX phi = test::signed_heat(example.mesh, example.sources, options, report);
   VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "littoral/error.h"
@@ -175,7 +176,7 @@ void use_again(const AnyMethod& method, const D& domain,
       for (std::size_t i = 0; i < all.size(); ++i)
         expect_same(i, solver->solve(all[i], {}, report));
     const auto fresh = prepare(method, domain, hint, {}, report);  // nothing kept yet
-    std::vector<typename D::Answer> answers(4);
+    std::vector<std::optional<typename D::Answer>> answers(4);
     std::vector<std::thread> threads;
     for (std::size_t k = 0; k < answers.size(); ++k)
       threads.emplace_back([&, k] {
@@ -183,7 +184,7 @@ void use_again(const AnyMethod& method, const D& domain,
         answers[k] = fresh->solve(all[k % all.size()], {}, own_report);
       });
     for (std::thread& thread : threads) thread.join();
-    for (std::size_t k = 0; k < answers.size(); ++k) expect_same(k % all.size(), answers[k]);
+    for (std::size_t k = 0; k < answers.size(); ++k) expect_same(k % all.size(), *answers[k]);
   }
 }
 

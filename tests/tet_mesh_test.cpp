@@ -193,7 +193,9 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
   for (int v = 0; v < mesh.n_vertices(); ++v)
     EXPECT_NEAR(psi[order[static_cast<std::size_t>(v)]], phi[v], 2e-3);
 
-  const VecX flipped = distance(mesh, {.surface = ball, .flip = true});
+  TetSources inward{ball, {}};
+  inward.flip = true;
+  const VecX flipped = distance(mesh, inward);
   EXPECT_LT((flipped + phi).cwiseAbs().maxCoeff(), 1e-3);
 }
 

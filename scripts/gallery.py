@@ -234,7 +234,7 @@ def main(program: str, shared: Path) -> None:
             solve = [program, "distance", str(hand), "--method", "regularized", *source]
             subprocess.run([*solve, "--quiet", "-o", tets], check=True)
             lines = "20" if "--vertex" in source else "7"
-            shown = [program, "render", tets, "--axis", "z", "--slice", "0", "--levels", lines]
+            shown = [program, "render", tets, "--axis", "z", "--slice", "0", "--isolines", lines]
             subprocess.run([*shown, *SIZE, "-o", str(out / f"{name}.png")], check=True)
         bunny, field, ring = shared / "data" / "volumes" / "bunny-64.vol", "field.ply", "ring.obj"
         for command in (

@@ -4,15 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
-#include "api/surface/distance.h"
 #include "api/surface/pairs.h"
 #include "base/parallel.h"
+#include "domain_shapes.h"
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
@@ -33,9 +35,9 @@ MatX pairs_on(const SurfaceMesh& mesh, double alpha, double tolerance = 1e-3) {
 }
 
 PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
-                      std::vector<int> vertices = {}, const OptionValues& options = {}) {
+                      const std::vector<int>& vertices = {}, const OptionValues& options = {}) {
   Report report;
-  return pair_distances(mesh, {method, options, std::move(vertices)}, {}, report);
+  return test::pair_distances(mesh, vertices, AnyMethod::named(method, options), report);
 }
 
 TEST(AllPairs, CircleWithDirichletEnergy) {
@@ -172,16 +174,68 @@ TEST(Pairs, SmoothingMakesTheTriangleInequalityHold) {
 
 TEST(Pairs, EveryMethodGivesTheRowsOfItsSingleSolves) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
-  for (const MethodInfo& method : methods()) {
+  for (const MethodInfo& method : Registry<SurfaceDomain>::instance().infos()) {
     Report report;
     const MatX rows = by_method(mesh, method.name, {5, 17}).distances;
     ASSERT_EQ(rows.rows(), 2);
-    const VecX alone =
-        surface_distance(mesh, test::vertex_points({17}), {method.name, {}}, {}, report);
+    const VecX alone = test::surface_distance(mesh, test::vertex_points({17}),
+                                              AnyMethod::named(method.name), report);
     const double far = alone.maxCoeff();
     EXPECT_EQ(rows(1, 17), 0) << method.name;
     EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * far) << method.name;
   }
+}
+
+/// The rows of two vertices, and the same from solves of their own.
+void expect_rows_of_single_solves(const SurfaceDomain& domain, const AnyMethod& method) {
+  Report report;
+  const MatX rows = pair_distances(domain, {5, 17}, method, {}, report).distances;
+  ASSERT_EQ(rows.rows(), 2);
+  EXPECT_EQ(rows(1, 17), 0);
+  EXPECT_EQ(report.domain, domain.kind());
+  const Sources source(SurfacePoint::at_vertex(17));
+  const VecX alone = solve_once(method, domain, source, {}, report).values;
+  EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * alone.maxCoeff());
+}
+
+class PairsOnEveryDomain : public testing::TestWithParam<test::Domain> {};
+
+TEST_P(PairsOnEveryDomain, EveryMethodThatRunsThereGivesRows) {
+  const test::Shape sphere = test::sphere(GetParam(), 8);
+  const SurfaceMesh mesh(sphere.soup);
+  const SurfaceDomain domain =
+      domain_of(mesh, sphere.face_normals.rows() ? &sphere.face_normals : nullptr);
+  int ran = 0;
+  for (const MethodInfo& info : Registry<SurfaceDomain>::instance().infos()) {
+    SCOPED_TRACE(info.name);
+    const auto& on = info.domains;
+    if (std::find(on.begin(), on.end(), domain.kind()) != on.end()) {
+      expect_rows_of_single_solves(domain, AnyMethod::named(info.name));
+      ++ran;
+    } else {
+      Report report;
+      EXPECT_THROW(pair_distances(domain, {5}, AnyMethod::named(info.name), {}, report),
+                   UnsupportedError);
+    }
+  }
+  EXPECT_GE(ran, 4);
+  Report report;
+  if (domain.kind() != "triangle mesh") {
+    EXPECT_THROW(pair_distances(domain, {5}, Symmetric{}, {}, report), UnsupportedError);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Domains, PairsOnEveryDomain,
+                         testing::Values(test::Domain::triangles, test::Domain::polygons,
+                                         test::Domain::points, test::Domain::voxels));
+
+TEST(Pairs, OptionsOfSingleSolvesWork) {
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  for (const AnyMethod& method : {AnyMethod(SignedHeat{.intrinsic_delaunay = true}),
+                                  AnyMethod(SignedHeat{.discontinuous = true}),
+                                  AnyMethod(SignedHeat{.sharpen = Sharpening::on}),
+                                  AnyMethod(UnsignedHeat{.intrinsic_delaunay = true})})
+    expect_rows_of_single_solves(domain_of(mesh), method);
 }
 
 TEST(Pairs, ComponentsAndStrayVertices) {

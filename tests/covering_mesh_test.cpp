@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <set>
 
-#include "api/surface/distance.h"
 #include "domain/mesh/triangulate.h"
 #include "heat_helpers.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "sources/retriangulate_sources.h"
 #include "test_meshes.h"
@@ -58,9 +58,9 @@ double size_named(const Report& report, const std::string& name) {
 
 VecX distance(const SurfaceMesh& mesh, const Sources& sources, const std::string& method,
               bool intrinsic, Report& report) {
-  DistanceRequest request{method, {}};
-  if (intrinsic) request.options.emplace_back("intrinsic-delaunay", "on");
-  return surface_distance(mesh, sources, request, {}, report);
+  OptionValues options;
+  if (intrinsic) options.emplace_back("intrinsic-delaunay", "on");
+  return test::surface_distance(mesh, sources, AnyMethod::named(method, options), report);
 }
 
 TEST(CoveringMesh, HasTwoFacesAtEveryEdgeAndTheSameLaplacianTwice) {
@@ -134,7 +134,7 @@ TEST(CoveringMesh, IsNotForVectors) {
   line << 0.05, 0.2, 0, 0.95, 0.7, 0;
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const PlacedSources sources = place_sources(mesh, test::space_curve(line), false, report);
+  const PlacedSources sources = place_sources(mesh, test::space_curve(line), report);
   const CoveringMesh cover = covering_mesh(mesh, T);
   const auto error = [&](const SurfaceMesh& on, const IntrinsicTriangulation& triangles,
                          const PlacedSources& placed) {
@@ -178,9 +178,9 @@ TEST(PolygonOptions, RunOnTriangles) {
   MatX3 circle = test::circle(0.5, 0.5, 0, 0.3, 40);
   for (const char* option : {"intrinsic-delaunay", "discontinuous", "bounding-only"}) {
     Report report, same;
-    const DistanceRequest request{"signed-heat", {{option, "on"}}};
-    const VecX phi = surface_distance(mesh, test::space_curve(circle), request, {}, report);
-    const VecX expected = surface_distance(cut, test::space_curve(circle), request, {}, same);
+    const AnyMethod method = AnyMethod::named("signed-heat", {{option, "on"}});
+    const VecX phi = test::surface_distance(mesh, test::space_curve(circle), method, report);
+    const VecX expected = test::surface_distance(cut, test::space_curve(circle), method, same);
     EXPECT_EQ(phi, expected) << option;
     EXPECT_EQ(std::count(report.warnings.begin(), report.warnings.end(),
                          "the polygons were cut into triangles, as the options ask for these"),
@@ -192,7 +192,7 @@ TEST(PolygonOptions, RunOnTriangles) {
                    SurfacePoint::in_face(100, 0.3, 0.2, 0.5)};
   Report report;
   const VecX phi =
-      surface_distance(mesh, points, {"unsigned-heat", {{"intrinsic-delaunay", "on"}}}, {}, report);
+      test::surface_distance(mesh, points, UnsignedHeat{.intrinsic_delaunay = true}, report);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     double nearest = 10;
     for (const SurfacePoint& p : points.points)

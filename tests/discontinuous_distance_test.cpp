@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "api/surface/distance.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/error.h"
 #include "methods/heat/discontinuous.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -21,9 +21,9 @@ Sources vertex_loop(std::vector<int> vertices) {
   return sources;
 }
 
-SurfaceResult distance(const SurfaceMesh& mesh, const Sources& sources, OptionValues options) {
+SurfaceAnswer distance(const SurfaceMesh& mesh, const Sources& sources, const SignedHeat& method) {
   Report report;
-  return solve_distance(mesh, sources, {"signed-heat", std::move(options), false}, {}, report);
+  return test::surface_answer(mesh, sources, method, report);
 }
 
 TEST(DiscontinuousDistance, LeavesIntegrableFieldsAlone) {
@@ -57,7 +57,7 @@ TEST(DiscontinuousDistance, AgreesWithTheContinuousOneWhereACurveBounds) {
   }
   sources.space_curves.push_back({ring, true, "ring"});
   const VecX plain = distance(mesh, sources, {}).values;
-  const SurfaceResult torn = distance(mesh, sources, {{"discontinuous", "on"}});
+  const SurfaceAnswer torn = distance(mesh, sources, {.discontinuous = true});
   EXPECT_LT((plain - torn.values).cwiseAbs().maxCoeff(), 0.2);  // two edge lengths, at the pole
   EXPECT_LT((plain - torn.values).cwiseAbs().mean(), 0.03);
   EXPECT_EQ(torn.shown->scalars.at("distance").size(), torn.shown->n_vertices());
@@ -70,8 +70,8 @@ TEST(DiscontinuousDistance, ALoopThatBoundsNothingGetsDistanceToBothSides) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv, R, r));
   std::vector<int> loop;
   for (int j = 0; j <= nv; ++j) loop.push_back(j % nv);
-  const SurfaceResult torn =
-      distance(mesh, vertex_loop(loop), {{"discontinuous", "on"}, {"time-scale", "16"}});
+  const SurfaceAnswer torn =
+      distance(mesh, vertex_loop(loop), {.time_scale = 16, .discontinuous = true});
   const VecX& phi = torn.shown->scalars.at("distance");
   // |grad phi| is 1 nearly everywhere: values run from - to + half the way round.
   const double half = std::acos(-1.0) * R;
@@ -79,7 +79,7 @@ TEST(DiscontinuousDistance, ALoopThatBoundsNothingGetsDistanceToBothSides) {
   EXPECT_NEAR(phi.minCoeff(), -half, 0.15 * half);
   EXPECT_GT(torn.shown->n_vertices(), mesh.n_vertices());
   // Without jumps, the field has to be flattened: far from what distance is.
-  const VecX plain = distance(mesh, vertex_loop(loop), {{"time-scale", "16"}}).values;
+  const VecX plain = distance(mesh, vertex_loop(loop), {.time_scale = 16}).values;
   EXPECT_LT(plain.maxCoeff(), 0.75 * half);
   // Few vertices are torn: one ring of the tube, more or less.
   EXPECT_LT(torn.shown->n_vertices() - mesh.n_vertices(), 3 * nv);
@@ -96,10 +96,10 @@ TEST(DiscontinuousDistance, LeavesOutWhatBoundsNothing) {
   for (int j = 8; j >= 2; --j) disk.push_back(8 * nv + j);
   Sources both = vertex_loop(tube);
   both.curves.push_back(vertex_loop(disk).curves[0]);
-  const VecX filtered = distance(mesh, both, {{"bounding-only", "on"}}).values;
+  const VecX filtered = distance(mesh, both, {.bounding_only = true}).values;
   const VecX alone = distance(mesh, vertex_loop(disk), {}).values;
   EXPECT_LT((filtered - alone).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_THROW(distance(mesh, vertex_loop(tube), {{"bounding-only", "on"}}), InputError);
+  EXPECT_THROW(distance(mesh, vertex_loop(tube), {.bounding_only = true}), InputError);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST_P(OnEveryDomain, MotionScaleAndOrientation) {
     const VecX psi = moved.distance(sources, "signed-heat");
     EXPECT_LE((psi - scale * phi).cwiseAbs().maxCoeff(), 1e-6 * scale * size) << scale;
   }
-  const VecX flipped = s.distance(parallel(), "signed-heat", {}, nullptr, true);
+  const VecX flipped = s.distance(parallel().reversed(), "signed-heat");
   EXPECT_LE((flipped + phi).cwiseAbs().maxCoeff(), 1e-9 * size);
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "api/surface/distance.h"
 #include "domain/mesh/triangulate.h"
 #include "domain/volume/voxels.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral::test {
@@ -26,9 +26,9 @@ struct Shape {
   MatX3 face_normals{0, 3};
 
   VecX distance(const Sources& sources, const std::string& method, const OptionValues& options = {},
-                Report* report = nullptr, bool flip = false) const {
+                Report* report = nullptr) const {
     Report own;
-    return surface_distance(SurfaceMesh(soup), sources, {method, options, flip}, {},
+    return surface_distance(SurfaceMesh(soup), sources, AnyMethod::named(method, options),
                             report ? *report : own, face_normals.rows() ? &face_normals : nullptr);
   }
 };

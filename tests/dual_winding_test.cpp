@@ -4,21 +4,19 @@
 
 #include <cmath>
 
-#include "api/surface/winding.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-WindingAnswer dual(const SurfaceMesh& mesh, const Sources& sources, bool flip = false,
-                   OptionValues options = {}) {
-  Report report;
-  options.emplace_back("formulation", "dual");
-  return surface_winding(mesh, sources, {options, flip}, {}, report);
+WindingAnswer dual(const SurfaceMesh& mesh, const Sources& sources, Labels labels = Labels::round) {
+  return test::surface_winding(mesh, sources,
+                               SurfaceWinding{.formulation = Formulation::dual, .labels = labels});
 }
 
 Sources chain_of(std::vector<std::vector<int>> chains) {
@@ -44,10 +42,10 @@ TEST(DualWinding, AgreesWithThePrimalOnClosedCurvesAndNearlyOnBrokenOnes) {
     const SurfaceMesh mesh(io::read_surface(folder / (std::string(c.mesh) + ".obj")));
     Report report;
     const auto sources = io::read_sources(folder / c.curve, mesh, {}, report);
-    const VecXi primal = surface_winding(mesh, sources, {{}, false}, {}, report).region;
+    const VecXi primal = test::surface_winding(mesh, sources).region;
     const VecXi region = dual(mesh, sources).region;
     EXPECT_LE((region.array() != primal.array()).cast<double>().mean(), c.differs);
-    EXPECT_EQ(dual(mesh, sources, true).region, -region);
+    EXPECT_EQ(dual(mesh, sources.reversed()).region, -region);
   }
 }
 
@@ -130,7 +128,7 @@ TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
   // The same with one third of it missing, cut: there it is shorter to go through page 2, once,
   // than along the spine, across two pairs of pages.
   sources.chains.resize(8);
-  region = dual(mesh, sources, false, {{"labels", "cut"}}).region;
+  region = dual(mesh, sources, Labels::cut).region;
   int otherwise = 0;
   for (int f = 0; f < mesh.n_faces(); ++f) {
     if (f / (2 * n * n) != 2) {

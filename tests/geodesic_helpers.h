@@ -19,8 +19,7 @@ template <class Method>
 VecX geodesic(Method method, const SurfaceMesh& mesh, const Sources& sources, Report& report,
               const Task& task = {}) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return method(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)), task,
-                report);
+  return method(T, triangle_sources(mesh, T, place_sources(mesh, sources, report)), task, report);
 }
 inline VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;

@@ -5,6 +5,7 @@
 
 #include "heat_helpers.h"
 #include "io/read.h"
+#include "littoral/error.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
@@ -163,7 +164,7 @@ TEST(HeatDomains, CrossingAndMixedSourcesStayFinite) {
   sources.points.push_back(SurfacePoint::in_face(3, 0.2, 0.3, 0.5));
   for (Constraint c : {Constraint::none, Constraint::zero_set, Constraint::level_sets}) {
     Report report;
-    const VecX phi = test::signed_heat(mesh, sources, {1, static_cast<int>(c)}, report);
+    const VecX phi = test::signed_heat(mesh, sources, {1, c}, report);
     EXPECT_TRUE(phi.allFinite());
     EXPECT_LE(phi.cwiseAbs().maxCoeff(), 2);
   }

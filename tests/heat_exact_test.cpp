@@ -17,8 +17,7 @@ Accuracy measure(const PolygonSoup& soup, const MatX3& curve,
                  const std::function<double(const Vec3&)>& exact, Constraint constraint) {
   const SurfaceMesh mesh(soup);
   Report report;
-  const VecX phi =
-      test::signed_heat(mesh, test::space_curve(curve), {16, static_cast<int>(constraint)}, report);
+  const VecX phi = test::signed_heat(mesh, test::space_curve(curve), {16, constraint}, report);
   Accuracy a;
   for (int e = 0; e < mesh.n_edges(); ++e)
     a.h += (mesh.point(mesh.edges()(e, 0)) - mesh.point(mesh.edges()(e, 1))).norm();

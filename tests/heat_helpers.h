@@ -20,17 +20,16 @@ struct Problem {
   SourceSystem terms;
 };
 
-inline Problem problem(const SurfaceMesh& mesh, const Sources& sources, Report& report,
-                       bool flip = false) {
+inline Problem problem(const SurfaceMesh& mesh, const Sources& sources, Report& report) {
   Problem p{intrinsic_triangulation(mesh, report), nullptr, {}};
   p.ops = std::make_shared<const Operators>(triangle_operators(p.T));
-  p.terms = source_system(mesh, p.T, place_sources(mesh, sources, flip, report));
+  p.terms = source_system(mesh, p.T, place_sources(mesh, sources, report));
   return p;
 }
 
 inline VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, SignedHeat options,
-                        Report& report, bool flip = false) {
-  const Problem p = problem(mesh, sources, report, flip);
+                        Report& report) {
+  const Problem p = problem(mesh, sources, report);
   if (options.time_scale == 0) options.time_scale = automatic_time_scale(p.terms);
   return SignedHeatSolver(p.ops, options.time_scale, {}, needed_diffusions(p.terms, options))
       .solve(p.terms, options, {}, report);

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "heat_helpers.h"
+#include "littoral/error.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/heat/time_scale.h"
+#include "one_call.h"
 #include "sources/triangle_sources.h"
 #include "subdivided_meshes.h"
 
@@ -33,8 +33,8 @@ SurfaceMesh refined(const PolygonSoup& soup, std::vector<int>* curve = nullptr) 
 VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)),
-                          {}, report);
+  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, report)), {},
+                          report);
 }
 
 /// Mean error over the largest distance.
@@ -63,9 +63,9 @@ TEST(HeatTimeScale, RisesWhereLargeObtuseCellsNeedIt) {
     SCOPED_TRACE(method);
     Report given, chosen;
     const std::string small = method == std::string("signed-heat") ? "16" : "1";
-    const VecX wrong =
-        surface_distance(mesh, sources, {method, {{"time-scale", small}}}, {}, given);
-    const VecX right = surface_distance(mesh, sources, {method, {}}, {}, chosen);
+    const VecX wrong = test::surface_distance(
+        mesh, sources, AnyMethod::named(method, {{"time-scale", small}}), given);
+    const VecX right = test::surface_distance(mesh, sources, AnyMethod::named(method), chosen);
     EXPECT_GT(mean_error(wrong, truth), 0.2);
     EXPECT_LT(mean_error(right, truth), 0.02);
     EXPECT_GT(misaligned_fraction(given), tolerable_share);
@@ -88,9 +88,8 @@ TEST(HeatTimeScale, RisesForCurvesToo) {
   sources.curves.push_back(curve);
   const VecX truth = exact(mesh, sources);
   Report given, chosen;
-  const VecX wrong =
-      surface_distance(mesh, sources, {"signed-heat", {{"time-scale", "1"}}}, {}, given);
-  const VecX right = surface_distance(mesh, sources, {"signed-heat", {}}, {}, chosen);
+  const VecX wrong = test::surface_distance(mesh, sources, SignedHeat{.time_scale = 1}, given);
+  const VecX right = test::surface_distance(mesh, sources, SignedHeat{}, chosen);
   EXPECT_GT(mean_error(wrong, truth), 0.2);
   EXPECT_LT(mean_error(right, truth), 0.02);
   EXPECT_TRUE(raised(chosen));
@@ -99,7 +98,7 @@ TEST(HeatTimeScale, RisesForCurvesToo) {
 TEST(HeatTimeScale, StaysWhereCellsAreEven) {
   const SurfaceMesh mesh(test::octasphere_soup(4));
   Report report;
-  surface_distance(mesh, test::vertex_points({pole}), {"signed-heat", {}}, {}, report);
+  test::surface_distance(mesh, test::vertex_points({pole}), SignedHeat{}, report);
   EXPECT_LT(misaligned_fraction(report), tolerable_share);
   EXPECT_EQ(used(report, "time-scale"), "16");
   EXPECT_TRUE(report.warnings.empty());

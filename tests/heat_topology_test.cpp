@@ -17,7 +17,7 @@ Curve curve_at(const std::vector<int>& vertices, bool is_signed = true) {
   return curve;
 }
 
-SignedHeat with(Constraint constraint) { return {1, static_cast<int>(constraint)}; }
+SignedHeat with(Constraint constraint) { return {1, constraint}; }
 
 TEST(HeatTopology, TwoParallelLoopsBoundABandOnATorus) {
   // Loops the long way round, outside (v = 0) and inside (v = pi): distance is r times the smaller

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
+#include "one_call.h"
 #include "sources/retriangulate_sources.h"
 #include "test_meshes.h"
 
@@ -39,7 +39,7 @@ class Retriangulating : public testing::TestWithParam<std::tuple<Case, double>> 
   Retriangulating()
       : mesh(std::get<0>(GetParam()).soup),
         T(intrinsic_triangulation(mesh, report)),
-        sources(place_sources(mesh, drawn(), false, report)),
+        sources(place_sources(mesh, drawn(), report)),
         after(retriangulated(mesh, T, sources, {std::get<1>(GetParam()), 3}, report, {})) {}
 
   static Sources drawn() {
@@ -146,9 +146,9 @@ TEST(IntrinsicDelaunay, MakesPointDistanceOnNeedlesBetter) {
   double error[2];
   for (int intrinsic = 0; intrinsic < 2; ++intrinsic) {
     Report report;
-    const VecX phi = surface_distance(
-        mesh, test::vertex_points({source}),
-        {"unsigned-heat", {{"intrinsic-delaunay", intrinsic ? "on" : "off"}}}, {}, report);
+    const VecX phi =
+        test::surface_distance(mesh, test::vertex_points({source}),
+                               UnsignedHeat{.intrinsic_delaunay = intrinsic == 1}, report);
     ASSERT_EQ(phi.size(), mesh.n_vertices());
     error[intrinsic] = 0;
     for (int v = 0; v < phi.size(); ++v)

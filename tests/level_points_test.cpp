@@ -114,7 +114,7 @@ TEST(LevelPoints, MakeADistanceOfAnImplicitFunction) {
   CsgShapes shapes;
   shapes.all.resize(1);
   shapes.all[0].surface = level_points(sampled(48, steep), 0, {});
-  shapes.all[0].request.method = "tori";
+  shapes.all[0].request.method = Tori{};
   Report report;
   const auto distance = pointwise_distance(shapes, {}, report);
   for (const Vec3& x : {Vec3(0, 0, 0.4), Vec3(0.9, 0.9, 0.9), Vec3(-2, 0.3, 0), Vec3(0, 0.99, 0)})

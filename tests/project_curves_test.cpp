@@ -60,7 +60,7 @@ std::vector<SpaceCurve> space_curves(const PolygonSoup& soup) {
   return curves;
 }
 
-TEST(TraceCarry, CircleAboveTheEquator) {
+TEST(ProjectCurves, CircleAboveTheEquator) {
   const SurfaceMesh mesh{test::octasphere_soup(5)};
   SpaceCurve circle;
   const int n = 37;
@@ -71,14 +71,14 @@ TEST(TraceCarry, CircleAboveTheEquator) {
   }
   circle.origin = "ring.obj:4";
   Report report;
-  const ProjectedCurve carried = CurveProjector(mesh).carry(circle, report);
-  ASSERT_EQ(carried.curves.size(), 1u);
-  const auto& nodes = carried.curves[0].nodes;
+  const ProjectedCurve projected = CurveProjector(mesh).project(circle, report);
+  ASSERT_EQ(projected.curves.size(), 1u);
+  const auto& nodes = projected.curves[0].nodes;
   EXPECT_EQ(mesh.position(nodes.front()), mesh.position(nodes.back()));
   // Closest points of a curve far from the faces are drawn to creases: a little longer than the
   // arc.
   EXPECT_NEAR(length(mesh, nodes), 2 * pi * std::cos(std::atan2(0.39, 1.3)), 0.15);
-  EXPECT_NEAR(carried.largest_move, std::hypot(1.3, 0.39) - 1, 0.02);
+  EXPECT_NEAR(projected.largest_move, std::hypot(1.3, 0.39) - 1, 0.02);
   for (const SurfacePoint& node : nodes) {
     const Vec3 p = mesh.position(node);
     EXPECT_NEAR(std::atan2(p[2], std::hypot(p[0], p[1])), std::atan2(0.39, 1.3), 0.02);
@@ -88,20 +88,20 @@ TEST(TraceCarry, CircleAboveTheEquator) {
   EXPECT_THAT(report.warnings[0], HasSubstr("% of the bounding box diagonal"));
 }
 
-TEST(TraceCarry, CurveOnTheSurfaceStays) {
+TEST(ProjectCurves, CurveOnTheSurfaceStays) {
   const SurfaceMesh mesh{test::jittered_grid_soup(20, 20, 0.2)};
   SpaceCurve zigzag;
   zigzag.points.resize(4, 3);
   zigzag.points << 0.1, 0.1, 0, 0.9, 0.3, 0, 0.2, 0.7, 0, 0.8, 0.8, 0;
   Report report;
-  const ProjectedCurve carried = CurveProjector(mesh).carry(zigzag, report);
-  ASSERT_EQ(carried.curves.size(), 1u);
-  EXPECT_LT(carried.largest_move, 1e-12);
-  EXPECT_NEAR(length(mesh, carried.curves[0].nodes), length(zigzag), 1e-6);
+  const ProjectedCurve projected = CurveProjector(mesh).project(zigzag, report);
+  ASSERT_EQ(projected.curves.size(), 1u);
+  EXPECT_LT(projected.largest_move, 1e-12);
+  EXPECT_NEAR(length(mesh, projected.curves[0].nodes), length(zigzag), 1e-6);
   EXPECT_TRUE(report.warnings.empty());
 }
 
-TEST(TraceCarry, SplitsBetweenComponents) {
+TEST(ProjectCurves, SplitsBetweenComponents) {
   PolygonSoup soup = test::grid_soup(4, 4);
   const int n = soup.n_vertices(), faces = soup.n_faces();
   MatX3 points(2 * n, 3);
@@ -115,7 +115,7 @@ TEST(TraceCarry, SplitsBetweenComponents) {
   sources.space_curves[0].points.resize(2, 3);
   sources.space_curves[0].points << 0.3, 0.4, 0, 2.2, 0.4, 0;
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   EXPECT_EQ(prepared.n_curves, 2);
   double sum = 0;
   for (const CurvePiece& piece : prepared.pieces) sum += piece.length;
@@ -124,19 +124,19 @@ TEST(TraceCarry, SplitsBetweenComponents) {
   EXPECT_THAT(report.warnings.back(), HasSubstr("split into 2"));
 }
 
-TEST(TraceCarry, SquiggleOnSphere) {
+TEST(ProjectCurves, SquiggleOnSphere) {
   LITTORAL_NEEDS_SHARED("data/curves/rc-squiggle-on-sphere.obj");
   LITTORAL_NEEDS_SHARED("data/generated/analytic/sphere4.obj");
   const auto curves =
       space_curves(io::read_surface(test::shared() / "data/curves/rc-squiggle-on-sphere.obj"));
   const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/analytic/sphere4.obj")};
-  const CurveProjector dof(mesh);
+  const CurveProjector projector(mesh);
   for (const SpaceCurve& curve : curves) {
     Report report;
-    const ProjectedCurve carried = dof.carry(curve, report);
-    ASSERT_EQ(carried.curves.size(), 1u);
-    const auto& nodes = carried.curves[0].nodes;
-    EXPECT_LT(carried.largest_move, 0.1);
+    const ProjectedCurve projected = projector.project(curve, report);
+    ASSERT_EQ(projected.curves.size(), 1u);
+    const auto& nodes = projected.curves[0].nodes;
+    EXPECT_LT(projected.largest_move, 0.1);
     EXPECT_NEAR(length(mesh, nodes), length(curve), 0.03 * length(curve));
     EXPECT_EQ(mesh.position(nodes.front()) == mesh.position(nodes.back()),
               curve.points.row(0) == curve.points.row(curve.points.rows() - 1));
@@ -144,7 +144,7 @@ TEST(TraceCarry, SquiggleOnSphere) {
   EXPECT_FALSE(curves.empty());
 }
 
-TEST(TraceCarry, TorusCurvesOnSharedMeshes) {
+TEST(ProjectCurves, TorusCurvesOnSharedMeshes) {
   LITTORAL_NEEDS_SHARED("data/curves/rc-multi-on-torus.obj");
   LITTORAL_NEEDS_SHARED("data/generated/analytic/torus.obj");
   const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/analytic/torus.obj")};
@@ -153,12 +153,12 @@ TEST(TraceCarry, TorusCurvesOnSharedMeshes) {
       space_curves(io::read_surface(test::shared() / "data/curves/rc-multi-on-torus.obj"));
   ASSERT_FALSE(sources.space_curves.empty());
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   EXPECT_EQ(prepared.n_curves, static_cast<int>(sources.space_curves.size()));
   EXPECT_GT(prepared.pieces.size(), 100u);
 }
 
-TEST(TraceCarry, BrokenMeshes) {
+TEST(ProjectCurves, BrokenMeshes) {
   for (const char* name : {"needles", "collinear", "coincident_verts", "repeat_index", "book5",
                            "edge_cubes", "bowtie_cubes", "flat_1e-6", "tiny_1e-30", "huge_1e30",
                            "tiny_1e-200", "huge_1e200", "offset_1e7", "allcoincident", "two_scales",
@@ -189,14 +189,15 @@ TEST(TraceCarry, BrokenMeshes) {
     chord.points << mesh.points().row(mesh.face(0)[0]),
         mesh.points().row(mesh.face(mesh.n_faces() - 1)[1]);
     Report report;
-    const ProjectedCurve carried = CurveProjector(mesh).carry(chord, report);
-    ASSERT_FALSE(carried.curves.empty());
-    for (const Curve& curve : carried.curves) EXPECT_TRUE(std::isfinite(length(mesh, curve.nodes)));
-    EXPECT_TRUE(std::isfinite(carried.largest_move));
+    const ProjectedCurve projected = CurveProjector(mesh).project(chord, report);
+    ASSERT_FALSE(projected.curves.empty());
+    for (const Curve& curve : projected.curves)
+      EXPECT_TRUE(std::isfinite(length(mesh, curve.nodes)));
+    EXPECT_TRUE(std::isfinite(projected.largest_move));
   }
 }
 
-TEST(TraceCarry, NodesThatShareNoFaceAreTraced) {
+TEST(ProjectCurves, NodesThatShareNoFaceAreTraced) {
   // What generated/curves/bad_nonadjacent.txt holds: vertices 0, 5, 300.
   LITTORAL_NEEDS_SHARED("data/generated/curves/sphere_cap.obj");
   const SurfaceMesh mesh{io::read_surface(test::shared() / "data/generated/curves/sphere_cap.obj")};
@@ -206,7 +207,7 @@ TEST(TraceCarry, NodesThatShareNoFaceAreTraced) {
        true,
        "bad_nonadjacent.txt:2"});
   Report report;
-  const PlacedSources prepared = place_sources(mesh, sources, false, report);
+  const PlacedSources prepared = place_sources(mesh, sources, report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_THAT(report.warnings[0], HasSubstr("bad_nonadjacent.txt:2"));
   const Vec3 a = mesh.point(0).normalized(), b = mesh.point(5).normalized(),

@@ -14,8 +14,7 @@ namespace littoral::test {
 inline QuadraticField<2> quadratic(const SurfaceMesh& mesh, const Sources& sources,
                                    const Quadratic& options, Report& report) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const auto points =
-      p2_sources(mesh, T, place_sources(mesh, sources, false, report), options.spacing);
+  const auto points = p2_sources(mesh, T, place_sources(mesh, sources, report), options.spacing);
   const QuadraticSolver<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
   return method.solve(points, options, {}, report);
 }

@@ -196,7 +196,7 @@ TEST(QuadraticSolver, CancelsAndReportsWhenIterationsRunOut) {
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   const QuadraticSolver<2> method(std::make_shared<const P2Elements<2>>(p2_elements(T)));
   const auto points = p2_sources(
-      mesh, T, place_sources(mesh, point_source(SurfacePoint::at_vertex(0)), false, report), 0.5);
+      mesh, T, place_sources(mesh, point_source(SurfacePoint::at_vertex(0)), report), 0.5);
   CancelToken token;
   int calls = 0;
   Task task(token, [&](double, const std::string&) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "api/tet/tet_distance.h"
 #include "littoral/error.h"
 #include "methods/quadratic/quadratic.h"
+#include "one_call.h"
 #include "operators/p2_tets.h"
 #include "test_meshes.h"
 #include "tet_helpers.h"
@@ -60,20 +60,20 @@ TEST(QuadraticTets, ConvexDomainsAreExactFromAnyPoint) {
 
 TEST(QuadraticTets, FromAVertexAndFromAPlaneThroughTheFrontDoor) {
   TetMesh mesh = jittered_box(3, 1);
-  const SpaceRequest request{"quadratic", {{"tolerance", "1e-6"}}, false, false};
+  const AnyMethod method = AnyMethod::named("quadratic", {{"tolerance", "1e-6"}});
   for (const double scale : {1.0, 1e3}) {
     TetMesh scaled = mesh;
     scaled.points *= scale;
     TetSources sources;
     sources.vertices = {0};
     Report report;
-    const VecX d = tet_mesh_distance(scaled, sources, request, {}, report);
+    const VecX d = test::tet_mesh_distance(scaled, sources, method, report);
     for (int v = 0; v < mesh.n_vertices(); ++v)
       EXPECT_NEAR(d[v], scaled.points.row(v).norm(), 2e-4 * scale) << v;
     TetSources plane;
     plane.surface = test::square_at(0.42, 3);
     plane.surface.points *= scale;
-    const VecX from_plane = tet_mesh_distance(scaled, plane, request, {}, report);
+    const VecX from_plane = test::tet_mesh_distance(scaled, plane, method, report);
     for (int v = 0; v < mesh.n_vertices(); ++v)
       EXPECT_NEAR(from_plane[v], std::abs(scaled.points(v, 0) - 0.42 * scale), 2e-4 * scale) << v;
   }
@@ -85,16 +85,16 @@ TEST(QuadraticTets, ComponentsWithoutASourceAreInfiniteAndCloudsRefused) {
   TetSources sources;
   sources.vertices = {0};
   Report report;
-  const VecX d = tet_mesh_distance(mesh, sources, {"quadratic", {}, false, false}, {}, report);
+  const VecX d = test::tet_mesh_distance(mesh, sources, AnyMethod::named("quadratic"), report);
   EXPECT_TRUE(d.head(n).allFinite());
   EXPECT_TRUE((d.tail(n).array() > 1e300).all());
   EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
-  const SpaceRequest subdivided{"quadratic", {{"subdivide", "3"}}, false, false};
-  EXPECT_THROW(tet_mesh_distance(mesh, sources, subdivided, {}, report), UnsupportedError);
+  const AnyMethod subdivided = AnyMethod::named("quadratic", {{"subdivide", "3"}});
+  EXPECT_THROW(test::tet_mesh_distance(mesh, sources, subdivided, report), UnsupportedError);
   TetSources cloud;
   cloud.surface.points = (MatX3(3, 3) << 0.5, 0.5, 0.5, 0.6, 0.5, 0.5, 0.5, 0.6, 0.5).finished();
   cloud.surface.normals = (MatX3(3, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1).finished();
-  EXPECT_THROW(tet_mesh_distance(mesh, cloud, {"quadratic", {}, false, false}, {}, report),
+  EXPECT_THROW(test::tet_mesh_distance(mesh, cloud, AnyMethod::named("quadratic"), report),
                UnsupportedError);
 }
 

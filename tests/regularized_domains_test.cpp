@@ -6,10 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "api/surface/distance.h"
-#include "api/surface/pairs.h"
 #include "domain/volume/voxels.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/tet_operators.h"
 #include "regularized_helpers.h"
 #include "sources/boundary_curves.h"
@@ -52,7 +51,8 @@ VecX by_name(const SurfaceMesh& mesh, const Sources& sources, OptionValues optio
              const MatX3* normals = nullptr) {
   options.emplace_back("tolerance", "1e-4");
   Report report;
-  VecX u = surface_distance(mesh, sources, {"regularized", options}, {}, report, normals);
+  VecX u = test::surface_distance(mesh, sources, AnyMethod::named("regularized", options), report,
+                                  normals);
   EXPECT_EQ(report.status, "converged");
   return u;
 }
@@ -130,9 +130,9 @@ TEST(RegularizedDomains, QuadraticElementsAreRounder) {
 TEST(RegularizedDomains, QuadraticElementsShowWhatIsBetween) {
   const SurfaceMesh mesh(test::octasphere_soup(1));
   Report report;
-  const SurfaceResult result =
-      solve_distance(mesh, test::vertex_points({0}),
-                     {"regularized", {{"elements", "quadratic"}, {"subdivide", "3"}}}, {}, report);
+  const SurfaceAnswer result =
+      test::surface_answer(mesh, test::vertex_points({0}),
+                           Regularized{.elements = Elements::quadratic, .subdivide = 3}, report);
   ASSERT_TRUE(result.shown);
   EXPECT_EQ(result.shown->n_faces(), 9 * mesh.n_faces());
   const VecX& d = result.shown->scalars.at("distance");
@@ -180,7 +180,8 @@ TEST(RegularizedDomains, SaysWhatADomainDoesNotHave) {
   Report report;
   const SurfaceMesh mesh(quads(3)), triangles(test::grid_soup(3, 3));
   const auto asked = [&](const SurfaceMesh& on, const OptionValues& options) {
-    return surface_distance(on, test::vertex_points({0}), {"regularized", options}, {}, report);
+    return test::surface_distance(on, test::vertex_points({0}),
+                                  AnyMethod::named("regularized", options), report);
   };
   EXPECT_THROW(asked(mesh, {{"regularizer", "hessian"}}), UnsupportedError);
   EXPECT_THROW(asked(mesh, {{"regularizer", "max-norm"}}), UnsupportedError);
@@ -193,8 +194,8 @@ TEST(RegularizedDomains, SaysWhatADomainDoesNotHave) {
 TEST(RegularizedDomains, PairsWithQuadraticElements) {
   const SurfaceMesh mesh(test::octasphere_soup(1));
   Report report;
-  const OptionValues options = {{"elements", "quadratic"}, {"tolerance", "1e-4"}};
-  const MatX rows = pair_distances(mesh, {"regularized", options, {3}}, {}, report).distances;
+  const Regularized options{.tolerance = 1e-4, .elements = Elements::quadratic};
+  const MatX rows = test::pair_distances(mesh, {3}, options, report).distances;
   const VecX alone = by_name(mesh, test::vertex_points({3}), {{"elements", "quadratic"}});
   EXPECT_LT((rows.row(0).transpose() - alone).cwiseAbs().maxCoeff(), 1e-9);
 }
@@ -212,7 +213,8 @@ TEST(BoundaryCurves, LoopsAreClosedAndDistanceGrowsInward) {
     Report report;
     OptionValues options;
     if (*method == 'r') options = {{"alpha", "0"}, {"tolerance", "1e-4"}};
-    const VecX u = surface_distance(mesh, boundary, {method, options}, {}, report);
+    const VecX u =
+        test::surface_distance(mesh, boundary, AnyMethod::named(method, options), report);
     for (int v = 0; v < mesh.n_vertices(); ++v) {
       const Vec3 p = mesh.point(v);
       const double d = std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()});

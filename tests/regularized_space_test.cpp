@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "api/tet/tet_distance.h"
+#include "api/space/sdf.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
 
@@ -15,11 +16,9 @@ namespace {
 
 VecX through_tets(const TetMesh& mesh, const TetSources& sources, OptionValues options,
                   Report& report, const std::string& method = "regularized") {
-  SpaceRequest request;
-  request.method = method;
   options.emplace_back("tolerance", "5e-4");
-  request.options = std::move(options);
-  return tet_mesh_distance(mesh, sources, request, {}, report);
+  return test::tet_mesh_distance(mesh, sources, AnyMethod::named(method, std::move(options)),
+                                 report);
 }
 
 /// The interval [0, 1] from 0 with the Dirichlet energy: u' = min(1, (1 - x) / alpha).
@@ -82,7 +81,7 @@ TEST(RegularizedInSpace, ComponentsWithoutASourceAreInfiniteAndOptionsAreChecked
   EXPECT_TRUE((u.tail(n).array() == std::numeric_limits<double>::infinity()).all());
   EXPECT_EQ(report.unreachable_components.size(), 1U);
   for (const auto& option : OptionValues{{"regularizer", "hessian"}, {"elements", "quadratic"}})
-    EXPECT_THROW(through_tets(mesh, {{}, {3}}, {option}, report), UnsupportedError);
+    EXPECT_THROW(through_tets(mesh, {{}, {3}}, {option}, report), InputError);
   EXPECT_THROW(through_tets(mesh, {{}, {3}}, {{"alpha", "-1"}}, report), InputError);
   EXPECT_THROW(through_tets(mesh, {{}, {-1}}, {}, report), InputError);
 }
@@ -93,9 +92,7 @@ TEST(RegularizedInSpaceSlow, BallOnAGrid) {
   const Grid grid = test::cube_grid(19, 1.2);
   const double length = 19.0 / 18 * 2.4;  // the cube root of the volume of the nodes
   for (const double alpha : {0.0, 0.15}) {
-    SpaceRequest request;
-    request.method = "regularized";
-    request.options = {{"alpha", std::to_string(alpha / length)}, {"tolerance", "1e-3"}};
+    const SpaceRequest request{SpaceRegularized{.alpha = alpha / length, .tolerance = 1e-3}};
     Report report;
     const VecX phi = grid_distance(test::octasphere_soup(4), grid, request, {}, report);
     EXPECT_EQ(report.status, "converged");

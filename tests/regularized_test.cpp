@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "api/surface/distance.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/curved_hessian.h"
 #include "operators/line_field.h"
 #include "regularized_helpers.h"
@@ -304,17 +304,17 @@ TEST(RegularizedSolver, BadInputSaysWhatIsWrong) {
                                                                   {"beta", "-1"},
                                                                   {"regularizer", "smooth"},
                                                                   {"tolerance", "0"}})
-    EXPECT_THROW(surface_distance(mesh, test::vertex_points({0}),
-                                  {"regularized", {{name, value}}, false}, {}, report),
+    EXPECT_THROW(test::surface_distance(mesh, test::vertex_points({0}),
+                                        AnyMethod::named("regularized", {{name, value}}), report),
                  InputError)
         << name;
-  EXPECT_THROW(surface_distance(mesh, {}, {"regularized", {}, false}, {}, report), InputError);
-  EXPECT_THROW(
-      surface_distance(mesh, test::vertex_points({99}), {"regularized", {}, false}, {}, report),
-      InputError);
-  EXPECT_THROW(surface_distance(mesh, test::vertex_points({0}),
-                                {"belyaev-fayolle", {{"alpha", "1"}}, false}, {}, report),
+  EXPECT_THROW(test::surface_distance(mesh, {}, Regularized{}, report), InputError);
+  EXPECT_THROW(test::surface_distance(mesh, test::vertex_points({99}), Regularized{}, report),
                InputError);
+  EXPECT_THROW(
+      test::surface_distance(mesh, test::vertex_points({0}),
+                             AnyMethod::named("belyaev-fayolle", {{"alpha", "1"}}), report),
+      InputError);
   Regularized options = with_alpha(0.05, 1e-9);
   options.max_iterations = 3;
   EXPECT_EQ(solve(mesh, test::vertex_points({0}), options).report.status, "not converged");

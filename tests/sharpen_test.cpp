@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "api/space/sdf.h"
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/grid.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
@@ -210,10 +210,8 @@ TEST(SharpenSlow, SpheresAndBoxesOnGridsGetNoDents) {
       {test::octasphere_soup(4), ball}, {test::box_soup(half), box}};
   for (const auto& [soup, exact] : shapes) {
     Report report;
-    SpaceRequest request;
-    const VecX plain = grid_distance(soup, grid, request, {}, report);
-    request.options = {{"sharpen", "on"}};
-    const VecX sharp = grid_distance(soup, grid, request, {}, report);
+    const VecX plain = grid_distance(soup, grid, {SpaceSignedHeat{}}, {}, report);
+    const VecX sharp = grid_distance(soup, grid, {SpaceSignedHeat{.sharpen = true}}, {}, report);
     EXPECT_EQ(report.status, "converged");
     EXPECT_GE(sharp.cwiseProduct(plain).minCoeff(), 0);
     EXPECT_EQ(dents(grid, sharp, exact), 0);
@@ -226,16 +224,14 @@ TEST(Sharpen, ThroughTheFrontDoor) {
   const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
   const auto circle = test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 60));
   Report report;
-  const DistanceRequest plain{"signed-heat", {}, false};
-  const DistanceRequest sharp{"signed-heat", {{"sharpen", "on"}}, false};
-  const VecX a = surface_distance(mesh, circle, plain, {}, report);
-  const VecX b = surface_distance(mesh, circle, sharp, {}, report);
+  const VecX a = test::surface_distance(mesh, circle, SignedHeat{}, report);
+  const VecX b =
+      test::surface_distance(mesh, circle, SignedHeat{.sharpen = Sharpening::on}, report);
   EXPECT_GT((a - b).cwiseAbs().maxCoeff(), 0);
   EXPECT_GE(a.cwiseProduct(b).minCoeff(), 0);
   EXPECT_THROW(
-      surface_distance(mesh, circle,
-                       {"signed-heat", {{"sharpen", "on"}, {"discontinuous", "on"}}, false}, {},
-                       report),
+      test::surface_distance(mesh, circle,
+                             SignedHeat{.discontinuous = true, .sharpen = Sharpening::on}, report),
       InputError);
 }
 

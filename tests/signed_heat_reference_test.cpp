@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
 #include "io/read.h"
+#include "one_call.h"
 #include "shared_data.h"
 
 namespace littoral {
@@ -70,8 +70,8 @@ TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
-  SignedHeat options{1, static_cast<int>(c.constraint), c.soft, c.preserve};
-  options.points = PointVectors::radial;  // as theirs
+  SignedHeat options{1, c.constraint, c.soft, c.preserve};
+  options.point_sources = PointVectors::radial;  // as theirs
   const VecX phi = test::signed_heat(example.mesh, example.sources, options, report);
   VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());
@@ -100,9 +100,9 @@ TEST_P(OtherDomainReference, IsCloseToTheAuthorsProgram) {
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
-  VecX phi = surface_distance(example.mesh, example.sources,
-                              {"signed-heat", {{"constraint", c.constraint}, {"time-scale", "1"}}},
-                              {}, report);
+  VecX phi = test::surface_distance(
+      example.mesh, example.sources,
+      AnyMethod::named("signed-heat", {{"constraint", c.constraint}, {"time-scale", "1"}}), report);
   const VecX theirs = read_values(example.folder / c.output);
   ASSERT_EQ(phi.size(), theirs.size());
   ASSERT_TRUE(phi.allFinite());

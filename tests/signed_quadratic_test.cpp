@@ -5,19 +5,18 @@
 #include <cmath>
 #include <functional>
 
-#include "api/surface/distance.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-SurfaceResult solve(const SurfaceMesh& mesh, const Sources& sources, Report& report,
-                    bool flip = false, const std::string& subdivide = "1") {
-  const DistanceRequest request{
-      "quadratic", {{"signed", "on"}, {"tolerance", "1e-6"}, {"subdivide", subdivide}}, flip};
-  return solve_distance(mesh, sources, request, {}, report);
+SurfaceAnswer solve(const SurfaceMesh& mesh, const Sources& sources, Report& report,
+                    int subdivide = 1) {
+  const Quadratic method{.tolerance = 1e-6, .is_signed = true, .subdivide = subdivide};
+  return test::surface_answer(mesh, sources, method, report);
 }
 
 using Exact = std::function<double(const Vec3&)>;
@@ -39,7 +38,7 @@ TEST(SignedQuadratic, StraightCurvesAcrossFlatDomainsAreExact) {
     const double x = 0.31 + 0.07 * seed;
     const auto sources = test::space_curve((MatX3(2, 3) << x, 0, 0, x, 1, 0).finished());
     Report report;
-    const SurfaceResult result = solve(mesh, sources, report, false, "3");
+    const SurfaceAnswer result = solve(mesh, sources, report, 3);
     const VecX& shown = result.shown->scalars.at("distance");
     for (int v = 0; v < result.shown->n_vertices(); ++v)  // travelling upwards, left is positive
       EXPECT_NEAR(shown[v], x - result.shown->points(v, 0), 1e-4) << "seed " << seed << " " << v;
@@ -103,7 +102,7 @@ TEST(SignedQuadratic, ACapOfTheSphere) {
     return std::acos(0.6) - std::acos(std::clamp(p[2] / p.norm(), -1.0, 1.0));
   };
   EXPECT_LT(errors(mesh, d, exact).first, 0.015);
-  const VecX flipped = solve(mesh, sources, report, true).values;
+  const VecX flipped = solve(mesh, sources.reversed(), report).values;
   EXPECT_LT((d + flipped).cwiseAbs().maxCoeff(), 2e-3);
 }
 
@@ -111,12 +110,12 @@ TEST(SignedQuadratic, SharpeningIsTheSameThing) {
   const SurfaceMesh mesh(test::jittered_grid_soup(8, 8, 0.2, 2));
   const auto sources = test::space_curve(test::circle(0.5, 0.5, 0, 0.27, 80));
   Report report;
-  const DistanceRequest sharp{"signed-heat", {{"sharpen", "quadratic"}}, false};
-  const VecX d = solve_distance(mesh, sources, sharp, {}, report).values;
+  const SignedHeat sharp{.sharpen = Sharpening::quadratic};
+  const VecX d = test::surface_answer(mesh, sources, sharp, report).values;
   EXPECT_LT((d - solve(mesh, sources, report).values).cwiseAbs().maxCoeff(), 1e-3);
   PolygonSoup cloud;
   cloud.points = mesh.points();
-  EXPECT_THROW(solve_distance(SurfaceMesh(cloud), test::vertex_points({0}), sharp, {}, report),
+  EXPECT_THROW(test::surface_answer(SurfaceMesh(cloud), test::vertex_points({0}), sharp, report),
                UnsupportedError);
 }
 

@@ -18,18 +18,14 @@ namespace {
 using test::message_of;
 using ::testing::HasSubstr;
 
-SpaceRequest by(const std::string& method) {
-  SpaceRequest request;
-  request.method = method;
-  return request;
+SpaceRequest by(const std::string& method, const OptionValues& options = {}) {
+  return {AnyMethod::named(method, options)};
 }
 
 VecX on_grid(const PolygonSoup& input, const Grid& grid, const std::string& method,
              const OptionValues& options = {}) {
   Report report;
-  SpaceRequest request = by(method);
-  request.options = options;
-  return grid_distance(input, grid, request, Task(), report);
+  return grid_distance(input, grid, by(method, options), Task(), report);
 }
 
 VecX ask(const PolygonSoup& input, const MatX3& queries, const std::string& method,

@@ -223,7 +223,7 @@ TEST(SignedHeatGridSlow, SphereErrorFallsWithTheSpacing) {
   const auto error = [](int n, int level, SpaceConstraint constraint) {
     const Grid grid = test::cube_grid(n, 2);
     SpaceSignedHeat options;
-    options.constraint = static_cast<int>(constraint);
+    options.constraint = constraint;
     Report report;
     const VecX phi = signed_heat_grid(grid, test::sphere_samples(level), options, Task(), report);
     return test::mean_error(grid, phi, [](const Vec3& x) { return x.norm() - 1; });
@@ -260,7 +260,7 @@ TEST(SignedHeatGrid, SoftConstraintLiesBetweenNoneAndZeroSet) {
   const Grid grid = test::cube_grid(21, 1);
   const auto spread = [&](SpaceConstraint constraint, double soft) {
     SpaceSignedHeat options;
-    options.constraint = static_cast<int>(constraint);
+    options.constraint = constraint;
     options.soft = soft;
     Report report;
     const VecX phi = signed_heat_grid(grid, planes, options, Task(), report);

@@ -128,12 +128,10 @@ TEST(TetOperators, SayWhatIsWrong) {
 TEST(SignedHeatTets, SphereErrorFallsWithTheSpacingAndValuesReachTheGrid) {
   const PolygonSoup sphere = test::octasphere_soup(4);
   const auto error = [&](int n, const char* constraint) {
-    SpaceRequest request;
-    request.options = {{"constraint", constraint}};
+    const SpaceRequest request{AnyMethod::named("signed-heat", {{"constraint", constraint}})};
     Report report;
-    VecX on_grid;
     const Grid grid = test::cube_grid(n, 1.5);
-    const TetField field = tet_distance(sphere, grid, request, &on_grid, Task(), report);
+    const auto [on_grid, function, field] = tet_distance(sphere, grid, {}, request, Task(), report);
     double near = 0;
     int count = 0;
     for (int v = 0; v < field.mesh.n_vertices(); ++v) {

@@ -102,7 +102,7 @@ CsgShapes shapes_of(PolygonSoup cloud) {
   CsgShapes shapes;
   shapes.all.resize(1);
   shapes.all[0].surface = std::move(cloud);
-  shapes.all[0].request.method = "tori";
+  shapes.all[0].request.method = Tori{};
   return shapes;
 }
 
@@ -206,7 +206,7 @@ TEST(TracedScene, BadRequestsAreNamed) {
   page.for_page = true;
   EXPECT_THROW(scene_of(two, page), UnsupportedError);
   CsgShapes planar = shapes;
-  planar.all[0].request.method = "planar";
+  planar.all[0].request.method = Planar{};
   EXPECT_THROW(scene_of(planar, page), UnsupportedError);
   EXPECT_EQ(scene_of(shapes, page).trace->tori.rows(), 500);
   EXPECT_THROW(scene_of(shapes_of({}), {}), InputError);

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "api/surface/winding.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "operators/jump_calculus.h"
 #include "shared_data.h"
 #include "test_meshes.h"
@@ -24,10 +24,9 @@ Curve curve_of(std::vector<int> vertices) {
   return curve;
 }
 
-WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources, OptionValues options = {},
-                      bool flip = false) {
-  Report report;
-  return surface_winding(mesh, sources, {std::move(options), flip}, {}, report);
+WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources,
+                      const SurfaceWinding& method = {}) {
+  return test::surface_winding(mesh, sources, method);
 }
 
 constexpr int nu = 24, nv = 16;
@@ -80,7 +79,7 @@ TEST(WindingSolver, AClosedCurveOnASphereGivesExactIntegers) {
   EXPECT_TRUE(answer.nonbounding.empty());
   EXPECT_EQ(answer.numbers.completed, answer.numbers.curve);
   // The other way round it is -1 inside; twice along, 2.
-  const WindingAnswer reversed = winding(mesh, sources, {}, true);
+  const WindingAnswer reversed = winding(mesh, sources.reversed());
   EXPECT_EQ(reversed.region, -answer.region);
   Sources twice = sources;
   twice.curves.insert(twice.curves.end(), sources.curves.begin(), sources.curves.end());
@@ -100,7 +99,7 @@ TEST(WindingSolver, ALoopThatBoundsNothingIsFound) {
   EXPECT_EQ(answer.nonbounding[0].rows(), nv + 1);
   EXPECT_LT(std::abs(answer.numbers.gap), 1e-6);
   // Rounding without decomposition puts regions elsewhere.
-  const WindingAnswer naive = winding(mesh, sources, {{"keep-nonbounding", "on"}});
+  const WindingAnswer naive = winding(mesh, sources, {.keep_nonbounding = true});
   EXPECT_NE(naive.region, answer.region);
 }
 
@@ -134,7 +133,7 @@ TEST(WindingSolver, AGapChangesNoLabel) {
   EXPECT_LT(wrong / mesh.n_faces(), 0.02);
   // The broken loop round the tube bounds nothing, and most of the curve knows.
   ASSERT_EQ(answer.nonbounding.size(), 1u);
-  const WindingAnswer cut = winding(mesh, sources, {{"labels", "cut"}});
+  const WindingAnswer cut = winding(mesh, sources, {.labels = Labels::cut});
   wrong = 0;
   for (int f = 0; f < mesh.n_faces(); ++f)
     wrong += cut.region[f] != static_cast<int>(in_quads(f, 6, 14, 2, 10));

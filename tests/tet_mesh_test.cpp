@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "api/tet/tet_distance.h"
 #include "domain/tet/tet_locator.h"
 #include "io/tet/tets.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
@@ -21,10 +21,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 VecX distance(const TetMesh& mesh, const TetSources& sources, const OptionValues& options = {}) {
-  SpaceRequest request;
-  request.options = options;
   Report report;
-  return tet_mesh_distance(mesh, sources, request, {}, report);
+  return test::tet_mesh_distance(mesh, sources, AnyMethod::named("signed-heat", options), report);
 }
 
 TEST(TetLocator, FindsTheTetAndItsCoordinates) {
@@ -158,7 +156,7 @@ TEST(TetMeshDistance, ComponentsAreSolvedApart) {
     source.add_face(moved);
   }
   Report report;
-  const VecX phi = tet_mesh_distance(three, {source, {}}, {}, {}, report);
+  const VecX phi = test::tet_mesh_distance(three, {source, {}}, {}, report);
   const VecX x = one.points.col(0);
   EXPECT_LT((phi.head(nv).array() - (x.array() - 0.5)).abs().maxCoeff(), 1e-3);
   EXPECT_LT((phi.segment(nv, nv).array() - (x.array() - 0.25)).abs().maxCoeff(), 1e-3);
@@ -195,10 +193,9 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
   for (int v = 0; v < mesh.n_vertices(); ++v)
     EXPECT_NEAR(psi[order[static_cast<std::size_t>(v)]], phi[v], 2e-3);
 
-  SpaceRequest request;
-  request.flip = true;
-  Report report;
-  const VecX flipped = tet_mesh_distance(mesh, {ball, {}}, request, {}, report);
+  TetSources inward{ball, {}};
+  inward.flip = true;
+  const VecX flipped = distance(mesh, inward);
   EXPECT_LT((flipped + phi).cwiseAbs().maxCoeff(), 1e-3);
 }
 
@@ -216,10 +213,8 @@ TEST(TetMeshDistance, SaysWhatIsWrong) {
               }),
               testing::HasSubstr("not both"));
   EXPECT_THAT(test::message_of([&] {
-                SpaceRequest request;
-                request.method = "winding";
                 Report report;
-                tet_mesh_distance(mesh, {square, {}}, request, {}, report);
+                test::tet_mesh_distance(mesh, {square, {}}, WindingSign{}, report);
               }),
               testing::HasSubstr("does not run on tets"));
   TetMesh flat = mesh;

@@ -92,7 +92,7 @@ TEST(TracePieces, AlongEdgesAndInsideFaces) {
   const SurfaceMesh mesh{test::grid_soup(2, 2)};
   Report report;
   const auto prepared = place_sources(
-      mesh, one_curve({P::at_vertex(0), P::at_vertex(1), P::in_face(2, 0, 0, 1)}), false, report);
+      mesh, one_curve({P::at_vertex(0), P::at_vertex(1), P::in_face(2, 0, 0, 1)}), report);
   expect_sound(mesh, prepared);
   ASSERT_EQ(prepared.pieces.size(), 2u);
   EXPECT_EQ(prepared.pieces[0].edge, mesh.find_edge(0, 1));
@@ -101,7 +101,7 @@ TEST(TracePieces, AlongEdgesAndInsideFaces) {
 
   const auto crossing = place_sources(
       mesh, one_curve({P::in_face(0, 0.2, 0.6, 0.2), P::on_edge(mesh.find_edge(0, 4), 0.5)}, false),
-      false, report);
+      report);
   ASSERT_EQ(crossing.pieces.size(), 1u);
   EXPECT_EQ(crossing.pieces[0].edge, -1);
   EXPECT_EQ(crossing.pieces[0].face, 0);
@@ -112,7 +112,7 @@ TEST(TracePieces, GapsAreTracedAndCounted) {
   const SurfaceMesh mesh{test::octasphere_soup(3)};
   Report report;
   const auto prepared = place_sources(
-      mesh, one_curve({P::at_vertex(0), P::at_vertex(2), P::at_vertex(1), P::at_vertex(0)}), false,
+      mesh, one_curve({P::at_vertex(0), P::at_vertex(2), P::at_vertex(1), P::at_vertex(0)}),
       report);
   expect_sound(mesh, prepared);
   ASSERT_EQ(report.warnings.size(), 1u);
@@ -121,7 +121,7 @@ TEST(TracePieces, GapsAreTracedAndCounted) {
   EXPECT_EQ(prepared.nodes[0].front().element, prepared.nodes[0].back().element);  // closed
 }
 
-TEST(TracePieces, FlipReversesSignedCurvesOnly) {
+TEST(TracePieces, ReversedTurnsSignedCurvesOnly) {
   const SurfaceMesh mesh{test::grid_soup(4, 4)};
   Sources sources = one_curve({P::at_vertex(0), P::at_vertex(24)});
   sources.curves.push_back({{P::at_vertex(4), P::at_vertex(20)}, false, ""});
@@ -130,8 +130,8 @@ TEST(TracePieces, FlipReversesSignedCurvesOnly) {
   space.points << 0.1, 0.2, 0, 0.9, 0.2, 0;
   sources.space_curves.push_back(space);
   Report report;
-  const auto straight = place_sources(mesh, sources, false, report);
-  const auto flipped = place_sources(mesh, sources, true, report);
+  const auto straight = place_sources(mesh, sources, report);
+  const auto flipped = place_sources(mesh, sources.reversed(), report);
   expect_sound(mesh, flipped);
   ASSERT_EQ(flipped.n_curves, 3);
   EXPECT_EQ(flipped.nodes[0].front().element, 24);
@@ -149,7 +149,7 @@ TEST(TracePieces, RepeatedNodesAreDroppedWithACount) {
   const auto prepared = place_sources(mesh,
                                       one_curve({P::at_vertex(0), P::at_vertex(0), P::at_vertex(1),
                                                  P::at_vertex(4), P::at_vertex(5)}),
-                                      false, report);
+                                      report);
   expect_sound(mesh, prepared);
   EXPECT_EQ(prepared.pieces.size(), 2u);
   ASSERT_EQ(report.warnings.size(), 1u);
@@ -159,7 +159,7 @@ TEST(TracePieces, RepeatedNodesAreDroppedWithACount) {
 void expect_refused(const SurfaceMesh& mesh, const Sources& sources, const std::string& say) {
   Report report;
   try {
-    place_sources(mesh, sources, false, report);
+    place_sources(mesh, sources, report);
     ADD_FAILURE() << "accepted: " << say;
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr(say));
@@ -200,9 +200,9 @@ TEST(TracePieces, BadSourcesAreRefused) {
   const int corners[] = {0, 1, 3, 2};
   quad.add_face(corners);
   Report report;
-  EXPECT_THROW(place_sources(SurfaceMesh{quad}, one_curve({P::at_vertex(0), P::at_vertex(1)}),
-                             false, report),
-               UnsupportedError);
+  EXPECT_THROW(
+      place_sources(SurfaceMesh{quad}, one_curve({P::at_vertex(0), P::at_vertex(1)}), report),
+      UnsupportedError);
 }
 
 TEST(TracePieces, PropertyRandomSourcesAreSound) {
@@ -229,7 +229,7 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
     Report report;
     PlacedSources prepared;
     try {
-      prepared = place_sources(mesh, one_curve(nodes), false, report);
+      prepared = place_sources(mesh, one_curve(nodes), report);
     } catch (const InputError&) {
       RC_ASSERT(mesh.n_components() > 1);  // the only reason to refuse these
       return;
@@ -237,7 +237,7 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
     expect_sound(mesh, prepared);
     RC_ASSERT(!testing::Test::HasFailure());
     Report other;
-    const PlacedSources again = place_sources(mesh, one_curve(prepared.nodes[0]), false, other);
+    const PlacedSources again = place_sources(mesh, one_curve(prepared.nodes[0]), other);
     RC_ASSERT(again.pieces.size() == prepared.pieces.size());  // nothing left to trace
     const double length = total_length(prepared);
     RC_ASSERT(std::abs(total_length(again) - length) <= 1e-12 * length);  // added in another order

@@ -7,19 +7,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "api/surface/winding.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/error.h"
 #include "methods/winding/residual.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral {
 namespace {
 
-WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources, OptionValues options = {},
-                      bool flip = false) {
-  Report report;
-  return surface_winding(mesh, sources, {std::move(options), flip}, {}, report);
+WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources,
+                      const SurfaceWinding& method = {}) {
+  return test::surface_winding(mesh, sources, method);
 }
 
 Curve through_vertices(const std::vector<int>& vertices) {
@@ -65,7 +64,8 @@ TEST(FreeBoundary, IsNearTheAngleInThePlane) {
   sources.curves = {through_vertices(upward(n - 6, 14, 28))};
   const double s = (n - 6.0) / n, a = 14.0 / n, b = 28.0 / n;
   const double natural = error_of_angle(mesh, winding(mesh, sources), s, a, b);
-  const double free = error_of_angle(mesh, winding(mesh, sources, {{"boundary", "free"}}), s, a, b);
+  const double free = error_of_angle(
+      mesh, winding(mesh, sources, {.boundary_condition = BoundaryCondition::free}), s, a, b);
   EXPECT_GT(natural, 0.04);
   EXPECT_LT(free, 0.25 * natural);
 }
@@ -79,13 +79,13 @@ TEST(FreeBoundary, ChangesNothingForCurvesThatBound) {
   Sources sources;
   // A loop, and a line from boundary to boundary: it bounds relative to it.
   sources.curves = {through_vertices(loop), through_vertices(upward(30, 0, n))};
-  for (const std::string boundary : {"natural", "free"}) {
-    const WindingAnswer answer = winding(mesh, sources, {{"boundary", boundary}});
+  for (const BoundaryCondition boundary : {BoundaryCondition::natural, BoundaryCondition::free}) {
+    const WindingAnswer answer = winding(mesh, sources, {.boundary_condition = boundary});
     EXPECT_TRUE(answer.nonbounding.empty());
     for (int f = 0; f < mesh.n_faces(); ++f) {
       const int i = f / 2 % n, j = f / 2 / n;
       const int expected = (i >= 10 && i < 20 && j >= 10 && j < 20) - (i >= 30);
-      ASSERT_EQ(answer.region[f], expected) << boundary << " " << f;
+      ASSERT_EQ(answer.region[f], expected) << int(boundary) << " " << f;
       for (int k = 0; k < 3; ++k) ASSERT_NEAR(answer.numbers.w.u(f, k), expected, 1e-9);
     }
   }
@@ -108,7 +108,8 @@ TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
   for (const int level : {3, 4, 5}) {
     const SurfaceMesh mesh(test::octasphere_soup(level));
     const Sources sources = latitude(0.37);
-    const WindingAnswer answer = winding(mesh, sources, {{"formulation", "nonconforming"}});
+    const WindingAnswer answer =
+        winding(mesh, sources, {.formulation = Formulation::nonconforming});
     EXPECT_EQ(answer.cut.mesh.n_vertices(), mesh.n_vertices());
     ASSERT_EQ(answer.bounding.size(), 1u);
     const double h = std::numbers::pi / 2 / (1 << level);
@@ -123,7 +124,8 @@ TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
         }
       }
     EXPECT_LT(worst, 0.5 * h) << level;  // first order: gradients on the curve are
-    const WindingAnswer back = winding(mesh, sources, {{"formulation", "nonconforming"}}, true);
+    const WindingAnswer back =
+        winding(mesh, sources.reversed(), {.formulation = Formulation::nonconforming});
     int differ = 0;  // halfway cases may be rounded either way
     for (int f = 0; f < mesh.n_faces(); ++f) differ += back.region[f] != -answer.region[f];
     EXPECT_LT(differ, 0.01 * mesh.n_faces());
@@ -134,7 +136,7 @@ TEST(NonconformingWinding, AlongEdgesBothSidesGetHalf) {
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
   Sources sources;
   sources.curves = {through_vertices(upward(25, 0, n))};
-  const WindingAnswer answer = winding(mesh, sources, {{"formulation", "nonconforming"}});
+  const WindingAnswer answer = winding(mesh, sources, {.formulation = Formulation::nonconforming});
   for (int f = 0; f < mesh.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) {
       const double x = mesh.point(mesh.face(f)[k]).x(), away = x - 25.0 / n;
@@ -152,13 +154,17 @@ TEST(NonconformingWinding, SaysWhatItCannot) {
   Sources sources;
   sources.curves = {through_vertices({0, 1, 17, 16, 0})};
   Report report;
-  surface_winding(mesh, sources, {{{"formulation", "nonconforming"}}, false}, {}, report);
+  test::surface_winding(mesh, sources, SurfaceWinding{.formulation = Formulation::nonconforming},
+                        report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].find("bound nothing"), std::string::npos);
-  EXPECT_THROW(winding(mesh, sources, {{"formulation", "nonconforming"}, {"labels", "cut"}}),
-               UnsupportedError);
-  EXPECT_THROW(winding(mesh, sources, {{"formulation", "dual"}, {"boundary", "free"}}),
-               UnsupportedError);
+  EXPECT_THROW(
+      winding(mesh, sources, {.formulation = Formulation::nonconforming, .labels = Labels::cut}),
+      UnsupportedError);
+  EXPECT_THROW(
+      winding(mesh, sources,
+              {.formulation = Formulation::dual, .boundary_condition = BoundaryCondition::free}),
+      UnsupportedError);
 }
 
 TEST(ResidualPaths, CloseGapsTheShortWay) {
@@ -201,7 +207,7 @@ TEST(ResidualPaths, FindTheSameNonboundingLoops) {
   Sources sources;
   sources.curves = {through_vertices(tube), through_vertices(patch)};
   const WindingAnswer whole = winding(mesh, sources);
-  const WindingAnswer reduced = winding(mesh, sources, {{"residual", "paths"}});
+  const WindingAnswer reduced = winding(mesh, sources, {.residual = Residual::paths});
   EXPECT_EQ(reduced.numbers.bounding, whole.numbers.bounding);
   EXPECT_EQ(reduced.region, whole.region);
   EXPECT_GE(reduced.numbers.objective, whole.numbers.objective - 1e-12);

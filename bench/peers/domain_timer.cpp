@@ -12,16 +12,10 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <vector>
 
-#include "domain/cloud/cloud_surface.h"
-#include "domain/mesh/polygon_surface.h"
+#include "api/surface/surface_domain.h"
 #include "io/read.h"
-#include "methods/heat/signed_heat.h"
-#include "operators/nodal.h"
-#include "sources/nodal_source_system.h"
-#include "sources/refined_sources.h"
 
 namespace littoral {
 namespace {
@@ -38,44 +32,33 @@ int run(char** argv) {
   const int repeats = std::atoi(argv[3]);
   Report report;
   const Sources given = io::read_sources(argv[2], mesh, 0, report);
-  std::unique_ptr<SignedHeatSolver> method;
-  SourceSystem terms;
-  SignedHeat options;
-  options.time_scale = 1;
-  options.constraint = Constraint::zero_set;
+  const SurfaceDomain domain = domain_of(mesh);
+  const SignedHeat zero_set{.time_scale = 1, .constraint = Constraint::zero_set};
   VecX phi;
-  auto solve_first = [&](SolveHint expect) {
-    const NodalSurface S = mesh.n_faces()
-                               ? polygon_surface(mesh, report)
-                               : cloud_surface(mesh.points(), mesh.soup().normals, report);
-    const auto ops = std::make_shared<const Operators>(nodal_operators(S));
-    terms = nodal_source_system(
-        S, place_sources(*S.refined, refined_sources(mesh, *S.refined, S.face_offsets, given),
-                         false, report));
-    method = std::make_unique<SignedHeatSolver>(ops, 1, Task(), Diffusions{true, false}, expect);
-    phi = method->solve(terms, options, {}, report);
-  };
-  std::printf("{\n \"first\": %.6g,\n", cpu_seconds([&] { solve_first(SolveHint::single_rhs); }));
+  std::printf("{\n \"first\": %.6g,\n", cpu_seconds([&] {
+                phi = solve_once(AnyMethod(zero_set), domain, given, {}, report).values;
+              }));
   std::ofstream(argv[4], std::ios::binary)
       .write(reinterpret_cast<const char*>(phi.data()),
              static_cast<std::streamsize>(sizeof(double)) * phi.size());
-  if (repeats > 0) solve_first(SolveHint::many_rhs);
   const struct {
     const char* name;
     Constraint constraint;
   } cases[] = {{"none", Constraint::none},
                {"zero_set", Constraint::zero_set},
                {"level_sets", Constraint::level_sets}};
-  std::vector<double> times[3];
-  for (int round = 0; round <= repeats; ++round)  // the first is not counted
-    for (int c = 0; c < 3; ++c) {
-      options.constraint = static_cast<int>(cases[c].constraint);
-      const double t = cpu_seconds([&] { method->solve(terms, options, {}, report); });
-      if (round > 0) times[c].push_back(t);
+  for (const auto& c : cases) {
+    if (repeats <= 0) break;
+    SignedHeat method = zero_set;
+    method.constraint = c.constraint;
+    const auto solver = prepare(AnyMethod(method), domain, SolveHint::many_rhs, {}, report);
+    std::vector<double> times;
+    for (int round = 0; round <= repeats; ++round) {
+      const double t = cpu_seconds([&] { solver->solve(given, {}, report); });
+      if (round > 0) times.push_back(t);  // the first makes what the others share
     }
-  for (int c = 0; c < 3 && repeats > 0; ++c) {
-    std::sort(times[c].begin(), times[c].end());
-    std::printf(" \"%s\": %.6g,\n", cases[c].name, times[c][times[c].size() / 2]);
+    std::sort(times.begin(), times.end());
+    std::printf(" \"%s\": %.6g,\n", c.name, times[times.size() / 2]);
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

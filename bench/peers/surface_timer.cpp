@@ -10,18 +10,13 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "api/surface/surface_domain.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/read.h"
-#include "methods/heat/signed_heat.h"
-#include "operators/triangles.h"
-#include "sources/pieces.h"
-#include "sources/triangle_source_system.h"
 
 namespace littoral {
 namespace {
@@ -47,11 +42,19 @@ double median(std::vector<double> v) {
 
 double peak_megabytes() { return peak_memory() / (1 << 20); }
 
-SignedHeat constrained(Constraint constraint) {
-  SignedHeat options;
-  options.time_scale = 1;
-  options.constraint = static_cast<int>(constraint);
-  return options;
+/// The middle of `repeats` solves by one solver, after one that makes what they share; the sources
+/// alternate.
+double solves(const SignedHeat& method, const SurfaceDomain& domain,
+              const std::vector<const Sources*>& sources, int repeats) {
+  Report report;
+  const auto solver = prepare(AnyMethod(method), domain, SolveHint::many_rhs, {}, report);
+  std::vector<double> times;
+  for (int round = 0; round <= repeats; ++round) {
+    const Sources& next = *sources[static_cast<std::size_t>(round) % sources.size()];
+    const double t = seconds([&] { solver->solve(next, {}, report); });
+    if (round > 0) times.push_back(t);
+  }
+  return median(std::move(times));
 }
 
 int run(char** argv) {
@@ -66,50 +69,30 @@ int run(char** argv) {
   std::printf("{\n");
   say("faces", mesh.n_faces());
 
+  const SurfaceDomain domain = domain_of(mesh);
+  const SignedHeat zero_set{.time_scale = 1, .constraint = Constraint::zero_set};
+  const SignedHeat none{.time_scale = 1, .constraint = Constraint::none};
   VecX phi;
-  say("first", seconds([&] {
-        const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-        const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-        const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
-        const SignedHeatSolver method(ops, 1, {}, {true, false}, SolveHint::single_rhs);
-        phi = method.solve(terms, constrained(Constraint::zero_set), {}, report);
-      }));
+  say("first",
+      seconds([&] { phi = solve_once(AnyMethod(zero_set), domain, sources, {}, report).values; }));
   say("first_peak_mb", peak_megabytes());
   std::ofstream(argv[5], std::ios::binary)
       .write(reinterpret_cast<const char*>(phi.data()),
              static_cast<std::streamsize>(sizeof(double)) * phi.size());
   if (repeats > 0) {
-    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-    const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-    const SignedHeatSolver method(ops, 1, {}, {true, false});
-    const auto terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
-    struct Case {
-      const char* name;
-      SignedHeat options;
+    SignedHeat level_sets = none, soft = none, preserved_normals = none;
+    level_sets.constraint = Constraint::level_sets;
+    soft.soft = 100;
+    preserved_normals.preserve_normals = true;
+    const auto say_solves = [&](const char* name, const SignedHeat& method) {
+      say(name, solves(method, domain, {&sources}, repeats));
     };
-    std::vector<Case> cases = {{"none", constrained(Constraint::none)},
-                               {"zero_set", constrained(Constraint::zero_set)},
-                               {"level_sets", constrained(Constraint::level_sets)},
-                               {"soft", constrained(Constraint::none)},
-                               {"preserved_normals", constrained(Constraint::none)}};
-    cases[3].options.soft = 100;
-    cases[4].options.preserve_normals = true;
-    std::vector<std::vector<double>> times(cases.size());
-    std::vector<double> moved;
-    for (int round = 0; round <= repeats; ++round) {  // the first is not counted
-      for (std::size_t c = 0; c < cases.size(); ++c) {
-        const double t = seconds([&] { method.solve(terms, cases[c].options, {}, report); });
-        if (round > 0) times[c].push_back(t);
-      }
-      const Sources& next = round % 2 ? sources : others;
-      const double t = seconds([&] {
-        const auto fresh = source_system(mesh, T, place_sources(mesh, next, false, report));
-        method.solve(fresh, cases[1].options, {}, report);
-      });
-      if (round > 0) moved.push_back(t);
-    }
-    for (std::size_t c = 0; c < cases.size(); ++c) say(cases[c].name, median(times[c]));
-    say("moved_curve_zero_set", median(moved));
+    say_solves("none", none);
+    say_solves("zero_set", zero_set);
+    say_solves("level_sets", level_sets);
+    say_solves("soft", soft);
+    say_solves("preserved_normals", preserved_normals);
+    say("moved_curve_zero_set", solves(zero_set, domain, {&others, &sources}, repeats));
   }
   std::printf(" \"peak_mb\": %.6g\n}\n", peak_megabytes());
   return 0;

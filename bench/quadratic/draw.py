@@ -116,7 +116,7 @@ def field(points: Floats, faces: Ints, values: Floats) -> Image.Image:
             *(f"3 {a} {b} {c}" for a, b, c in faces),
         ]
         mesh.write_text("\n".join(lines) + "\n")
-        size = ["--width", "1200", "--height", "900", "--levels", "14"]
+        size = ["--width", "1200", "--height", "900", "--isolines", "14"]
         subprocess.run([PROGRAM, "render", str(mesh), *size, "--quiet", "-o", str(out)], check=True)
         image = Image.open(out).convert("RGB")
         image = image.crop((0, 0, int(image.width * 0.9), image.height))  # without the scale

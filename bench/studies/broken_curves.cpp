@@ -6,16 +6,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
+#include "api/surface/discretization.h"
 #include "contour/isolines.h"
 #include "curves.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/read.h"
-#include "methods/heat/signed_heat.h"
-#include "operators/triangles.h"
-#include "sources/pieces.h"
-#include "sources/triangle_source_system.h"
 
 namespace littoral {
 namespace {
@@ -43,34 +38,29 @@ int run(int n_meshes, char** meshes) {
   for (int m = 0; m < n_meshes; ++m) {
     const SurfaceMesh mesh(io::read_surface(meshes[m]));
     Report report;
-    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-    const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-    const SignedHeatSolver method(ops, 1);
-    auto distance = [&](const Sources& sources) {
-      const SourceSystem terms =
-          source_system(mesh, T, place_sources(mesh, sources, false, report));
-      return method.solve(terms, {}, {}, report);
+    const SurfaceDomain domain = domain_of(mesh);
+    const SurfaceDiscretization on(domain, {}, report);
+    const VecX& M = on.operators()->scalar.M;
+    const double edge = on.triangulation()->mean_edge_length * on.triangulation()->unit;
+    const auto prepared = [&](Constraint constraint) {
+      return prepare(AnyMethod(SignedHeat{.time_scale = 1, .constraint = constraint}), domain,
+                     SolveHint::many_rhs, {}, report);
     };
+    const auto held = prepared(Constraint::zero_set), free = prepared(Constraint::none);
     std::vector<double> error(n_damages, 0.0), area(n_damages, 0.0);
-    const auto functions = eigenfunctions(*ops, 5);
+    const auto functions = eigenfunctions(*on.operators(), 5);
     for (std::size_t k = 0; k < functions.size(); ++k) {
       const Sources curves = whole(isolines(mesh, functions[k], 0));
-      const VecX phi = distance(curves);
+      const VecX phi = held->solve(curves, {}, report).values;
       const double range = phi.maxCoeff() - phi.minCoeff();
       for (std::size_t d = 0; d < n_damages; ++d) {
         Sources input = damaged(curves, damages[d].drop, damages[d].reverse, unsigned(k));
         if (damages[d].offset > 0) {
-          const double level = damages[d].offset * T.mean_edge_length * T.unit;
-          const auto copy = damaged(whole(isolines(mesh, phi, level)), damages[d].drop,
-                                    damages[d].reverse, unsigned(k) + 100);
+          const auto copy = damaged(whole(isolines(mesh, phi, damages[d].offset * edge)),
+                                    damages[d].drop, damages[d].reverse, unsigned(k) + 100);
           input.curves.insert(input.curves.end(), copy.curves.begin(), copy.curves.end());
         }
-        SignedHeat options;
-        options.constraint = Constraint::none;
-        const SourceSystem terms =
-            source_system(mesh, T, place_sources(mesh, input, false, report));
-        const VecX broken = method.solve(terms, options, {}, report);
-        const VecX& M = ops->scalar.M;
+        const VecX broken = free->solve(input, {}, report).values;
         double e = 0, wrong = 0;
         for (Eigen::Index i = 0; i < phi.size(); ++i) {
           e += M[i] * std::abs(broken[i] - phi[i]);

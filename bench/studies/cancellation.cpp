@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "api/surface/distance.h"
+#include "api/surface/surface_domain.h"
 #include "base/parallel.h"
 #include "io/read.h"
 #include "littoral/error.h"
@@ -36,7 +36,7 @@ struct Outcome {
   std::string stage;
 };
 
-Outcome solve(const SurfaceMesh& mesh, const Sources& sources, const DistanceRequest& request,
+Outcome solve(const SurfaceMesh& mesh, const Sources& sources, const AnyMethod& method,
               double stop_after) {
   clockid_t processor{};
   pthread_getcpuclockid(pthread_self(), &processor);
@@ -66,7 +66,7 @@ Outcome solve(const SurfaceMesh& mesh, const Sources& sources, const DistanceReq
   });
   try {
     Report report;
-    solve_distance(mesh, sources, request, task, report);
+    solve_once(method, domain_of(mesh), sources, task, report);
   } catch (const Cancelled&) {
   }
   const double end = seconds(processor);
@@ -88,17 +88,17 @@ int run(int argc, char** argv) {
   Sources sources;
   sources.curves.emplace_back();
   for (int v : curve) sources.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
-  DistanceRequest request;
-  request.method = argv[4];
-  for (int k = 5; k + 1 < argc; k += 2) request.options.emplace_back(argv[k], argv[k + 1]);
+  OptionValues options;
+  for (int k = 5; k + 1 < argc; k += 2) options.emplace_back(argv[k], argv[k + 1]);
+  const AnyMethod method = AnyMethod::named(argv[4], options);
 
   const double before = seconds(CLOCK_PROCESS_CPUTIME_ID);
-  solve(mesh, sources, request, 0);
+  solve(mesh, sources, method, 0);
   const double all = seconds(CLOCK_PROCESS_CPUTIME_ID) - before;
   std::printf("%d faces, %.2f processor seconds\n", mesh.n_faces(), all);
   std::map<std::string, std::pair<int, double>> worst;  // per stage: stops, the longest wait
   for (int k = 0; k < stops; ++k) {
-    const Outcome o = solve(mesh, sources, request, all * (k + 0.5) / stops);
+    const Outcome o = solve(mesh, sources, method, all * (k + 0.5) / stops);
     auto& [n, longest] = worst[o.stage];
     ++n;
     longest = std::max(longest, o.after);

@@ -10,19 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "api/surface/surface_domain.h"
 #include "io/read.h"
-#include "methods/geodesic/exact_polyhedral.h"
-#include "methods/heat/signed_heat.h"
-#include "methods/heat/time_scale.h"
-#include "operators/triangles.h"
-#include "sources/pieces.h"
-#include "sources/triangle_source_system.h"
-#include "sources/triangle_sources.h"
 #include "subdivided_meshes.h"
 #include "test_meshes.h"
 
@@ -32,29 +24,19 @@ namespace {
 constexpr int fifths = 5;
 double given_scale = 0;  // 0: automatic
 
-VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, double& scale, Report& report) {
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const auto ops = std::make_shared<const Operators>(triangle_operators(T));
-  const SourceSystem terms = source_system(mesh, T, place_sources(mesh, sources, false, report));
-  SignedHeat options;
-  options.time_scale = given_scale > 0 ? given_scale : automatic_time_scale(terms, *ops);
-  SignedHeatSolver method(ops, options.time_scale, {}, needed_diffusions(terms, options),
-                          SolveHint::single_rhs);
-  scale = options.time_scale;
-  if (given_scale > 0) return method.solve(terms, options, {}, report);
-  return solve_raising(
-      method, scale,
-      [&](const SignedHeatSolver& heat, const Task& task, Report& r) {
-        return heat.solve(terms, options, task, r);
-      },
-      {}, report);
+VecX signed_heat(const SurfaceMesh& mesh, const Sources& sources, double& scale) {
+  Report report;
+  VecX phi = solve_once(AnyMethod(SignedHeat{.time_scale = given_scale}), domain_of(mesh), sources,
+                        {}, report)
+                 .values;
+  for (const auto& [name, value] : report.options)
+    if (name == "time-scale") scale = std::atof(value.c_str());
+  return phi;
 }
 
 VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, false, report)),
-                          {}, report);
+  return solve_once(AnyMethod(Exact{}), domain_of(mesh), sources, {}, report).values;
 }
 
 /// Mean error in each fifth of the distance and the largest, in % of the largest distance.
@@ -98,12 +80,11 @@ void octasphere(int level) {
   around.space_curves.push_back(circle);
   pole.points.push_back(SurfacePoint::at_vertex(4));
   const std::string name = "octasphere " + std::to_string(level);
-  Report report;
   double scale = 0;
-  const VecX from_circle = signed_heat(mesh, around, scale, report);
+  const VecX from_circle = signed_heat(mesh, around, scale);
   print_row(name, mesh.n_faces(), "circle of 3°", scale, from_circle,
             (angle.array() - cap).matrix());
-  const VecX from_pole = signed_heat(mesh, pole, scale, report);
+  const VecX from_pole = signed_heat(mesh, pole, scale);
   print_row(name, mesh.n_faces(), "point", scale, from_pole, angle);
 }
 
@@ -129,11 +110,10 @@ void real_mesh(const char* path, int times) {
   for (int k = 0; k < times; ++k) soup = test::quartered(soup, &curve);
   const SurfaceMesh mesh(soup);
   const std::string name = std::filesystem::path(path).stem().string();
-  Report report;
   double scale = 0;
-  const VecX phi = signed_heat(mesh, curve_through(curve), scale, report);
+  const VecX phi = signed_heat(mesh, curve_through(curve), scale);
   print_row(name, mesh.n_faces(), "curve", scale, phi.head(from_curve.size()), from_curve);
-  const VecX psi = signed_heat(mesh, point, scale, report);
+  const VecX psi = signed_heat(mesh, point, scale);
   print_row(name, mesh.n_faces(), "point", scale, psi.head(from_point.size()), from_point);
 }
 

@@ -83,7 +83,7 @@ void run(int steps, const std::string& path, double tolerance) {
     for (const SurfacePoint& place : places) {
       Sources sources;
       sources.points.push_back(place);
-      const auto points = p2_sources(mesh, T, place_sources(mesh, sources, false, report), 0);
+      const auto points = p2_sources(mesh, T, place_sources(mesh, sources, report), 0);
       double spent = -seconds();
       const QuadraticProgram<2> program(E, part, points, 1e-4 * E.h);
       const VecX start = last && before > 0 ? VecX(before * *last) : program.start();

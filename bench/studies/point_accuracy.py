@@ -19,7 +19,7 @@ COLUMNS = {
     "signed, 4": ["--time-scale", "4"],
     "signed, 16": ["--time-scale", "16"],
     "signed, 64": ["--time-scale", "64"],
-    "signed, 16, radial": ["--time-scale", "16", "--points", "radial"],
+    "signed, 16, radial": ["--time-scale", "16", "--point-sources", "radial"],
 }
 
 

@@ -54,33 +54,26 @@ const std::vector<Shape>& shapes() {
 
 struct Way {
   std::string name;
-  std::string method;
-  OptionValues options;
+  AnyMethod method;
   bool tets = false;
 };
 
 VecX distance(const PolygonSoup& input, const Grid& grid, const Way& way) {
-  SpaceRequest request;
-  request.method = way.method;
-  request.options = way.options;
   Report report;
-  VecX values;
-  if (way.tets)
-    tet_distance(input, grid, request, &values, Task(), report);
-  else
-    values = grid_distance(input, grid, request, Task(), report);
-  return values;
+  if (way.tets) return tet_distance(input, grid, {}, {way.method}, Task(), report).at_nodes;
+  return grid_distance(input, grid, {way.method}, Task(), report);
 }
 
 void exact(const std::vector<std::string>& wanted) {
-  const std::vector<Way> ways = {{"grid, soft", "signed-heat", {}},
-                                 {"grid, zero-set", "signed-heat", {{"constraint", "zero-set"}}},
-                                 {"grid, none", "signed-heat", {{"constraint", "none"}}},
-                                 {"tets, soft", "signed-heat", {}, true},
-                                 {"winding", "winding", {}},
-                                 {"tori", "tori", {}},
-                                 {"hopf-cole", "hopf-cole", {}},
-                                 {"planar", "planar", {}}};
+  const std::vector<Way> ways = {
+      {"grid, soft", SpaceSignedHeat{}},
+      {"grid, zero-set", SpaceSignedHeat{.constraint = SpaceConstraint::zero_set}},
+      {"grid, none", SpaceSignedHeat{.constraint = SpaceConstraint::none}},
+      {"tets, soft", SpaceSignedHeat{}, true},
+      {"winding", WindingSign{}},
+      {"tori", Tori{}},
+      {"hopf-cole", HopfCole{}},
+      {"planar", Planar{}}};
   const std::array<int, 3> sizes{17, 33, 65};
   // Named, or none of the kind is.
   const auto chosen = [&wanted](const std::string& name, const auto& all) {
@@ -182,13 +175,13 @@ std::vector<Damage> damages() {
 
 /// Figures 7.7 and 7.8 of the thesis, on another grid: a line for each place of the landscapes.
 void landscapes(int nodes) {
-  const std::vector<Way> ways = {{"signed-heat, grid", "signed-heat", {}},
-                                 {"signed-heat, tets", "signed-heat", {}, true},
-                                 {"winding", "winding", {}},
-                                 {"hopf-cole", "hopf-cole", {}},
-                                 {"planar", "planar", {}},
-                                 {"tori", "tori", {}},
-                                 {"tori, noisy", "tori", {{"noisy", "on"}}}};
+  const std::vector<Way> ways = {{"signed-heat, grid", SpaceSignedHeat{}},
+                                 {"signed-heat, tets", SpaceSignedHeat{}, true},
+                                 {"winding", WindingSign{}},
+                                 {"hopf-cole", HopfCole{}},
+                                 {"planar", Planar{}},
+                                 {"tori", Tori{}},
+                                 {"tori, noisy", Tori{.noisy = true}}};
   const Grid grid = test::cube_grid(nodes, 1);
   std::printf("shape,damage,method,radius,amount,error\n");
   for (const bool cylinder : {true, false})

@@ -6,17 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
+#include "api/surface/discretization.h"
 #include "curves.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/read.h"
-#include "methods/geodesic/exact_polyhedral.h"
-#include "methods/heat/signed_heat.h"
-#include "operators/triangles.h"
-#include "sources/pieces.h"
-#include "sources/triangle_source_system.h"
-#include "sources/triangle_sources.h"
 
 namespace littoral {
 namespace {
@@ -52,21 +45,18 @@ std::vector<Case> cases(const SurfaceMesh& mesh, const Operators& ops) {
 void study(const char* path) {
   const SurfaceMesh mesh(io::read_surface(path));
   Report report;
-  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  const auto ops = std::make_shared<const Operators>(triangle_operators(T));
+  const SurfaceDomain domain = domain_of(mesh);
+  const auto ops = SurfaceDiscretization(domain, {}, report).operators();
   const auto all = cases(mesh, *ops);
   std::vector<VecX> truth;
-  std::vector<SourceSystem> terms;
-  for (const Case& c : all) {
-    const auto sources = triangle_sources(mesh, T, place_sources(mesh, c.whole, false, report));
-    truth.push_back(exact_polyhedral(T, sources, {}, report));
-    terms.push_back(source_system(mesh, T, place_sources(mesh, c.given, false, report)));
-  }
+  for (const Case& c : all)
+    truth.push_back(solve_once(AnyMethod(Exact{}), domain, c.whole, {}, report).values);
   const VecX& M = ops->scalar.M;
   for (const double scale : scales) {
-    const SignedHeatSolver method(ops, scale);
+    const auto solver = prepare(AnyMethod(SignedHeat{.time_scale = scale}), domain,
+                                SolveHint::many_rhs, {}, report);
     for (std::size_t c = 0; c < all.size(); ++c) {
-      const VecX phi = method.solve(terms[c], {}, {}, report);
+      const VecX phi = solver->solve(all[c].given, {}, report).values;
       double sum = 0, area = 0, most = 0, worst = 0;
       for (Eigen::Index i = 0; i < phi.size(); ++i) {
         if (!std::isfinite(truth[c][i]) || !std::isfinite(phi[i])) continue;

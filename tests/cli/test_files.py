@@ -105,7 +105,7 @@ def test_methods(run: Run) -> None:
 
 def test_render_and_view(run: Run, mesh: Path, tmp_path: Path) -> None:
     plane_field(tmp_path)
-    arguments = ("--sources", "curve.txt", "--width", 80, "--height", 60, "--levels", 3)
+    arguments = ("--sources", "curve.txt", "--width", 80, "--height", 60, "--isolines", 3)
     run("render", "field.obj", *arguments, "-o", "a.png")
     assert (tmp_path / "a.png").read_bytes()[16:24] == b"\0\0\0\x50\0\0\0\x3c"
     run("render", "field.obj", "-o", "a.jpg", status=2)

@@ -20,7 +20,7 @@ def test_matrix_and_statistics(run: Run, tmp_path: Path) -> None:
     assert report["method"] == "symmetric"
 
 
-def test_rows_of_operand_methods(run: Run, tmp_path: Path) -> None:
+def test_rows_of_other_methods(run: Run, tmp_path: Path) -> None:
     mesh = octahedron(tmp_path / "o.obj")
     out = tmp_path / "d.csv"
     run("pairs", mesh, "-o", out, "--method", "exact", "--vertex", "4", "--vertex", "0")
@@ -29,6 +29,25 @@ def test_rows_of_operand_methods(run: Run, tmp_path: Path) -> None:
     top = [float(x) for x in lines[1].split(",")]
     assert top[4] == 0 and abs(top[0] - 2**0.5) < 1e-9
     assert abs(top[5] - 6**0.5) < 1e-9  # over two faces
+
+
+def test_better_triangles_and_point_clouds(run: Run, tmp_path: Path) -> None:
+    mesh = octahedron(tmp_path / "o.obj")
+    exact, d = tmp_path / "exact.npy", tmp_path / "d.npy"
+    run("pairs", mesh, "-o", exact, "--method", "exact", "--vertex", "4")
+    for method in ("signed-heat", "unsigned-heat"):
+        run("pairs", mesh, "-o", d, "--method", method, "--intrinsic-delaunay", "--vertex", "4")
+        assert np.load(d).shape == (1, 6)
+        assert np.load(d)[0, 4] == 0
+        assert np.abs(np.load(d) - np.load(exact)).max() < 0.3 * np.load(exact).max()
+    n = 200
+    z = 1 - (2 * np.arange(n) + 1) / n
+    r, turn = np.sqrt(1 - z * z), 2.399963 * np.arange(n)
+    points = np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
+    np.savetxt(tmp_path / "ball.xyz", np.hstack([points, points]))
+    run("pairs", "ball.xyz", "-o", d, "--method", "unsigned-heat", "--vertex", "0")
+    truth = np.arccos(np.clip(points @ points[0], -1, 1))
+    assert np.abs(np.load(d)[0] - truth).mean() < 0.1
 
 
 def test_what_is_wrong(run: Run, tmp_path: Path) -> None:

@@ -172,7 +172,7 @@ def test_traced_pictures_show_the_shape(run: Run, balls: Path) -> None:
         (("query", "a.xyz", "--points", "q.csv", "--subtract", "nan.xyz"), "finite"),
         (
             ("query", "a.xyz", "--points", "q.csv", "--unite", "b.xyz", "--method", "signed-heat"),
-            "single points",
+            "set of points",
         ),
     ],
 )
@@ -197,7 +197,7 @@ def test_bad_combinations_are_named(
         (("a.xyz", "--trace", "--level=-50"), "level"),
         (("a.xyz", "--trace", "--level", "nan"), "--level"),
         (("a.xyz", "--trace", "--slice", "9"), "slice"),
-        (("a.xyz", "--trace", "--method", "signed-heat"), "single points"),
+        (("a.xyz", "--trace", "--method", "signed-heat"), "set of points"),
         (("empty.xyz", "--trace"), "empty.xyz"),
         (("point.xyz", "--trace"), "one place"),
         (("nan.xyz", "--trace"), "finite"),

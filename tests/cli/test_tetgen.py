@@ -164,7 +164,7 @@ def test_its_tets_are_used(folder: Path) -> None:
     more = ("--bounds=-1.9,-1.9,-1.9,1.9,1.9,1.9", "--json")
     result = call(folder, *more)
     assert result.returncode == 0, result.stderr
-    assert "tet mesh of tetgen" in result.stdout
+    assert "tetgen mesh" in result.stdout
     # Eight corners of the cube and of the box, twelve triangles and six sides.
     words = (folder / "in.poly").read_text().split()
     assert words[0] == "16"

@@ -160,7 +160,7 @@ def test_offset_of_a_curve(run: Run, mesh: Path) -> None:
 
 
 def test_view_and_render(run: Run, ball: str, tmp_path: Path) -> None:
-    options = ("--axis", "x", "--slice", "0.2", "--level", "0.1", "--levels", 12)
+    options = ("--axis", "x", "--slice", "0.2", "--level", "0.1", "--isolines", 12)
     run("render", ball, *options, "--width", 120, "--height", 90, "-o", "a.png")
     assert (tmp_path / "a.png").read_bytes()[16:24] == b"\0\0\0\x78\0\0\0\x5a"
     run("view", ball, *options, "-o", "a.html")

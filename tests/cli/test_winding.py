@@ -46,7 +46,7 @@ def test_variants(run: Run, tmp_path: Path) -> None:
     out = tmp_path / "w.txt"
     labels = []
     for flags in (
-        ("--boundary", "free"),
+        ("--boundary-condition", "free"),
         ("--residual", "paths"),
         ("--formulation", "dual"),
         ("--formulation", "nonconforming"),

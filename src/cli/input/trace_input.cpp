@@ -17,7 +17,7 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
   verb.add_flag("--estimate-normals", texts.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
-  add_space_method(verb, texts.space, "tori for point clouds, otherwise winding");
+  add_space_method(verb, texts.space, method_for_points_text);
   add_shape_options(verb, texts.space);
   add_grid_options(verb, texts.space);
   for (CLI::Option* option : verb.get_options())
@@ -30,18 +30,18 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
 void check_no_trace_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     if (option->get_group() == group && option->count() > 0)
-      throw InputError("option " + option->get_name() + " goes with --trace");
+      throw InputError("option " + option->get_single_name() + " goes with option trace");
 }
 
 io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
                             const VolumeViewArguments& view, bool for_page, Session& session) {
   texts.space.input = file;
-  const CsgShapes shapes = read_shapes(texts.space, session, {});
+  const CsgShapes shapes = read_shapes(texts.space, session);
   TracedView traced;
   traced.axis = view.axis_number();
   traced.for_page = for_page;
   if (!view.position.empty()) traced.position = view.slice_at();
-  if (!view.level.empty()) traced.level = parse_number("--level", view.level);
+  if (!view.level.empty()) traced.level = parse_number("level", view.level);
   GridRequest request = grid_request(texts.space);
   if (!request.resolution && !request.spacing)
     request.resolution = for_page                      ? page_nodes

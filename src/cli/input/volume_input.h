@@ -10,9 +10,6 @@
 
 namespace littoral::cli {
 
-/// One number; throws InputError naming the option.
-double parse_number(const std::string& option, const std::string& text);
-
 /// Options of `view` and `render` that are about volumes, as given.
 struct VolumeViewArguments {
   std::string axis = "z", position, level;
@@ -22,31 +19,16 @@ struct VolumeViewArguments {
 };
 void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts);
 
-/// A scene of the volume in a file.
-io::Scene read_volume_scene(const std::string& file, const std::string& field,
-                            const VolumeViewArguments& texts);
+/// A scene of a volume; `file` is where it comes from.
+io::Scene volume_scene(const Volume& volume, const std::string& file,
+                       const VolumeViewArguments& texts);
 
-/// Adds -o for one file for all levels, or one for each.
-void add_level_outputs(CLI::App& verb, std::vector<std::string>& out, const char* help);
-/// Throws InputError unless there is one file or one for each of the levels, all with one of the
-/// extensions.
+/// Throws unless there is one file or one for each of the levels, all of one of the kinds.
 void check_level_outputs(const std::vector<std::string>& out, std::size_t levels,
-                         const std::vector<std::string>& extensions, const std::string& what);
+                         const io::Kinds& kinds);
 
 /// Writes lines: all into one file, or each level into its own.
 void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,
                  const std::vector<LevelLines>& levels);
-
-/// Level sets of the volume in a file, written as surfaces.
-void contour_volume(const std::string& file, const std::string& field,
-                    const std::vector<double>& levels, bool clip,
-                    const std::vector<std::string>& out, Session& session);
-
-/// A volume in another format.
-void convert_volume(const std::string& file, const std::string& field, const std::string& out,
-                    double band, Session& session);
-
-inline const std::vector<std::string> surface_outputs = {".obj", ".ply", ".off", ".stl"};
-inline const std::vector<std::string> volume_outputs = {".vti", ".npy", ".nrrd", ".vdb"};
 
 }  // namespace littoral::cli

@@ -5,18 +5,18 @@
 #include <iostream>
 #include <memory>
 
+#include "api/tet/tet_boundary.h"
 #include "base/platform/temporary_folder.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/tet_input.h"
 #include "cli/input/trace_input.h"
 #include "cli/input/volume_input.h"
+#include "cli/output.h"
 #include "cli/serve.h"
 #include "cli/verbs/verbs.h"
 #include "domain/cloud/cloud_surface.h"
 #include "io/read.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
-#include "io/volume/volume.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
@@ -33,29 +33,7 @@ struct Arguments {
   int isolines = 20;
 };
 
-/// A surface or cloud, or the boundary of tets, which --slice cuts open.
-PolygonSoup read_shown(const Arguments& arguments) {
-  if (!io::is_tets(arguments.in)) return io::read_surface(arguments.in);
-  const io::TetFile file = io::read_tets(arguments.in);
-  const VolumeViewArguments& view = arguments.volume;
-  return view.position.empty() ? boundary_of(file)
-                               : cut_open(file, view.axis_number(), view.slice_at());
-}
-
-io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
-  if (arguments.trace.trace) {
-    if (!arguments.sources.empty() || !arguments.field.empty())
-      throw InputError("options --sources and --field do not go with --trace");
-    return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
-  }
-  check_no_trace_options(*arguments.verb);
-  if (io::is_volume(arguments.in)) {
-    if (!arguments.sources.empty())
-      throw InputError("option --sources: sources are drawn on surfaces, " + arguments.in +
-                       " is a volume");
-    return read_volume_scene(arguments.in, arguments.field, arguments.volume);
-  }
-  PolygonSoup soup = read_shown(arguments);
+io::Scene scene_of(PolygonSoup soup, const Arguments& arguments, Session& session) {
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
   io::Scene scene =
@@ -68,9 +46,35 @@ io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
   return scene;
 }
 
+/// The boundary, which --slice cuts open.
+io::Scene scene_of(const io::TetFile& file, const Arguments& arguments, Session& session) {
+  const VolumeViewArguments& view = arguments.volume;
+  return scene_of(view.position.empty() ? boundary_of(file)
+                                        : cut_open(file, view.axis_number(), view.slice_at()),
+                  arguments, session);
+}
+
+io::Scene scene_of(const Volume& volume, const Arguments& arguments, Session&) {
+  if (!arguments.sources.empty())
+    throw InputError("option sources: sources are drawn on surfaces, " + arguments.in +
+                     " is a volume");
+  return volume_scene(volume, arguments.in, arguments.volume);
+}
+
+io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
+  if (arguments.trace.trace) {
+    if (!arguments.sources.empty() || !arguments.field.empty())
+      throw InputError("options --sources and --field do not go with --trace");
+    return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
+  }
+  check_no_trace_options(*arguments.verb);
+  return std::visit([&](auto&& held) { return scene_of(std::move(held), arguments, session); },
+                    io::read_content(arguments.in, arguments.field));
+}
+
 io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
-  scene.title = std::filesystem::path(arguments.in).stem().string();
+  describe(scene, arguments.in, session.report);
   scene.isolines = arguments.isolines;
   io::check_scene(scene);
   session.reading = false;
@@ -87,7 +91,7 @@ std::string page_text(const io::Scene& scene) {
 }
 
 void view(Arguments& arguments, Session& session) {
-  check_output(arguments.out.empty() ? "page.html" : arguments.out, {".html"}, "a page");
+  check_outputs({arguments.out.empty() ? "page.html" : arguments.out}, {io::Kind::page});
   const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
   if (arguments.out.empty())
@@ -97,59 +101,54 @@ void view(Arguments& arguments, Session& session) {
 }
 
 void render(Arguments& arguments, Session& session) {
-  check_output(arguments.out, {".png"}, "a picture");
+  check_outputs({arguments.out}, {io::Kind::picture});
   const io::Scene scene = read_scene(arguments, false, session);
   session.print_warnings();
   io::write_picture(arguments.out, scene, arguments.picture);
 }
 
-using Job = void (*)(Arguments&, Session&);
-
-CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
-                   Job job, const char* name, const char* help) {
-  CLI::App* verb = program.add_subcommand(name, help);
-  verb->add_option(
-          "FILE", arguments->in,
-          "a surface or cloud, with values or without: .obj .ply .off .stl .pc .xyz .pcd; or a "
-          "volume: .vti .nrrd .npy .vol; or the boundary of tets: .mesh .vtk .tet")
-      ->required()
-      ->type_name("");
-  verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+CLI::App& add_show_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
+                        void (*job)(Arguments&, Session&), const char* name, const char* help) {
+  CLI::App& verb = add_verb(program, session, arguments, name, help, job);
+  add_input_option(verb, "FILE", arguments->in,
+                   "a surface or cloud, with values or without: " +
+                       io::read_extensions({io::Kind::surface, io::Kind::cloud}) + "; or " +
+                       kinds_help({io::Kind::volume}) + "; or the boundary of " +
+                       kinds_help({io::Kind::tets}));
+  add_repeated_option(verb, "--sources,-s", arguments->sources, "sources to draw; may be repeated")
       ->type_name("FILE");
-  verb->add_option("--field", arguments->field,
-                   "which values [default: distance, an OBJ's texture u, or the only ones]")
+  verb.add_option("--field", arguments->field,
+                  "which values [default: distance, an OBJ's texture u, or the only ones]")
       ->type_name("NAME");
-  verb->add_option("--isolines", arguments->isolines,
-                   "about how many isolines, 0 to 1000 [default 20]")
+  verb.add_option("--isolines", arguments->isolines,
+                  "about how many isolines, 0 to 1000 [default 20]")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
-  add_volume_view_options(*verb, arguments->volume);
-  add_trace_options(*verb, arguments->trace, session);
-  arguments->verb = verb;
-  add_index_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
-  return *verb;
+  add_volume_view_options(verb, arguments->volume);
+  add_trace_options(verb, arguments->trace, session);
+  arguments->verb = &verb;
+  add_index_option(verb, session);
+  return verb;
 }
 
 }  // namespace
 
 void add_view(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb = add_verb(program, session, arguments, view, "view",
-                            "a page that shows a result in a browser, also offline");
+  CLI::App& verb = add_show_verb(program, session, arguments, view, "view",
+                                 "a page that shows a result in a browser, also offline");
   verb.add_option("-o,--output", arguments->out,
-                  "the page: .html; without it the page is served on 127.0.0.1 until Ctrl-C")
+                  "the page: " + io::written_extensions({io::Kind::page}) +
+                      "; without it the page is served on 127.0.0.1 until Ctrl-C")
       ->type_name("OUT");
 }
 
 void add_render(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb =
-      add_verb(program, session, arguments, render, "render", "a picture, without a display");
-  verb.add_option("-o,--output", arguments->out, "the picture: .png")->required()->type_name("OUT");
+      add_show_verb(program, session, arguments, render, "render", "a picture, without a display");
+  add_output_option(verb, arguments->out,
+                    "the picture: " + io::written_extensions({io::Kind::picture}));
   verb.add_option("--width", arguments->picture.width, "pixels, 16 to 16384 [default 1200]")
       ->type_name("N");
   verb.add_option("--height", arguments->picture.height, "pixels, 16 to 16384 [default 900]")

@@ -214,7 +214,7 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
       }
     }
     if (tree.cubes.size() * 12 > max_tets)
-      throw InputError("the tet lattice would have too many tets; use a smaller --resolution");
+      throw InputError("the tet lattice would have too many tets; use a smaller resolution");
   }
   balance(tree);
 
@@ -227,7 +227,7 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
     filler.fill(tree.cubes[at]);
     cube_.resize(filler.n_tets(), static_cast<int>(first_tet_.size()) - 1);
     if (filler.n_tets() > max_tets)
-      throw InputError("the tet lattice would have too many tets; use a smaller --resolution");
+      throw InputError("the tet lattice would have too many tets; use a smaller resolution");
   }
   first_tet_.push_back(static_cast<int>(filler.n_tets()));
   filler.finish();

@@ -8,6 +8,7 @@
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -75,6 +76,20 @@ void finish(const std::vector<std::string>& files, const Task& task, Session& se
     }
   }
   session.print_report();
+}
+
+void check_level_outputs(const std::vector<std::string>& out, std::size_t levels,
+                         const io::Kinds& kinds) {
+  check_outputs(out, kinds);
+  if (out.size() != 1 && out.size() != levels)
+    throw InputError("there are " + std::to_string(out.size()) + " output files for " +
+                     std::to_string(levels) + " levels: name one for all, or one for each");
+}
+
+void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,
+                 const std::vector<LevelLines>& levels) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    io::write_surface(out[i], join_lines(mesh, out.size() == 1 ? levels : std::vector{levels[i]}));
 }
 
 }  // namespace littoral::cli

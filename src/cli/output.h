@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "api/surface/level_lines.h"
 #include "cli/session.h"
 #include "io/formats.h"
 #include "io/render/scene.h"
@@ -36,5 +37,13 @@ void write_tet_result(const std::string& file, const TetMesh& mesh, const VecX& 
 /// Writes the files one after the other and says what a verb says at its end.
 void finish(const std::vector<std::string>& files, const Task& task, Session& session,
             const std::function<void(const std::string&)>& write);
+
+/// Throws unless there is one file or one for each of the levels, all of one of the kinds.
+void check_level_outputs(const std::vector<std::string>& out, std::size_t levels,
+                         const io::Kinds& kinds);
+
+/// Writes lines: all into one file, or each level into its own.
+void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,
+                 const std::vector<LevelLines>& levels);
 
 }  // namespace littoral::cli

@@ -9,7 +9,6 @@
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/volume_input.h"
 #include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "contour/isosurface.h"

@@ -9,7 +9,6 @@
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/volume_input.h"
 #include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "littoral/error.h"

@@ -2,14 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include "api/space/traced_scene.h"
 #include "api/tet/tet_boundary.h"
 #include "base/platform/temporary_folder.h"
+#include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/trace_input.h"
-#include "cli/input/volume_input.h"
 #include "cli/output.h"
 #include "cli/serve.h"
 #include "cli/verbs/verbs.h"
@@ -17,11 +18,29 @@
 #include "io/read.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
+#include "io/render/volume_scene.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
 
 namespace {
+
+const char* const trace_group = "Tracing";
+constexpr int framing_nodes = 40, slice_nodes = 128, page_nodes = 64;  // along the longest side
+
+/// Options about volumes, as given.
+struct VolumeViewArguments {
+  std::string axis = "z", position, level;
+  int axis_number() const { return axis.front() - 'x'; }
+  double slice_at() const { return parse_number("slice", position); }
+  bool no_surface = false;
+};
+
+/// Surfaces of fields, traced by rays.
+struct TraceArguments {
+  bool trace = false;
+  SpaceArguments space;  // its input is set from the verb's FILE
+};
 
 struct Arguments {
   std::string in, out, field;
@@ -32,6 +51,79 @@ struct Arguments {
   const CLI::App* verb = nullptr;
   int isolines = 20;
 };
+
+void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
+  const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
+  volumes(verb.add_option("--axis", texts.axis,
+                          "the slice is orthogonal to this axis: x, y or z [default z]"))
+      ->check(CLI::IsMember({"x", "y", "z"}).description(""))
+      ->type_name("A");
+  volumes(
+      verb.add_option("--slice", texts.position,
+                      "where along the axis [length; default: the middle of the box]; tets are cut "
+                      "open there"))
+      ->type_name("P");
+  volumes(verb.add_option("--level", texts.level,
+                          "the level of the surface shown [default 0, or half way where the values "
+                          "do not pass 0]"))
+      ->type_name("L");
+  volumes(verb.add_flag("--no-surface", texts.no_surface, "show the slice only"));
+}
+
+void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) {
+  const std::vector<CLI::Option*> before = verb.get_options();
+  verb.add_flag("--estimate-normals", texts.space.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
+  verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
+  add_space_method(verb, texts.space, method_for_points_text);
+  add_shape_options(verb, texts.space);
+  add_grid_options(verb, texts.space);
+  for (CLI::Option* option : verb.get_options())
+    if (std::find(before.begin(), before.end(), option) == before.end()) option->group(trace_group);
+  verb.add_flag("--trace", texts.trace,
+                "FILE is a mesh, soup, cloud or volume of distance: follow rays through its signed "
+                "distance to the surface, or with --level to an offset of it");
+}
+
+void check_no_trace_options(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options())
+    if (option->get_group() == trace_group && option->count() > 0)
+      throw InputError("option " + option->get_single_name() + " goes with option trace");
+}
+
+io::Scene volume_scene(const Volume& volume, const std::string& file,
+                       const VolumeViewArguments& texts) {
+  io::VolumeView view;
+  view.axis = texts.axis_number();
+  if (!texts.position.empty()) view.position = texts.slice_at();
+  if (!texts.level.empty()) view.level = parse_number("level", texts.level);
+  view.isosurface = !texts.no_surface;
+  try {
+    return io::make_volume_scene(volume, view);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+}
+
+io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
+                            const VolumeViewArguments& view, bool for_page, Session& session) {
+  texts.space.input = file;
+  const CsgShapes shapes = read_shapes(texts.space, session);
+  TracedView traced;
+  traced.axis = view.axis_number();
+  traced.for_page = for_page;
+  if (!view.position.empty()) traced.position = view.slice_at();
+  if (!view.level.empty()) traced.level = parse_number("level", view.level);
+  GridRequest request = grid_request(texts.space);
+  if (!request.resolution && !request.spacing)
+    request.resolution = for_page                      ? page_nodes
+                         : traced.position.has_value() ? slice_nodes
+                                                       : framing_nodes;
+  request.padding += std::max(0.0, traced.level) / longest_side(shapes);
+  const Grid grid = choose_grid(shapes, request);
+  session.reading = false;
+  return traced_scene(shapes, grid, traced, session.task(), session.report);
+}
 
 io::Scene scene_of(PolygonSoup soup, const Arguments& arguments, Session& session) {
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);

@@ -28,7 +28,8 @@ struct Arguments {
 
 void write_regions(const std::string& file, const Arguments& arguments, const WindingAnswer& answer,
                    const Report& report) {
-  if (io::is_written_as(file, {Kind::table})) return io::write_labels(file, answer.region);
+  if (io::is_written_as(file, {Kind::table}))
+    return io::write_table(file, {{"region"}, answer.region.cast<double>(), "face"});
   if (io::has_extension(file, ".obj"))
     return io::write_homogeneous_obj(file, answer.shown, "winding", "weight");
   write_result(file, answer.shown, arguments.show, arguments.domain, report, [&](io::Scene& scene) {
@@ -109,7 +110,7 @@ void add_winding(CLI::App& program, Session& session) {
   verb.add_option("--curves", arguments->curves,
                   "where to write the bounding, nonbounding and completed curves: .obj")
       ->type_name("FILE");
-  verb.add_option("--show", arguments->show, "what .html, .png and .vtp show: region or winding")
+  verb.add_option("--show", arguments->show, "what pages, pictures and .vtp show: region or winding")
       ->check(CLI::IsMember({"region", "winding"}))
       ->type_name("WORD");
   verb.add_flag("--flip", session.flip, "reverse every curve, or the surface");

@@ -2,7 +2,6 @@
 
 #include "io/surface/surface_writers.h"
 #include "io/write.h"
-#include "io/write_table.h"
 
 namespace littoral::io {
 
@@ -13,10 +12,6 @@ void write_point(std::ostream& out, const Eigen::RowVector3d& p) {
 }
 
 }  // namespace
-
-void write_labels(const std::filesystem::path& path, const VecXi& region) {
-  write_table(path, {{"region"}, region.cast<double>(), "face"});
-}
 
 void write_homogeneous_obj(const std::filesystem::path& path, const PolygonSoup& soup,
                            const std::string& value, const std::string& weight) {

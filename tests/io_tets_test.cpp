@@ -141,8 +141,8 @@ TEST(TetFiles, ErrorsNameFileLineAndElement) {
   expect(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA"), ".vtk", "only UNSTRUCTURED_GRID");
   expect(replaced(vtk, "SCALARS depth float", "SCALARS depth bit"), ".vtk", "of type 'bit'");
   expect(replaced(modern, "0 4 7", "0 9 7"), ".vtk", "offset of cell 1 is out of order");
-  expect(medit, ".meshb", ".mesh, .vtk and .tet are");
-  expect(medit, ".msh", "unknown format of tets '.msh'");
+  expect(medit, ".meshb", "possible: .mesh .tet .vtk");
+  expect(medit, ".msh", "as tets: the extension is '.msh'");
 }
 
 TEST(TetFiles, RealOnesAreRead) {

@@ -126,7 +126,7 @@ TEST_F(IoWrite, RefusesWhatAFormatCannotHold) {
   };
   PolygonSoup soup = polygons();
   EXPECT_THAT(error("a.stl", soup), HasSubstr("face 1 has 4 corners, STL holds triangles only"));
-  EXPECT_THAT(error("a.xyz", soup), HasSubstr("unknown surface format '.xyz'"));
+  EXPECT_THAT(error("a.xyz", soup), HasSubstr("as a surface: the extension is '.xyz'"));
   soup.face_offsets.resize(2);
   EXPECT_THAT(error("a.stl", soup), HasSubstr("vertex 0 is beyond STL's single precision"));
   soup.scalars["nx"] = soup.scalars["distance"];

@@ -91,7 +91,7 @@ TEST(SpaceSamples, SaysWhatIsWrongWithACloud) {
   PolygonSoup cloud;
   EXPECT_THAT(message(cloud), HasSubstr("no points"));
   cloud.points = test::random_points(20, 1);
-  EXPECT_THAT(message(cloud), HasSubstr("--estimate-normals"));
+  EXPECT_THAT(message(cloud), HasSubstr("estimate-normals"));
   cloud.normals = MatX3::Zero(20, 3);
   EXPECT_THAT(message(cloud), HasSubstr("not zero"));
   cloud.normals.setOnes();

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <regex>
 
 #include "base/parallel.h"
 #include "cli/input/method_options.h"
@@ -19,15 +20,31 @@ using namespace littoral;
 
 enum Status { done = 0, failed = 1, bad_input = 2 };
 
-Status say(cli::Session& session, Status status, std::string text) {
+/// The library names its parameters: "option time-scale". Those that the verb has as flags get
+/// their hyphens here.
+std::string with_flags(const std::string& text, const CLI::App& program) {
+  static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
+  std::string out;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
+    out.append(rest, (*at)[1].first);
+    for (const CLI::App* verb : program.get_subcommands())
+      if (verb->get_option_no_throw("--" + (*at)[1].str())) out += "--";
+    rest = (*at)[1].first;
+  }
+  return out.append(rest, text.cend());
+}
+
+Status say(cli::Session& session, const CLI::App& program, Status status, std::string text) {
   session.print_warnings();
+  text = with_flags(text, program);
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
   std::fprintf(stderr, "littoral: error: %s\n", text.c_str());
   return status;
 }
 
-int run(cli::Session& session) {
+int run(cli::Session& session, const CLI::App& program) {
   try {
     set_thread_count(session.threads);
     session.job();
@@ -38,15 +55,15 @@ int run(cli::Session& session) {
   } catch (const Cancelled&) {
     cli::exit_interrupted();
   } catch (const InputError& e) {
-    return say(session, bad_input, e.what());
+    return say(session, program, bad_input, e.what());
   } catch (const UnsupportedError& e) {
-    return say(session, bad_input, e.what());
+    return say(session, program, bad_input, e.what());
   } catch (const IoError& e) {
-    return say(session, session.reading ? bad_input : failed, e.what());
+    return say(session, program, session.reading ? bad_input : failed, e.what());
   } catch (const std::bad_alloc&) {
-    return say(session, failed, "not enough memory");
+    return say(session, program, failed, "not enough memory");
   } catch (const std::exception& e) {
-    return say(session, failed, e.what());
+    return say(session, program, failed, e.what());
   }
 }
 
@@ -69,6 +86,8 @@ int main(int argc, char** argv) {
   cli::add_contour(program, session);
   cli::add_offset(program, session);
   cli::add_methods(program, session);
+  cli::add_formats(program, session);
+  cli::add_help(program, session);
   cli::add_view(program, session);
   cli::add_render(program, session);
   try {
@@ -80,8 +99,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     std::string verb;
     for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();
-    return say(session, bad_input, std::string(e.what()) + " (see littoral" + verb + " --help)");
+    return say(session, program, bad_input,
+               std::string(e.what()) + " (see littoral" + verb + " --help)");
   }
   cli::watch_for_interrupts(session.cancel);
-  return run(session);
+  return run(session, program);
 }

@@ -10,7 +10,6 @@
 #include "api/report_json.h"
 #include "base/option_table.h"
 #include "base/platform/process.h"
-#include "io/render/scene.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
@@ -92,12 +91,8 @@ void add_common_options(CLI::App& verb, Session& session) {
       ->type_name("WHEN");
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
-}
-
-void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help) {
-  add_repeated_option(verb, "-o,--output", files, help + "; may be repeated")
-      ->required()
-      ->type_name("OUT");
+  for (const char* name : {"--threads", "--progress", "--verbose", "--quiet"})
+    verb.get_option(name)->group("Common options");
 }
 
 void add_json_option(CLI::App& verb, Session& session) {
@@ -109,27 +104,6 @@ void add_index_option(CLI::App& verb, Session& session) {
                   "what sources and --vertex count from: 0 or 1 [default: as the format has it]")
       ->check(CLI::IsMember({0, 1}).description(""))
       ->type_name("0|1");
-}
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
-  return extension;
-}
-
-void check_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
-                  const std::string& what) {
-  const std::string extension = extension_of(path);
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-    std::string known;
-    for (const auto& e : extensions) known += (known.empty() ? "" : " ") + e;
-    throw InputError("cannot write " + what + " as " + path.string() + ": the extension is '" +
-                     extension + "'; possible: " + known);
-  }
-  if (extension == ".html" && !io::has_viewer())
-    throw UnsupportedError("cannot write " + path.string() +
-                           ": this build has no viewer page (npm was missing when it was built)");
 }
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
@@ -145,6 +119,24 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     out.push_back(value);
     begin = end + 1;
   }
+  return out;
+}
+
+double parse_number(const std::string& option, const std::string& text) {
+  const std::vector<double> numbers = parse_numbers(option, text);
+  if (numbers.size() != 1) throw InputError("option " + option + " takes one number");
+  return numbers.front();
+}
+
+CLI::Option* add_input_option(CLI::App& verb, const std::string& name, std::string& file,
+                              const std::string& help) {
+  return verb.add_option(name, file, help)->required()->type_name("");
+}
+
+std::string kinds_help(const io::Kinds& kinds) {
+  std::string out;
+  for (const io::Kind kind : kinds)
+    out += (out.empty() ? "" : ", ") + io::kinds_text({kind}) + " " + io::read_extensions({kind});
   return out;
 }
 

@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/task.h"
+#include "io/formats.h"
 #include "littoral/report.h"
 
 namespace littoral::cli {
@@ -52,21 +54,29 @@ CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
-/// Adds -o, which must be given and may be several times.
-void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help);
 /// Adds --json.
 void add_json_option(CLI::App& verb, Session& session);
 /// Adds --index-base.
 void add_index_option(CLI::App& verb, Session& session);
 
-/// The extension in lower case, with its dot.
-std::string extension_of(const std::filesystem::path& path);
-
-/// Throws InputError unless the extension is among those; `what` says what is to be written.
-void check_output(const std::filesystem::path& path, const std::vector<std::string>& extensions,
-                  const std::string& what);
-
 /// Reads "0,0.5,-1"; throws InputError naming the option.
 std::vector<double> parse_numbers(const std::string& option, const std::string& text);
+double parse_number(const std::string& option, const std::string& text);
+
+/// Adds the file that a verb is about.
+CLI::Option* add_input_option(CLI::App& verb, const std::string& name, std::string& file,
+                              const std::string& help);
+/// "a surface .obj .ply, tets .mesh"
+std::string kinds_help(const io::Kinds& kinds);
+
+/// Adds a verb that runs `job(arguments, session)`.
+template <class Arguments, class Job>
+CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
+                   const char* name, const std::string& help, Job job) {
+  CLI::App* verb = program.add_subcommand(name, help);
+  add_common_options(*verb, session);
+  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
+  return *verb;
+}
 
 }  // namespace littoral::cli

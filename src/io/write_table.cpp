@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <sstream>
 
 #include "io/binary.h"
+#include "io/formats.h"
+#include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -14,45 +15,59 @@ namespace littoral::io {
 
 namespace {
 
-void write_rows(std::ostream& out, const Eigen::MatrixXd& columns, char between) {
-  char text[32];
-  for (Eigen::Index r = 0; r < columns.rows(); ++r)
-    for (Eigen::Index c = 0; c < columns.cols(); ++c) {
-      std::snprintf(text, sizeof text, "%.17g", columns(r, c));
-      out << text << (c + 1 < columns.cols() ? between : '\n');
-    }
-}
-
-void write_npy(std::ostream& out, const Eigen::MatrixXd& columns) {
-  std::ostringstream text;
-  text << "{'descr': '<f8', 'fortran_order': True, 'shape': (" << columns.rows() << ",";
-  if (columns.cols() > 1) text << " " << columns.cols();
-  text << "), }";
-  std::string header = text.str();
-  const std::size_t over = (header.size() + 11) % 64;  // with the ten bytes before and the newline
-  if (over > 0) header.append(64 - over, ' ');
-  header += '\n';
-  out.write("\x93NUMPY\x01\x00", 8);
-  store_little(out, static_cast<std::uint16_t>(header.size()));
-  out << header;
-  for (const double value : columns.reshaped()) store_little(out, value);
+/// A name as a cell: quoted where it holds a comma, a quote or a line end.
+std::string csv_cell(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  std::string cell = "\"";
+  for (char c : name) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + '"';
 }
 
 }  // namespace
 
-void write_table(const std::filesystem::path& path, const std::vector<std::string>& names,
-                 const Eigen::MatrixXd& columns) {
-  const std::string format = lower_case(path.extension().string());
-  if (format != ".csv" && format != ".txt" && format != ".npy")
-    throw UnsupportedError(path.string() + ": unknown format " + in_quotes(format) +
-                           " for a table; .csv, .txt and .npy are written");
-  write_atomically(path, [&](std::ostream& out) {
-    if (format == ".npy") return write_npy(out, columns);
-    if (format == ".csv")
-      for (std::size_t c = 0; c < names.size(); ++c)
-        out << names[c] << (c + 1 < names.size() ? ',' : '\n');
-    write_rows(out, columns, format == ".csv" ? ',' : ' ');
-  });
+void write_csv(std::ostream& out, const Table& table) {
+  const Eigen::MatrixXd& x = table.columns;
+  if (!table.rows_are.empty()) out << table.rows_are << ',';
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? ',' : '\n');
+  for (Eigen::Index r = 0; r < x.rows(); ++r) {
+    if (!table.rows_are.empty()) out << r << ',';
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      out << exact_text(x(r, c)) << (c + 1 < x.cols() ? ',' : '\n');
+  }
+}
+
+void write_txt(std::ostream& out, const Table& table) {
+  const Eigen::MatrixXd& x = table.columns;
+  char text[32];
+  for (Eigen::Index r = 0; r < x.rows(); ++r)
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      std::snprintf(text, sizeof text, "%.17g", x(r, c));
+      out << text << (c + 1 < x.cols() ? ' ' : '\n');
+    }
+}
+
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest) {
+  std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
+                       (first_axis_fastest ? "True" : "False") + ", 'shape': (" + shape + "), }";
+  // Magic, version and length take 10 bytes; the data begin at a multiple of 64.
+  header.append(63 - (10 + header.size()) % 64, ' ').push_back('\n');
+  out.write("\x93NUMPY\x01\x00", 8);
+  store_little(out, static_cast<std::uint16_t>(header.size()));
+  out << header;
+}
+
+void write_npy(std::ostream& out, const Table& table) {
+  const Eigen::MatrixXd& x = table.columns;
+  const bool one = x.cols() == 1;
+  write_npy_header(
+      out, std::to_string(x.rows()) + "," + (one ? "" : " " + std::to_string(x.cols())), !one);
+  for (const double value : x.reshaped()) store_little(out, value);
+}
+
+void write_table(const std::filesystem::path& path, const Table& table) {
+  const Format& format = format_to_write(path, {Kind::table});
+  write_atomically(path, [&](std::ostream& out) { format.write_table(out, table); });
 }
 
 MatX3 read_columns(std::string_view bytes, const std::string& name) {

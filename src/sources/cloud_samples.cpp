@@ -76,14 +76,14 @@ double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, con
 OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   if (cloud.points.rows() == 0) throw InputError("the point cloud has no points");
   if (cloud.normals.rows() != cloud.points.rows())
-    throw InputError("the point cloud has no normals; --estimate-normals computes some");
+    throw InputError("the point cloud has no normals; option estimate-normals computes some");
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
     const Vec3 n = cloud.normals.row(i);
     if (n.allFinite() && n.stableNorm() > 0) kept.push_back(i);
   }
   if (kept.empty())
-    throw InputError("no point has a normal that is not zero; --estimate-normals computes some");
+    throw InputError("no point has a normal that is not zero; option estimate-normals computes some");
   if (index(kept.size()) < cloud.points.rows())
     report.warn(std::to_string(cloud.points.rows() - index(kept.size())) +
                 " points without a usable normal are left out");

@@ -216,4 +216,4 @@ def test_bad_requests_to_trace_are_named(
 def test_pages_trace_one_cloud_by_tori(run: Run, balls: Path) -> None:
     for arguments in (("--unite", "b.xyz"), ("--method", "planar")):
         error = run("view", "a.xyz", "--trace", *arguments, "-o", "x.html", status=2).stderr
-        assert "render --trace" in error
+        assert "pictures trace all shapes" in error

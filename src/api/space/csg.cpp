@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
+#include "sources/level_points.h"
 
 namespace littoral {
 
@@ -64,6 +65,13 @@ void describe(const CsgShapes& shapes, Report& report) {
 
 }  // namespace
 
+Shape shape_at_level(const Volume& volume, double level) {
+  Shape shape;
+  shape.surface = level_points(volume, level, {});
+  shape.request.method = method_for_points(shape.surface);
+  return shape;
+}
+
 Box bounding_box(const CsgShapes& shapes) {
   Box box;
   for (const Shape& shape : shapes.all) add_box(shape, box);
@@ -104,8 +112,9 @@ VecX grid_distance(const CsgShapes& shapes, const Grid& grid, Task task, Report&
     Task part = task.stage(0.9 / static_cast<double>(n), "distance");
     Report spare;
     if (!shape.field) {
-      values[s] =
-          grid_distance(shape.surface, grid, shape.request, part, part_of(report, spare, s));
+      SpaceRequest request = shape.request;
+      request.method = method_for_points(shape.surface, request.method);
+      values[s] = grid_distance(shape.surface, grid, request, part, part_of(report, spare, s));
     } else {
       values[s] = evaluate(*field_of(shape), grid, part);
     }

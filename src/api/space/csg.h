@@ -18,6 +18,10 @@ struct Shape {
   SpaceRequest request;         // of the surface; of a field, only flip counts
 };
 
+/// What a volume of any values bounds at a level, to be measured from anew at points. Throws
+/// InputError where there is nothing.
+Shape shape_at_level(const Volume& volume, double level);
+
 /// Shapes and what becomes of them: csg.operations has one entry for each but the first.
 struct CsgShapes {
   std::vector<Shape> all;

@@ -1,10 +1,10 @@
-#include "api/space/filling.h"
+// Signed heat through tets that fill the box of a grid.
 
 #include <algorithm>
 #include <cmath>
 
+#include "api/space/space_domain.h"
 #include "api/tet/tet_domain.h"
-#include "api/tet/tet_heat.h"
 #include "base/run_interruptible.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/triangulate.h"

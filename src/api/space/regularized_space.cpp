@@ -1,21 +1,47 @@
-#include "api/space/regularized_space.h"
+// Regularized distance in space: through tets and on grids (Edelstein et al. 2023, section 7.4).
 
 #include <cmath>
 #include <memory>
 #include <string>
 
+#include "api/space/space_domain.h"
 #include "api/tet/tet_domain.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
 #include "domain/volume/grid_values.h"
 #include "littoral/error.h"
 #include "methods/heat/finalize.h"
+#include "methods/regularized/regularized.h"
 #include "operators/grid.h"
 #include "spatial/winding_number.h"
 
 namespace littoral {
 
 namespace {
+
+/// Distance to the rows (rows x nodes) at which it vanishes, at the nodes, not negative; +inf where
+/// no row is, and listed. With `sign` (1 or -1 at the nodes) the same with that sign, which passes
+/// through zero between nodes. Dirichlet energy of linear
+/// functions, whatever else the options say.
+VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularized& options,
+                          const Task& task, Report& report, const VecX* sign = nullptr) {
+  const auto ops = std::make_shared<Operators>();
+  ops->scalar = C;
+  const Stopwatch watch(report, "solve");
+  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task,
+                                 ConstrainedSystem::Rows::many);
+  AdmmState state;
+  const AdmmResult result = method.minimize(rows, options, state, task, sign);
+  report_admm(result, report);
+  std::vector<char> reached(static_cast<std::size_t>(C.n_components), 0);
+  for (const int i : unknowns_of(rows))
+    if (C.component[static_cast<std::size_t>(i)] >= 0)
+      reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
+  VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
+                : VecX(result.u.cwiseMax(0.0));
+  set_unreached(u, C.component, reached, report);
+  return u;
+}
 
 /// A factor of n nodes in space has about 13 n^(4/3) numbers, as seen from 16^3 to 48^3.
 double factor_memory(double nodes) { return 8 * 13 * std::pow(nodes, 4.0 / 3) + 600 * nodes; }
@@ -93,26 +119,6 @@ constexpr const char* belyaev =
     "Belyaev, Fayolle: An ADMM-based scheme for distance function approximation (2020)";
 
 }  // namespace
-
-VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularized& options,
-                          const Task& task, Report& report, const VecX* sign) {
-  const auto ops = std::make_shared<Operators>();
-  ops->scalar = C;
-  const Stopwatch watch(report, "solve");
-  const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task,
-                                 ConstrainedSystem::Rows::many);
-  AdmmState state;
-  const AdmmResult result = method.minimize(rows, options, state, task, sign);
-  report_admm(result, report);
-  std::vector<char> reached(static_cast<std::size_t>(C.n_components), 0);
-  for (const int i : unknowns_of(rows))
-    if (C.component[static_cast<std::size_t>(i)] >= 0)
-      reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
-  VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
-                : VecX(result.u.cwiseMax(0.0));
-  set_unreached(u, C.component, reached, report);
-  return u;
-}
 
 std::vector<Method<SpaceDomain>> regularized_space_methods() {
   return {grid_method("Distance that is smooth at the medial axis, as large as a unit gradient "

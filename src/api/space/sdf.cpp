@@ -24,15 +24,16 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Any
                                  task, report);
 }
 
-AnyMethod chosen_for_points(const PolygonSoup& input, const SpaceRequest& request) {
-  return request.method.name().empty() ? method_for_points(input) : request.method;
-}
-
 }  // namespace
 
 AnyMethod method_for_points(const PolygonSoup& input) {
   if (input.n_faces() == 0) return Tori{};
   return WindingSign{};
+}
+
+AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen) {
+  if (!chosen.name().empty()) return chosen;
+  return AnyMethod::named(method_for_points(input).name(), chosen.values());
 }
 
 void check_queries(const MatX3& queries) {
@@ -104,7 +105,7 @@ SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFi
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,
                                                             const SpaceRequest& request, Task task,
                                                             Report& report) {
-  return solve(input, {}, chosen_for_points(input, request), request, task, report).function;
+  return solve(input, {}, method_for_points(input, request.method), request, task, report).function;
 }
 
 VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
@@ -145,7 +146,9 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
 
 PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,
                            Report& report) {
-  const AnyMethod method = request.method.name().empty() ? AnyMethod(Tori{}) : request.method;
+  const AnyMethod method = request.method.name().empty()
+                               ? AnyMethod::named(Tori::method, request.method.values())
+                               : request.method;
   const MethodInfo& info = Registry<SpaceDomain>::instance().find(Tori::method)->info;
   if (method.name() != info.name)
     throw InputError("tori are fitted by method " + info.name + ", not by " + method.name());

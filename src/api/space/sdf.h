@@ -18,14 +18,18 @@ namespace littoral {
 
 /// How an input is measured from: by which method, and from which side.
 struct SpaceRequest {
-  AnyMethod method;               // none: signed heat on grids, for_points elsewhere
-  bool flip = false;              // reverse all normals: the other side is positive
+  AnyMethod method;   // none: the registry's first for one surface on a grid, otherwise as
+                      // method_for_points says
+  bool flip = false;  // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
 };
 
 /// The method that answers at points where none is named: tori for clouds, otherwise the nearest
 /// point with the sign of the winding number.
 AnyMethod method_for_points(const PolygonSoup& input);
+inline constexpr const char* method_for_points_text = "tori for point clouds, otherwise winding";
+/// The same where the choice names none, with the option values of the choice.
+AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen);
 
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,

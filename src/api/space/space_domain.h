@@ -56,6 +56,16 @@ std::vector<Method<SpaceDomain>> convolutional_methods();
 std::vector<Method<SpaceDomain>> tori_methods();
 std::vector<Method<SpaceDomain>> regularized_space_methods();
 
+/// The method for domains whose grid's box is filled with tets: by a lattice as small as the grid's
+/// cells near the input and larger far from it (thesis 4.5), or by tetgen, whose tets have the
+/// triangles of the input as faces and sides that grow from one grid spacing next to it to eight at
+/// the box.
+///
+/// Through tetgen's: throws UnsupportedError for clouds and where the program is not installed;
+/// InputError if the box does not hold the whole input; SolveError if the program fails, crashes,
+/// hangs or answers nonsense, which it does for surfaces that cross themselves.
+Method<SpaceDomain> heat_filling_method(MethodInfo info);
+
 /// How fine a mesh is sampled for points that have no grid, in units of its frame.
 inline constexpr double query_side = 0.01;
 

@@ -1,6 +1,5 @@
 // The methods of distance in space as entries of the registry.
 
-#include "api/space/filling.h"
 #include "api/space/space_domain.h"
 #include "api/space/tori_cloud.h"
 #include "base/platform/memory.h"

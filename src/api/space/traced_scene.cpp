@@ -48,8 +48,8 @@ std::vector<Torus> tori_for_page(CsgShapes& shapes, Task task, Report& report) {
   const std::string& name = shape.request.method.name();
   if (!shapes.plain() || (!name.empty() && name != Tori::method) || shape.surface.n_faces() > 0)
     throw UnsupportedError(
-        "pages trace one point cloud by its tori (method tori); `littoral render --trace` traces "
-        "all shapes, and `littoral sdf -o page.html` shows them on a grid");
+        "pages trace one point cloud by its tori (method tori); pictures trace all "
+        "shapes, and a volume of distance shows them on a grid");
   shape.surface = fit_tori_cloud(shape.surface, shape.request, task, report);
   shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
   shape.request.method = Tori{};

@@ -71,7 +71,8 @@ Sources without_nonbounding(const SurfaceDomain& domain, const Sources& sources,
     if (!curve.is_signed) kept.space_curves.push_back(curve);
   kept.points = sources.points;
   if (kept.empty())
-    throw InputError("no part of the curves bounds a region; --discontinuous takes such curves");
+    throw InputError(
+        "no part of the curves bounds a region; option discontinuous takes such curves");
   for (const auto& [name, value] : winding.sizes)
     if (name.ends_with("bounding_length")) report.sizes.emplace_back(name, value);
   return kept;

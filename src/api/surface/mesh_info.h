@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
+#include "io/formats.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
 #include "littoral/sources.h"
@@ -27,6 +28,10 @@ struct InfoEntry {
 /// lengths in the file's unit. Degenerate faces repeat a vertex or have an area of at most 1e-14 of
 /// the squared diagonal of the bounding box. `orientable` disregards edges of three or more faces.
 std::vector<InfoEntry> surface_info(const PolygonSoup& soup);
+
+/// Facts about what a file holds: a surface as above; of a volume nodes, box, spacing and values;
+/// of tets counts, volume, box and fields.
+std::vector<InfoEntry> content_info(const io::Content& content);
 
 /// Facts about sources on a mesh: curves, nodes, points, and the length of the curves once placed.
 /// Throws what `prepare` throws.

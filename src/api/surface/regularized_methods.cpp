@@ -188,7 +188,7 @@ class RegularizedNodes {
     if (options.alpha > 0 && options.regularizer != Regularizer::dirichlet)
       throw UnsupportedError("on a " + kind +
                              " there is the regularizer dirichlet only; the others need a triangle "
-                             "mesh: littoral convert --triangulate");
+                             "mesh: cut the polygons into triangles first");
   }
   SurfaceDiscretization surface_;
   std::shared_ptr<const RegularizedSolver> method_;

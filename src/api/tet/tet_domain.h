@@ -97,6 +97,11 @@ Method<TetDomain> make_tet_method(MethodInfo info, const OptionTable<S>& table, 
       });
 }
 
+/// phi as large as a unit gradient allows, with the same zero set; rows (rows x vertices) at which
+/// it vanishes. `domain` names the mesh in messages.
+VecX sharpened_on_tets(const std::shared_ptr<const TetOperators>& ops, const std::string& domain,
+                       const SpMat& rows, const VecX& phi, const Task& task, Report& report);
+
 /// Throws IoError unless the operators of a mesh fit into memory: "a mesh of " and what to do.
 void check_tet_memory(const TetMesh& mesh, const std::string& what, const std::string& remedy);
 

@@ -1,7 +1,5 @@
 // Signed heat through tets that are given.
 
-#include "api/tet/tet_heat.h"
-
 #include <algorithm>
 #include <limits>
 #include <memory>

@@ -39,7 +39,7 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
       option->type_name(info.kind == Kind::text     ? "TEXT"
                         : info.kind == Kind::choice ? "WORD"
                                                     : "X");
-    option->group("Options of methods");
+    option->group(method_options_group);
   }
 }
 

@@ -10,6 +10,9 @@
 
 namespace littoral::cli {
 
+/// What options of methods stand under in --help.
+inline constexpr const char* method_options_group = "Options of methods";
+
 using GivenOptions = std::map<std::string, std::string>;  // name, value as typed
 
 /// --method and the options of methods, as typed.

@@ -1,22 +1,17 @@
 #include "cli/input/space_input.h"
 
-#include <charconv>
-#include <cmath>
-
+#include "io/formats.h"
 #include "io/read.h"
-#include "io/volume/volume.h"
 #include "io/write.h"
-#include "io/write_table.h"
 #include "littoral/error.h"
-#include "sources/level_points.h"
 
 namespace littoral::cli {
 
 void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session) {
-  verb.add_option("INPUT", texts.input,
-                  "mesh, soup or point cloud: .obj .ply .off .stl .pc .xyz .pcd")
-      ->required()
-      ->type_name("");
+  add_input_option(verb, "INPUT", texts.input,
+                   "mesh, soup or point cloud " +
+                       io::read_extensions({io::Kind::surface, io::Kind::cloud}) +
+                       ", or volume of distance " + io::read_extensions({io::Kind::volume}));
   verb.add_flag("--estimate-normals", texts.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
@@ -66,40 +61,36 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
       ->type_name("F");
 }
 
-SpaceRequest space_request(const SpaceArguments& texts, const AnyMethod& fallback,
-                           const Session& session) {
+SpaceRequest space_request(const SpaceArguments& texts, const Session& session) {
   SpaceRequest request{texts.method.method(), session.flip, texts.estimate_normals};
-  if (texts.method.name.empty())
-    request.method = AnyMethod::named(fallback.name(),
-                                      {texts.method.options.begin(), texts.method.options.end()});
   check_method<SpaceDomain>(request.method);
   return request;
 }
 
 namespace {
 
-Shape read_shape(const std::string& file, bool redistance, double level) {
+Shape read_shape(const std::string& file, const std::string& field, bool redistance, double level) {
+  io::format_to_read(std::filesystem::path(file).extension().string(), file,
+                     {io::Kind::surface, io::Kind::cloud, io::Kind::volume});
+  io::Content content = io::read_content(file, field);
   Shape shape;
-  if (!io::is_volume(file)) {
-    if (redistance) throw InputError(file + " is no volume: --redistance is for .vti .nrrd .npy");
-    shape.surface = io::read_surface(file);
-    return shape;
-  }
-  Volume field = io::read_volume(file);
-  try {
+  auto* volume = std::get_if<Volume>(&content);
+  if (!volume) {
     if (redistance)
-      shape.surface = level_points(field, level, {});
-    else
-      shape.field = std::move(field);
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what());
+      throw InputError(file + " is no volume: option redistance is for " +
+                       io::read_extensions({io::Kind::volume}));
+    shape.surface = std::get<PolygonSoup>(std::move(content));
+  } else if (!redistance) {
+    shape.field = std::move(*volume);
+  } else {
+    try {
+      shape = shape_at_level(*volume, level);
+    } catch (const InputError& e) {
+      throw InputError(file + ": " + e.what());
+    }
   }
   return shape;
 }
-
-}  // namespace
-
-namespace {
 
 /// Of the options that were given, those that a method has.
 OptionValues known_options(const std::string& method, const GivenOptions& given) {
@@ -113,25 +104,26 @@ OptionValues known_options(const std::string& method, const GivenOptions& given)
 
 }  // namespace
 
-CsgShapes read_shapes(SpaceArguments& texts, const Session& session, const AnyMethod& plain) {
+CsgShapes read_shapes(SpaceArguments& texts, const Session& session) {
   CsgShapes shapes;
-  shapes.all.push_back(read_shape(texts.input, texts.redistance, texts.at_level));
+  shapes.all.push_back(read_shape(texts.input, texts.field, texts.redistance, texts.at_level));
   for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
                                    {Boolean::intersect, &texts.intersect},
                                    {Boolean::subtract, &texts.subtract}}) {
     for (const std::string& file : *files) {
-      shapes.all.push_back(read_shape(file, false, 0));
+      shapes.all.push_back(read_shape(file, "", false, 0));
       shapes.csg.operations.push_back(how);
     }
   }
   shapes.csg.blend = texts.blend;
   shapes.csg.offset = texts.offset;
   Shape& first = shapes.all.front();
-  const bool as_plain = shapes.plain() && !texts.redistance && !plain.name().empty();
-  first.request =
-      space_request(texts, as_plain ? plain : method_for_points(first.surface), session);
+  const AnyMethod own = first.request.method;  // where the level of a volume is measured anew
+  first.request = space_request(texts, session);
+  if (first.request.method.name().empty())
+    first.request.method = AnyMethod::named(own.name(), first.request.method.values());
   if (!texts.operand_method.empty() && shapes.all.size() == 1)
-    throw InputError("option --operand-method: there is no shape but INPUT");
+    throw InputError("option operand-method: there is no shape but INPUT");
   for (std::size_t s = 1; s < shapes.all.size(); ++s) {
     Shape& shape = shapes.all[s];
     const std::string name = !texts.operand_method.empty() ? texts.operand_method
@@ -151,47 +143,37 @@ GridOptions grid_request(const SpaceArguments& texts) {
   if (texts.spacing > 0) request.spacing = texts.spacing;
   request.padding = texts.padding;
   if (!texts.bounds.empty()) {
-    const std::vector<double> numbers = parse_numbers("--bounds", texts.bounds);
-    if (numbers.size() != 6) throw InputError("option --bounds takes x0,y0,z0,x1,y1,z1");
+    const std::vector<double> numbers = parse_numbers("bounds", texts.bounds);
+    if (numbers.size() != 6) throw InputError("option bounds takes x0,y0,z0,x1,y1,z1");
     request.bounds.emplace();
     std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
   }
   return request;
 }
 
-void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out) {
-  verb.add_option("--points", points,
-                  "where to evaluate: the vertices of any surface or cloud file, or .csv or .txt "
-                  "with x, y, z first")
-      ->required()
+CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help) {
+  return verb
+      .add_option("--points", points,
+                  help + "the vertices of any surface or cloud file, or " +
+                      io::read_extensions({io::Kind::table}) + " with x, y, z first")
       ->type_name("FILE");
-  verb.add_option("-o,--output", out, "where to write: .csv .txt .npy .ply; may be repeated")
-      ->required()
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("OUT");
 }
 
 MatX3 read_queries(const std::string& file) {
-  const std::string extension = extension_of(file);
-  if (extension == ".csv" || extension == ".txt")
-    return io::read_columns(io::read_bytes(file), file);
+  const io::Format& format =
+      io::format_to_read(std::filesystem::path(file).extension().string(), file,
+                         {io::Kind::table, io::Kind::surface, io::Kind::cloud});
+  if (format.read_table) return format.read_table(io::read_bytes(file), file);
   return io::read_surface(file).points;
 }
 
-void write_query_table(const std::vector<std::string>& out, const MatX3& points,
-                       const Table& table) {
-  for (const std::string& file : out) {
-    if (extension_of(file) == ".ply") {
-      PolygonSoup cloud;
-      cloud.points = points;
-      for (std::size_t c = 0; c < table.names.size(); ++c)
-        cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
-      io::write_surface(file, cloud);
-    } else {
-      io::write_table(file, table.names, table.columns);
-    }
-  }
+void write_at_points(const std::string& file, const MatX3& points, const io::Table& table) {
+  if (io::is_written_as(file, {io::Kind::table})) return io::write_table(file, table);
+  PolygonSoup cloud;
+  cloud.points = points;
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
+  io::write_surface(file, cloud);
 }
 
 }  // namespace littoral::cli

@@ -1,7 +1,6 @@
 #pragma once
 // What the verbs about distance in space share: the input, the method, the grid.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace littoral::cli {
 
 /// As given.
 struct SpaceArguments {
-  std::string input;
+  std::string input, field;  // field: of a volume
   MethodArguments method;
   bool estimate_normals = false;
   int resolution = 0;  // 0: not given
@@ -37,27 +36,20 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset =
 /// Adds --resolution, --spacing, --bounds and --padding.
 void add_grid_options(CLI::App& verb, SpaceArguments& texts);
 
-/// The request that was given, checked; `fallback` is the method where none is named.
-SpaceRequest space_request(const SpaceArguments& texts, const AnyMethod& fallback,
-                           const Session& session);
+/// The request that was given, checked.
+SpaceRequest space_request(const SpaceArguments& texts, const Session& session);
 /// The grid that was asked for.
 GridOptions grid_request(const SpaceArguments& texts);
-/// Reads INPUT and what it is combined with, chooses methods where none is named (`plain` for one
-/// mesh, soup or cloud, otherwise method_for_points), checks the options.
-CsgShapes read_shapes(SpaceArguments& texts, const Session& session, const AnyMethod& plain);
+/// Reads INPUT and what it is combined with, checks the options.
+CsgShapes read_shapes(SpaceArguments& texts, const Session& session);
 
-/// Adds --points and -o, for verbs that answer at points.
-void add_query_files(CLI::App& verb, std::string& points, std::vector<std::string>& out);
-/// Points of any surface or cloud file, or the first three columns of a .csv or .txt file.
+/// Adds --points, whose help begins with `help`.
+CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help);
+/// Points of any surface or cloud file, or the first three columns of a table.
 MatX3 read_queries(const std::string& file);
 
-/// Columns of numbers under names, one row a point.
-struct Table {
-  std::vector<std::string> names;
-  Eigen::MatrixXd columns;
-};
-/// Writes .csv with a head, .txt, .npy (rows x columns), or .ply with the points.
-void write_query_table(const std::vector<std::string>& out, const MatX3& points,
-                       const Table& table);
+/// What values at points are written to: tables, or clouds with the values.
+inline const io::Kinds query_outputs = {io::Kind::table, io::Kind::cloud};
+void write_at_points(const std::string& file, const MatX3& points, const io::Table& table);
 
 }  // namespace littoral::cli

@@ -28,6 +28,9 @@ SurfaceInput read_domain(const std::filesystem::path& path);
 Sources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
                          Session& session);
 
+/// The surfaces of several files in one soup, or the clouds; not both.
+PolygonSoup read_surfaces(const std::vector<std::string>& files);
+
 /// Vertices given as options, counted as the session says; throws InputError naming one that the
 /// mesh has not.
 std::vector<int> checked_vertices(const std::vector<long long>& given, int n_vertices,

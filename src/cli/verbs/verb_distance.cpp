@@ -1,18 +1,16 @@
-// littoral distance: distance on a surface from curves and points on it.
+// littoral distance: distance on a surface from curves and points on it, or through tets.
 
 #include <memory>
 
 #include "api/surface/surface_domain.h"
+#include "api/tet/tet_boundary.h"
 #include "api/tet/tet_domain.h"
 #include "base/stopwatch.h"
 #include "cli/input/method_options.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/tet_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
-#include "io/render/picture.h"
-#include "io/render/scene.h"
-#include "io/write.h"
 #include "littoral/error.h"
 #include "sources/boundary_curves.h"
 
@@ -20,8 +18,10 @@ namespace littoral::cli {
 
 namespace {
 
-const std::vector<std::string> outputs = {".ply", ".obj", ".vtp",  ".csv",
-                                          ".npy", ".txt", ".html", ".png"};
+using io::Kind;
+
+const io::Kinds surface_outputs = {Kind::field, Kind::page, Kind::picture};
+const io::Kinds tet_outputs = {Kind::tets, Kind::field, Kind::page, Kind::picture};
 
 struct Arguments {
   std::string domain;
@@ -31,21 +31,41 @@ struct Arguments {
   MethodArguments method;
 };
 
-Sources gather_sources(const Arguments& arguments, const SurfaceMesh& mesh, Session& session) {
+[[noreturn]] void throw_no_sources(const std::string& domain, const std::string& own) {
+  throw InputError(
+      "nothing to measure distance from: name --sources FILE, --vertex I or --boundary (" + domain +
+      " has no " + own + " of its own)");
+}
+
+Sources gather(const Arguments& arguments, const SurfaceMesh& mesh, Session& session) {
   Sources sources = read_all_sources(arguments.sources, mesh, session);
   for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
     sources.points.push_back(SurfacePoint::at_vertex(v));
   if (arguments.boundary) {
     const std::vector<Curve> loops = boundary_curves(mesh);
     if (loops.empty())
-      throw InputError("option --boundary: " + arguments.domain + " has no boundary");
+      throw InputError("option boundary: " + arguments.domain + " has no boundary");
     sources.curves.insert(sources.curves.end(), loops.begin(), loops.end());
   }
-  if (!sources.empty()) return sources;
-  if (!mesh.soup().lines.empty()) return io::sources_from_lines(mesh.soup(), arguments.domain);
-  throw InputError(
-      "nothing to measure distance from: name --sources FILE, --vertex I or --boundary (" +
-      arguments.domain + " has no lines of its own)");
+  if (sources.empty()) {
+    if (mesh.soup().lines.empty()) throw_no_sources(arguments.domain, "lines");
+    sources = io::sources_from_lines(mesh.soup(), arguments.domain);
+  }
+  return session.flip ? sources.reversed() : sources;
+}
+
+TetSources gather(const Arguments& arguments, const io::TetFile& file, Session& session) {
+  TetSources sources;
+  sources.vertices =
+      checked_vertices(arguments.vertices, file.mesh.n_vertices(), arguments.domain, session);
+  sources.boundary = arguments.boundary;
+  sources.surface = read_surfaces(arguments.sources);
+  sources.flip = session.flip;
+  if (sources.vertices.empty() && arguments.sources.empty() && !sources.boundary) {
+    if (file.triangles.rows() == 0) throw_no_sources(arguments.domain, "triangles");
+    sources.surface = triangles_of(file, file.triangles);
+  }
+  return sources;
 }
 
 /// Files get a cloud's points without the triangles that show it.
@@ -55,102 +75,97 @@ PolygonSoup cloud_with(const PolygonSoup& shown, const SurfaceMesh& cloud) {
   return out;
 }
 
-void write_results(const Arguments& arguments, const SurfaceMesh& mesh, const Sources& sources,
-                   SurfaceAnswer answer, const Task& task, Session& session) {
-  PolygonSoup result = answer.shown ? std::move(*answer.shown) : mesh.soup();
-  if (!answer.shown) {
-    result.scalars.clear();
-    result.scalars["distance"] = std::move(answer.values);
-  }
-  double written = 0;
-  for (const std::string& file : arguments.out) {
-    task.checkpoint(written++ / static_cast<double>(arguments.out.size()));
-    const std::string extension = extension_of(file);
-    if (extension != ".html" && extension != ".png") {
-      io::write_field(file, mesh.n_faces() ? result : cloud_with(result, mesh));
-      continue;
-    }
-    io::Scene scene = io::make_scene(result);
-    io::add_sources(scene, mesh, sources);
-    scene.title = std::filesystem::path(arguments.domain).stem().string();
-    scene.facts = {{"method", session.report.method},
-                   {"domain", session.report.domain},
-                   {"vertices", std::to_string(mesh.n_vertices())},
-                   {"faces", std::to_string(mesh.n_faces())}};
-    for (const auto& option : session.report.options) scene.facts.push_back(option);
-    double seconds = 0;
-    for (const auto& [stage, time] : session.report.timings) seconds += time;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f s", seconds);
-    scene.facts.emplace_back("time", text);
-    for (const auto& warning : session.report.warnings)
-      scene.facts.emplace_back("warning", warning);
-    extension == ".html" ? io::write_page(file, scene) : io::write_picture(file, scene);
-  }
-}
-
-void run(Arguments& arguments, Session& session) {
-  if (io::is_tets(arguments.domain))
-    return distance_through_tets({arguments.domain, arguments.method.method(), arguments.sources,
-                                  arguments.out, arguments.vertices, arguments.boundary},
-                                 session);
-  for (const std::string& file : arguments.out) check_output(file, outputs, "a field on a surface");
+/// `read(file)` opens the domain, `domain(input)` makes it one of methods, `write` a file.
+template <class D, class Read, class MakeDomain, class Write>
+void measure(const Arguments& arguments, const io::Kinds& outputs, Session& session, Read read,
+             MakeDomain domain, Write write) {
+  check_outputs(arguments.out, outputs);
   const AnyMethod method = arguments.method.method();
-  check_method<SurfaceDomain>(method);
-  Report& report = session.report;
-  const auto [domain, sources] = [&] {
-    const Stopwatch watch(report, "read");
-    auto read = std::make_shared<const SurfaceInput>(read_domain(arguments.domain));
-    Sources given = gather_sources(arguments, read->mesh, session);
-    return std::pair(read, session.flip ? given.reversed() : std::move(given));
+  check_method<D>(method);
+  const auto [input, sources] = [&] {
+    const Stopwatch watch(session.report, "read");
+    auto opened = read(arguments.domain);
+    auto from = gather(arguments, *opened, session);
+    return std::pair(std::move(opened), std::move(from));
   }();
-  const SurfaceMesh& mesh = domain->mesh;
   session.reading = false;
   Task task = session.task();
-  SurfaceAnswer answer = solve_once<SurfaceDomain>(method, domain_of(mesh, domain->normals()),
-                                                   sources, task.stage(0.95, "distance"), report);
-  {
-    const Stopwatch watch(report, "write");
-    write_results(arguments, mesh, sources, std::move(answer), task.stage(0.05, "writing"),
-                  session);
-  }
-  session.print_report();
+  const auto answer =
+      solve_once<D>(method, domain(*input), sources, task.stage(0.95, "distance"), session.report);
+  finish(arguments.out, task.stage(0.05, "writing"), session,
+         [&, &from = sources, &opened = input](const std::string& file) {
+           write(file, *opened, from, answer);
+         });
+}
+
+struct OpenedSurface : SurfaceInput {
+  operator const SurfaceMesh&() const { return mesh; }
+};
+
+void measure_on_surface(const Arguments& arguments, Session& session) {
+  measure<SurfaceDomain>(
+      arguments, surface_outputs, session,
+      [](const std::string& file) {
+        return std::make_shared<const OpenedSurface>(OpenedSurface{read_domain(file)});
+      },
+      [](const OpenedSurface& input) { return domain_of(input.mesh, input.normals()); },
+      [&](const std::string& file, const SurfaceMesh& mesh, const Sources& sources,
+          const SurfaceAnswer& answer) {
+        PolygonSoup result = answer.shown ? *answer.shown : mesh.soup();
+        if (!answer.shown) result.scalars = {{"distance", answer.values}};
+        if (mesh.n_faces() == 0 && io::is_written_as(file, {Kind::field}))
+          result = cloud_with(result, mesh);
+        write_result(file, result, "distance", arguments.domain, session.report,
+                     [&](io::Scene& scene) { io::add_sources(scene, mesh, sources); });
+      });
+}
+
+void measure_through_tets(const Arguments& arguments, Session& session) {
+  measure<TetDomain>(
+      arguments, tet_outputs, session,
+      [](const std::string& file) {
+        return std::make_shared<const io::TetFile>(io::read_tets(file));
+      },
+      [](const io::TetFile& file) { return TetDomain{std::make_shared<const TetMesh>(file.mesh)}; },
+      [&](const std::string& file, const io::TetFile& input, const TetSources&,
+          const VecX& values) {
+        write_tet_result(file, input.mesh, values, arguments.domain, session.report);
+      });
 }
 
 }  // namespace
 
 void add_distance(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand("distance",
-                                          "distance on a surface from curves and points on it, or "
-                                          "through tets");
   auto arguments = std::make_shared<Arguments>();
-  verb->add_option("DOMAIN", arguments->domain,
-                   "the surface: mesh .obj .ply .off .stl, point cloud .pc .xyz .pcd .ply, "
-                   "voxels .vol .npy .nrrd .vti; or tets .mesh .vtk .tet")
-      ->required()
-      ->type_name("");
-  add_repeated_option(*verb, "--sources,-s", arguments->sources,
-                      "what distance is measured from: .txt .json .obj .ply, in tets any surface "
-                      "or cloud; may be repeated; without sources, --vertex and --boundary, the "
-                      "lines of DOMAIN, or the triangles among its tets")
+  CLI::App& verb = add_verb(program, session, arguments, "distance",
+                            "distance on a surface from curves and points on it, or through tets",
+                            [](Arguments& given, Session& s) {
+                              const bool tets = io::is_read_as(given.domain, {Kind::tets});
+                              (tets ? measure_through_tets : measure_on_surface)(given, s);
+                            });
+  add_input_option(verb, "DOMAIN", arguments->domain,
+                   "the surface: " + kinds_help({Kind::surface, Kind::cloud, Kind::voxels}) +
+                       "; or " + kinds_help({Kind::tets}));
+  add_repeated_option(verb, "--sources,-s", arguments->sources,
+                      "what distance is measured from: " + io::read_extensions({Kind::sources}) +
+                          ", in tets any surface or cloud; may be repeated; without sources, "
+                          "--vertex and --boundary, the lines of DOMAIN, or the triangles among "
+                          "its tets")
       ->type_name("FILE");
-  add_repeated_option(*verb, "--vertex", arguments->vertices,
+  add_repeated_option(verb, "--vertex", arguments->vertices,
                       "a source vertex, from 0; may be repeated")
       ->type_name("I");
-  verb->add_flag("--boundary", arguments->boundary,
-                 "measure from the boundary of the surface or of the tets, without sign");
-  add_output_option(
-      *verb, arguments->out,
-      "where to write: .ply .obj .vtp .csv .npy .txt .html .png, of tets .vtk .vtu, too");
+  verb.add_flag("--boundary", arguments->boundary,
+                "measure from the boundary of the surface or of the tets, without sign");
+  add_output_option(verb, arguments->out,
+                    "where to write: " + io::written_extensions(surface_outputs) + ", of tets " +
+                        io::written_extensions({Kind::tets}) + ", too");
   add_methods(
-      *verb, arguments->method,
+      verb, arguments->method,
       joined(Registry<SurfaceDomain>::instance().infos(), Registry<TetDomain>::instance().infos()));
-  verb->add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
-  add_index_option(*verb, session);
-  add_json_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback(
-      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+  verb.add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
+  add_index_option(verb, session);
+  add_json_option(verb, session);
 }
 
 }  // namespace littoral::cli

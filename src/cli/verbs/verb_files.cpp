@@ -4,16 +4,15 @@
 #include <memory>
 
 #include "api/report_json.h"
-#include "api/space/volume_info.h"
+#include "api/space/isosurfaces.h"
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
+#include "api/tet/tet_boundary.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/tet_input.h"
-#include "cli/input/volume_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
+#include "contour/isosurface.h"
 #include "domain/mesh/triangulate.h"
-#include "io/read.h"
-#include "io/volume/volume.h"
 #include "io/write.h"
 #include "littoral/error.h"
 
@@ -28,22 +27,25 @@ struct Arguments {
   bool triangulate = false, clip = false;
 };
 
-bool is_field_file(const std::string& extension) {
-  return extension == ".csv" || extension == ".npy" || extension == ".txt" || extension == ".vtp";
-}
+using io::Kind;
 
-void info(const Arguments& arguments, Session& session) {
-  const std::string extension = extension_of(arguments.in);
-  if (arguments.mesh.empty() && (extension == ".txt" || extension == ".json"))
+const io::Kinds soup_outputs = {Kind::surface, Kind::field};
+
+template <class... Jobs>
+struct Overloaded : Jobs... {
+  using Jobs::operator()...;
+};
+template <class... Jobs>
+Overloaded(Jobs...) -> Overloaded<Jobs...>;
+
+void info(Arguments& arguments, Session& session) {
+  if (arguments.mesh.empty() && io::is_read_as(arguments.in, {Kind::sources}) &&
+      !io::is_read_as(arguments.in, {Kind::surface}))
     throw InputError(arguments.in +
                      " holds sources: name the surface they lie on with --mesh FILE");
   std::vector<InfoEntry> entries;
-  if (arguments.mesh.empty() && io::is_volume(arguments.in)) {
-    entries = volume_info(io::read_volume(arguments.in, arguments.field));
-  } else if (arguments.mesh.empty() && io::is_tets(arguments.in)) {
-    entries = tet_info(io::read_tets(arguments.in));
-  } else if (arguments.mesh.empty()) {
-    entries = surface_info(io::read_surface(arguments.in));
+  if (arguments.mesh.empty()) {
+    entries = content_info(io::read_content(arguments.in, arguments.field));
   } else {
     const SurfaceMesh mesh = read_mesh(arguments.mesh);
     const Sources sources = read_all_sources({arguments.in}, mesh, session);
@@ -53,63 +55,81 @@ void info(const Arguments& arguments, Session& session) {
   std::cout << (session.json ? info_json(entries) + "\n" : info_text(entries));
 }
 
-void convert(const Arguments& arguments, Session& session) {
-  if (io::is_volume(arguments.in))
-    return convert_volume(arguments.in, arguments.field, arguments.out, arguments.band, session);
-  const bool tets = io::is_tets(arguments.in);
-  if (extension_of(arguments.out) == ".vtk" || extension_of(arguments.out) == ".vtu") {
-    if (!tets) throw InputError(arguments.out + " holds tets, " + arguments.in + " has none");
-    const io::TetFile file = io::read_tets(arguments.in);
-    PolygonSoup fields;
-    fields.scalars = file.scalars;
-    const std::string name = choose_field(fields, arguments.field, arguments.in);
-    session.reading = false;
-    return io::write_tets(arguments.out, file.mesh, file.scalars.at(name), name);
-  }
-  check_output(arguments.out, {".obj", ".ply", ".off", ".stl", ".vtp", ".csv", ".npy", ".txt"},
-               "a surface");
-  PolygonSoup soup =
-      tets ? boundary_of(io::read_tets(arguments.in)) : io::read_surface(arguments.in);
-  const bool field_only = is_field_file(extension_of(arguments.out));
-  const bool texture = extension_of(arguments.out) == ".obj";
-  std::string field;
-  if (field_only || texture || !arguments.field.empty())
-    field = choose_field(soup, arguments.field, arguments.in, texture && arguments.field.empty());
+/// The field named or the only one of a tet file.
+const VecX& field_of(const io::TetFile& file, const Arguments& arguments, std::string& name) {
+  PolygonSoup fields;
+  fields.scalars = file.scalars;
+  name = choose_field(fields, arguments.field, arguments.in);
+  return file.scalars.at(name);
+}
+
+void convert_soup(PolygonSoup soup, const Arguments& arguments, Session& session) {
+  check_outputs({arguments.out}, soup_outputs);
+  const bool field_only = !io::is_written_as(arguments.out, {Kind::surface});
+  const std::string field = choose_field(soup, arguments.field, arguments.in, !field_only);
   if (arguments.triangulate) soup = triangulate(soup);
   session.reading = false;
   session.task().checkpoint();
   if (field_only)
     io::write_field(arguments.out, soup, field);
   else
-    io::write_surface(arguments.out, soup, field.empty() ? "distance" : field);
+    io::write_surface(arguments.out, soup, field);
 }
 
-void contour(const Arguments& arguments, Session& session) {
-  const std::vector<double> levels = parse_numbers("--level", arguments.levels);
-  if (io::is_volume(arguments.in))
-    return contour_volume(arguments.in, arguments.field, levels, arguments.clip, arguments.outs,
-                          session);
-  if (io::is_tets(arguments.in))
-    return contour_tets(arguments.in, arguments.field, levels, arguments.outs, session);
-  check_level_outputs(arguments.outs, levels.size(), {".obj", ".ply"}, "lines");
-  PolygonSoup soup = io::read_surface(arguments.in);
-  const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
-  const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
-  session.reading = false;
-  Task task = session.task();
-  const auto lines = level_lines(mesh, values, levels, session.report, task);
-  task.checkpoint(1);
-  write_lines(arguments.outs, mesh, lines);
+void convert(Arguments& arguments, Session& session) {
+  check_outputs({arguments.out}, {Kind::surface, Kind::field, Kind::volume, Kind::tets});
+  if (arguments.band > 0 && !io::has_extension(arguments.out, ".vdb"))
+    throw InputError("option band is for .vdb; other formats hold every node");
+  const bool to_tets = io::is_written_as(arguments.out, {Kind::tets});
+  if (to_tets && !io::is_read_as(arguments.in, {Kind::tets}))
+    throw InputError(arguments.out + " holds tets, " + arguments.in + " has none");
+  const Overloaded job{[&](const Volume& volume) {
+                         check_outputs({arguments.out}, {Kind::volume});
+                         session.reading = false;
+                         session.task().checkpoint();
+                         io::write_volume(arguments.out, volume, {.band = arguments.band});
+                       },
+                       [&](const io::TetFile& file) {
+                         if (!to_tets) return convert_soup(boundary_of(file), arguments, session);
+                         std::string name;
+                         const VecX& values = field_of(file, arguments, name);
+                         session.reading = false;
+                         io::write_tets(arguments.out, file.mesh, values, name);
+                       },
+                       [&](const PolygonSoup& soup) { convert_soup(soup, arguments, session); }};
+  std::visit(job, io::read_content(arguments.in, arguments.field));
 }
 
-using Job = void (*)(const Arguments&, Session&);
-
-CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
-                   Job job, const char* name, const char* help) {
-  CLI::App* verb = program.add_subcommand(name, help);
-  add_common_options(*verb, session);
-  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
-  return *verb;
+void contour(Arguments& arguments, Session& session) {
+  const std::vector<double> levels = parse_numbers("level", arguments.levels);
+  const bool lines = io::is_read_as(arguments.in, {Kind::surface, Kind::cloud});
+  check_level_outputs(arguments.outs, levels.size(), {lines ? Kind::sources : Kind::surface});
+  const Overloaded job{
+      [&](const Volume& volume) {
+        session.reading = false;
+        write_isosurfaces(arguments.outs, isosurfaces(volume, levels, arguments.clip,
+                                                      session.report, session.task()));
+      },
+      [&](const io::TetFile& file) {
+        std::string name;
+        const VecX& values = field_of(file, arguments, name);
+        session.reading = false;
+        std::vector<Isosurface> surfaces;
+        for (const double level : levels)
+          surfaces.push_back(
+              {level, isosurface(file.mesh, values, level, session.report, session.task())});
+        write_isosurfaces(arguments.outs, surfaces);
+      },
+      [&](const PolygonSoup& soup) {
+        const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
+        const SurfaceMesh mesh = mesh_of(soup, arguments.in);
+        session.reading = false;
+        Task task = session.task();
+        const auto found = level_lines(mesh, values, levels, session.report, task);
+        task.checkpoint(1);
+        write_lines(arguments.outs, mesh, found);
+      }};
+  std::visit(job, io::read_content(arguments.in, arguments.field));
 }
 
 void add_field(CLI::App& verb, Arguments& arguments) {
@@ -122,11 +142,11 @@ void add_field(CLI::App& verb, Arguments& arguments) {
 
 void add_info(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb = add_verb(program, session, arguments, info, "info",
-                            "what is in a file, and what is wrong with it");
-  verb.add_option("FILE", arguments->in, "a surface, a volume, tets, or with --mesh sources")
-      ->required()
-      ->type_name("");
+  CLI::App& verb = add_verb(program, session, arguments, "info",
+                            "what is in a file, and what is wrong with it", info);
+  add_input_option(verb, "FILE", arguments->in,
+                   kinds_help({Kind::surface, Kind::cloud, Kind::volume, Kind::tets}) +
+                       ", or with --mesh " + kinds_help({Kind::sources}));
   verb.add_option("--mesh", arguments->mesh, "the surface that the sources in FILE lie on")
       ->type_name("FILE");
   verb.add_option("--field", arguments->field, "which values of a volume")->type_name("NAME");
@@ -137,17 +157,15 @@ void add_info(CLI::App& program, Session& session) {
 void add_convert(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb =
-      add_verb(program, session, arguments, convert, "convert", "between file formats");
-  verb.add_option("IN", arguments->in,
-                  "a surface or cloud: .obj .ply .off .stl .pc .xyz .pcd, or a volume: .vti .nrrd "
-                  ".npy .vol, or the boundary of tets: .mesh .vtk .tet")
-      ->required()
-      ->type_name("");
-  verb.add_option("-o,--output", arguments->out,
-                  ".obj .ply .off .stl, of a field .vtp .csv .npy .txt, a volume .vti .npy .nrrd "
-                  ".vdb")
-      ->required()
-      ->type_name("OUT");
+      add_verb(program, session, arguments, "convert", "between file formats", convert);
+  add_input_option(verb, "IN", arguments->in,
+                   kinds_help({Kind::surface, Kind::cloud, Kind::volume, Kind::tets}) +
+                       ": their boundary, or whole");
+  add_output_option(verb, arguments->out,
+                    io::written_extensions({Kind::surface}) + ", of a field " +
+                        io::written_extensions({Kind::field}) + ", a volume " +
+                        io::written_extensions({Kind::volume}) + ", tets " +
+                        io::written_extensions({Kind::tets}));
   verb.add_option("--band", arguments->band,
                   "for .vdb: keep values nearer to zero than this many spacings, 0 to 1e6; 0: all "
                   "[default 0]")
@@ -159,22 +177,20 @@ void add_convert(CLI::App& program, Session& session) {
 
 void add_contour(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb = add_verb(program, session, arguments, contour, "contour",
-                            "lines on a surface, or surfaces in a volume, where a field takes "
-                            "given values");
-  verb.add_option(
-          "FIELD", arguments->in,
-          "a surface with values: .ply, or .obj with texture; a volume: .vti .nrrd .npy .vol; or "
-          "tets with values: .vtk")
-      ->required()
-      ->type_name("");
+  CLI::App& verb = add_verb(
+      program, session, arguments, "contour",
+      "lines on a surface, or surfaces in a volume, where a field takes given values", contour);
+  add_input_option(verb, "FIELD", arguments->in,
+                   "a surface with values: .ply, or .obj with texture; " +
+                       kinds_help({Kind::volume, Kind::tets}) + " with values");
   verb.add_option("--level", arguments->levels,
                   "the values, separated by commas [unit of the field]")
       ->required()
       ->type_name("L[,L...]");
-  add_level_outputs(verb, arguments->outs,
-                    "lines: .obj .ply; surfaces: .obj .ply .off .stl; one file, or one for each "
-                    "level");
+  add_output_option(verb, arguments->outs,
+                    "lines: " + io::written_extensions({Kind::sources}) +
+                        "; surfaces: " + io::written_extensions({Kind::surface}) +
+                        "; one file, or one for each level");
   verb.add_flag("--clip", arguments->clip,
                 "volumes: close the surface flat where it meets the box");
   add_field(verb, *arguments);

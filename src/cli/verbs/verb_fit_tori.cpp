@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/input/space_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -17,31 +18,28 @@ struct Arguments {
 };
 
 void run(Arguments& arguments, Session& session) {
-  check_output(arguments.out, {".ply"}, "fitted tori");
-  const SpaceRequest request = space_request(arguments.space, Tori{}, session);
+  check_outputs({arguments.out}, {io::Kind::cloud});
+  const SpaceRequest request = space_request(arguments.space, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
   session.reading = false;
   const PolygonSoup tori = fit_tori_cloud(input, request, session.task(), session.report);
-  io::write_surface(arguments.out, tori);
-  session.print_report();
+  finish({arguments.out}, session.task(), session,
+         [&](const std::string& file) { io::write_surface(file, tori); });
 }
 
 }  // namespace
 
 void add_fit_tori(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand(
-      "fit-tori", "fit a torus to each point of a cloud; query, sdf and offset take the result");
   auto arguments = std::make_shared<Arguments>();
-  add_space_input(*verb, arguments->space, session);
-  verb->add_option("-o,--output", arguments->out, "where to write: .ply")
-      ->required()
-      ->type_name("OUT");
-  add_method_options(*verb, arguments->space.method.options,
+  CLI::App& verb =
+      add_verb(program, session, arguments, "fit-tori",
+               "fit a torus to each point of a cloud; query, sdf and offset take the result", run);
+  add_space_input(verb, arguments->space, session);
+  add_output_option(verb, arguments->out,
+                    "where to write: " + io::written_extensions({io::Kind::cloud}));
+  add_method_options(verb, arguments->space.method.options,
                      {Registry<SpaceDomain>::instance().find(Tori::method)->info});
-  add_json_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback(
-      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+  add_json_option(verb, session);
 }
 
 }  // namespace littoral::cli

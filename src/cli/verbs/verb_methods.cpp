@@ -1,10 +1,12 @@
-// littoral methods: which methods there are, for what, and with which options.
+// littoral methods, formats and help: what there is, also as pages of the documentation.
 
 #include <iostream>
 #include <memory>
 
 #include "api/report_json.h"
+#include "cli/input/method_options.h"
 #include "cli/verbs/verbs.h"
+#include "io/formats.h"
 #include "littoral/methods.h"
 
 namespace littoral::cli {
@@ -51,6 +53,37 @@ void print_all_markdown() {
   }
 }
 
+/// Text in a cell of a table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; ++at) {
+    text.replace(at, 1, text[at] == '|' ? "\\|" : " ");
+    if (text[at] == '\\') ++at;
+  }
+  return text;
+}
+
+/// The verb's options but those of methods, which `littoral methods` lists.
+void print_verb(const CLI::App& verb) {
+  std::cout << "\n## " << verb.get_name() << "\n\n" << verb.get_description() << "\n\n";
+  std::cout << "| option | meaning |\n|---|---|\n";
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->get_group() == method_options_group) continue;
+    const std::string value = option->get_type_name();
+    std::cout << "| `" << option->get_name(option->get_positional(), true)
+              << cell(value.empty() ? "" : " " + value) << "` | " << cell(option->get_description())
+              << (option->get_required() && !option->get_positional() ? "; required" : "")
+              << " |\n";
+  }
+}
+
+void print_verbs(const CLI::App& program) {
+  std::cout << "# Verbs and their options\n\nOptions of methods are [a page of their own]"
+               "(support.md), file formats [another](formats.md); [the command line](cli.md) has "
+               "examples.\n";
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
+    print_verb(*verb);
+}
+
 }  // namespace
 
 void add_methods(CLI::App& program, Session& session) {
@@ -64,6 +97,31 @@ void add_methods(CLI::App& program, Session& session) {
         std::cout << methods_json(method_families()) << "\n";
       else
         *markdown ? print_all_markdown() : print_table();
+    };
+  });
+}
+
+void add_formats(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand("formats", "which files are read and written");
+  auto markdown = std::make_shared<bool>(false);
+  verb->add_flag("--markdown", *markdown, "as a table for the documentation");
+  verb->callback([markdown, &session] {
+    session.job = [markdown] {
+      std::cout << (*markdown ? io::formats_markdown() : io::formats_text());
+    };
+  });
+}
+
+void add_help(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand("help", "all verbs");
+  auto markdown = std::make_shared<bool>(false);
+  verb->add_flag("--markdown", *markdown, "with their options, as tables for the documentation");
+  verb->callback([markdown, &program, &session] {
+    session.job = [markdown, &program] {
+      if (*markdown)
+        print_verbs(program);
+      else
+        std::cout << program.help("", CLI::AppFormatMode::Normal);
     };
   });
 }

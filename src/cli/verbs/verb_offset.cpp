@@ -9,9 +9,8 @@
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/volume_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
-#include "io/volume/volume.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
@@ -31,9 +30,9 @@ struct Arguments {
 // --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
 std::vector<double> all_distances(const Arguments& arguments) {
   std::vector<double> all;
-  if (!arguments.distances.empty()) all = parse_numbers("--distance", arguments.distances);
+  if (!arguments.distances.empty()) all = parse_numbers("distance", arguments.distances);
   for (const auto& [option, text, sign] :
-       {std::tuple("--dilate", &arguments.dilate, 1.0), {"--erode", &arguments.erode, -1.0}}) {
+       {std::tuple("dilate", &arguments.dilate, 1.0), {"erode", &arguments.erode, -1.0}}) {
     if (text->empty()) continue;
     for (const double radius : parse_numbers(option, *text)) {
       if (radius < 0)
@@ -47,7 +46,7 @@ std::vector<double> all_distances(const Arguments& arguments) {
 }
 
 void offset_curves(Arguments& arguments, const std::vector<double>& distances, Session& session) {
-  check_level_outputs(arguments.out, distances.size(), {".obj", ".ply"}, "lines");
+  check_level_outputs(arguments.out, distances.size(), {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
   const SurfaceMesh mesh = read_mesh(arguments.in);
@@ -65,13 +64,16 @@ void offset_curves(Arguments& arguments, const std::vector<double>& distances, S
   write_lines(arguments.out, mesh, levels);
 }
 
-/// Signed distance around a shape or several, on a grid that holds all offsets of it.
+/// Signed distance around a shape or several, on a grid that holds all offsets of it; that of a
+/// volume alone is there already.
 Volume distance_around(Arguments& arguments, const std::vector<double>& distances,
                        Session& session) {
   SpaceArguments& space = arguments.space;
   space.input = arguments.in;
+  space.field = arguments.field;
   space.method = arguments.method;
-  const CsgShapes shapes = read_shapes(space, session, SpaceSignedHeat{});
+  CsgShapes shapes = read_shapes(space, session);
+  if (shapes.all.size() == 1 && shapes.all.front().field) return *shapes.all.front().field;
   double farthest = 0;
   for (const double d : distances) farthest = std::max(farthest, std::abs(d));
   const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
@@ -85,12 +87,8 @@ Volume distance_around(Arguments& arguments, const std::vector<double>& distance
 }
 
 void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
-  check_level_outputs(arguments.out, distances.size(), surface_outputs, "a surface");
-  const SpaceArguments& space = arguments.space;
-  const bool alone = space.unite.empty() && space.intersect.empty() && space.subtract.empty();
-  const Volume distance = alone && !space.redistance && io::is_volume(arguments.in)
-                              ? io::read_volume(arguments.in, arguments.field)
-                              : distance_around(arguments, distances, session);
+  check_level_outputs(arguments.out, distances.size(), {io::Kind::surface});
+  const Volume distance = distance_around(arguments, distances, session);
   session.reading = false;
   Task task = session.task();
   const auto surfaces = offset_isosurfaces(distance, distances, arguments.morphology,
@@ -109,11 +107,11 @@ void run(Arguments& arguments, Session& session) {
 }
 
 void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
-  verb.add_option("INPUT", arguments.in,
-                  "a mesh, soup or point cloud, a volume of signed distance, or with --sources the "
-                  "surface the curves lie on")
-      ->required()
-      ->type_name("");
+  add_input_option(verb, "INPUT", arguments.in,
+                   "a mesh, soup or point cloud " +
+                       io::read_extensions({io::Kind::surface, io::Kind::cloud}) +
+                       ", a volume of signed distance " + io::read_extensions({io::Kind::volume}) +
+                       ", or with --sources the surface the curves lie on");
   verb.add_option("--distance", arguments.distances,
                   "offsets, separated by commas; negative ones are inside [length]")
       ->type_name("D[,D...]");
@@ -127,17 +125,19 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
   radius(verb.add_option("--close", arguments.morphology.close,
                          "first (after --open) dilate by R and erode by R: gaps fill [length]"));
   verb.add_flag("--clip", arguments.clip, "close the surface flat where it meets the box");
-  add_level_outputs(verb, arguments.out,
-                    ".obj .ply .off .stl, lines .obj .ply: one file, or one for each distance");
+  add_output_option(verb, arguments.out,
+                    io::written_extensions({io::Kind::surface}) + ", lines " +
+                        io::written_extensions({io::Kind::sources}) +
+                        ": one file, or one for each distance");
   verb.add_option("--field", arguments.field, "which values of a volume [default: distance]")
       ->type_name("NAME");
-  verb.add_option("--sources,-s", arguments.sources,
-                  "curves on INPUT: .txt .json .obj .ply; may be repeated")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  add_repeated_option(
+      verb, "--sources,-s", arguments.sources,
+      "curves on INPUT: " + io::read_extensions({io::Kind::sources}) + "; may be repeated")
       ->type_name("FILE");
-  verb.add_option("--method", arguments.method.name,
-                  "of `littoral sdf`, or for curves of `littoral distance` [default signed-heat]")
+  verb.add_option(
+          "--method", arguments.method.name,
+          "of `littoral sdf`, or for curves of `littoral distance` [default: the first of either]")
       ->type_name("NAME");
   verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
   verb.add_flag("--estimate-normals", arguments.space.estimate_normals,
@@ -149,18 +149,15 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
                             {Registry<SurfaceDomain>::instance().all().front()->info}));
   add_index_option(verb, session);
   add_json_option(verb, session);
-  add_common_options(verb, session);
 }
 
 }  // namespace
 
 void add_offset(CLI::App& program, Session& session) {
-  CLI::App* verb =
-      program.add_subcommand("offset", "offset surfaces and curves; dilate, erode, open and close");
   auto arguments = std::make_shared<Arguments>();
-  add_options(*verb, *arguments, session);
-  verb->callback(
-      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+  add_options(add_verb(program, session, arguments, "offset",
+                       "offset surfaces and curves; dilate, erode, open and close", run),
+              *arguments, session);
 }
 
 }  // namespace littoral::cli

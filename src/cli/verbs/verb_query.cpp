@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/input/space_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
 
 namespace littoral::cli {
@@ -17,39 +18,38 @@ struct Arguments {
 };
 
 void run(Arguments& arguments, Session& session) {
-  for (const std::string& file : arguments.out)
-    check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
-  const CsgShapes shapes = read_shapes(arguments.space, session, {});
+  check_outputs(arguments.out, query_outputs);
+  const CsgShapes shapes = read_shapes(arguments.space, session);
   const MatX3 queries = read_queries(arguments.points);
   session.reading = false;
   MatX3 gradients;
   const VecX values = query_distance(shapes, queries, arguments.gradient ? &gradients : nullptr,
                                      session.task(), session.report);
-  Table table{{"distance"}, values};
+  io::Table table{{"distance"}, values};
   if (arguments.gradient) {
     table.names.insert(table.names.end(), {"gradient_x", "gradient_y", "gradient_z"});
     table.columns.conservativeResize(Eigen::NoChange, 4);
     table.columns.rightCols(3) = gradients;
   }
-  write_query_table(arguments.out, queries, table);
-  session.print_report();
+  finish(arguments.out, session.task(), session,
+         [&](const std::string& file) { write_at_points(file, queries, table); });
 }
 
 }  // namespace
 
 void add_query(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand(
-      "query", "signed distance at given points, around a mesh, soup or point cloud");
   auto arguments = std::make_shared<Arguments>();
-  add_space_input(*verb, arguments->space, session);
-  add_query_files(*verb, arguments->points, arguments->out);
-  verb->add_flag("--gradient", arguments->gradient, "also the gradient");
-  add_space_method(*verb, arguments->space, "tori for point clouds, otherwise winding");
-  add_shape_options(*verb, arguments->space);
-  add_json_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback(
-      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+  CLI::App& verb =
+      add_verb(program, session, arguments, "query",
+               "signed distance at given points, around a mesh, soup or point cloud", run);
+  add_space_input(verb, arguments->space, session);
+  add_points_option(verb, arguments->points, "where to evaluate: ")->required();
+  add_output_option(verb, arguments->out,
+                    "where to write: " + io::written_extensions(query_outputs));
+  verb.add_flag("--gradient", arguments->gradient, "also the gradient");
+  add_space_method(verb, arguments->space, method_for_points_text);
+  add_shape_options(verb, arguments->space);
+  add_json_option(verb, session);
 }
 
 }  // namespace littoral::cli

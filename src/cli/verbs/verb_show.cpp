@@ -1,25 +1,44 @@
 // littoral view and render: pages and pictures of a surface with its field and sources.
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
+#include "api/space/traced_scene.h"
+#include "api/tet/tet_boundary.h"
 #include "base/platform/temporary_folder.h"
+#include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
-#include "cli/input/tet_input.h"
-#include "cli/input/trace_input.h"
-#include "cli/input/volume_input.h"
+#include "cli/output.h"
 #include "cli/serve.h"
 #include "cli/verbs/verbs.h"
 #include "domain/cloud/cloud_surface.h"
 #include "io/read.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
-#include "io/volume/volume.h"
+#include "io/render/volume_scene.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
 
 namespace {
+
+const char* const trace_group = "Tracing";
+constexpr int framing_nodes = 40, slice_nodes = 128, page_nodes = 64;  // along the longest side
+
+/// Options about volumes, as given.
+struct VolumeViewArguments {
+  std::string axis = "z", position, level;
+  int axis_number() const { return axis.front() - 'x'; }
+  double slice_at() const { return parse_number("slice", position); }
+  bool no_surface = false;
+};
+
+/// Surfaces of fields, traced by rays.
+struct TraceArguments {
+  bool trace = false;
+  SpaceArguments space;  // its input is set from the verb's FILE
+};
 
 struct Arguments {
   std::string in, out, field;
@@ -31,29 +50,80 @@ struct Arguments {
   int isolines = 20;
 };
 
-/// A surface or cloud, or the boundary of tets, which --slice cuts open.
-PolygonSoup read_shown(const Arguments& arguments) {
-  if (!io::is_tets(arguments.in)) return io::read_surface(arguments.in);
-  const io::TetFile file = io::read_tets(arguments.in);
-  const VolumeViewArguments& view = arguments.volume;
-  return view.position.empty() ? boundary_of(file)
-                               : cut_open(file, view.axis_number(), view.slice_at());
+void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
+  const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
+  volumes(verb.add_option("--axis", texts.axis,
+                          "the slice is orthogonal to this axis: x, y or z [default z]"))
+      ->check(CLI::IsMember({"x", "y", "z"}).description(""))
+      ->type_name("A");
+  volumes(
+      verb.add_option("--slice", texts.position,
+                      "where along the axis [length; default: the middle of the box]; tets are cut "
+                      "open there"))
+      ->type_name("P");
+  volumes(verb.add_option("--level", texts.level,
+                          "the level of the surface shown [default 0, or half way where the values "
+                          "do not pass 0]"))
+      ->type_name("L");
+  volumes(verb.add_flag("--no-surface", texts.no_surface, "show the slice only"));
 }
 
-io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
-  if (arguments.trace.trace) {
-    if (!arguments.sources.empty() || !arguments.field.empty())
-      throw InputError("options --sources and --field do not go with --trace");
-    return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
+void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) {
+  const std::vector<CLI::Option*> before = verb.get_options();
+  verb.add_flag("--estimate-normals", texts.space.estimate_normals,
+                "of a point cloud: compute normals from neighbouring points");
+  verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
+  add_space_method(verb, texts.space, method_for_points_text);
+  add_shape_options(verb, texts.space);
+  add_grid_options(verb, texts.space);
+  for (CLI::Option* option : verb.get_options())
+    if (std::find(before.begin(), before.end(), option) == before.end()) option->group(trace_group);
+  verb.add_flag("--trace", texts.trace,
+                "FILE is a mesh, soup, cloud or volume of distance: follow rays through its signed "
+                "distance to the surface, or with --level to an offset of it");
+}
+
+void check_no_trace_options(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options())
+    if (option->get_group() == trace_group && option->count() > 0)
+      throw InputError("option " + option->get_single_name() + " goes with option trace");
+}
+
+io::Scene volume_scene(const Volume& volume, const std::string& file,
+                       const VolumeViewArguments& texts) {
+  io::VolumeView view;
+  view.axis = texts.axis_number();
+  if (!texts.position.empty()) view.position = texts.slice_at();
+  if (!texts.level.empty()) view.level = parse_number("level", texts.level);
+  view.isosurface = !texts.no_surface;
+  try {
+    return io::make_volume_scene(volume, view);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
   }
-  check_no_trace_options(*arguments.verb);
-  if (io::is_volume(arguments.in)) {
-    if (!arguments.sources.empty())
-      throw InputError("option --sources: sources are drawn on surfaces, " + arguments.in +
-                       " is a volume");
-    return read_volume_scene(arguments.in, arguments.field, arguments.volume);
-  }
-  PolygonSoup soup = read_shown(arguments);
+}
+
+io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
+                            const VolumeViewArguments& view, bool for_page, Session& session) {
+  texts.space.input = file;
+  const CsgShapes shapes = read_shapes(texts.space, session);
+  TracedView traced;
+  traced.axis = view.axis_number();
+  traced.for_page = for_page;
+  if (!view.position.empty()) traced.position = view.slice_at();
+  if (!view.level.empty()) traced.level = parse_number("level", view.level);
+  GridOptions request = grid_request(texts.space);
+  if (!request.resolution && !request.spacing)
+    request.resolution = for_page                      ? page_nodes
+                         : traced.position.has_value() ? slice_nodes
+                                                       : framing_nodes;
+  request.padding += std::max(0.0, traced.level) / longest_side(shapes);
+  const Grid grid = choose_grid(shapes, request);
+  session.reading = false;
+  return traced_scene(shapes, grid, traced, session.task(), session.report);
+}
+
+io::Scene scene_of(PolygonSoup soup, const Arguments& arguments, Session& session) {
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
   io::Scene scene =
@@ -66,9 +136,35 @@ io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
   return scene;
 }
 
+/// The boundary, which --slice cuts open.
+io::Scene scene_of(const io::TetFile& file, const Arguments& arguments, Session& session) {
+  const VolumeViewArguments& view = arguments.volume;
+  return scene_of(view.position.empty() ? boundary_of(file)
+                                        : cut_open(file, view.axis_number(), view.slice_at()),
+                  arguments, session);
+}
+
+io::Scene scene_of(const Volume& volume, const Arguments& arguments, Session&) {
+  if (!arguments.sources.empty())
+    throw InputError("option sources: sources are drawn on surfaces, " + arguments.in +
+                     " is a volume");
+  return volume_scene(volume, arguments.in, arguments.volume);
+}
+
+io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
+  if (arguments.trace.trace) {
+    if (!arguments.sources.empty() || !arguments.field.empty())
+      throw InputError("options --sources and --field do not go with --trace");
+    return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
+  }
+  check_no_trace_options(*arguments.verb);
+  return std::visit([&](auto&& held) { return scene_of(std::move(held), arguments, session); },
+                    io::read_content(arguments.in, arguments.field));
+}
+
 io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
-  scene.title = std::filesystem::path(arguments.in).stem().string();
+  describe(scene, arguments.in, session.report);
   scene.isolines = arguments.isolines;
   io::check_scene(scene);
   session.reading = false;
@@ -85,7 +181,7 @@ std::string page_text(const io::Scene& scene) {
 }
 
 void view(Arguments& arguments, Session& session) {
-  check_output(arguments.out.empty() ? "page.html" : arguments.out, {".html"}, "a page");
+  check_outputs({arguments.out.empty() ? "page.html" : arguments.out}, {io::Kind::page});
   const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
   if (arguments.out.empty())
@@ -95,59 +191,54 @@ void view(Arguments& arguments, Session& session) {
 }
 
 void render(Arguments& arguments, Session& session) {
-  check_output(arguments.out, {".png"}, "a picture");
+  check_outputs({arguments.out}, {io::Kind::picture});
   const io::Scene scene = read_scene(arguments, false, session);
   session.print_warnings();
   io::write_picture(arguments.out, scene, arguments.picture);
 }
 
-using Job = void (*)(Arguments&, Session&);
-
-CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
-                   Job job, const char* name, const char* help) {
-  CLI::App* verb = program.add_subcommand(name, help);
-  verb->add_option(
-          "FILE", arguments->in,
-          "a surface or cloud, with values or without: .obj .ply .off .stl .pc .xyz .pcd; or a "
-          "volume: .vti .nrrd .npy .vol; or the boundary of tets: .mesh .vtk .tet")
-      ->required()
-      ->type_name("");
-  verb->add_option("--sources,-s", arguments->sources, "sources to draw; may be repeated")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+CLI::App& add_show_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
+                        void (*job)(Arguments&, Session&), const char* name, const char* help) {
+  CLI::App& verb = add_verb(program, session, arguments, name, help, job);
+  add_input_option(verb, "FILE", arguments->in,
+                   "a surface or cloud, with values or without: " +
+                       io::read_extensions({io::Kind::surface, io::Kind::cloud}) + "; or " +
+                       kinds_help({io::Kind::volume}) + "; or the boundary of " +
+                       kinds_help({io::Kind::tets}));
+  add_repeated_option(verb, "--sources,-s", arguments->sources, "sources to draw; may be repeated")
       ->type_name("FILE");
-  verb->add_option("--field", arguments->field,
-                   "which values [default: distance, an OBJ's texture u, or the only ones]")
+  verb.add_option("--field", arguments->field,
+                  "which values [default: distance, an OBJ's texture u, or the only ones]")
       ->type_name("NAME");
-  verb->add_option("--isolines", arguments->isolines,
-                   "about how many isolines, 0 to 1000 [default 20]")
+  verb.add_option("--isolines", arguments->isolines,
+                  "about how many isolines, 0 to 1000 [default 20]")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
-  add_volume_view_options(*verb, arguments->volume);
-  add_trace_options(*verb, arguments->trace, session);
-  arguments->verb = verb;
-  add_index_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
-  return *verb;
+  add_volume_view_options(verb, arguments->volume);
+  add_trace_options(verb, arguments->trace, session);
+  arguments->verb = &verb;
+  add_index_option(verb, session);
+  return verb;
 }
 
 }  // namespace
 
 void add_view(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb = add_verb(program, session, arguments, view, "view",
-                            "a page that shows a result in a browser, also offline");
+  CLI::App& verb = add_show_verb(program, session, arguments, view, "view",
+                                 "a page that shows a result in a browser, also offline");
   verb.add_option("-o,--output", arguments->out,
-                  "the page: .html; without it the page is served on 127.0.0.1 until Ctrl-C")
+                  "the page: " + io::written_extensions({io::Kind::page}) +
+                      "; without it the page is served on 127.0.0.1 until Ctrl-C")
       ->type_name("OUT");
 }
 
 void add_render(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App& verb =
-      add_verb(program, session, arguments, render, "render", "a picture, without a display");
-  verb.add_option("-o,--output", arguments->out, "the picture: .png")->required()->type_name("OUT");
+      add_show_verb(program, session, arguments, render, "render", "a picture, without a display");
+  add_output_option(verb, arguments->out,
+                    "the picture: " + io::written_extensions({io::Kind::picture}));
   verb.add_option("--width", arguments->picture.width, "pixels, 16 to 16384 [default 1200]")
       ->type_name("N");
   verb.add_option("--height", arguments->picture.height, "pixels, 16 to 16384 [default 900]")

@@ -6,85 +6,64 @@
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
+#include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
-#include "io/render/picture.h"
-#include "io/render/scene.h"
 #include "io/surface/write_winding.h"
-#include "io/write.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
 
 namespace {
 
-const std::vector<std::string> outputs = {".ply", ".obj", ".vtp",  ".csv",
-                                          ".npy", ".txt", ".html", ".png"};
+using io::Kind;
+
+const io::Kinds outputs = {Kind::field, Kind::page, Kind::picture};
 
 struct Arguments {
   std::string domain, points, curves, show = "region";
   std::vector<std::string> sources, out;
-  MethodArguments method{SurfaceWinding::method, {}};
+  MethodArguments method;
 };
 
-io::Scene scene_of(const Arguments& arguments, const WindingAnswer& answer, const Report& report) {
-  io::Scene scene = io::make_scene(answer.shown, arguments.show);
-  scene.isolines = 0;
-  for (const MatX3& line : answer.bounding) scene.curves.push_back({line, true});
-  for (const MatX3& line : answer.nonbounding) scene.curves.push_back({line, false});
-  scene.title = std::filesystem::path(arguments.domain).stem().string();
-  scene.facts = {{"method", report.method}, {"domain", report.domain}};
-  for (const auto& option : report.options) scene.facts.push_back(option);
-  for (const auto& warning : report.warnings) scene.facts.emplace_back("warning", warning);
-  return scene;
-}
-
-void write_results(const Arguments& arguments, const WindingAnswer& answer, Session& session) {
-  const Task task = session.task();
-  for (const std::string& file : arguments.out) {
-    task.checkpoint();
-    const std::string extension = extension_of(file);
-    if (extension == ".txt" || extension == ".csv" || extension == ".npy")
-      io::write_labels(file, answer.region);
-    else if (extension == ".obj")
-      io::write_homogeneous_obj(file, answer.shown, "winding", "weight");
-    else if (extension == ".html")
-      io::write_page(file, scene_of(arguments, answer, session.report));
-    else if (extension == ".png")
-      io::write_picture(file, scene_of(arguments, answer, session.report));
-    else
-      io::write_field(file, answer.shown, arguments.show);
-  }
-  if (!arguments.curves.empty())
-    io::write_polylines(arguments.curves, {{"bounding", &answer.bounding},
-                                           {"nonbounding", &answer.nonbounding},
-                                           {"completed", &answer.completed}});
+void write_regions(const std::string& file, const Arguments& arguments, const WindingAnswer& answer,
+                   const Report& report) {
+  if (io::is_written_as(file, {Kind::table}))
+    return io::write_table(file, {{"region"}, answer.region.cast<double>(), "face"});
+  if (io::has_extension(file, ".obj"))
+    return io::write_homogeneous_obj(file, answer.shown, "winding", "weight");
+  write_result(file, answer.shown, arguments.show, arguments.domain, report, [&](io::Scene& scene) {
+    scene.isolines = 0;
+    for (const MatX3& line : answer.bounding) scene.curves.push_back({line, true});
+    for (const MatX3& line : answer.nonbounding) scene.curves.push_back({line, false});
+  });
 }
 
 /// Winding numbers of a mesh, soup or cloud at points in space.
 void run_at_points(const Arguments& arguments, Session& session) {
   if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.method.options.empty())
     throw InputError(
-        "option --points: winding numbers in space take no --sources, no --curves and no options");
-  for (const std::string& file : arguments.out)
-    check_output(file, {".csv", ".txt", ".npy", ".ply"}, "values at points");
+        "option points: winding numbers in space take no sources, no curves and no options");
+  check_outputs(arguments.out, query_outputs);
   SpaceRequest request;
   request.flip = session.flip;
   const PolygonSoup input = io::read_surface(arguments.domain);
   const MatX3 queries = read_queries(arguments.points);
   session.reading = false;
   const VecX values = query_winding(input, queries, request, session.task(), session.report);
-  write_query_table(arguments.out, queries, {{"winding"}, values});
-  session.print_report();
+  finish(arguments.out, session.task(), session, [&](const std::string& file) {
+    write_at_points(file, queries, {{"winding"}, values});
+  });
 }
 
-void run(const Arguments& arguments, Session& session) {
+void run(Arguments& arguments, Session& session) {
   if (!arguments.points.empty()) {
     run_at_points(arguments, session);
     return;
   }
-  for (const std::string& file : arguments.out) check_output(file, outputs, "winding numbers");
-  if (!arguments.curves.empty()) check_output(arguments.curves, {".obj"}, "curves");
+  check_outputs(arguments.out, outputs);
+  if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
+    throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj");
   const AnyMethod method = arguments.method.method();
   check_method<WindingDomain>(method);
   const auto mesh = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
@@ -92,58 +71,52 @@ void run(const Arguments& arguments, Session& session) {
   if (sources.empty() && !mesh->soup().lines.empty())
     sources = io::sources_from_lines(mesh->soup(), arguments.domain);
   if (sources.empty())
-    throw InputError("no curves given: use --sources FILE (" + arguments.domain +
+    throw InputError("no curves given: use option sources (" + arguments.domain +
                      " has no lines of its own)");
   session.reading = false;
   if (session.flip) sources = sources.reversed();
   const WindingAnswer answer =
       solve_once<WindingDomain>(method, {mesh}, sources, session.task(), session.report);
-  write_results(arguments, answer, session);
-  session.print_report();
+  if (!arguments.curves.empty())
+    io::write_polylines(arguments.curves, {{"bounding", &answer.bounding},
+                                           {"nonbounding", &answer.nonbounding},
+                                           {"completed", &answer.completed}});
+  finish(arguments.out, session.task(), session,
+         [&](const std::string& file) { write_regions(file, arguments, answer, session.report); });
 }
 
 }  // namespace
 
 void add_winding(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand(
-      "winding", "regions that curves bound on a triangle mesh, and curves that bound nothing");
   auto arguments = std::make_shared<Arguments>();
-  verb->add_option(
-          "DOMAIN", arguments->domain,
-          "the surface, or with --points a mesh, soup or cloud in space: .obj .ply .off .stl .pc "
-          ".xyz .pcd")
-      ->required()
-      ->type_name("");
-  verb->add_option("--sources,-s", arguments->sources,
-                   "signed curves: .txt .json .obj .ply; may be repeated; without, the lines of "
-                   "DOMAIN")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  CLI::App& verb =
+      add_verb(program, session, arguments, "winding",
+               "regions that curves bound on a triangle mesh, and curves that bound nothing", run);
+  add_input_option(verb, "DOMAIN", arguments->domain,
+                   kinds_help({Kind::surface}) +
+                       ", or with --points a mesh, soup or cloud in space: " +
+                       io::read_extensions({Kind::surface, Kind::cloud}));
+  add_repeated_option(verb, "--sources,-s", arguments->sources,
+                      "signed curves: " + io::read_extensions({Kind::sources}) +
+                          "; may be repeated; without, the lines of DOMAIN")
       ->type_name("FILE");
-  verb->add_option("--points", arguments->points,
-                   "winding numbers in space, here: the vertices of any surface or cloud file, or "
-                   ".csv or .txt with x, y, z first; to .csv .txt .npy .ply")
+  add_points_option(
+      verb, arguments->points,
+      "winding numbers in space, to " + io::written_extensions(query_outputs) + ", at: ");
+  add_output_option(verb, arguments->out,
+                    "where to write: " + io::written_extensions(outputs) +
+                        "; tables have labels of faces, .obj homogeneous texture coordinates, "
+                        "others values at vertices");
+  verb.add_option("--curves", arguments->curves,
+                  "where to write the bounding, nonbounding and completed curves: .obj")
       ->type_name("FILE");
-  verb->add_option("-o,--output", arguments->out,
-                   "where to write: .ply .vtp (values at vertices), .obj (homogeneous texture "
-                   "coordinates), .txt .csv .npy (labels of faces), .html .png; may be repeated")
-      ->required()
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("OUT");
-  verb->add_option("--curves", arguments->curves,
-                   "where to write the bounding, nonbounding and completed curves: .obj")
-      ->type_name("FILE");
-  verb->add_option("--show", arguments->show, "what .html, .png and .vtp show: region or winding")
+  verb.add_option("--show", arguments->show, "what pages, pictures and .vtp show: region or winding")
       ->check(CLI::IsMember({"region", "winding"}))
       ->type_name("WORD");
-  verb->add_flag("--flip", session.flip, "reverse every curve, or the surface");
-  add_method_options(*verb, arguments->method.options, Registry<WindingDomain>::instance().infos());
-  add_index_option(*verb, session);
-  add_json_option(*verb, session);
-  add_common_options(*verb, session);
-  verb->callback(
-      [arguments, &session] { session.job = [arguments, &session] { run(*arguments, session); }; });
+  verb.add_flag("--flip", session.flip, "reverse every curve, or the surface");
+  add_method_options(verb, arguments->method.options, Registry<WindingDomain>::instance().infos());
+  add_index_option(verb, session);
+  add_json_option(verb, session);
 }
 
 }  // namespace littoral::cli

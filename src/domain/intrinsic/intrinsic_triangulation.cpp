@@ -183,8 +183,7 @@ void find_components(IntrinsicTriangulation& T) {
 IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& report) {
   if (!mesh.is_triangle_mesh())
     throw UnsupportedError(
-        "the mesh has polygons with more than three corners; "
-        "`littoral convert IN --triangulate -o OUT` makes triangles of them");
+        "the mesh has polygons with more than three corners; cut them into triangles first");
   IntrinsicTriangulation T;
   T.n_vertices = mesh.n_vertices();
   T.edges = mesh.edges();

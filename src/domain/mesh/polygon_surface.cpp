@@ -114,8 +114,8 @@ void check_orientable(const IntrinsicTriangulation& T) {
     for (int k = 0; k < 3; ++k)
       if (T.seam(t, k) && T.edge_use[T.side_edge(t, k)] == 2)
         throw UnsupportedError(
-            "the polygon mesh is not orientable; `littoral convert IN --triangulate -o OUT` makes "
-            "triangles of it, on which the methods run");
+            "the polygon mesh is not orientable; cut into triangles, the methods run on "
+            "it");
 }
 
 double mean_edge_length(const SurfaceMesh& mesh, double unit) {

@@ -1,7 +1,8 @@
-// The choice of a source reader, and polylines of mesh files as sources.
+// Sources as whole files, and polylines of mesh files as sources.
 
 #include <algorithm>
 
+#include "io/formats.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
@@ -71,23 +72,20 @@ Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
   if (index_base && *index_base != 0 && *index_base != 1) {
     throw InputError("the index base must be 0 or 1, not " + std::to_string(*index_base));
   }
-  const std::string format = lower_case(extension);
+  const Format& format = format_to_read(extension, name, {Kind::sources});
   Sources sources;
-  if (format == ".txt") {
-    sources = read_sources_txt(bytes, name, mesh, index_base);
-  } else if (format == ".json") {
-    sources = read_sources_json(bytes, name, mesh, index_base);
-  } else if (format == ".obj" || format == ".ply") {
-    const PolygonSoup soup = read_surface_bytes(bytes, format, name);
+  if (format.read_sources) {
+    sources = format.read_sources(bytes, name, mesh, index_base);
+  } else {
+    const PolygonSoup soup = format.read_surface(bytes, name);
     if (soup.lines.empty()) {
       throw InputError(name + ": no lines; sources need 'l' records (.obj) or edges (.ply)");
     }
-    if (index_base) report.warn(name + ": the index base has no effect on " + format + " files");
+    if (index_base)
+      report.warn(name + ": the index base has no effect on " + std::string(format.extension) +
+                  " files");
     sources = same_points(soup.points, mesh.points()) ? sources_from_lines(soup, name)
                                                       : space_curves_from_lines(soup, name);
-  } else {
-    throw InputError(name + ": unknown source format " + in_quotes(extension) +
-                     "; .txt, .json, .obj and .ply are read");
   }
   if (sources.empty()) throw InputError(name + ": no sources");
   return sources;

@@ -6,9 +6,8 @@
 #include <memory>
 #include <system_error>
 
+#include "io/formats.h"
 #include "io/read.h"
-#include "io/surface/surface_formats.h"
-#include "io/text_scan.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -33,16 +32,8 @@ std::string read_bytes(const std::filesystem::path& path) {
 
 PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extension,
                                const std::string& name) {
-  const std::string format = lower_case(extension);
-  if (format == ".obj") return read_obj(bytes, name);
-  if (format == ".off") return read_off(bytes, name);
-  if (format == ".ply") return read_ply(bytes, name);
-  if (format == ".stl") return read_stl(bytes, name);
-  if (format == ".pc") return read_pc(bytes, name);
-  if (format == ".xyz") return read_xyz(bytes, name);
-  if (format == ".pcd") return read_pcd(bytes, name);
-  throw InputError(name + ": unknown surface format " + in_quotes(extension) +
-                   "; .obj, .off, .ply, .stl, .pc, .xyz and .pcd are read");
+  const Format& format = format_to_read(extension, name, {Kind::surface, Kind::cloud});
+  return (format.read_surface ? format.read_surface : format.read_cloud)(bytes, name);
 }
 
 PolygonSoup read_surface(const std::filesystem::path& path) {

@@ -12,12 +12,14 @@ namespace littoral::io {
 /// The shortest text that reads back as the same double; "inf", "-inf" and "nan" where it is none.
 std::string exact_text(double value);
 
-/// `u`, one value per vertex or nothing, becomes the texture coordinate.
-void write_obj(std::ostream& out, const PolygonSoup& soup, const VecX* u);
-void write_ply(std::ostream& out, const PolygonSoup& soup);
-void write_off(std::ostream& out, const PolygonSoup& soup);
-/// Faces must be triangles with coordinates in the range of single precision.
-void write_stl(std::ostream& out, const PolygonSoup& soup);
+/// The field, where the soup has it, becomes the texture coordinate u.
+void write_obj(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// All fields are written. Throws UnsupportedError for names that no property can have.
+void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+void write_off(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// Throws UnsupportedError unless faces are triangles with coordinates in the range of single
+/// precision.
+void write_stl(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// VTK's XML polygon data with one scalar per point (appended raw data).
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// Text as it stands between quotes in XML.
@@ -34,9 +36,5 @@ class AppendedArrays {
   std::ostream& out_;
   std::uint64_t offset_ = 0;  // every block is its length in bytes and then the data
 };
-/// The header of NumPy's format 1.0 for float64; `shape` as "8," or "2, 3, 4".
-void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest);
-/// NumPy's format 1.0, one dimension of float64.
-void write_npy(std::ostream& out, const VecX& values);
 
 }  // namespace littoral::io

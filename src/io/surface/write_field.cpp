@@ -1,10 +1,9 @@
 // One scalar per vertex.
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 
 #include "io/binary.h"
+#include "io/formats.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
@@ -26,27 +25,6 @@ const VecX& find_field(const std::filesystem::path& path, const PolygonSoup& sou
   for (const auto& [name, values] : soup.scalars) names += (names.empty() ? "" : ", ") + name;
   throw InputError("cannot write " + path.string() + ": there is no field " + in_quotes(field) +
                    (names.empty() ? "" : ", only " + names));
-}
-
-void write_txt(std::ostream& out, const VecX& values) {
-  std::array<char, 32> text;
-  for (double value : values) {
-    std::snprintf(text.data(), text.size(), "%.17g\n", value);
-    out << text.data();
-  }
-}
-
-// A name as a CSV cell: quoted where it holds a comma, a quote or a line end.
-std::string csv_cell(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string cell = "\"";
-  for (char c : name) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return cell + '"';
-}
-
-void write_csv(std::ostream& out, const VecX& values, const std::string& field) {
-  out << "vertex," << csv_cell(field) << '\n';
-  for (Eigen::Index v = 0; v < values.size(); ++v) out << v << ',' << exact_text(values(v)) << '\n';
 }
 
 // Offsets (running ends) and corners of a set of cells, as VTK stores them.
@@ -83,21 +61,6 @@ void AppendedArrays::announce(const char* type, const std::string& name, int com
        << "\" NumberOfComponents=\"" << components << "\" format=\"appended\" offset=\"" << offset_
        << "\"/>\n";
   offset_ += sizeof(std::uint64_t) + bytes;
-}
-
-void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest) {
-  std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
-                       (first_axis_fastest ? "True" : "False") + ", 'shape': (" + shape + "), }";
-  // Magic, version and length take 10 bytes; the data begin at a multiple of 64.
-  header.append(63 - (10 + header.size()) % 64, ' ').push_back('\n');
-  out.write("\x93NUMPY\x01\x00", 8);
-  store_little(out, static_cast<std::uint16_t>(header.size()));
-  out << header;
-}
-
-void write_npy(std::ostream& out, const VecX& values) {
-  write_npy_header(out, std::to_string(values.size()) + ",", false);
-  for (double value : values) store_little(out, value);
 }
 
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field) {
@@ -144,22 +107,10 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
 void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
                  const std::string& field) {
   const VecX& values = find_field(path, soup, field);
-  const std::string format = lower_case(path.extension().string());
-  const auto write = [&](const auto& body) { write_atomically(path, body); };
-  if (format == ".txt") {
-    write([&](std::ostream& out) { write_txt(out, values); });
-  } else if (format == ".csv") {
-    write([&](std::ostream& out) { write_csv(out, values, field); });
-  } else if (format == ".npy") {
-    write([&](std::ostream& out) { write_npy(out, values); });
-  } else if (format == ".vtp") {
-    write([&](std::ostream& out) { write_vtp(out, soup, field); });
-  } else if (format == ".obj" || format == ".ply") {
-    write_surface(path, soup, field);
-  } else {
-    throw UnsupportedError("cannot write " + path.string() + ": " + in_quotes(format) +
-                           " holds no field; .csv, .npy, .obj, .ply, .txt and .vtp do");
-  }
+  const Format& format = format_to_write(path, {Kind::field});
+  if (format.write_table) return write_table(path, {{field}, values, "vertex"});
+  if (format.write_surface) return write_surface(path, soup, field);
+  write_atomically(path, [&](std::ostream& out) { format.write_field(out, soup, field); });
 }
 
 }  // namespace littoral::io

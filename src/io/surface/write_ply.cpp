@@ -1,9 +1,13 @@
 // PLY, binary little endian.
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
+#include "io/text_scan.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 namespace {
@@ -12,6 +16,17 @@ std::size_t largest_face(const PolygonSoup& soup) {
   std::size_t largest = 0;
   for (int f = 0; f < soup.n_faces(); ++f) largest = std::max(largest, soup.face(f).size());
   return largest;
+}
+
+// A property's name is one word of a PLY header, and must not be one of those with a meaning.
+void check_names(const PolygonSoup& soup) {
+  for (const auto& [field, values] : soup.scalars) {
+    const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
+    const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
+    if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
+    throw UnsupportedError("the scalar " + in_quotes(field) +
+                           " cannot be the name of a PLY property; rename it");
+  }
 }
 
 void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) {
@@ -35,7 +50,8 @@ void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) 
 
 }  // namespace
 
-void write_ply(std::ostream& out, const PolygonSoup& soup) {
+void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string&) {
+  check_names(soup);
   const bool small_faces = largest_face(soup) <= 255;
   write_header(out, soup, small_faces);
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {

@@ -1,4 +1,4 @@
-// Surfaces as text and STL, and the choice of a writer.
+// Surfaces as text and STL.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "io/binary.h"
+#include "io/formats.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/write.h"
@@ -32,23 +33,11 @@ void check_lengths(const std::string& name, const PolygonSoup& soup) {
     check(values.size(), "values of '" + field + "'");
 }
 
-// A property's name is one word of a PLY header, and must not be one of those with a meaning.
-void check_names(const std::string& name, const PolygonSoup& soup) {
-  for (const auto& [field, values] : soup.scalars) {
-    const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
-    const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
-    if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
-    throw UnsupportedError("cannot write " + name + ": the scalar " + in_quotes(field) +
-                           " cannot be the name of a PLY property; rename it");
-  }
-}
-
-void check_stl(const std::string& name, const PolygonSoup& soup) {
+void check_stl(const PolygonSoup& soup) {
   for (int f = 0; f < soup.n_faces(); ++f) {
     if (soup.face(f).size() != 3) {
       throw UnsupportedError(
-          "cannot write " + name + ": face " + std::to_string(f) + " has " +
-          std::to_string(soup.face(f).size()) +
+          "face " + std::to_string(f) + " has " + std::to_string(soup.face(f).size()) +
           " corners, STL holds triangles only; .obj, .ply and .off hold polygons");
     }
   }
@@ -56,7 +45,7 @@ void check_stl(const std::string& name, const PolygonSoup& soup) {
     for (int v : soup.face(f)) {
       const double largest = soup.points.row(v).cwiseAbs().maxCoeff();
       if (largest <= std::numeric_limits<float>::max()) continue;
-      throw UnsupportedError("cannot write " + name + ": vertex " + std::to_string(v) +
+      throw UnsupportedError("vertex " + std::to_string(v) +
                              " is beyond STL's single precision; .obj, .ply and .off hold doubles");
     }
   }
@@ -70,7 +59,9 @@ std::string exact_text(double value) {
   return {text.data(), result.ptr};
 }
 
-void write_obj(std::ostream& out, const PolygonSoup& soup, const VecX* u) {
+void write_obj(std::ostream& out, const PolygonSoup& soup, const std::string& field) {
+  const auto found = soup.scalars.find(field);
+  const VecX* u = found == soup.scalars.end() ? nullptr : &found->second;
   const bool normals = soup.normals.rows() > 0;
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v) write_row(out, "v ", soup.points, v);
   for (Eigen::Index v = 0; u && v < u->size(); ++v) out << "vt " << exact_text((*u)(v)) << " 0\n";
@@ -92,7 +83,7 @@ void write_obj(std::ostream& out, const PolygonSoup& soup, const VecX* u) {
   }
 }
 
-void write_off(std::ostream& out, const PolygonSoup& soup) {
+void write_off(std::ostream& out, const PolygonSoup& soup, const std::string&) {
   const bool normals = soup.normals.rows() > 0;
   out << (normals ? "NOFF\n" : "OFF\n") << soup.n_vertices() << ' ' << soup.n_faces() << " 0\n";
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {
@@ -107,7 +98,8 @@ void write_off(std::ostream& out, const PolygonSoup& soup) {
   }
 }
 
-void write_stl(std::ostream& out, const PolygonSoup& soup) {
+void write_stl(std::ostream& out, const PolygonSoup& soup, const std::string&) {
+  check_stl(soup);
   std::array<char, 80> header{"binary STL written by littoral"};
   out.write(header.data(), header.size());
   store_little(out, static_cast<std::uint32_t>(soup.n_faces()));
@@ -128,23 +120,12 @@ void write_stl(std::ostream& out, const PolygonSoup& soup) {
 
 void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
                    const std::string& field) {
-  const std::string format = lower_case(path.extension().string());
+  const Format& format = format_to_write(path, {Kind::surface});
   check_lengths(path.string(), soup);
-  const auto found = soup.scalars.find(field);
-  const VecX* u = found == soup.scalars.end() ? nullptr : &found->second;
-  if (format == ".obj") {
-    write_atomically(path, [&](std::ostream& out) { write_obj(out, soup, u); });
-  } else if (format == ".ply") {
-    check_names(path.string(), soup);
-    write_atomically(path, [&](std::ostream& out) { write_ply(out, soup); });
-  } else if (format == ".off") {
-    write_atomically(path, [&](std::ostream& out) { write_off(out, soup); });
-  } else if (format == ".stl") {
-    check_stl(path.string(), soup);
-    write_atomically(path, [&](std::ostream& out) { write_stl(out, soup); });
-  } else {
-    throw UnsupportedError("cannot write " + path.string() + ": unknown surface format " +
-                           in_quotes(format) + "; .obj, .ply, .off and .stl are written");
+  try {
+    write_atomically(path, [&](std::ostream& out) { format.write_surface(out, soup, field); });
+  } catch (const UnsupportedError& e) {
+    throw UnsupportedError("cannot write " + path.string() + ": " + e.what());
   }
 }
 

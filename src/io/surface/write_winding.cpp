@@ -1,9 +1,7 @@
 #include "io/surface/write_winding.h"
 
 #include "io/surface/surface_writers.h"
-#include "io/text_scan.h"
 #include "io/write.h"
-#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -14,20 +12,6 @@ void write_point(std::ostream& out, const Eigen::RowVector3d& p) {
 }
 
 }  // namespace
-
-void write_labels(const std::filesystem::path& path, const VecXi& region) {
-  const std::string format = lower_case(path.extension().string());
-  if (format != ".txt" && format != ".csv" && format != ".npy")
-    throw UnsupportedError("cannot write " + path.string() + ": labels go to .txt, .csv or .npy");
-  write_atomically(path, [&](std::ostream& out) {
-    if (format == ".npy") return write_npy(out, region.cast<double>());
-    if (format == ".csv") out << "face,region\n";
-    for (Eigen::Index f = 0; f < region.size(); ++f) {
-      if (format == ".csv") out << f << ',';
-      out << region[f] << '\n';
-    }
-  });
-}
 
 void write_homogeneous_obj(const std::filesystem::path& path, const PolygonSoup& soup,
                            const std::string& value, const std::string& weight) {

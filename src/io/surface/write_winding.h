@@ -1,5 +1,5 @@
 #pragma once
-// Files that hold winding numbers: labels of faces, homogeneous texture coordinates, curves.
+// Files that hold winding numbers: homogeneous texture coordinates, curves.
 
 #include <filesystem>
 #include <string>
@@ -9,10 +9,6 @@
 #include "littoral/polygon_soup.h"
 
 namespace littoral::io {
-
-/// One integer per face: .txt (one a line), .csv ("face,region", 0-based), .npy (float64). Throws
-/// UnsupportedError for other extensions, IoError naming the path.
-void write_labels(const std::filesystem::path& path, const VecXi& region);
 
 /// OBJ with homogeneous texture coordinates (value * weight, weight): interpolate both linearly and
 /// divide per pixel. The scalars are vertices.

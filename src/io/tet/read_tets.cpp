@@ -1,8 +1,9 @@
-// The choice of a tet format; Medit and .tet, which are words.
+// Tets as words: Medit and .tet.
 
 #include <limits>
 #include <optional>
 
+#include "io/formats.h"
 #include "io/read.h"
 #include "io/tet/tet_formats.h"
 #include "littoral/error.h"
@@ -154,32 +155,13 @@ TetFile read_tet(std::string_view bytes, const std::string& name) {
 
 TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
                         const std::string& name) {
-  const std::string format = lower_case(extension);
-  TetFile file;
-  if (format == ".mesh") {
-    file = read_medit(bytes, name);
-  } else if (format == ".tet") {
-    file = read_tet(bytes, name);
-  } else if (format == ".vtk") {
-    file = read_vtk(bytes, name);
-  } else if (format == ".meshb" || format == ".vtu") {
-    throw UnsupportedError(name + ": " + format + " is not read; .mesh, .vtk and .tet are");
-  } else {
-    throw InputError(name + ": unknown format of tets " + in_quotes(extension) +
-                     "; .mesh, .vtk and .tet are read");
-  }
+  TetFile file = format_to_read(extension, name, {Kind::tets}).read_tets(bytes, name);
   if (file.mesh.n_tets() == 0) throw InputError(name + ": the file has no tets");
   return file;
 }
 
 TetFile read_tets(const std::filesystem::path& path) {
   return read_tets_bytes(read_bytes(path), path.extension().string(), path.string());
-}
-
-bool is_tets(const std::filesystem::path& path) {
-  const std::string format = lower_case(path.extension().string());
-  return format == ".mesh" || format == ".tet" || format == ".vtk" || format == ".meshb" ||
-         format == ".vtu";
 }
 
 }  // namespace littoral::io

@@ -2,6 +2,7 @@
 // One reader per format of tets, and what they share.
 
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,11 @@ namespace littoral::io {
 TetFile read_medit(std::string_view bytes, const std::string& name);
 TetFile read_tet(std::string_view bytes, const std::string& name);
 TetFile read_vtk(std::string_view bytes, const std::string& name);
+
+void write_vtk(std::ostream& out, const TetMesh& mesh, const VecX& values,
+               const std::string& field);
+void write_vtu(std::ostream& out, const TetMesh& mesh, const VecX& values,
+               const std::string& field);
 
 /// Words of a text whose line ends mean nothing.
 class WordScanner {

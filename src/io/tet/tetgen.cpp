@@ -23,7 +23,7 @@ namespace littoral::io {
 
 namespace {
 
-constexpr const char* remedy = "; --tets lattice takes any surface";
+constexpr const char* remedy = "; option tets lattice takes any surface";
 
 struct Facets {
   std::vector<Vec3> points;
@@ -96,7 +96,7 @@ void write_input(const std::filesystem::path& folder, const Facets& facets, cons
   const std::string said = end.said.empty() ? "" : " (" + end.said + ")";
   if (end.timed_out)
     throw SolveError(name + " did not end within " + number_text(request.timeout) +
-                     " s and was stopped; --tetgen-timeout allows it more" + remedy);
+                     " s and was stopped; option tetgen-timeout allows it more" + remedy);
   if (end.signal != 0)
     throw SolveError(name + " was ended by signal " + std::to_string(end.signal) + ", " +
                      ::strsignal(end.signal) + said + remedy);

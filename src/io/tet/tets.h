@@ -31,9 +31,6 @@ TetFile read_tets(const std::filesystem::path& path);
 TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
                         const std::string& name);
 
-/// True for the extensions above, and for .meshb and .vtu, which are refused with a reason.
-bool is_tets(const std::filesystem::path& path);
-
 /// Writes tets with one value per vertex by extension: .vtk (legacy, binary), .vtu (appended raw
 /// data), both with exact numbers. Throws UnsupportedError for other extensions, InputError for a
 /// wrong number of values, IoError.

@@ -3,8 +3,9 @@
 #include <cstdint>
 
 #include "io/binary.h"
+#include "io/formats.h"
 #include "io/surface/surface_writers.h"
-#include "io/tet/tets.h"
+#include "io/tet/tet_formats.h"
 #include "io/text_scan.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -28,6 +29,8 @@ std::string one_word(std::string name) {
     if (is_blank(c) || c == '\n' || c == '\r') c = '_';
   return name.empty() ? "field" : name;
 }
+
+}  // namespace
 
 void write_vtk(std::ostream& out, const TetMesh& mesh, const VecX& values,
                const std::string& field) {
@@ -77,20 +80,13 @@ void write_vtu(std::ostream& out, const TetMesh& mesh, const VecX& values,
   out << "\n</AppendedData>\n</VTKFile>\n";
 }
 
-}  // namespace
-
 void write_tets(const std::filesystem::path& path, const TetMesh& mesh, const VecX& values,
                 const std::string& field) {
   if (values.size() != mesh.n_vertices())
     throw InputError("cannot write " + path.string() + ": " + std::to_string(values.size()) +
                      " values for " + std::to_string(mesh.n_vertices()) + " vertices");
-  const std::string format = lower_case(path.extension().string());
-  if (format != ".vtk" && format != ".vtu")
-    throw UnsupportedError("cannot write " + path.string() + ": " + in_quotes(format) +
-                           " holds no tets with values; .vtk and .vtu do");
-  write_atomically(path, [&](std::ostream& out) {
-    (format == ".vtk" ? write_vtk : write_vtu)(out, mesh, values, field);
-  });
+  const Format& format = format_to_write(path, {Kind::tets});
+  write_atomically(path, [&](std::ostream& out) { format.write_tets(out, mesh, values, field); });
 }
 
 }  // namespace littoral::io

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <map>
 
+#include "io/formats.h"
 #include "io/read.h"
-#include "io/text_scan.h"
-#include "io/volume/volume.h"
+#include "io/volume/volume_formats.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -90,17 +90,24 @@ VoxelMask read_vol_bytes(std::string_view bytes, const std::string& name) {
   return mask;
 }
 
+Volume read_vol(std::string_view bytes, const std::string& name, const std::string&) {
+  const VoxelMask mask = read_vol_bytes(bytes, name);
+  const Eigen::Map<const Eigen::Matrix<unsigned char, Eigen::Dynamic, 1>> inside(
+      mask.inside.data(), static_cast<Eigen::Index>(mask.inside.size()));
+  return {mask.grid, inside.cast<double>(), "voxel"};
+}
+
 VoxelMask read_voxels(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  if (lower_case(path.extension().string()) == ".vol")
-    return read_vol_bytes(read_bytes(path), name);
-  const Volume volume = read_volume(path);
+  const Format& format = format_to_read(path.extension().string(), path.string(), {Kind::voxels});
+  if (format.read_voxels) return format.read_voxels(read_bytes(path), name);
+  const Volume volume = format.read_volume(read_bytes(path), name, "");
   if (!volume.values.allFinite())
     throw InputError(name + ": a mask needs finite values, 0 outside");
   if (volume.values.minCoeff() < 0 && volume.values.maxCoeff() > 0)
     throw InputError(name +
-                     ": its values have both signs, a mask is 0 outside and 1 inside; `littoral "
-                     "contour IN --level 0 -o OUT` makes a surface of a field");
+                     ": its values have both signs, a mask is 0 outside and 1 inside; of a field, "
+                     "take the surface where it is 0");
   VoxelMask mask{volume.grid, {}};
   mask.inside.resize(volume.grid.n_nodes());
   for (std::size_t i = 0; i < mask.inside.size(); ++i)

@@ -27,10 +27,6 @@ Volume read_volume(const std::filesystem::path& path, const std::string& field =
 Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
                          const std::string& name, const std::string& field = "");
 
-/// True for files that hold a volume: by extension, and .npy by its dimensions. False for files
-/// that cannot be read.
-bool is_volume(const std::filesystem::path& path);
-
 struct VolumeWriteOptions {
   /// .vdb: half width of the band of values kept about zero, in the largest spacing; beyond it only
   /// the sign is stored. 0 keeps all values.

@@ -13,12 +13,14 @@
 namespace littoral::io {
 
 Volume read_vti(std::string_view bytes, const std::string& name, const std::string& field);
-Volume read_nrrd(std::string_view bytes, const std::string& name);
-Volume read_npy_volume(std::string_view bytes, const std::string& name);
+Volume read_nrrd(std::string_view bytes, const std::string& name, const std::string& field);
+Volume read_npy_volume(std::string_view bytes, const std::string& name, const std::string& field);
+/// 1 where there are voxels, 0 elsewhere.
+Volume read_vol(std::string_view bytes, const std::string& name, const std::string& field);
 
-void write_vti(std::ostream& out, const Volume& volume);
-void write_nrrd(std::ostream& out, const Volume& volume);
-void write_npy_volume(std::ostream& out, const Volume& volume);
+void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
+void write_nrrd(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
+void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 
 /// The header of a NumPy file: shape, type and order; nothing if it is none.

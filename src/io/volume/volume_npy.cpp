@@ -3,9 +3,9 @@
 #include <charconv>
 
 #include "io/binary.h"
-#include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
+#include "io/write_table.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -62,7 +62,7 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
   }
 }
 
-Volume read_npy_volume(std::string_view bytes, const std::string& name) {
+Volume read_npy_volume(std::string_view bytes, const std::string& name, const std::string&) {
   const auto header = parse_npy_header(bytes);
   if (!header) throw InputError(name + ": the header is not that of a NumPy array");
   if (header->shape.size() != 3)
@@ -101,7 +101,7 @@ Volume read_npy_volume(std::string_view bytes, const std::string& name) {
   return volume;
 }
 
-void write_npy_volume(std::ostream& out, const Volume& volume) {
+void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {
   const auto& n = volume.grid.n;
   write_npy_header(
       out, std::to_string(n[0]) + ", " + std::to_string(n[1]) + ", " + std::to_string(n[2]), true);

@@ -195,11 +195,11 @@ class NrrdReader {
 
 }  // namespace
 
-Volume read_nrrd(std::string_view bytes, const std::string& name) {
+Volume read_nrrd(std::string_view bytes, const std::string& name, const std::string&) {
   return NrrdReader(bytes, name).read();
 }
 
-void write_nrrd(std::ostream& out, const Volume& volume) {
+void write_nrrd(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {
   const Grid& g = volume.grid;
   const auto triple = [&out](double a, double b, double c) {
     out << '(' << exact_text(a) << ',' << exact_text(b) << ',' << exact_text(c) << ')';

@@ -225,7 +225,7 @@ class VtiReader {
     for (const Array& array : arrays_)
       if (array.name == "distance") return array;
     if (arrays_.empty()) fail("there is no field with one value per node");
-    if (arrays_.size() > 1) fail("it has the fields " + known + ": choose one with --field");
+    if (arrays_.size() > 1) fail("it has the fields " + known + ": choose one with option field");
     return arrays_.front();
   }
 
@@ -371,7 +371,7 @@ Volume read_vti(std::string_view bytes, const std::string& name, const std::stri
   return VtiReader(bytes, name, field).read();
 }
 
-void write_vti(std::ostream& out, const Volume& volume) {
+void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {
   const Grid& g = volume.grid;
   std::string extent;
   for (int k = 0; k < 3; ++k) extent += (k ? " 0 " : "0 ") + std::to_string(g.n[k] - 1);

@@ -326,7 +326,7 @@ MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task,
   const double bytes = single ? 0.5 * full + 8 * nodes * nodes : full;
   report.sizes.emplace_back("matrices, bytes", bytes);
   check_memory(bytes, "all pairs of " + std::to_string(C.M.size()) + " vertices",
-               "simplify the mesh, or measure from some vertices with another --method");
+               "simplify the mesh, or measure from some vertices with another method");
   MatX U = single ? AllPairs<float>(C, options, task).run(report)
                   : AllPairs<double>(C, options, task).run(report);
   U *= ops.unit;

@@ -55,7 +55,7 @@ const OptionTable<Regularized>& regularized_options() {
           .choice(
               &O::regularizer, "regularizer", {"dirichlet", "hessian", "align", "max-norm"},
               "What is smooth: small gradients, small second derivatives (unaffected by "
-              "boundaries), gradients across --field, small largest coordinate of the gradient.")
+              "boundaries), gradients across the field, small largest coordinate of the gradient.")
           .number(&O::beta, "beta", "", 0, 1e9, "Weight of alignment against smoothness (align).")
           .text(&O::field, "field", "FILE",
                 "Directions to align with (align): lines `x y z`, one for each face, or `f I x y "
@@ -117,7 +117,7 @@ RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regul
       data_(std::make_shared<const RegularizerData>(std::move(data))) {
   const Calculus& C = ops_->scalar;
   if (regularizer == Regularizer::align && data_->V.size() != C.G.rows)
-    throw InputError("aligned distance needs one direction per face: name --field FILE");
+    throw InputError("aligned distance needs one direction per face: option field names a file of them");
   if (regularizer == Regularizer::align && !data_->V.allFinite())
     throw InputError("a direction of the field is not finite");
   if (regularizer == Regularizer::max_norm && data_->frames.rows() != C.G.rows)

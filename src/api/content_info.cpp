@@ -1,0 +1,89 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "api/surface/mesh_info.h"
+#include "domain/tet/tet_locator.h"
+
+namespace littoral {
+
+namespace {
+
+std::vector<InfoEntry> info_of(const PolygonSoup& soup) { return surface_info(soup); }
+
+std::vector<InfoEntry> info_of(const Volume& volume) {
+  const Grid& grid = volume.grid;
+  const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double not_finite = 0, negative = 0;
+  for (const double value : volume.values) {
+    if (value < 0) ++negative;
+    if (!std::isfinite(value)) {
+      ++not_finite;
+      continue;
+    }
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const auto triple = [](const Vec3& v) { return std::vector<double>{v[0], v[1], v[2]}; };
+  return {{"field", volume.name},
+          {"nodes", static_cast<double>(grid.n_nodes())},
+          {"nodes_along_axes",
+           std::vector<double>{double(grid.n[0]), double(grid.n[1]), double(grid.n[2])}},
+          {"spacing", triple(grid.spacing)},
+          {"bounding_box", std::vector<double>{grid.origin[0], grid.origin[1], grid.origin[2],
+                                               far[0], far[1], far[2]}},
+          {"values", std::vector<double>{low, high}},
+          {"values_negative", negative},
+          {"values_not_finite", not_finite}};
+}
+
+std::vector<InfoEntry> info_of(const io::TetFile& file) {
+  const TetMesh& mesh = file.mesh;
+  double flat = 0, inverted = 0, volume = 0, not_finite = 0;
+  std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& tet : mesh.tets.rowwise()) {
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 3; ++k)
+      edges.row(k) = mesh.points.row(tet[k + 1]) - mesh.points.row(tet[0]);
+    for (const int v : tet) {
+      used[static_cast<std::size_t>(v)] = 1;
+      low = low.cwiseMin(mesh.points.row(v).transpose());
+      high = high.cwiseMax(mesh.points.row(v).transpose());
+    }
+    const double signed_volume = edges.determinant() / 6;
+    if (!std::isfinite(signed_volume)) {
+      ++not_finite;
+    } else if (!(std::abs(signed_volume) >
+                 1e-14 * std::pow(edges.rowwise().norm().maxCoeff(), 3))) {
+      ++flat;
+    } else {
+      volume += std::abs(signed_volume);
+      if (signed_volume < 0) ++inverted;
+    }
+  }
+  const MatX3i boundary = boundary_faces(mesh);
+  std::string fields;
+  for (const auto& [name, values] : file.scalars) fields += (fields.empty() ? "" : ", ") + name;
+  return {{"vertices", double(mesh.n_vertices())},
+          {"tets", double(mesh.n_tets())},
+          {"triangles", double(file.triangles.rows())},
+          {"boundary_faces", double(boundary.rows())},
+          {"unused_vertices", double(std::count(used.begin(), used.end(), 0))},
+          {"flat_tets", flat},
+          {"inverted_tets", inverted},
+          {"tets_with_numbers_not_finite", not_finite},
+          {"volume", volume},
+          {"bounding_box", std::vector<double>{low[0], low[1], low[2], high[0], high[1], high[2]}},
+          {"fields", fields.empty() ? "none" : fields}};
+}
+
+}  // namespace
+
+std::vector<InfoEntry> content_info(const io::Content& content) {
+  return std::visit([](const auto& held) { return info_of(held); }, content);
+}
+
+}  // namespace littoral

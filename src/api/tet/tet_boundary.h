@@ -1,0 +1,18 @@
+#pragma once
+// Surfaces of tets with the fields there: the boundary, whole or cut open.
+
+#include "io/tet/tets.h"
+#include "littoral/polygon_soup.h"
+
+namespace littoral {
+
+/// Triangles over some of the points.
+PolygonSoup triangles_of(const io::TetFile& file, const MatX3i& triangles);
+
+PolygonSoup boundary_of(const io::TetFile& file);
+
+/// What is left of the boundary on the far side of a plane across an axis, seen along that, and the
+/// section of the tets there. Throws InputError if the plane misses the tets.
+PolygonSoup cut_open(const io::TetFile& file, int axis, double position);
+
+}  // namespace littoral

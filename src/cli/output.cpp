@@ -1,0 +1,95 @@
+#include "cli/output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "api/tet/tet_boundary.h"
+#include "base/option_table.h"
+#include "base/stopwatch.h"
+#include "io/write.h"
+#include "littoral/error.h"
+
+namespace littoral::cli {
+
+using io::Kind;
+
+void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds) {
+  for (const std::string& file : files) io::format_to_write(file, kinds);
+}
+
+void add_output_option(CLI::App& verb, std::string& file, const std::string& help) {
+  verb.add_option("-o,--output", file, help)->required()->type_name("OUT");
+}
+
+void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help) {
+  add_repeated_option(verb, "-o,--output", files, help + "; may be repeated")
+      ->required()
+      ->type_name("OUT");
+}
+
+void describe(io::Scene& scene, const std::string& input, const Report& report) {
+  scene.title = std::filesystem::path(input).stem().string();
+  if (report.method.empty()) return;
+  std::vector<std::pair<std::string, std::string>> facts = {{"method", report.method},
+                                                            {"domain", report.domain}};
+  for (const auto& [name, size] : report.sizes)
+    if (size == std::floor(size)) facts.emplace_back(name, number_text(size));  // counts
+  facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
+  facts.insert(facts.end(), report.options.begin(), report.options.end());
+  double seconds = 0;
+  for (const auto& [stage, time] : report.timings) seconds += time;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", seconds);
+  facts.emplace_back("time", text);
+  for (const auto& warning : report.warnings) facts.emplace_back("warning", warning);
+  scene.facts = std::move(facts);
+}
+
+void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,
+                  const std::string& input, const Report& report,
+                  const std::function<void(io::Scene&)>& add) {
+  if (io::is_written_as(file, {Kind::field})) return io::write_field(file, result, field);
+  io::Scene scene = io::make_scene(result, field);
+  if (add) add(scene);
+  describe(scene, input, report);
+  io::write_scene(file, scene);
+}
+
+void write_tet_result(const std::string& file, const TetMesh& mesh, const VecX& values,
+                      const std::string& input, const Report& report) {
+  const std::string field = "distance";
+  if (io::is_written_as(file, {Kind::tets})) return io::write_tets(file, mesh, values, field);
+  if (io::is_written_as(file, {Kind::table}))
+    return io::write_table(file, {{field}, values, "vertex"});
+  write_result(file, boundary_of({mesh, {}, {{field, values}}}), field, input, report);
+}
+
+void finish(const std::vector<std::string>& files, const Task& task, Session& session,
+            const std::function<void(const std::string&)>& write) {
+  {
+    const Stopwatch watch(session.report, "write");
+    double written = 0;
+    for (const std::string& file : files) {
+      task.checkpoint(written++ / static_cast<double>(files.size()));
+      write(file);
+    }
+  }
+  session.print_report();
+}
+
+void check_level_outputs(const std::vector<std::string>& out, std::size_t levels,
+                         const io::Kinds& kinds) {
+  check_outputs(out, kinds);
+  if (out.size() != 1 && out.size() != levels)
+    throw InputError("there are " + std::to_string(out.size()) + " output files for " +
+                     std::to_string(levels) + " levels: name one for all, or one for each");
+}
+
+void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,
+                 const std::vector<LevelLines>& levels) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    io::write_surface(out[i], join_lines(mesh, out.size() == 1 ? levels : std::vector{levels[i]}));
+}
+
+}  // namespace littoral::cli

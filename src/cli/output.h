@@ -1,0 +1,49 @@
+#pragma once
+// What verbs write, and how they end.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "api/surface/level_lines.h"
+#include "cli/session.h"
+#include "io/formats.h"
+#include "io/render/scene.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/tet_mesh.h"
+
+namespace littoral::cli {
+
+/// Throws UnsupportedError unless each file can be written as one of the kinds.
+void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds);
+
+/// Adds -o for one file, which must be given.
+void add_output_option(CLI::App& verb, std::string& file, const std::string& help);
+/// Adds -o, which must be given and may be several times.
+void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help);
+
+/// The title of a scene, from the name of the input, and facts about the run that made it.
+void describe(io::Scene& scene, const std::string& input, const Report& report);
+
+/// Writes a field on a surface, or a page or picture of it that says how it was made; `add` draws
+/// more.
+void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,
+                  const std::string& input, const Report& report,
+                  const std::function<void(io::Scene&)>& add = {});
+/// The same for distance on tets: whole, its values alone, or its boundary.
+void write_tet_result(const std::string& file, const TetMesh& mesh, const VecX& values,
+                      const std::string& input, const Report& report);
+
+/// Writes the files one after the other and says what a verb says at its end.
+void finish(const std::vector<std::string>& files, const Task& task, Session& session,
+            const std::function<void(const std::string&)>& write);
+
+/// Throws unless there is one file or one for each of the levels, all of one of the kinds.
+void check_level_outputs(const std::vector<std::string>& out, std::size_t levels,
+                         const io::Kinds& kinds);
+
+/// Writes lines: all into one file, or each level into its own.
+void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,
+                 const std::vector<LevelLines>& levels);
+
+}  // namespace littoral::cli

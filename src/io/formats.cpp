@@ -1,0 +1,217 @@
+#include "io/formats.h"
+
+#include <algorithm>
+#include <array>
+
+#include "io/read.h"
+#include "io/sources/source_nodes.h"
+#include "io/surface/surface_formats.h"
+#include "io/surface/surface_writers.h"
+#include "io/tet/tet_formats.h"
+#include "io/text_scan.h"
+#include "io/volume/volume_formats.h"
+#include "littoral/error.h"
+
+namespace littoral::io {
+
+const std::vector<Format>& formats() {
+  // clang-format off
+  static const std::vector<Format> all = {
+      {.extension = ".obj", .about = "Wavefront OBJ, text: points, polygons, lines, normals, a field as texture u", .lines = true, .read_surface = read_obj, .read_cloud = read_obj, .write_surface = write_obj, .write_field = write_obj},
+      {.extension = ".ply", .about = "Stanford PLY, text or binary (written: binary): points, polygons, lines, normals, any fields", .lines = true, .read_surface = read_ply, .read_cloud = read_ply, .write_surface = write_ply, .write_cloud = write_ply, .write_field = write_ply},
+      {.extension = ".off", .about = "Geomview OFF, text: points, polygons, normals", .read_surface = read_off, .read_cloud = read_off, .write_surface = write_off},
+      {.extension = ".stl", .about = "STL, text or binary (written: binary): triangles in single precision", .read_surface = read_stl, .write_surface = write_stl},
+      {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc},
+      {.extension = ".xyz", .about = "rows x y z, or x y z and a normal", .read_cloud = read_xyz},
+      {.extension = ".pcd", .about = "Point Cloud Library, text or uncompressed binary: points, normals", .read_cloud = read_pcd},
+      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .read_volume = read_vti, .write_volume = write_vti},
+      {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd},
+      {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box", .read_volume = read_npy_volume, .write_volume = write_npy_volume, .write_table = write_npy},
+      {.extension = ".vol", .about = "voxels of one byte, plain or packed", .read_volume = read_vol, .read_voxels = read_vol_bytes},
+      {.extension = ".vdb", .about = "OpenVDB level set in single precision, where the program has that module", .write_volume = write_vdb, .available = has_openvdb, .unless = "the module littoral_vdb.so, which needs OpenVDB to be built, is not installed with the program"},
+      {.extension = ".mesh", .about = "Medit, text: tets, and triangles among them", .read_tets = read_medit},
+      {.extension = ".tet", .about = "counts, points and tets as text", .read_tets = read_tet},
+      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): unstructured grid of tets, values at points", .read_tets = read_vtk, .write_tets = write_vtk},
+      {.extension = ".vtu", .about = "VTK unstructured grid of tets, values at points", .write_tets = write_vtu},
+      {.extension = ".vtp", .about = "VTK polygon data: points, polygons, lines and a field", .write_field = write_vtp},
+      {.extension = ".csv", .about = "rows of numbers below names", .read_table = read_columns, .write_table = write_csv},
+      {.extension = ".txt", .about = "rows of numbers; as sources, nodes by their place on a surface", .read_sources = read_sources_txt, .read_table = read_columns, .write_table = write_txt},
+      {.extension = ".json", .about = "curves and points on a surface or in space", .read_sources = read_sources_json},
+      {.extension = ".html", .about = "one page that shows a result in a browser, offline", .write_page = write_page, .available = has_viewer, .unless = "this build has no viewer page (npm was missing when it was built)"},
+      {.extension = ".png", .about = "picture of a result", .write_picture = write_picture},
+  };
+  // clang-format on
+  return all;
+}
+
+bool reads(const Format& f, Kind kind) {
+  switch (kind) {
+    case Kind::surface:
+      return f.read_surface != nullptr;
+    case Kind::cloud:
+      return f.read_cloud != nullptr;
+    case Kind::volume:
+      return f.read_volume != nullptr;
+    case Kind::voxels:
+      return f.read_voxels != nullptr || f.read_volume != nullptr;
+    case Kind::tets:
+      return f.read_tets != nullptr;
+    case Kind::sources:
+      return f.read_sources != nullptr || (f.lines && f.read_surface != nullptr);
+    case Kind::table:
+      return f.read_table != nullptr;
+    case Kind::field:
+    case Kind::page:
+    case Kind::picture:
+      return false;
+  }
+  return false;
+}
+
+bool writes(const Format& f, Kind kind) {
+  switch (kind) {
+    case Kind::surface:
+      return f.write_surface != nullptr;
+    case Kind::cloud:
+      return f.write_cloud != nullptr;
+    case Kind::volume:
+      return f.write_volume != nullptr;
+    case Kind::tets:
+      return f.write_tets != nullptr;
+    case Kind::sources:
+      return f.lines && f.write_surface != nullptr;
+    case Kind::field:
+      return f.write_field != nullptr || f.write_table != nullptr;
+    case Kind::table:
+      return f.write_table != nullptr;
+    case Kind::page:
+      return f.write_page != nullptr;
+    case Kind::picture:
+      return f.write_picture != nullptr;
+    case Kind::voxels:
+      return false;
+  }
+  return false;
+}
+
+namespace {
+
+using Holds = bool (*)(const Format&, Kind);
+
+constexpr std::array<const char*, 10> kind_names = {
+    "surface", "cloud", "volume", "voxels", "tets", "sources", "field", "table", "page", "picture"};
+
+const char* name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
+bool holds_any(const Format& format, const Kinds& kinds, Holds holds) {
+  return std::ranges::any_of(kinds, [&](Kind kind) { return holds(format, kind); });
+}
+
+const Format* find(const std::string& extension) {
+  const auto found = std::ranges::find(formats(), lower_case(extension), &Format::extension);
+  return found == formats().end() ? nullptr : &*found;
+}
+
+std::string extensions(const Kinds& kinds, Holds holds) {
+  std::string out;
+  for (const Format& format : formats())
+    if (holds_any(format, kinds, holds))
+      out.append(out.empty() ? "" : " ").append(format.extension);
+  return out;
+}
+
+std::string refusal(const char* verb, const std::string& name, const std::string& extension,
+                    const Kinds& kinds, Holds holds) {
+  return std::string("cannot ") + verb + " " + name + " as " + kinds_text(kinds) +
+         ": the extension is " + in_quotes(extension) + "; possible: " + extensions(kinds, holds);
+}
+
+std::string names_held(const Format& format, Holds holds) {
+  std::string out;
+  for (std::size_t k = 0; k < kind_names.size(); ++k)
+    if (holds(format, static_cast<Kind>(k)))
+      out += (out.empty() ? "" : ", ") + std::string(kind_names[k]);
+  return out;
+}
+
+}  // namespace
+
+std::string read_extensions(const Kinds& kinds) { return extensions(kinds, reads); }
+std::string written_extensions(const Kinds& kinds) { return extensions(kinds, writes); }
+
+std::string kinds_text(const Kinds& kinds) {
+  std::string out = kinds.front() >= Kind::voxels && kinds.front() <= Kind::sources ? "" : "a ";
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    out += std::string(k == 0 ? "" : k + 1 == kinds.size() ? " or " : ", ") + name_of(kinds[k]);
+  return out;
+}
+
+const Format& format_to_read(const std::string& extension, const std::string& name,
+                             const Kinds& kinds) {
+  const Format* format = find(extension);
+  if (format && holds_any(*format, kinds, reads)) return *format;
+  const std::string text = refusal("read", name, extension, kinds, reads);
+  if (format) throw UnsupportedError(text);
+  throw InputError(text);
+}
+
+const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds) {
+  const std::string extension = path.extension().string();
+  const Format* format = find(extension);
+  if (!format || !holds_any(*format, kinds, writes))
+    throw UnsupportedError(refusal("write", path.string(), extension, kinds, writes));
+  if (format->available && !format->available())
+    throw UnsupportedError("cannot write " + path.string() + ": " + std::string(format->unless));
+  return *format;
+}
+
+bool is_read_as(const std::filesystem::path& path, const Kinds& kinds) {
+  const Format* format = find(path.extension().string());
+  return format && holds_any(*format, kinds, reads);
+}
+
+bool is_written_as(const std::filesystem::path& path, const Kinds& kinds) {
+  const Format* format = find(path.extension().string());
+  return format && holds_any(*format, kinds, writes);
+}
+
+bool has_extension(const std::filesystem::path& path, std::string_view extension) {
+  return lower_case(path.extension().string()) == extension;
+}
+
+Content read_content(const std::filesystem::path& path, const std::string& field) {
+  const Format& format = format_to_read(path.extension().string(), path.string(),
+                                        {Kind::surface, Kind::cloud, Kind::volume, Kind::tets});
+  if (format.read_volume) return read_volume(path, field);
+  if (format.read_tets) return read_tets(path);
+  return read_surface(path);
+}
+
+void write_scene(const std::filesystem::path& path, const Scene& scene) {
+  const Format& format = format_to_write(path, {Kind::page, Kind::picture});
+  format.write_page ? format.write_page(path, scene) : format.write_picture(path, scene, {});
+}
+
+std::string formats_text() {
+  std::string out;
+  for (const Format& format : formats()) {
+    const std::string read = names_held(format, reads), written = names_held(format, writes);
+    out += std::string(format.extension) + (read.empty() ? "" : "  read as: " + read) +
+           (written.empty() ? "" : "  written as: " + written) + "\n      " +
+           std::string(format.about) + "\n";
+  }
+  return out;
+}
+
+std::string formats_markdown() {
+  std::string out =
+      "# File formats\n\nThe extension of a file, in any case, says its format. Clouds are written "
+      "with any values at their points, fields with one value per vertex.\n\n"
+      "| extension | read as | written as | what it holds |\n|---|---|---|---|\n";
+  for (const Format& format : formats())
+    out += "| `" + std::string(format.extension) + "` | " + names_held(format, reads) + " | " +
+           names_held(format, writes) + " | " + std::string(format.about) + " |\n";
+  return out;
+}
+
+}  // namespace littoral::io

@@ -1,0 +1,102 @@
+#pragma once
+// The file formats, one row each. From the rows come the choice of reader and writer, what messages
+// and help say about extensions, and docs/formats.md.
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "domain/mesh/surface_mesh.h"
+#include "io/render/picture.h"
+#include "io/tet/tets.h"
+#include "io/volume/read_voxels.h"
+#include "io/volume/volume.h"
+#include "io/write_table.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/sources.h"
+
+namespace littoral::io {
+
+/// What a file may hold.
+enum class Kind { surface, cloud, volume, voxels, tets, sources, field, table, page, picture };
+using Kinds = std::vector<Kind>;
+
+/// A format; what it has no reader or writer for, it is not read or written as.
+struct Format {
+  std::string_view extension;  // ".obj"
+  std::string_view about;
+  bool lines = false;  // a surface's lines are kept, so that it can hold sources
+
+  PolygonSoup (*read_surface)(std::string_view bytes, const std::string& name) = nullptr;
+  PolygonSoup (*read_cloud)(std::string_view bytes, const std::string& name) = nullptr;
+  Volume (*read_volume)(std::string_view bytes, const std::string& name,
+                        const std::string& field) = nullptr;
+  VoxelMask (*read_voxels)(std::string_view bytes, const std::string& name) = nullptr;
+  TetFile (*read_tets)(std::string_view bytes, const std::string& name) = nullptr;
+  Sources (*read_sources)(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
+                          std::optional<int> index_base) = nullptr;
+  MatX3 (*read_table)(std::string_view bytes, const std::string& name) = nullptr;
+
+  // Clouds are written with any values at their points, fields with one.
+  void (*write_surface)(std::ostream& out, const PolygonSoup& soup,
+                        const std::string& field) = nullptr;
+  void (*write_cloud)(std::ostream& out, const PolygonSoup& soup,
+                      const std::string& field) = nullptr;
+  void (*write_field)(std::ostream& out, const PolygonSoup& soup,
+                      const std::string& field) = nullptr;
+  void (*write_volume)(std::ostream& out, const Volume& volume,
+                       const VolumeWriteOptions& options) = nullptr;
+  void (*write_tets)(std::ostream& out, const TetMesh& mesh, const VecX& values,
+                     const std::string& field) = nullptr;
+  void (*write_table)(std::ostream& out, const Table& table) = nullptr;
+  void (*write_page)(const std::filesystem::path& path, const Scene& scene) = nullptr;
+  void (*write_picture)(const std::filesystem::path& path, const Scene& scene,
+                        const PictureOptions& options) = nullptr;
+
+  bool (*available)() = nullptr;  // null: in every build
+  std::string_view unless = "";   // why it is not
+};
+
+const std::vector<Format>& formats();
+
+bool reads(const Format& format, Kind kind);
+bool writes(const Format& format, Kind kind);
+/// The extensions that any of the kinds is read from or written to: ".obj .ply".
+std::string read_extensions(const Kinds& kinds);
+std::string written_extensions(const Kinds& kinds);
+/// "a surface, cloud or volume"
+std::string kinds_text(const Kinds& kinds);
+
+/// The format with this extension (any case), if it is read as any of the kinds. Throws InputError
+/// for unknown extensions and UnsupportedError for those of other formats, saying what is possible.
+const Format& format_to_read(const std::string& extension, const std::string& name,
+                             const Kinds& kinds);
+/// The format of a file to be written as any of the kinds. Throws UnsupportedError saying what is
+/// possible, or what this build lacks.
+const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds);
+
+/// True if the extension is that of a format read or written as one of the kinds.
+bool is_read_as(const std::filesystem::path& path, const Kinds& kinds);
+bool is_written_as(const std::filesystem::path& path, const Kinds& kinds);
+
+/// True if a file has this extension, in any case.
+bool has_extension(const std::filesystem::path& path, std::string_view extension);
+
+/// What a file holds, whichever it is; clouds are soups without faces.
+using Content = std::variant<PolygonSoup, Volume, TetFile>;
+/// Reads a surface, cloud, volume or tets. `field` is that of a volume. Throws as the readers do.
+Content read_content(const std::filesystem::path& path, const std::string& field = "");
+
+/// A page or a picture of a scene, by extension. Throws as write_page and write_picture do.
+void write_scene(const std::filesystem::path& path, const Scene& scene);
+
+/// A line for each format, and docs/formats.md.
+std::string formats_text();
+std::string formats_markdown();
+
+}  // namespace littoral::io

@@ -1,9 +1,7 @@
 #include "littoral/io.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "api/surface/surface_domain.h"
+#include "io/formats.h"
 #include "io/read.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
@@ -12,18 +10,12 @@
 #include "io/volume/read_voxels.h"
 #include "io/volume/volume.h"
 #include "io/write.h"
+#include "io/write_table.h"
 #include "littoral/error.h"
 
 namespace littoral {
 
 namespace {
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c < 128 ? std::tolower(c) : c); });
-  return extension;
-}
 
 void describe(io::Scene& scene, const Mesh& mesh, const Report& report) {
   scene.title = report.method;
@@ -62,7 +54,8 @@ io::Scene scene_of(const Regions& regions) {
 }  // namespace
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  if (!io::is_volume(path)) return Mesh(io::read_surface(path));
+  if (io::is_read_as(path, {io::Kind::surface, io::Kind::cloud}))
+    return Mesh(io::read_surface(path));
   const io::VoxelMask mask = io::read_voxels(path);
   return Mesh::voxels(mask.grid, mask.inside);
 }
@@ -78,9 +71,8 @@ Volume read_volume(const std::filesystem::path& path) { return io::read_volume(p
 TetMesh read_tets(const std::filesystem::path& path) { return io::read_tets(path).mesh; }
 
 void write(const Field& field, const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".html") return write_page(field, path);
-  if (extension == ".png") return write_picture(field, path);
+  if (io::is_written_as(path, {io::Kind::page, io::Kind::picture}))
+    return io::write_scene(path, scene_of(field));
   if (field.mesh.n_faces() > 0) return io::write_field(path, surface_of(field));
   PolygonSoup cloud = field.mesh.soup();  // without the triangles that show it
   cloud.scalars.clear();
@@ -89,12 +81,11 @@ void write(const Field& field, const std::filesystem::path& path) {
 }
 
 void write(const Regions& regions, const std::filesystem::path& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".html") return write_page(regions, path);
-  if (extension == ".png") return write_picture(regions, path);
-  if (extension == ".txt" || extension == ".csv" || extension == ".npy")
-    return io::write_labels(path, regions.region);
-  if (extension == ".obj")
+  if (io::is_written_as(path, {io::Kind::page, io::Kind::picture}))
+    return io::write_scene(path, scene_of(regions));
+  if (io::is_written_as(path, {io::Kind::table}))
+    return io::write_table(path, {{"region"}, regions.region.cast<double>(), "face"});
+  if (io::has_extension(path, ".obj"))
     return io::write_homogeneous_obj(path, regions.surface, "winding", "weight");
   io::write_field(path, regions.surface, "region");
 }

@@ -187,20 +187,22 @@ TEST(SpaceDistance, SaysWhatIsWrong) {
     change(request);
     return message_of([&] { choose_grid(box, request); });
   };
-  EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1; }), HasSubstr("--resolution"));
-  EXPECT_THAT(choose([](GridOptions& g) { g.spacing = -1; }), HasSubstr("--spacing"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1; }), HasSubstr("option resolution"));
+  EXPECT_THAT(choose([](GridOptions& g) { g.spacing = -1; }), HasSubstr("option spacing"));
   EXPECT_THAT(choose([](GridOptions& g) { g.bounds = {5, 5, 5, 6, 6, 6}; }), HasSubstr("misses"));
   EXPECT_THAT(choose([](GridOptions& g) { g.bounds = {1, 0, 0, 0, 1, 1}; }), HasSubstr("x0 < x1"));
   EXPECT_THAT(choose([](GridOptions& g) { g.spacing = 1e-9; }), HasSubstr("million"));
   EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1000000; }), HasSubstr("resolution"));
   const MatX3 query = MatX3::Zero(1, 3);
-  EXPECT_THAT(message_of([&] { ask(box, query, "signed-heat"); }), HasSubstr("these can: winding"));
+  EXPECT_THAT(message_of([&] { ask(box, query, "signed-heat"); }),
+              HasSubstr("not on a set of points, on which there are: winding"));
   EXPECT_THAT(message_of([&] { ask(box, query, "magic"); }), HasSubstr("unknown method"));
   EXPECT_THAT(message_of([&] { ask(box, MatX3::Constant(1, 3, std::nan("")), "winding"); }),
               HasSubstr("query point 0"));
   PolygonSoup bare;
   bare.points = test::random_points(10, 1);
-  EXPECT_THAT(message_of([&] { ask(bare, query, "planar"); }), HasSubstr("--estimate-normals"));
+  EXPECT_THAT(message_of([&] { ask(bare, query, "planar"); }),
+              HasSubstr("option estimate-normals"));
   EXPECT_THAT(message_of([&] { ask(PolygonSoup(), query, "planar"); }), HasSubstr("no faces"));
 }
 

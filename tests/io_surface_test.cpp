@@ -114,9 +114,10 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(error_of("f 1 2 3\n", ".obj"), "a.obj: no vertices");
   EXPECT_EQ(error_of("\xFF\xFEv", ".obj"),
             "a.obj:1: the text is UTF-16; save it as UTF-8 or ASCII");
-  EXPECT_EQ(error_of(square, ".xyz9"),
-            "cannot read a.xyz9 as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
-            ".off .stl .pc .xyz .pcd");
+  EXPECT_EQ(
+      error_of(square, ".xyz9"),
+      "cannot read a.xyz9 as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
+      ".off .stl .pc .xyz .pcd");
 }
 
 const std::string off_body = "0 0 0\n1 0 0\n0 1 0\n";

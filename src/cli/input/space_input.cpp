@@ -7,11 +7,9 @@
 
 namespace littoral::cli {
 
-void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session) {
-  add_input_option(verb, "INPUT", texts.input,
-                   "mesh, soup or point cloud " +
-                       io::read_extensions({io::Kind::surface, io::Kind::cloud}) +
-                       ", or volume of distance " + io::read_extensions({io::Kind::volume}));
+void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
+                     const io::Kinds& kinds) {
+  add_input_option(verb, "INPUT", texts.input, kinds_help(kinds));
   verb.add_flag("--estimate-normals", texts.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");

@@ -27,7 +27,9 @@ struct SpaceArguments {
 };
 
 /// Adds INPUT, --estimate-normals and --flip.
-void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session);
+void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
+                     const io::Kinds& kinds = {io::Kind::surface, io::Kind::cloud,
+                                               io::Kind::volume});
 /// Adds --method and the methods' options; `fallback` says what is used without.
 void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& fallback);
 /// Adds what makes one shape of several, and --redistance. The verb `offset` has offsets of its

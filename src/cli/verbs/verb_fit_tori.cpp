@@ -34,7 +34,7 @@ void add_fit_tori(CLI::App& program, Session& session) {
   CLI::App& verb =
       add_verb(program, session, arguments, "fit-tori",
                "fit a torus to each point of a cloud; query, sdf and offset take the result", run);
-  add_space_input(verb, arguments->space, session);
+  add_space_input(verb, arguments->space, session, {io::Kind::surface, io::Kind::cloud});
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions({io::Kind::cloud}));
   add_method_options(verb, arguments->space.method.options,

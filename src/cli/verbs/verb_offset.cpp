@@ -135,9 +135,8 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
       verb, "--sources,-s", arguments.sources,
       "curves on INPUT: " + io::read_extensions({io::Kind::sources}) + "; may be repeated")
       ->type_name("FILE");
-  verb.add_option(
-          "--method", arguments.method.name,
-          "of `littoral sdf`, or for curves of `littoral distance` [default: the first of either]")
+  verb.add_option("--method", arguments.method.name,
+                  "of `littoral sdf`, or for curves of `littoral distance` [default: as there]")
       ->type_name("NAME");
   verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
   verb.add_flag("--estimate-normals", arguments.space.estimate_normals,

@@ -39,7 +39,7 @@ void run(Arguments& arguments, Session& session) {
                                             task.stage(0.95, "pairs of vertices"), report);
   io::Table table{{}, answer.distances};
   for (int v = 0; v < mesh.n_vertices(); ++v) table.names.push_back("to " + std::to_string(v));
-  finish(arguments.out, task, session,
+  finish(arguments.out, task.stage(0.05, "writing"), session,
          [&](const std::string& file) { io::write_table(file, table); });
 }
 

@@ -110,7 +110,8 @@ void add_winding(CLI::App& program, Session& session) {
   verb.add_option("--curves", arguments->curves,
                   "where to write the bounding, nonbounding and completed curves: .obj")
       ->type_name("FILE");
-  verb.add_option("--show", arguments->show, "what pages, pictures and .vtp show: region or winding")
+  verb.add_option("--show", arguments->show,
+                  "what pages, pictures and .vtp show: region or winding")
       ->check(CLI::IsMember({"region", "winding"}))
       ->type_name("WORD");
   verb.add_flag("--flip", session.flip, "reverse every curve, or the surface");

@@ -20,7 +20,7 @@ long_stages=(slow sanitize_slow fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
-slow='Slow|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Quadratic[A-Za-z]*|SignedQuadratic)\.'
+slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Quadratic[A-Za-z]*|SignedQuadratic)\.'
 # Suites that several threads work in.
 shared_between_threads='Parallel|Threads|Registry|Solver'
 

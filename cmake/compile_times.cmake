@@ -2,7 +2,7 @@
 # compiled together.
 option(LITTORAL_UNITY "Compile the files of a folder together" ON)
 
-# -O3 takes a third longer to compile and pays in few places, which are named below.
+# -O3 takes longer to compile and pays in few places, which are named below.
 if(PROJECT_IS_TOP_LEVEL)
   string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 endif()
@@ -14,6 +14,11 @@ set(littoral_hot_sources
   src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
   src/spatial/bound_kernels.cpp src/spatial/point_kernels.cpp src/spatial/winding_kernels.cpp
   src/spatial/winding_number.cpp)
+foreach(source ${littoral_hot_sources})
+  if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${source})
+    message(FATAL_ERROR "cmake/compile_times.cmake names ${source}, which is not there")
+  endif()
+endforeach()
 set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 
 # Compiles the files of each folder together, in portions of up to `bytes`; those with compile options

@@ -45,7 +45,7 @@ def names(listing: str) -> list[str]:
 def suites(tests: Iterable[str]) -> dict[str, list[str]]:
     by_suite: dict[str, list[str]] = {}
     for test in tests:
-        by_suite.setdefault(test.rpartition(".")[0], []).append(test)
+        by_suite.setdefault(test.partition(".")[0], []).append(test)
     return by_suite
 
 

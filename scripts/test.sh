@@ -20,7 +20,7 @@ long_stages=(slow sanitize_slow fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
-slow='Slow|OnSharedData|Regularized|Quadratic|AllPairs|Reference'
+slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Quadratic[A-Za-z]*|SignedQuadratic)\.'
 # Suites that several threads work in.
 shared_between_threads='Parallel|Threads|Registry|Solver'
 
@@ -112,8 +112,8 @@ stage_single() { build single; }  # every file on its own, so that none lives of
 stage_aarch64() {
   scripts/setup.sh aarch64 && build aarch64 &&
     run_tests aarch64/tests/littoral_tests --without "$slow" --limit 1800 \
-      --run qemu-aarch64 &&
-    qemu-aarch64 build/aarch64/littoral --help >/dev/null
+      --run "qemu-aarch64 -L /usr/aarch64-linux-gnu" &&
+    qemu-aarch64 -L /usr/aarch64-linux-gnu build/aarch64/littoral --help >/dev/null
 }
 
 stages=()

@@ -7,10 +7,6 @@ namespace littoral::io {
 
 namespace {
 
-Eigen::Vector3f as_colour(const Rgb& c) {
-  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
-}
-
 struct Nearest {
   double distance;  // samples; negative inside
   double along;     // 0 at the first point, 1 at the second
@@ -32,7 +28,7 @@ MarkRaster::MarkRaster(const Scene& scene, const Camera& camera, double scale) :
     marks_.push_back({{a, b, b},
                       false,
                       1.8 * scale,
-                      as_colour(stroke.is_signed ? signed_colour : unsigned_colour)});
+                      as_vector(stroke.is_signed ? signed_colour : unsigned_colour)});
   }
   for (const auto& arrow : marks.arrows) {
     const Vec3 base = camera.project(arrow.base), tip = camera.project(arrow.tip);
@@ -41,11 +37,11 @@ MarkRaster::MarkRaster(const Scene& scene, const Camera& camera, double scale) :
     const double size = (arrow.tip - arrow.base).norm() / camera.radius;
     across *= 0.32 * size * camera.focal / base[2] / across.norm();
     const Vec3 half(across[0], across[1], 0);
-    marks_.push_back({{tip, base + half, base - half}, true, 0, as_colour(signed_colour)});
+    marks_.push_back({{tip, base + half, base - half}, true, 0, as_vector(signed_colour)});
   }
   for (Eigen::Index i = 0; i < scene.source_points.rows(); ++i) {
     const Vec3 p = camera.project(scene.source_points.row(i));
-    marks_.push_back({{p, p, p}, false, 5.5 * scale, as_colour(unsigned_colour)});
+    marks_.push_back({{p, p, p}, false, 5.5 * scale, as_vector(unsigned_colour)});
   }
 }
 

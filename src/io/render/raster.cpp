@@ -10,10 +10,6 @@ namespace littoral::io {
 
 namespace {
 
-Eigen::Vector3f as_colour(const Rgb& c) {
-  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
-}
-
 double smooth_step(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -204,7 +200,7 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   const float lit = brightness(camera_, normal, x, y);
 
   if (!style_.present) {
-    return as_colour(scene_.values.size() ? infinite_colour : plain_colour) * lit;
+    return as_vector(scene_.values.size() ? infinite_colour : plain_colour) * lit;
   }
   // How much the corners count in the field; they count alike in a face without one that does.
   double counts[3] = {1, 1, 1}, total = 0;
@@ -218,8 +214,8 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   double value = 0;
   for (int k = 0; k < 3; ++k)
     if (counts[k] > 0) value += counts[k] * b[k] / total * scene_.values[v[k]];
-  if (!std::isfinite(value)) return as_colour(infinite_colour) * lit;
-  Eigen::Vector3f colour = as_colour(colour_map(style_.diverging)[static_cast<std::size_t>(
+  if (!std::isfinite(value)) return as_vector(infinite_colour) * lit;
+  Eigen::Vector3f colour = as_vector(colour_map(style_.diverging)[static_cast<std::size_t>(
       std::lround(255 * colour_position(style_, value)))]);
   // Slope of the value per sample: value = N / D with N = sum c b v, D = sum c b linear in the
   // picture, where corners count c.

@@ -9,6 +9,9 @@
 namespace littoral::io {
 
 using Rgb = std::array<unsigned char, 3>;  // sRGB
+inline Eigen::Vector3f as_vector(const Rgb& c) {
+  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+}
 
 /// Centre and size of what is shown, and a pleasant view of it.
 struct SceneFrame {

@@ -92,7 +92,7 @@ void add_common_options(CLI::App& verb, Session& session) {
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
   for (const char* name : {"--threads", "--progress", "--verbose", "--quiet"})
-    verb.get_option(name)->group("Common options");
+    verb.get_option(name)->group(common_options_group);
 }
 
 void add_json_option(CLI::App& verb, Session& session) {

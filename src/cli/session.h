@@ -44,6 +44,8 @@ struct Session {
   std::size_t warned_ = 0;
 };
 
+/// What those of all verbs stand under in --help.
+inline constexpr const char* common_options_group = "Common options";
 /// Adds --threads, --progress, --verbose and --quiet.
 void add_common_options(CLI::App& verb, Session& session);
 /// Adds an option that may be given several times, one value each.

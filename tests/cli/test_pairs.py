@@ -57,7 +57,7 @@ def test_what_is_wrong(run: Run, tmp_path: Path) -> None:
         (["-o", "d.npy", "--vertex", "6"], "no vertex 6"),
         (["-o", "d.npy", "--alpha", "-1"], "alpha"),
         (["-o", "d.npy", "--method", "exact", "--alpha", "1"], "no option"),
-        (["-o", "d.ply"], "matrix"),
+        (["-o", "d.ply"], "as a table"),
     ]:
         result = run("pairs", mesh, *words, status=2)
         assert says in result.stderr

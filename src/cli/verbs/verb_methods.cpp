@@ -62,17 +62,23 @@ std::string cell(std::string text) {
   return text;
 }
 
-/// The verb's options but those of methods, which `littoral methods` lists.
+bool is_common(const CLI::Option& option) { return option.get_group() == common_options_group; }
+
+void print_option(const CLI::Option& option) {
+  const std::string value = option.get_type_name();
+  std::cout << "| `" << option.get_name(option.get_positional(), true)
+            << cell(value.empty() ? "" : " " + value) << "` | " << cell(option.get_description())
+            << (option.get_required() && !option.get_positional() ? "; required" : "") << " |\n";
+}
+
+/// The verb's options but those of all verbs and those of methods, which `littoral methods` lists.
 void print_verb(const CLI::App& verb) {
   std::cout << "\n## " << verb.get_name() << "\n\n" << verb.get_description() << "\n\n";
   std::cout << "| option | meaning |\n|---|---|\n";
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_group() == method_options_group) continue;
-    const std::string value = option->get_type_name();
-    std::cout << "| `" << option->get_name(option->get_positional(), true)
-              << cell(value.empty() ? "" : " " + value) << "` | " << cell(option->get_description())
-              << (option->get_required() && !option->get_positional() ? "; required" : "")
-              << " |\n";
+    if (option->get_group() == method_options_group || option == verb.get_help_ptr()) continue;
+    if (is_common(*option)) continue;
+    print_option(*option);
   }
 }
 
@@ -80,8 +86,12 @@ void print_verbs(const CLI::App& program) {
   std::cout << "# Verbs and their options\n\nOptions of methods are [a page of their own]"
                "(support.md), file formats [another](formats.md); [the command line](cli.md) has "
                "examples.\n";
-  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
-    print_verb(*verb);
+  const auto verbs = program.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* verb : verbs) print_verb(*verb);
+  std::cout << "\n## Options of all verbs\n\nBut of those that tell what there is.\n\n"
+               "| option | meaning |\n|---|---|\n";
+  for (const CLI::Option* option : verbs.front()->get_options())
+    if (is_common(*option)) print_option(*option);
 }
 
 }  // namespace

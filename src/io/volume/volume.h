@@ -9,11 +9,11 @@
 
 namespace littoral::io {
 
-/// Reads a volume by extension: .vti .nrrd .npy .vol (any case). Values are kept even where they
+/// Reads a volume by extension (io/formats.h; any case). Values are kept even where they
 /// are not finite. `field` names the one to use among several; without it "distance" or the only
 /// one.
 ///   .vti   ImageData of one piece; ascii, binary and appended data, raw, base64 or zlib-compressed
-///   .nrrd  three axes along x, y and z; raw, ascii or gzip, in the same file
+///   NRRD   three axes along x, y and z; raw, ascii or gzip, in the same file
 ///   .npy   three dimensions, array[i, j, k] at x_i, y_j, z_k; the format has no place for the box,
 ///   so
 ///          the spacing is 1 and the origin 0
@@ -33,7 +33,7 @@ struct VolumeWriteOptions {
   double band = 0;
 };
 
-/// Writes a volume by extension. Reading .vti, .nrrd or .npy again gives the same numbers, exactly;
+/// Writes a volume by extension. Reading double precision again gives the same numbers, exactly;
 /// .vdb has single precision and is of class "level set", negative inside, with background 3
 /// spacings or the band's half width. Throws UnsupportedError for other extensions and where the
 /// module for .vdb is missing, InputError for a wrong number of values, IoError.

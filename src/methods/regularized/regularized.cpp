@@ -117,7 +117,8 @@ RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regul
       data_(std::make_shared<const RegularizerData>(std::move(data))) {
   const Calculus& C = ops_->scalar;
   if (regularizer == Regularizer::align && data_->V.size() != C.G.rows)
-    throw InputError("aligned distance needs one direction per face: option field names a file of them");
+    throw InputError(
+        "aligned distance needs one direction per face: option field names a file of them");
   if (regularizer == Regularizer::align && !data_->V.allFinite())
     throw InputError("a direction of the field is not finite");
   if (regularizer == Regularizer::max_norm && data_->frames.rows() != C.G.rows)

@@ -3,8 +3,8 @@
 usage: train_torus_fit.py OUT.txt [--minutes 5] [--clouds 150] [--seed 1]
 needs numpy, scipy and jax (PyPI; the processor alone will do), six minutes of one core
 
-The fit stays the least squares of methods/tori/torus_fit.cpp. A small network that sees what does not
-change under rotation (distances, heights, angles of normals) multiplies the weights of its
+The fit stays the least squares of methods/tori/torus_fit.cpp. A small network that sees what does
+not change under rotation (distances, heights, angles of normals) multiplies the weights of its
 equations; untrained it multiplies by one. Minimised is the error of the blended field, relative to
 that of the closed form on the same cloud.
 """

@@ -156,7 +156,7 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error_of("v 1\nl 1\n"), "a.txt:2: expected 'l POINT POINT'");
   EXPECT_EQ(error_of("#offset 2\nv 1\n"), "a.txt:1: expected 0 or 1 after #offset");
   EXPECT_EQ(error_of("v 1\n", ".svg"),
-            "cannot read a.svg as sources: the extension is '.svg'; possible: .obj .ply .txt "
+            "a.svg: cannot be read as sources: the extension is '.svg'; possible: .obj .ply .txt "
             ".json");
 }
 

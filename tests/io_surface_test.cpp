@@ -116,7 +116,7 @@ TEST(IoObj, SaysWhatIsWrong) {
             "a.obj:1: the text is UTF-16; save it as UTF-8 or ASCII");
   EXPECT_EQ(
       error_of(square, ".xyz9"),
-      "cannot read a.xyz9 as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
+      "a.xyz9: cannot be read as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
       ".off .stl .pc .xyz .pcd");
 }
 

@@ -120,10 +120,10 @@ std::string extensions(const Kinds& kinds, Holds holds) {
   return out;
 }
 
-std::string refusal(const char* verb, const std::string& name, const std::string& extension,
-                    const Kinds& kinds, Holds holds) {
-  return std::string("cannot ") + verb + " " + name + " as " + kinds_text(kinds) +
-         ": the extension is " + in_quotes(extension) + "; possible: " + extensions(kinds, holds);
+std::string refusal(const std::string& what, const std::string& extension, const Kinds& kinds,
+                    Holds holds) {
+  return what + " as " + kinds_text(kinds) + ": the extension is " + in_quotes(extension) +
+         "; possible: " + extensions(kinds, holds);
 }
 
 std::string names_held(const Format& format, Holds holds) {
@@ -150,7 +150,7 @@ const Format& format_to_read(const std::string& extension, const std::string& na
                              const Kinds& kinds) {
   const Format* format = find(extension);
   if (format && holds_any(*format, kinds, reads)) return *format;
-  const std::string text = refusal("read", name, extension, kinds, reads);
+  const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);
   if (format) throw UnsupportedError(text);
   throw InputError(text);
 }
@@ -159,7 +159,7 @@ const Format& format_to_write(const std::filesystem::path& path, const Kinds& ki
   const std::string extension = path.extension().string();
   const Format* format = find(extension);
   if (!format || !holds_any(*format, kinds, writes))
-    throw UnsupportedError(refusal("write", path.string(), extension, kinds, writes));
+    throw UnsupportedError(refusal("cannot write " + path.string(), extension, kinds, writes));
   if (format->available && !format->available())
     throw UnsupportedError("cannot write " + path.string() + ": " + std::string(format->unless));
   return *format;

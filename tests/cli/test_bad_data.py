@@ -40,7 +40,7 @@ FILES = {
     "truncated.stl": ": byte 80: the header says 80 triangles, the data hold 78",
     "truncated_ascii.ply": ":113: the file ends after 62 of 80 of element 'face'",
     "truncated_header.ply": ":4: the file ends inside the header",
-    "unknown.xyz9": " as a surface",
+    "unknown.xyz9": ": cannot be read as a surface",
     "unknown_type.ply": ":4: unknown type 'half'",
     "wrong_extension_ply.obj": ": no vertices",
     # may be accepted or not; these are not
@@ -91,8 +91,7 @@ def test_bad_mesh_file(run: Run, name: str) -> None:
         ("info", DATA / "files" / name),
         ("convert", DATA / "files" / name, "-o", "a.ply"),
     ):
-        error = run(*verb, status=2).stderr.replace("error: cannot read ", "error: ")
-        assert f"error: {DATA / 'files' / name}{FILES[name]}" in error
+        assert f"error: {DATA / 'files' / name}{FILES[name]}" in run(*verb, status=2).stderr
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -84,6 +84,7 @@ MatX rows_of(const Mesh& mesh, const std::vector<SurfacePoint>& from, const AnyM
 
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
                                const AnyMethod& method, const Context& context) {
+  for (const SurfacePoint& p : from) mesh.position(p);  // complains before anything is solved
   Running running(context);
   DistanceMatrix out;
   out.values = rows_of(mesh, from, method, running.task, out.report);

@@ -83,8 +83,9 @@ Method<SpaceDomain> kernel_method(const std::string& summary, const std::string&
       });
 }
 
-VecX heat_on_grid(const SpaceInput& input, const Grid& grid, const SpaceSignedHeat& options,
-                  Task& task, Report& report) {
+VecX heat_on_grid(const SpaceInput& input, const Grid& grid, SpaceSignedHeat& options, Task& task,
+                  Report& report) {
+  options = settled(options, false);
   if (options.sharpen)
     check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
                  "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",

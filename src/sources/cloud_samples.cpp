@@ -83,7 +83,8 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
     if (n.allFinite() && n.stableNorm() > 0) kept.push_back(i);
   }
   if (kept.empty())
-    throw InputError("no point has a normal that is not zero; option estimate-normals computes some");
+    throw InputError(
+        "no point has a normal that is not zero; option estimate-normals computes some");
   if (index(kept.size()) < cloud.points.rows())
     report.warn(std::to_string(cloud.points.rows() - index(kept.size())) +
                 " points without a usable normal are left out");

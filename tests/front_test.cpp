@@ -158,6 +158,7 @@ TEST(FrontDistance, ContextReportsStopsAndLimits) {
   context.threads = 1;
   const VecX one = distance(mesh, square.line(9), {}, context).values;
   EXPECT_GT(calls, 3);
+  EXPECT_EQ(last, 1);
   EXPECT_EQ(one, distance(mesh, square.line(9), {}, {.threads = 2}).values);
   Context stopped;
   stopped.cancel.cancel();

@@ -90,7 +90,7 @@ TEST(QuadraticTets, ComponentsWithoutASourceAreInfiniteAndCloudsRefused) {
   EXPECT_TRUE((d.tail(n).array() > 1e300).all());
   EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
   const AnyMethod subdivided = AnyMethod::named("quadratic", {{"subdivide", "3"}});
-  EXPECT_THROW(test::tet_mesh_distance(mesh, sources, subdivided, report), UnsupportedError);
+  EXPECT_THROW(test::tet_mesh_distance(mesh, sources, subdivided, report), InputError);
   TetSources cloud;
   cloud.surface.points = (MatX3(3, 3) << 0.5, 0.5, 0.5, 0.6, 0.5, 0.5, 0.5, 0.6, 0.5).finished();
   cloud.surface.normals = (MatX3(3, 3) << 0, 0, 1, 0, 0, 1, 0, 0, 1).finished();

@@ -163,6 +163,18 @@ struct SurfaceWinding {
   bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
 };
 
+// ---------------------------------------------------------------------------- through tets
+
+/// Distance of quadratic order from vertices, or from a surface without sign.
+/// Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes.
+struct TetQuadratic {
+  static constexpr const char* method = "quadratic";
+  double tolerance = 1e-5;      // of the duality gap, relative to the integral of u
+  int max_iterations = 100;     // of the interior-point method, for each component
+  double source_radius = 1e-4;  // d at a source may be this many mean edge lengths
+  bool insert_samples = true;   // hold u >= |grad u|^2 / 4 between the samples too
+};
+
 // ---------------------------------------------------------------------------- in space
 
 /// How values at the source are held in space: not, at zero, or pulled towards zero. Level sets of

@@ -27,11 +27,11 @@ Report found_out(Report report) {
 
 Field distance(const Mesh& mesh, const Sources& sources, const AnyMethod& method,
                const Context& context) {
-  Running running(context);
-  Report report;
-  SurfaceAnswer answer =
-      solve_once<SurfaceDomain>(method, mesh.domain(), sources, running.task, report);
-  return field_of(mesh, sources, std::move(answer), std::move(report));
+  return run(context, [&](const Task& task) {
+    Report report;
+    SurfaceAnswer answer = solve_once<SurfaceDomain>(method, mesh.domain(), sources, task, report);
+    return field_of(mesh, sources, std::move(answer), std::move(report));
+  });
 }
 
 struct DistanceSolver::Prepared {
@@ -41,18 +41,20 @@ struct DistanceSolver::Prepared {
 };
 
 DistanceSolver::DistanceSolver(Mesh mesh, const AnyMethod& method, const Context& context) {
-  Running running(context);
-  auto prepared = std::make_shared<Prepared>(Prepared{std::move(mesh), {}, {}});
-  prepared->solver =
-      prepare(method, prepared->mesh.domain(), SolveHint::many_rhs, running.task, prepared->report);
-  prepared_ = std::move(prepared);
+  prepared_ = run(context, [&](const Task& task) {
+    auto prepared = std::make_shared<Prepared>(Prepared{std::move(mesh), {}, {}});
+    prepared->solver =
+        prepare(method, prepared->mesh.domain(), SolveHint::many_rhs, task, prepared->report);
+    return prepared;
+  });
 }
 
 Field DistanceSolver::solve(const Sources& sources, const Context& context) const {
-  Running running(context);
-  Report report = found_out(prepared_->report);
-  SurfaceAnswer answer = prepared_->solver->solve(sources, running.task, report);
-  return field_of(prepared_->mesh, sources, std::move(answer), std::move(report));
+  return run(context, [&](const Task& task) {
+    Report report = found_out(prepared_->report);
+    SurfaceAnswer answer = prepared_->solver->solve(sources, task, report);
+    return field_of(prepared_->mesh, sources, std::move(answer), std::move(report));
+  });
 }
 
 const Mesh& DistanceSolver::mesh() const { return prepared_->mesh; }
@@ -85,10 +87,11 @@ MatX rows_of(const Mesh& mesh, const std::vector<SurfacePoint>& from, const AnyM
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
                                const AnyMethod& method, const Context& context) {
   for (const SurfacePoint& p : from) mesh.position(p);  // complains before anything is solved
-  Running running(context);
-  DistanceMatrix out;
-  out.values = rows_of(mesh, from, method, running.task, out.report);
-  return out;
+  return run(context, [&](const Task& task) {
+    DistanceMatrix out;
+    out.values = rows_of(mesh, from, method, task, out.report);
+    return out;
+  });
 }
 
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
@@ -108,19 +111,20 @@ DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>
 
 Regions winding(const Mesh& mesh, const Sources& curves, const SurfaceWinding& options,
                 const Context& context) {
-  Running running(context);
-  Report report;
-  WindingAnswer answer =
-      solve_once<WindingDomain>(options, {mesh.domain().mesh}, curves, running.task, report);
-  Sources bounding = bounding_sources(answer);
-  return {mesh,
-          std::move(answer.region),
-          std::move(answer.shown),
-          std::move(answer.bounding),
-          std::move(answer.nonbounding),
-          std::move(answer.completed),
-          std::move(bounding),
-          std::move(report)};
+  return run(context, [&](const Task& task) -> Regions {
+    Report report;
+    WindingAnswer answer =
+        solve_once<WindingDomain>(options, {mesh.domain().mesh}, curves, task, report);
+    Sources bounding = bounding_sources(answer);
+    return {mesh,
+            std::move(answer.region),
+            std::move(answer.shown),
+            std::move(answer.bounding),
+            std::move(answer.nonbounding),
+            std::move(answer.completed),
+            std::move(bounding),
+            std::move(report)};
+  });
 }
 
 }  // namespace littoral

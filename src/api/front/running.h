@@ -8,27 +8,23 @@
 
 namespace littoral {
 
-class Running {
- public:
-  explicit Running(const Context& context)
-      : task(context.cancel, context.progress),
-        threads_(requested_thread_count()),
-        limit_(memory_limit()) {
-    if (context.threads > 0) set_thread_count(context.threads);
-    if (context.memory_limit > 0) set_memory_limit(context.memory_limit);
-  }
-  ~Running() {
-    set_thread_count(threads_);
-    set_memory_limit(limit_);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
-  Task task;
-
- private:
-  int threads_;
-  double limit_;
-};
+/// What `body(task)` returns, on the context's threads and within its memory; the last progress
+/// reported is 1.
+template <class Body>
+auto run(const Context& context, const Body& body) {
+  struct Restored {
+    int threads = requested_thread_count();
+    double limit = memory_limit();
+    ~Restored() {
+      set_thread_count(threads);
+      set_memory_limit(limit);
+    }
+  } const before;
+  if (context.threads > 0) set_thread_count(context.threads);
+  if (context.memory_limit > 0) set_memory_limit(context.memory_limit);
+  auto out = body(Task(context.cancel, context.progress));
+  if (context.progress) context.progress(1, "done");
+  return out;
+}
 
 }  // namespace littoral

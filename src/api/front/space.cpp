@@ -44,11 +44,13 @@ Sdf made_of(CsgShapes shapes, const Context& context) {
     check_method<SpaceDomain>(shape.request.method);
     anywhere = anywhere && answers_anywhere(shape.request.method);
   }
-  Running running(context);
-  if (anywhere)
-    impl->function = pointwise_distance(impl->shapes, running.task, impl->report);
-  else
+  if (!anywhere) {
     longest_side(impl->shapes);  // complains about inputs that cannot be measured from
+    return Sdf(std::move(impl));
+  }
+  impl->function = run(context, [&](const Task& task) {
+    return pointwise_distance(impl->shapes, task, impl->report);
+  });
   return Sdf(std::move(impl));
 }
 
@@ -76,26 +78,26 @@ Vec3 Sdf::gradient(const Vec3& x) const { return impl_->anywhere().at(x).gradien
 
 VecX Sdf::at(const MatX3& points, const Context& context) const {
   check_queries(points);
-  const Running running(context);
-  return evaluate(impl_->anywhere(), points, nullptr, running.task);
+  return run(context,
+             [&](const Task& task) { return evaluate(impl_->anywhere(), points, nullptr, task); });
 }
 
 DistanceSamples Sdf::with_gradients(const MatX3& points, const Context& context) const {
   check_queries(points);
-  const Running running(context);
-  DistanceSamples out;
-  out.values = evaluate(impl_->anywhere(), points, &out.gradients, running.task);
-  return out;
+  return run(context, [&](const Task& task) {
+    DistanceSamples out;
+    out.values = evaluate(impl_->anywhere(), points, &out.gradients, task);
+    return out;
+  });
 }
 
 Volume Sdf::sample(const Grid& grid, const Context& context) const {
-  const Running running(context);
-  if (impl_->function) {
+  return run(context, [&](const Task& task) -> Volume {
+    Report report;
+    if (!impl_->function) return {grid, grid_distance(impl_->shapes, grid, task, report)};
     check_grid(grid);
-    return {grid, evaluate(*impl_->function, grid, running.task)};
-  }
-  Report report;
-  return {grid, grid_distance(impl_->shapes, grid, running.task, report)};
+    return {grid, evaluate(*impl_->function, grid, task)};
+  });
 }
 
 Eigen::Matrix<double, 2, 3> Sdf::bounds() const {
@@ -138,36 +140,39 @@ Sdf subtract(const Sdf& a, const Sdf& b, double blend) {
 
 VecX winding_number(const PolygonSoup& input, const MatX3& points, const Orientation& orientation,
                     const Context& context) {
-  const Running running(context);
-  Report report;
-  return query_winding(input, points, {{}, orientation.flip, orientation.estimate_normals},
-                       running.task, report);
+  return run(context, [&](const Task& task) {
+    Report report;
+    return query_winding(input, points, {{}, orientation.flip, orientation.estimate_normals}, task,
+                         report);
+  });
 }
 
 PolygonSoup fit_tori(const PolygonSoup& cloud, const Tori& options, const Orientation& orientation,
                      const Context& context) {
-  const Running running(context);
-  Report report;
-  return fit_tori_cloud(cloud, {options, orientation.flip, orientation.estimate_normals},
-                        running.task, report);
+  return run(context, [&](const Task& task) {
+    Report report;
+    return fit_tori_cloud(cloud, {options, orientation.flip, orientation.estimate_normals}, task,
+                          report);
+  });
 }
 
 Mesh isosurface(const Volume& volume, double level, bool close_at_box, const Context& context) {
-  const Running running(context);
-  Report report;
-  return Mesh(
-      std::move(isosurfaces(volume, {level}, close_at_box, report, running.task).front().surface));
+  return run(context, [&](const Task& task) {
+    Report report;
+    return Mesh(isosurfaces(volume, {level}, close_at_box, report, task).front().surface);
+  });
 }
 
 std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& distances,
                          const Morphology& morphology, const Context& context) {
-  const Running running(context);
-  Report report;
-  std::vector<Mesh> out;
-  for (Isosurface& each :
-       offset_isosurfaces(distance, distances, morphology, false, report, running.task))
-    out.emplace_back(std::move(each.surface));
-  return out;
+  return run(context, [&](const Task& task) {
+    Report report;
+    std::vector<Mesh> out;
+    for (Isosurface& each :
+         offset_isosurfaces(distance, distances, morphology, false, report, task))
+      out.emplace_back(std::move(each.surface));
+    return out;
+  });
 }
 
 Grid Grid::around(const Sdf& distance, const GridOptions& options) {

@@ -83,19 +83,22 @@ VecX quadratic(const Elements3& E, const TetProblem& problem, const Quadratic& o
 
 std::vector<Method<TetDomain>> quadratic_tet_methods() {
   return {make_tet_method(
-      {Quadratic::method,
+      {TetQuadratic::method,
        "Distance from vertices, or from a surface without sign, of quadratic order.",
        {},
        {},
        "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
-      quadratic_options(),
-      [](const std::shared_ptr<const TetDiscretization>& on, const Quadratic& given) {
-        if (given.is_signed || given.subdivide != 1)
-          throw UnsupportedError(
-              "options signed and subdivide work on surfaces, not on a tet mesh");
-        return [E = std::make_shared<const Elements3>(*on)](
-                   const TetProblem& problem, const Quadratic& options, Task& task,
-                   Report& report) { return quadratic(*E, problem, options, task, report); };
+      tet_quadratic_options(),
+      [](const std::shared_ptr<const TetDiscretization>& on, const TetQuadratic&) {
+        return [E = std::make_shared<const Elements3>(*on)](const TetProblem& problem,
+                                                            const TetQuadratic& options, Task& task,
+                                                            Report& report) {
+          const Quadratic all{.tolerance = options.tolerance,
+                              .max_iterations = options.max_iterations,
+                              .source_radius = options.source_radius,
+                              .insert_samples = options.insert_samples};
+          return quadratic(*E, problem, all, task, report);
+        };
       })};
 }
 

@@ -11,26 +11,41 @@
 
 namespace littoral {
 
+namespace {
+
+/// What there is on every kind of element.
+template <class S>
+OptionTable<S> with_stopping(OptionTable<S> table) {
+  return table
+      .number(&S::tolerance, "tolerance", "of the integral of squared distance", 1e-10, 1e-1,
+              "Duality gap at which the solver stops.")
+      .integer(&S::max_iterations, "max-iterations", "", 1, 1000,
+               "Interior-point iterations for each component of the mesh.")
+      .number(&S::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
+              "Distance allowed at a source.")
+      .toggle(&S::insert_samples, "insert-samples",
+              "Adds sample points where the constraint is violated between the usual ones.");
+}
+
+}  // namespace
+
 const OptionTable<Quadratic>& quadratic_options() {
   using O = Quadratic;
   static const OptionTable<O> table =
-      OptionTable<O>()
-          .number(&O::tolerance, "tolerance", "of the integral of squared distance", 1e-10, 1e-1,
-                  "Duality gap at which the solver stops.")
-          .integer(&O::max_iterations, "max-iterations", "", 1, 1000,
-                   "Interior-point iterations for each component of the mesh.")
-          .number(&O::source_radius, "source-radius", "mean edge lengths", 1e-7, 1,
-                  "Distance allowed at a source.")
+      with_stopping(OptionTable<O>())
           .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
                   "Distance between samples on curves; 0 knows the distance around them instead.")
-          .toggle(&O::insert_samples, "insert-samples",
-                  "Adds sample points where the constraint is violated between the usual seven.")
           .toggle(&O::is_signed, "signed",
                   "Takes the sign, and curves that fill gaps, from the signed heat method.")
           .integer(
               &O::subdivide, "subdivide", "", 1, 64,
               "Writes and draws a mesh with every side cut into this many parts, which shows the "
               "field between the vertices.");
+  return table;
+}
+
+const OptionTable<TetQuadratic>& tet_quadratic_options() {
+  static const OptionTable<TetQuadratic> table = with_stopping(OptionTable<TetQuadratic>());
   return table;
 }
 

@@ -16,6 +16,8 @@
 namespace littoral {
 
 const OptionTable<Quadratic>& quadratic_options();
+/// Those that there are through tets.
+const OptionTable<TetQuadratic>& tet_quadratic_options();
 
 /// The squared distance u and d = sqrt(u) anywhere.
 template <int D>

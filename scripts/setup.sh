@@ -20,7 +20,11 @@ oldest_node=18
 
 die() { echo "setup: error: $*" >&2; exit 1; }
 
-is_installed() { [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+# For this machine's architecture: that of another may be installed beside it.
+is_installed() {
+  dpkg-query -W -f '${Architecture} ${db:Status-Status}\n' "$1" 2>/dev/null |
+    grep -qE "^($(dpkg --print-architecture)|all) installed$"
+}
 
 # Releases that no longer carry version 14 of Clang take their default one instead.
 substitute() {

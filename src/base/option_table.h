@@ -31,31 +31,14 @@ class OptionTable {
  public:
   OptionTable& number(double S::*m, std::string name, std::string unit, double low, double high,
                       std::string help) {
-    OptionInfo info = described(OptionInfo::Kind::number, std::move(name), std::move(help));
-    info.unit = std::move(unit);
-    info.low = low;
-    info.high = high;
-    return add(
-        std::move(info),
-        [m](S& s, const OptionInfo& i, const std::string& text) {
-          s.*m = parse_option_number(i, text);
-        },
-        [m](const S& s, const OptionInfo&) { return number_text(s.*m); },
-        [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
+    return numeric(m, described(OptionInfo::Kind::number, std::move(name), std::move(help)),
+                   std::move(unit), low, high, parse_option_number, number_text);
   }
   OptionTable& integer(int S::*m, std::string name, std::string unit, int low, int high,
                        std::string help) {
-    OptionInfo info = described(OptionInfo::Kind::integer, std::move(name), std::move(help));
-    info.unit = std::move(unit);
-    info.low = low;
-    info.high = high;
-    return add(
-        std::move(info),
-        [m](S& s, const OptionInfo& i, const std::string& text) {
-          s.*m = parse_option_integer(i, text);
-        },
-        [m](const S& s, const OptionInfo&) { return std::to_string(s.*m); },
-        [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
+    return numeric(m, described(OptionInfo::Kind::integer, std::move(name), std::move(help)),
+                   std::move(unit), low, high, parse_option_integer,
+                   [](int value) { return std::to_string(value); });
   }
   OptionTable& toggle(bool S::*m, std::string name, std::string help) {
     return add(
@@ -119,6 +102,18 @@ class OptionTable {
     info.name = std::move(name);
     info.help = std::move(help);
     return info;
+  }
+  template <class N, class Parse, class Text>
+  OptionTable& numeric(N S::*m, OptionInfo info, std::string unit, double low, double high,
+                       Parse parse, Text text) {
+    info.unit = std::move(unit);
+    info.low = low;
+    info.high = high;
+    return add(
+        std::move(info),
+        [m, parse](S& s, const OptionInfo& i, const std::string& given) { s.*m = parse(i, given); },
+        [m, text](const S& s, const OptionInfo&) { return text(s.*m); },
+        [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
   }
   template <class Set, class Get, class Check>
   OptionTable& add(OptionInfo info, Set set, Get get, Check check) {

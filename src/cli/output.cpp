@@ -1,11 +1,8 @@
 #include "cli/output.h"
 
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "api/tet/tet_boundary.h"
-#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -28,22 +25,8 @@ void add_output_option(CLI::App& verb, std::vector<std::string>& files, const st
       ->type_name("OUT");
 }
 
-void describe(io::Scene& scene, const std::string& input, const Report& report) {
-  scene.title = std::filesystem::path(input).stem().string();
-  if (report.method.empty()) return;
-  std::vector<std::pair<std::string, std::string>> facts = {{"method", report.method},
-                                                            {"domain", report.domain}};
-  for (const auto& [name, size] : report.sizes)
-    if (size == std::floor(size)) facts.emplace_back(name, number_text(size));  // counts
-  facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
-  facts.insert(facts.end(), report.options.begin(), report.options.end());
-  double seconds = 0;
-  for (const auto& [stage, time] : report.timings) seconds += time;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", seconds);
-  facts.emplace_back("time", text);
-  for (const auto& warning : report.warnings) facts.emplace_back("warning", warning);
-  scene.facts = std::move(facts);
+std::string title_of(const std::string& input) {
+  return std::filesystem::path(input).stem().string();
 }
 
 void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,
@@ -52,7 +35,7 @@ void write_result(const std::string& file, const PolygonSoup& result, const std:
   if (io::is_written_as(file, {Kind::field})) return io::write_field(file, result, field);
   io::Scene scene = io::make_scene(result, field);
   if (add) add(scene);
-  describe(scene, input, report);
+  io::describe(scene, title_of(input), report);
   io::write_scene(file, scene);
 }
 

@@ -22,8 +22,8 @@ void add_output_option(CLI::App& verb, std::string& file, const std::string& hel
 /// Adds -o, which must be given and may be several times.
 void add_output_option(CLI::App& verb, std::vector<std::string>& files, const std::string& help);
 
-/// The title of a scene, from the name of the input, and facts about the run that made it.
-void describe(io::Scene& scene, const std::string& input, const Report& report);
+/// The title of a scene, from the name of the input.
+std::string title_of(const std::string& input);
 
 /// Writes a field on a surface, or a page or picture of it that says how it was made; `add` draws
 /// more.

@@ -17,16 +17,6 @@ namespace littoral {
 
 namespace {
 
-void describe(io::Scene& scene, const Mesh& mesh, const Report& report) {
-  scene.title = report.method;
-  scene.facts = {{"method", report.method},
-                 {"domain", report.domain},
-                 {"vertices", std::to_string(mesh.n_vertices())},
-                 {"faces", std::to_string(mesh.n_faces())}};
-  for (const auto& option : report.options) scene.facts.push_back(option);
-  for (const auto& warning : report.warnings) scene.facts.emplace_back("warning", warning);
-}
-
 PolygonSoup surface_of(const Field& field) {
   if (field.refined) return *field.refined;
   PolygonSoup soup = field.mesh.soup();
@@ -38,7 +28,7 @@ PolygonSoup surface_of(const Field& field) {
 io::Scene scene_of(const Field& field) {
   io::Scene scene = io::make_scene(surface_of(field));
   io::add_sources(scene, *field.mesh.domain().mesh, field.sources);
-  describe(scene, field.mesh, field.report);
+  io::describe(scene, field.report.method, field.report);
   return scene;
 }
 
@@ -47,7 +37,7 @@ io::Scene scene_of(const Regions& regions) {
   scene.isolines = 0;
   for (const MatX3& line : regions.bounding) scene.curves.push_back({line, true});
   for (const MatX3& line : regions.nonbounding) scene.curves.push_back({line, false});
-  describe(scene, regions.mesh, regions.report);
+  io::describe(scene, regions.report.method, regions.report);
   return scene;
 }
 

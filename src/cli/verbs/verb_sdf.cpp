@@ -55,7 +55,7 @@ void write_distance(const std::string& file, const Arguments& arguments, const V
   io::VolumeView view;
   view.level = levels.front();
   io::Scene scene = io::make_volume_scene(volume, view);
-  describe(scene, input, session.report);
+  io::describe(scene, title_of(input), session.report);
   io::write_scene(file, scene);
 }
 

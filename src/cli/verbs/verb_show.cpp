@@ -164,7 +164,7 @@ io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
 
 io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
-  describe(scene, arguments.in, session.report);
+  io::describe(scene, title_of(arguments.in), session.report);
   scene.isolines = arguments.isolines;
   io::check_scene(scene);
   session.reading = false;

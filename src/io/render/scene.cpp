@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/option_table.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -60,6 +61,24 @@ void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) 
     scene.source_points.row(before + i) =
         mesh.position(sources.points[static_cast<std::size_t>(i)]).transpose();
   }
+}
+
+void describe(Scene& scene, const std::string& title, const Report& report) {
+  scene.title = title;
+  if (report.method.empty()) return;
+  std::vector<std::pair<std::string, std::string>> facts = {{"method", report.method},
+                                                            {"domain", report.domain}};
+  for (const auto& [name, size] : report.sizes)
+    if (size == std::floor(size)) facts.emplace_back(name, number_text(size));  // counts
+  facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
+  facts.insert(facts.end(), report.options.begin(), report.options.end());
+  double seconds = 0;
+  for (const auto& [stage, time] : report.timings) seconds += time;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f s", seconds);
+  facts.emplace_back("time", text);
+  for (const auto& warning : report.warnings) facts.emplace_back("warning", warning);
+  scene.facts = std::move(facts);
 }
 
 void check_scene(const Scene& scene) {

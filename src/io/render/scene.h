@@ -11,6 +11,7 @@
 
 #include "domain/mesh/surface_mesh.h"
 #include "littoral/polygon_soup.h"
+#include "littoral/report.h"
 #include "littoral/sources.h"
 #include "littoral/types.h"
 #include "littoral/volume.h"
@@ -76,6 +77,9 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field = "distance")
 
 /// Adds the sources of a problem on `mesh`; nodes of one curve are joined by straight segments.
 void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources);
+
+/// The title, and facts about the run that made the scene before and after those it has.
+void describe(Scene& scene, const std::string& title, const Report& report);
 
 /// Throws InputError naming the element if the scene has no triangle, a triangle refers to a vertex
 /// that is missing or not finite, there is not one value per vertex, a value is NaN, or a source,

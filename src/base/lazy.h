@@ -46,4 +46,25 @@ class Kept {
   KeptByKey<int, T> value_;
 };
 
+/// The value of the key that was asked for last: for keys that sources choose, which could be any
+/// number of them.
+template <class Key, class T>
+class KeptLast {
+ public:
+  template <class Make>
+  std::shared_ptr<const T> get(const Key& key, const Make& make) const {
+    const std::lock_guard lock(mutex_);
+    if (!value_ || !(key_ == key)) {
+      value_ = std::make_shared<const T>(make());
+      key_ = key;
+    }
+    return value_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable Key key_{};
+  mutable std::shared_ptr<const T> value_;
+};
+
 }  // namespace littoral

@@ -60,8 +60,7 @@ class RetriangulatedSurface {
   RetriangulatedSurface(SurfaceDomain domain, Report& report)
       : domain_(std::move(domain)), T_(triangulation_of(domain_, report)) {}
 
-  /// `shared` becomes the operators' own place for factors, or null where they serve this solve
-  /// alone.
+  /// `shared` says whether later solves meet the same operators, so that factors are worth keeping.
   Problem problem(const Sources& sources,
                   const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
                   Task& task, Report& report) const {

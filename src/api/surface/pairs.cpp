@@ -70,6 +70,15 @@ double area_of(const SurfaceMesh& mesh) {
   return area;
 }
 
+/// Throws IoError unless `rows` rows of distances to all vertices fit into memory, for a matrix
+/// that has n of them.
+void check_matrix(std::size_t n, const SurfaceMesh& mesh, double rows) {
+  check_memory(
+      8 * rows * mesh.n_vertices(),
+      "a matrix of " + std::to_string(n) + " x " + std::to_string(mesh.n_vertices()) + " distances",
+      "simplify the mesh or measure from fewer vertices");
+}
+
 void add_statistics(const SurfaceMesh& mesh, PairsAnswer& answer, const Task& task,
                     Report& report) {
   const Stopwatch watch(report, "statistics");
@@ -124,6 +133,7 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
                    const std::vector<SurfacePoint>& points, Task task, Report& report) {
   const SurfaceMesh& mesh = *domain.mesh;
   const auto n = points.size();
+  check_matrix(n, mesh, static_cast<double>(n));
   MatX D(static_cast<Eigen::Index>(n), mesh.n_vertices());
   std::mutex mutex;
   int unconverged = 0;
@@ -180,10 +190,7 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
   report.sizes.emplace_back("vertices", n);
   report.sizes.emplace_back("faces", mesh.n_faces());
   report.sizes.emplace_back("source_points", static_cast<double>(rows.size()));
-  check_memory(8 * n * (static_cast<double>(rows.size()) + (all ? n : 0)),
-               "a matrix of " + std::to_string(rows.size()) + " x " +
-                   std::to_string(mesh.n_vertices()) + " distances",
-               "simplify the mesh or measure from fewer vertices");
+  check_matrix(rows.size(), mesh, static_cast<double>(rows.size()) + (all ? n : 0));
   PairsAnswer answer;
   if (method.name().empty() || Registry<PairsDomain>::instance().has(method.name())) {
     answer.distances =

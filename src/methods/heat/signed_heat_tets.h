@@ -40,7 +40,7 @@ class TetHeatSolver {
 
   std::shared_ptr<const TetOperators> ops_;
   Kept<Poisson> poisson_;
-  KeptByKey<double, Cholesky<double>> faces_, vertices_;  // by time
+  KeptLast<double, Cholesky<double>> faces_, vertices_;  // by time
 };
 
 }  // namespace littoral

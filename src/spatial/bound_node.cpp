@@ -1,8 +1,9 @@
 #include "spatial/bound_node.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+
+#include "base/dense_decompositions.h"
 
 namespace littoral {
 
@@ -26,9 +27,7 @@ double set_disk(const MatX3& points, const int* from, const int* to, BoundNode& 
     spread.noalias() += d * d.transpose();
   }
   Vec3 axis = Vec3::UnitZ();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions;
-  directions.computeDirect(spread);
-  const Vec3 least = directions.eigenvectors().col(0);
+  const Vec3 least = least_eigenvector(spread);
   if (least.allFinite() && least.norm() > 0.5) axis = least.normalized();
   double radius = 0, half = 0;
   for (const int* i = from; i < to; ++i) {

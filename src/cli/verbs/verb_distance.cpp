@@ -23,7 +23,7 @@ using io::Kind;
 const io::Kinds surface_outputs = {Kind::field, Kind::page, Kind::picture};
 const io::Kinds tet_outputs = {Kind::tets, Kind::field, Kind::page, Kind::picture};
 
-struct Arguments {
+struct DistanceArguments {
   std::string domain;
   std::vector<std::string> sources, out;
   std::vector<long long> vertices;
@@ -37,7 +37,7 @@ struct Arguments {
       " has no " + own + " of its own)");
 }
 
-Sources gather(const Arguments& arguments, const SurfaceMesh& mesh, Session& session) {
+Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Session& session) {
   Sources sources = read_all_sources(arguments.sources, mesh, session);
   for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
     sources.points.push_back(SurfacePoint::at_vertex(v));
@@ -54,7 +54,7 @@ Sources gather(const Arguments& arguments, const SurfaceMesh& mesh, Session& ses
   return session.flip ? sources.reversed() : sources;
 }
 
-TetSources gather(const Arguments& arguments, const io::TetFile& file, Session& session) {
+TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, Session& session) {
   TetSources sources;
   sources.vertices =
       checked_vertices(arguments.vertices, file.mesh.n_vertices(), arguments.domain, session);
@@ -77,8 +77,8 @@ PolygonSoup cloud_with(const PolygonSoup& shown, const SurfaceMesh& cloud) {
 
 /// `read(file)` opens the domain, `domain(input)` makes it one of methods, `write` a file.
 template <class D, class Read, class MakeDomain, class Write>
-void measure(const Arguments& arguments, const io::Kinds& outputs, Session& session, Read read,
-             MakeDomain domain, Write write) {
+void measure(const DistanceArguments& arguments, const io::Kinds& outputs, Session& session,
+             Read read, MakeDomain domain, Write write) {
   check_outputs(arguments.out, outputs);
   const AnyMethod method = arguments.method.method();
   check_method<D>(method);
@@ -102,7 +102,7 @@ struct OpenedSurface : SurfaceInput {
   operator const SurfaceMesh&() const { return mesh; }
 };
 
-void measure_on_surface(const Arguments& arguments, Session& session) {
+void measure_on_surface(const DistanceArguments& arguments, Session& session) {
   measure<SurfaceDomain>(
       arguments, surface_outputs, session,
       [](const std::string& file) {
@@ -120,7 +120,7 @@ void measure_on_surface(const Arguments& arguments, Session& session) {
       });
 }
 
-void measure_through_tets(const Arguments& arguments, Session& session) {
+void measure_through_tets(const DistanceArguments& arguments, Session& session) {
   measure<TetDomain>(
       arguments, tet_outputs, session,
       [](const std::string& file) {
@@ -136,10 +136,10 @@ void measure_through_tets(const Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_distance(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DistanceArguments>();
   CLI::App& verb = add_verb(program, session, arguments, "distance",
                             "distance on a surface from curves and points on it, or through tets",
-                            [](Arguments& given, Session& s) {
+                            [](DistanceArguments& given, Session& s) {
                               const bool tets = io::is_read_as(given.domain, {Kind::tets});
                               (tets ? measure_through_tets : measure_on_surface)(given, s);
                             });

@@ -20,7 +20,7 @@ namespace littoral::cli {
 
 namespace {
 
-struct Arguments {
+struct FileArguments {
   std::string in, out, mesh, field, levels;
   std::vector<std::string> outs;
   double band = 0;
@@ -38,7 +38,7 @@ struct Overloaded : Jobs... {
 template <class... Jobs>
 Overloaded(Jobs...) -> Overloaded<Jobs...>;
 
-void info(Arguments& arguments, Session& session) {
+void info(FileArguments& arguments, Session& session) {
   if (arguments.mesh.empty() && io::is_read_as(arguments.in, {Kind::sources}) &&
       !io::is_read_as(arguments.in, {Kind::surface}))
     throw InputError(arguments.in +
@@ -56,14 +56,14 @@ void info(Arguments& arguments, Session& session) {
 }
 
 /// The field named or the only one of a tet file.
-const VecX& field_of(const io::TetFile& file, const Arguments& arguments, std::string& name) {
+const VecX& field_of(const io::TetFile& file, const FileArguments& arguments, std::string& name) {
   PolygonSoup fields;
   fields.scalars = file.scalars;
   name = choose_field(fields, arguments.field, arguments.in);
   return file.scalars.at(name);
 }
 
-void convert_soup(PolygonSoup soup, const Arguments& arguments, Session& session) {
+void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& session) {
   check_outputs({arguments.out}, soup_outputs);
   const bool field_only = !io::is_written_as(arguments.out, {Kind::surface});
   const std::string field = choose_field(soup, arguments.field, arguments.in, !field_only);
@@ -76,7 +76,7 @@ void convert_soup(PolygonSoup soup, const Arguments& arguments, Session& session
     io::write_surface(arguments.out, soup, field);
 }
 
-void convert(Arguments& arguments, Session& session) {
+void convert(FileArguments& arguments, Session& session) {
   check_outputs({arguments.out}, {Kind::surface, Kind::field, Kind::volume, Kind::tets});
   if (arguments.band > 0 && !io::has_extension(arguments.out, ".vdb"))
     throw InputError("option band is for .vdb; other formats hold every node");
@@ -100,7 +100,7 @@ void convert(Arguments& arguments, Session& session) {
   std::visit(job, io::read_content(arguments.in, arguments.field));
 }
 
-void contour(Arguments& arguments, Session& session) {
+void contour(FileArguments& arguments, Session& session) {
   const std::vector<double> levels = parse_numbers("level", arguments.levels);
   const bool lines = io::is_read_as(arguments.in, {Kind::surface, Kind::cloud});
   check_level_outputs(arguments.outs, levels.size(), {lines ? Kind::sources : Kind::surface});
@@ -132,7 +132,7 @@ void contour(Arguments& arguments, Session& session) {
   std::visit(job, io::read_content(arguments.in, arguments.field));
 }
 
-void add_field(CLI::App& verb, Arguments& arguments) {
+void add_field(CLI::App& verb, FileArguments& arguments) {
   verb.add_option("--field", arguments.field,
                   "which values [default: distance, an OBJ's texture u, or the only ones]")
       ->type_name("NAME");
@@ -141,7 +141,7 @@ void add_field(CLI::App& verb, Arguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FileArguments>();
   CLI::App& verb = add_verb(program, session, arguments, "info",
                             "what is in a file, and what is wrong with it", info);
   add_input_option(verb, "FILE", arguments->in,
@@ -155,7 +155,7 @@ void add_info(CLI::App& program, Session& session) {
 }
 
 void add_convert(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FileArguments>();
   CLI::App& verb =
       add_verb(program, session, arguments, "convert", "between file formats", convert);
   add_input_option(verb, "IN", arguments->in,
@@ -176,7 +176,7 @@ void add_convert(CLI::App& program, Session& session) {
 }
 
 void add_contour(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FileArguments>();
   CLI::App& verb = add_verb(
       program, session, arguments, "contour",
       "lines on a surface, or surfaces in a volume, where a field takes given values", contour);

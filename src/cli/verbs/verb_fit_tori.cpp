@@ -12,12 +12,12 @@ namespace littoral::cli {
 
 namespace {
 
-struct Arguments {
+struct FitToriArguments {
   SpaceArguments space;
   std::string out;
 };
 
-void run(Arguments& arguments, Session& session) {
+void run_fit_tori(FitToriArguments& arguments, Session& session) {
   check_outputs({arguments.out}, {io::Kind::cloud});
   const SpaceRequest request = space_request(arguments.space, session);
   const PolygonSoup input = io::read_surface(arguments.space.input);
@@ -30,10 +30,10 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_fit_tori(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb =
-      add_verb(program, session, arguments, "fit-tori",
-               "fit a torus to each point of a cloud; query, sdf and offset take the result", run);
+  auto arguments = std::make_shared<FitToriArguments>();
+  CLI::App& verb = add_verb(
+      program, session, arguments, "fit-tori",
+      "fit a torus to each point of a cloud; query, sdf and offset take the result", run_fit_tori);
   add_space_input(verb, arguments->space, session, {io::Kind::surface, io::Kind::cloud});
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions({io::Kind::cloud}));

@@ -13,7 +13,7 @@ namespace littoral::cli {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
+std::string listed(const std::vector<std::string>& words) {
   std::string out;
   for (const auto& word : words) out += (out.empty() ? "" : ", ") + word;
   return out;
@@ -23,7 +23,7 @@ void print_table() {
   for (const MethodFamily& family : method_families()) {
     std::cout << family.title << ":\n";
     for (const MethodInfo& method : family.methods)
-      std::cout << "  " << method.name << "  on: " << joined(method.domains) << "\n      "
+      std::cout << "  " << method.name << "  on: " << listed(method.domains) << "\n      "
                 << method.summary << "\n      " << method.reference << "\n";
   }
 }
@@ -32,7 +32,7 @@ void print_markdown(const std::string& title, const std::vector<MethodInfo>& all
   std::cout << "# " << title << "\n\n";
   std::cout << "| method | runs on | what it computes | paper |\n|---|---|---|---|\n";
   for (const MethodInfo& method : all)
-    std::cout << "| `" << method.name << "` | " << joined(method.domains) << " | " << method.summary
+    std::cout << "| `" << method.name << "` | " << listed(method.domains) << " | " << method.summary
               << " | " << method.reference << " |\n";
   for (const MethodInfo& method : all) {
     if (method.options.empty()) continue;

@@ -17,7 +17,7 @@ namespace littoral::cli {
 
 namespace {
 
-struct Arguments {
+struct OffsetArguments {
   std::string in, field;
   std::vector<std::string> sources, out;
   std::string distances, dilate, erode;
@@ -28,7 +28,7 @@ struct Arguments {
 };
 
 // --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
-std::vector<double> all_distances(const Arguments& arguments) {
+std::vector<double> all_distances(const OffsetArguments& arguments) {
   std::vector<double> all;
   if (!arguments.distances.empty()) all = parse_numbers("distance", arguments.distances);
   for (const auto& [option, text, sign] :
@@ -45,7 +45,8 @@ std::vector<double> all_distances(const Arguments& arguments) {
   throw InputError("no offset given: use --distance, --dilate, --erode, --open or --close");
 }
 
-void offset_curves(Arguments& arguments, const std::vector<double>& distances, Session& session) {
+void offset_curves(OffsetArguments& arguments, const std::vector<double>& distances,
+                   Session& session) {
   check_level_outputs(arguments.out, distances.size(), {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
@@ -66,7 +67,7 @@ void offset_curves(Arguments& arguments, const std::vector<double>& distances, S
 
 /// Signed distance around a shape or several, on a grid that holds all offsets of it; that of a
 /// volume alone is there already.
-Volume distance_around(Arguments& arguments, const std::vector<double>& distances,
+Volume distance_around(OffsetArguments& arguments, const std::vector<double>& distances,
                        Session& session) {
   SpaceArguments& space = arguments.space;
   space.input = arguments.in;
@@ -86,7 +87,8 @@ Volume distance_around(Arguments& arguments, const std::vector<double>& distance
   return volume;
 }
 
-void offset_shape(Arguments& arguments, const std::vector<double>& distances, Session& session) {
+void offset_shape(OffsetArguments& arguments, const std::vector<double>& distances,
+                  Session& session) {
   check_level_outputs(arguments.out, distances.size(), {io::Kind::surface});
   const Volume distance = distance_around(arguments, distances, session);
   session.reading = false;
@@ -97,7 +99,7 @@ void offset_shape(Arguments& arguments, const std::vector<double>& distances, Se
   write_isosurfaces(arguments.out, surfaces);
 }
 
-void run(Arguments& arguments, Session& session) {
+void run_offset(OffsetArguments& arguments, Session& session) {
   const std::vector<double> distances = all_distances(arguments);
   if (arguments.sources.empty())
     offset_shape(arguments, distances, session);
@@ -106,7 +108,7 @@ void run(Arguments& arguments, Session& session) {
   session.print_report();
 }
 
-void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
+void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
   add_input_option(verb, "INPUT", arguments.in,
                    "a mesh, soup or point cloud " +
                        io::read_extensions({io::Kind::surface, io::Kind::cloud}) +
@@ -153,9 +155,9 @@ void add_options(CLI::App& verb, Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_offset(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<OffsetArguments>();
   add_options(add_verb(program, session, arguments, "offset",
-                       "offset surfaces and curves; dilate, erode, open and close", run),
+                       "offset surfaces and curves; dilate, erode, open and close", run_offset),
               *arguments, session);
 }
 

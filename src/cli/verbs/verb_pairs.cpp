@@ -14,14 +14,14 @@ namespace littoral::cli {
 
 namespace {
 
-struct Arguments {
+struct PairsArguments {
   std::string domain;
   std::vector<std::string> out;
   std::vector<long long> vertices;
   MethodArguments method;
 };
 
-void run(Arguments& arguments, Session& session) {
+void run_pairs(PairsArguments& arguments, Session& session) {
   check_outputs(arguments.out, {io::Kind::table});
   const AnyMethod method = arguments.method.method();
   check_pairs_method(method);
@@ -46,10 +46,10 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_pairs(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PairsArguments>();
   CLI::App& verb =
       add_verb(program, session, arguments, "pairs",
-               "distance between all pairs of vertices of a surface, as a matrix", run);
+               "distance between all pairs of vertices of a surface, as a matrix", run_pairs);
   add_input_option(
       verb, "DOMAIN", arguments->domain,
       "the surface: " + kinds_help({io::Kind::surface, io::Kind::cloud, io::Kind::voxels}));

@@ -10,14 +10,14 @@ namespace littoral::cli {
 
 namespace {
 
-struct Arguments {
+struct QueryArguments {
   SpaceArguments space;
   std::string points;
   std::vector<std::string> out;
   bool gradient = false;
 };
 
-void run(Arguments& arguments, Session& session) {
+void run_query(QueryArguments& arguments, Session& session) {
   check_outputs(arguments.out, query_outputs);
   const CsgShapes shapes = read_shapes(arguments.space, session);
   const MatX3 queries = read_queries(arguments.points);
@@ -38,10 +38,10 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_query(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<QueryArguments>();
   CLI::App& verb =
       add_verb(program, session, arguments, "query",
-               "signed distance at given points, around a mesh, soup or point cloud", run);
+               "signed distance at given points, around a mesh, soup or point cloud", run_query);
   add_space_input(verb, arguments->space, session);
   add_points_option(verb, arguments->points, "where to evaluate: ")->required();
   add_output_option(verb, arguments->out,

@@ -17,9 +17,10 @@ namespace {
 
 using io::Kind;
 
-const io::Kinds outputs = {Kind::volume, Kind::tets, Kind::surface, Kind::page, Kind::picture};
+const io::Kinds space_outputs = {Kind::volume, Kind::tets, Kind::surface, Kind::page,
+                                 Kind::picture};
 
-struct Arguments {
+struct SdfArguments {
   SpaceArguments space;
   std::string levels = "0";
   std::vector<std::string> out;
@@ -42,7 +43,7 @@ std::vector<Isosurface> isosurfaces_of(const Volume& volume, const TetField& tet
   return surfaces;
 }
 
-void write_distance(const std::string& file, const Arguments& arguments, const Volume& volume,
+void write_distance(const std::string& file, const SdfArguments& arguments, const Volume& volume,
                     const TetField& tets, Session& session) {
   const std::vector<double> levels = parse_numbers("level", arguments.levels);
   const std::string& input = arguments.space.input;
@@ -59,8 +60,8 @@ void write_distance(const std::string& file, const Arguments& arguments, const V
   io::write_scene(file, scene);
 }
 
-void run(Arguments& arguments, Session& session) {
-  check_outputs(arguments.out, outputs);
+void run_sdf(SdfArguments& arguments, Session& session) {
+  check_outputs(arguments.out, space_outputs);
   for (const std::string& file : arguments.out)
     if (arguments.domain != "tets" && io::is_written_as(file, {Kind::tets}))
       throw InputError(file + " holds tets: they are there with --domain tets");
@@ -94,9 +95,9 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_sdf(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SdfArguments>();
   CLI::App& verb = add_verb(program, session, arguments, "sdf",
-                            "signed distance in space around a mesh, soup or point cloud", run);
+                            "signed distance in space around a mesh, soup or point cloud", run_sdf);
   add_space_input(verb, arguments->space, session);
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions({Kind::volume}) +

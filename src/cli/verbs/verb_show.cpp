@@ -40,7 +40,7 @@ struct TraceArguments {
   SpaceArguments space;  // its input is set from the verb's FILE
 };
 
-struct Arguments {
+struct ShowArguments {
   std::string in, out, field;
   std::vector<std::string> sources;
   io::PictureOptions picture;
@@ -123,7 +123,7 @@ io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
   return traced_scene(shapes, grid, traced, session.task(), session.report);
 }
 
-io::Scene scene_of(PolygonSoup soup, const Arguments& arguments, Session& session) {
+io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& session) {
   const std::string field = choose_field(soup, arguments.field, arguments.in, true);
   const bool cloud = soup.n_faces() == 0 && soup.lines.empty();
   io::Scene scene =
@@ -137,21 +137,21 @@ io::Scene scene_of(PolygonSoup soup, const Arguments& arguments, Session& sessio
 }
 
 /// The boundary, which --slice cuts open.
-io::Scene scene_of(const io::TetFile& file, const Arguments& arguments, Session& session) {
+io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
   return scene_of(view.position.empty() ? boundary_of(file)
                                         : cut_open(file, view.axis_number(), view.slice_at()),
                   arguments, session);
 }
 
-io::Scene scene_of(const Volume& volume, const Arguments& arguments, Session&) {
+io::Scene scene_of(const Volume& volume, const ShowArguments& arguments, Session&) {
   if (!arguments.sources.empty())
     throw InputError("option sources: sources are drawn on surfaces, " + arguments.in +
                      " is a volume");
   return volume_scene(volume, arguments.in, arguments.volume);
 }
 
-io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
+io::Scene read_scene_of(ShowArguments& arguments, bool for_page, Session& session) {
   if (arguments.trace.trace) {
     if (!arguments.sources.empty() || !arguments.field.empty())
       throw InputError("options --sources and --field do not go with --trace");
@@ -162,7 +162,7 @@ io::Scene read_scene_of(Arguments& arguments, bool for_page, Session& session) {
                     io::read_content(arguments.in, arguments.field));
 }
 
-io::Scene read_scene(Arguments& arguments, bool for_page, Session& session) {
+io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
   io::describe(scene, title_of(arguments.in), session.report);
   scene.isolines = arguments.isolines;
@@ -180,7 +180,7 @@ std::string page_text(const io::Scene& scene) {
   return io::read_bytes(page);
 }
 
-void view(Arguments& arguments, Session& session) {
+void view(ShowArguments& arguments, Session& session) {
   check_outputs({arguments.out.empty() ? "page.html" : arguments.out}, {io::Kind::page});
   const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
@@ -190,15 +190,16 @@ void view(Arguments& arguments, Session& session) {
     io::write_page(arguments.out, scene);
 }
 
-void render(Arguments& arguments, Session& session) {
+void render(ShowArguments& arguments, Session& session) {
   check_outputs({arguments.out}, {io::Kind::picture});
   const io::Scene scene = read_scene(arguments, false, session);
   session.print_warnings();
   io::write_picture(arguments.out, scene, arguments.picture);
 }
 
-CLI::App& add_show_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
-                        void (*job)(Arguments&, Session&), const char* name, const char* help) {
+CLI::App& add_show_verb(CLI::App& program, Session& session,
+                        std::shared_ptr<ShowArguments> arguments,
+                        void (*job)(ShowArguments&, Session&), const char* name, const char* help) {
   CLI::App& verb = add_verb(program, session, arguments, name, help, job);
   add_input_option(verb, "FILE", arguments->in,
                    "a surface or cloud, with values or without: " +
@@ -224,7 +225,7 @@ CLI::App& add_show_verb(CLI::App& program, Session& session, std::shared_ptr<Arg
 }  // namespace
 
 void add_view(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ShowArguments>();
   CLI::App& verb = add_show_verb(program, session, arguments, view, "view",
                                  "a page that shows a result in a browser, also offline");
   verb.add_option("-o,--output", arguments->out,
@@ -234,7 +235,7 @@ void add_view(CLI::App& program, Session& session) {
 }
 
 void add_render(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ShowArguments>();
   CLI::App& verb =
       add_show_verb(program, session, arguments, render, "render", "a picture, without a display");
   add_output_option(verb, arguments->out,

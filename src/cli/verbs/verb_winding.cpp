@@ -18,16 +18,16 @@ namespace {
 
 using io::Kind;
 
-const io::Kinds outputs = {Kind::field, Kind::page, Kind::picture};
+const io::Kinds region_outputs = {Kind::field, Kind::page, Kind::picture};
 
-struct Arguments {
+struct WindingArguments {
   std::string domain, points, curves, show = "region";
   std::vector<std::string> sources, out;
   MethodArguments method;
 };
 
-void write_regions(const std::string& file, const Arguments& arguments, const WindingAnswer& answer,
-                   const Report& report) {
+void write_regions(const std::string& file, const WindingArguments& arguments,
+                   const WindingAnswer& answer, const Report& report) {
   if (io::is_written_as(file, {Kind::table}))
     return io::write_table(file, {{"region"}, answer.region.cast<double>(), "face"});
   if (io::has_extension(file, ".obj"))
@@ -40,7 +40,7 @@ void write_regions(const std::string& file, const Arguments& arguments, const Wi
 }
 
 /// Winding numbers of a mesh, soup or cloud at points in space.
-void run_at_points(const Arguments& arguments, Session& session) {
+void run_at_points(const WindingArguments& arguments, Session& session) {
   if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.method.options.empty())
     throw InputError(
         "option points: winding numbers in space take no sources, no curves and no options");
@@ -56,12 +56,12 @@ void run_at_points(const Arguments& arguments, Session& session) {
   });
 }
 
-void run(Arguments& arguments, Session& session) {
+void run_winding(WindingArguments& arguments, Session& session) {
   if (!arguments.points.empty()) {
     run_at_points(arguments, session);
     return;
   }
-  check_outputs(arguments.out, outputs);
+  check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
     throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj");
   const AnyMethod method = arguments.method.method();
@@ -88,10 +88,10 @@ void run(Arguments& arguments, Session& session) {
 }  // namespace
 
 void add_winding(CLI::App& program, Session& session) {
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App& verb =
-      add_verb(program, session, arguments, "winding",
-               "regions that curves bound on a triangle mesh, and curves that bound nothing", run);
+  auto arguments = std::make_shared<WindingArguments>();
+  CLI::App& verb = add_verb(
+      program, session, arguments, "winding",
+      "regions that curves bound on a triangle mesh, and curves that bound nothing", run_winding);
   add_input_option(verb, "DOMAIN", arguments->domain,
                    kinds_help({Kind::surface}) +
                        ", or with --points a mesh, soup or cloud in space: " +
@@ -104,7 +104,7 @@ void add_winding(CLI::App& program, Session& session) {
       verb, arguments->points,
       "winding numbers in space, to " + io::written_extensions(query_outputs) + ", at: ");
   add_output_option(verb, arguments->out,
-                    "where to write: " + io::written_extensions(outputs) +
+                    "where to write: " + io::written_extensions(region_outputs) +
                         "; tables have labels of faces, .obj homogeneous texture coordinates, "
                         "others values at vertices");
   verb.add_option("--curves", arguments->curves,

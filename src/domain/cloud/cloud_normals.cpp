@@ -9,7 +9,7 @@
 
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "solve/direct/dense_decompositions.h"
+#include "base/dense_decompositions.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {

@@ -5,7 +5,7 @@
 #include "base/index.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
-#include "solve/direct/dense_decompositions.h"
+#include "base/dense_decompositions.h"
 
 namespace littoral {
 

@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/dense_decompositions.h"
 #include "io/render/scene_style.h"
 
 namespace littoral::io {
@@ -34,13 +34,13 @@ Eigen::Matrix3d moments(const Scene& scene, const SceneFrame& frame) {
 
 Vec3 front_view(const Eigen::Matrix3d& second) {
   // Horizontal principal axis of least extent: looking along it shows the most.
-  Eigen::Matrix2d flat;
-  flat << second(0, 0), second(0, 2), second(2, 0), second(2, 2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(flat);
-  const double narrow = std::sqrt(std::max(0.0, axes.eigenvalues()[0]));
-  const double wide = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
+  const double mean = (second(0, 0) + second(2, 2)) / 2, off = (second(0, 2) + second(2, 0)) / 2;
+  const double half = (second(0, 0) - second(2, 2)) / 2, apart = std::hypot(half, off);
+  const double narrow = std::sqrt(std::max(0.0, mean - apart));
+  const double wide = std::sqrt(std::max(0.0, mean + apart));
+  const double widest = std::atan2(off, half) / 2;  // angle from x
   Vec3 front(0, 0, 1);
-  if (narrow < 0.8 * wide) front = Vec3(axes.eigenvectors()(0, 0), 0, axes.eigenvectors()(1, 0));
+  if (narrow < 0.8 * wide) front = Vec3(-std::sin(widest), 0, std::cos(widest));
   if (front[2] < -0.3 || (front[2] < 0.3 && front[0] < 0)) front = -front;
   const double height = std::sqrt(std::max(0.0, second(1, 1)));
   const double degree = std::acos(-1.0) / 180;
@@ -83,13 +83,13 @@ SceneFrame scene_frame(const Scene& scene) {
   Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();  // rows: right, up, to the front
   if (z_is_up(low, high)) upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   const Eigen::Matrix3d second = moments(scene, frame);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second);
+  const Eigenvectors3 axes = symmetric_eigenvectors(second);
   Vec3 view;
   if (scene.volume) {
     view = Vec3::Constant(0.45);  // onto the slice
     view[scene.volume->axis] = 1;
-  } else if (axes.eigenvalues()[0] < 1e-6 * axes.eigenvalues()[2]) {
-    view = axes.eigenvectors().col(0);
+  } else if (axes.values[0] < 1e-6 * axes.values[2]) {
+    view = axes.vectors.col(0);
     Eigen::Index largest;
     view.cwiseAbs().maxCoeff(&largest);
     if (view[largest] < 0) view = -view;

@@ -1,7 +1,7 @@
 #include "solve/poisson/constrained_system.h"
 
 #include "base/index.h"
-#include "solve/direct/dense_decompositions.h"
+#include "base/dense_decompositions.h"
 
 namespace littoral {
 

@@ -1,4 +1,4 @@
-#include "solve/direct/dense_decompositions.h"
+#include "base/dense_decompositions.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -9,6 +9,12 @@ namespace littoral {
 Eigenvectors3 symmetric_eigenvectors(const Eigen::Matrix3d& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Vec3 least_eigenvector(const Eigen::Matrix3d& A) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(A);
+  return eigen.eigenvectors().col(0);
 }
 
 Vec3 solve_symmetric(const Eigen::Matrix3d& A, const Vec3& b) {

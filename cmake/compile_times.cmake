@@ -21,6 +21,11 @@ foreach(source ${littoral_hot_sources})
 endforeach()
 set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 
+# Eigen's decompositions of small matrices, as long to compile as a dozen other files.
+set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS
+  $<$<CONFIG:Release>:-O1>)
+set_property(SOURCE src/base/dense_decompositions.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+
 # GCC collects garbage when a few hundred MB are in use, a tenth of its time; it needs not much more
 # where it hardly does.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -1,5 +1,6 @@
-# OpenVDB (MPL 2), for writing .vdb: a module that the library loads when it is asked for one. Its own find module wants a dozen packages that this does not; what
-# its headers need (boost, Imath) shows when they are compiled.
+# OpenVDB (MPL 2), for writing .vdb: a module that the library loads when it is asked for one. Its own
+# find module wants a dozen packages that this does not; what its headers need (boost, Imath) shows
+# when they are compiled.
 include(CheckCXXSourceCompiles)
 find_path(OpenVDB_INCLUDE_DIR openvdb/openvdb.h)
 find_library(OpenVDB_LIBRARY openvdb)
@@ -37,6 +38,7 @@ target_include_directories(littoral_vdb SYSTEM PRIVATE ${OpenVDB_INCLUDE_DIR})
 target_link_libraries(littoral_vdb PRIVATE Eigen3::Eigen ${OpenVDB_LIBRARIES})
 target_compile_definitions(littoral_vdb PRIVATE LITTORAL_VERSION="${PROJECT_VERSION}" EIGEN_MPL2_ONLY)
 littoral_warnings(littoral_vdb)
+target_compile_options(littoral_vdb PRIVATE $<$<CONFIG:Release>:-O1>)
 if(LITTORAL_SANITIZE)
   target_compile_options(littoral_vdb PRIVATE
     -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/cmake/sanitizers.ignore)

@@ -20,6 +20,17 @@ struct Damage {
   double drop, reverse, offset;  // offset: of a second copy of the curve, in edge lengths
 };
 
+/// What answers for a broken curve.
+struct Answer {
+  const char* name;
+  AnyMethod method;
+};
+
+/// Mean over curves, for each damage and answer.
+struct Errors {
+  double distance = 0, area = 0;  // shares of the range, of the surface
+};
+
 int run(int n_meshes, char** meshes) {
   const Damage damages[] = {{"10 % missing", .1, 0, 0},
                             {"25 % missing", .25, 0, 0},
@@ -29,11 +40,15 @@ int run(int n_meshes, char** meshes) {
                             {"20 % reversed", 0, .2, 0},
                             {"curve and its offset, 50 % missing", .5, 0, 3},
                             {"the same, 10 % reversed", .5, .1, 3}};
-  constexpr std::size_t n_damages = std::size(damages);
-  std::printf("| mesh | faces |");
+  const Answer answers[] = {
+      {"default", Automatic{}},
+      {"zero set", Automatic{.completion = Completion::heat}},
+      {"shortest", Automatic{.completion = Completion::shortest}},
+      {"signed heat", SignedHeat{.time_scale = 1, .constraint = Constraint::none}}};
+  std::printf("| mesh | faces | answer |");
   for (const Damage& d : damages) std::printf(" %s |", d.name);
-  std::printf("\n|---|---|");
-  for (std::size_t d = 0; d < n_damages; ++d) std::printf("---|");
+  std::printf("\n|---|---|---|");
+  for (std::size_t d = 0; d < std::size(damages); ++d) std::printf("---|");
   std::printf("\n");
   for (int m = 0; m < n_meshes; ++m) {
     const SurfaceMesh mesh(io::read_surface(meshes[m]));
@@ -42,38 +57,45 @@ int run(int n_meshes, char** meshes) {
     const SurfaceDiscretization on(domain, {}, report);
     const VecX& M = on.operators()->scalar.M;
     const double edge = on.triangulation()->mean_edge_length * on.triangulation()->unit;
-    const auto prepared = [&](Constraint constraint) {
-      return prepare(AnyMethod(SignedHeat{.time_scale = 1, .constraint = constraint}), domain,
-                     SolveHint::many_rhs, {}, report);
+    const auto prepared = [&](const AnyMethod& method) {
+      return prepare(method, domain, SolveHint::many_rhs, {}, report);
     };
-    const auto held = prepared(Constraint::zero_set), free = prepared(Constraint::none);
-    std::vector<double> error(n_damages, 0.0), area(n_damages, 0.0);
+    const auto truth = prepared(Automatic{});
+    std::vector<std::shared_ptr<const Solver<SurfaceDomain>>> solvers;
+    for (const Answer& answer : answers) solvers.push_back(prepared(answer.method));
+    Errors errors[std::size(answers)][std::size(damages)];
     const auto functions = eigenfunctions(*on.operators(), 5);
+    const double share = 1 / static_cast<double>(functions.size());
     for (std::size_t k = 0; k < functions.size(); ++k) {
       const Sources curves = whole(isolines(mesh, functions[k], 0));
-      const VecX phi = held->solve(curves, {}, report).values;
+      const VecX phi = truth->solve(curves, {}, report).values;
       const double range = phi.maxCoeff() - phi.minCoeff();
-      for (std::size_t d = 0; d < n_damages; ++d) {
+      for (std::size_t d = 0; d < std::size(damages); ++d) {
         Sources input = damaged(curves, damages[d].drop, damages[d].reverse, unsigned(k));
         if (damages[d].offset > 0) {
           const auto copy = damaged(whole(isolines(mesh, phi, damages[d].offset * edge)),
                                     damages[d].drop, damages[d].reverse, unsigned(k) + 100);
           input.curves.insert(input.curves.end(), copy.curves.begin(), copy.curves.end());
         }
-        const VecX broken = free->solve(input, {}, report).values;
-        double e = 0, wrong = 0;
-        for (Eigen::Index i = 0; i < phi.size(); ++i) {
-          e += M[i] * std::abs(broken[i] - phi[i]);
-          if (broken[i] * phi[i] < 0) wrong += M[i];
+        for (std::size_t a = 0; a < std::size(answers); ++a) {
+          const VecX broken = solvers[a]->solve(input, {}, report).values;
+          double e = 0, wrong = 0;
+          for (Eigen::Index i = 0; i < phi.size(); ++i) {
+            e += M[i] * std::abs(broken[i] - phi[i]);
+            if (broken[i] * phi[i] < 0) wrong += M[i];
+          }
+          errors[a][d].distance += share * e / M.sum() / range;
+          errors[a][d].area += share * wrong / M.sum();
         }
-        error[d] += e / M.sum() / range / static_cast<double>(functions.size());
-        area[d] += wrong / M.sum() / static_cast<double>(functions.size());
       }
     }
-    std::printf("| %s | %d |", std::filesystem::path(meshes[m]).stem().c_str(), mesh.n_faces());
-    for (std::size_t d = 0; d < n_damages; ++d)
-      std::printf(" %.1f / %.1f |", 100 * error[d], 100 * area[d]);
-    std::printf("\n");
+    for (std::size_t a = 0; a < std::size(answers); ++a) {
+      std::printf("| %s | %d | %s |", std::filesystem::path(meshes[m]).stem().c_str(),
+                  mesh.n_faces(), answers[a].name);
+      for (const Errors& e : errors[a])
+        std::printf(" %.2f / %.2f |", 100 * e.distance, 100 * e.area);
+      std::printf("\n");
+    }
     std::fflush(stdout);
   }
   return 0;

@@ -11,6 +11,23 @@ namespace littoral {
 
 // ---------------------------------------------------------------------------- on surfaces
 
+/// How broken signed curves become whole: by the shortest curves that make them bound, by the zero
+/// set of the signed heat method, not at all; automatic: not where they bound, by the shortest
+/// curves where little is missing, by the zero set where much is.
+enum class Completion { automatic, shortest, heat, none };
+
+/// What measures how far: exact polyhedral distance, fast marching, or the signed heat method
+/// itself; automatic: the most accurate that the surface allows.
+enum class Metric { automatic, exact, fast_marching, heat };
+
+/// The default: signed curves are completed where they are broken, and distance is measured from
+/// both. Exact on triangle meshes where curves bound, for unsigned curves and for points.
+struct Automatic {
+  static constexpr const char* method = "auto";
+  Completion completion = Completion::automatic;
+  Metric metric = Metric::automatic;
+};
+
 /// How values at the source are held (signed heat method, section 7.1).
 enum class Constraint { none, zero_set, level_sets };
 

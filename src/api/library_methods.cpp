@@ -34,7 +34,7 @@ std::vector<MethodFamily> families() {
 template <>
 std::vector<Method<SurfaceDomain>> library_methods() {
   return all_of<SurfaceDomain>(
-      {heat_methods, geodesic_methods, quadratic_methods, regularized_methods});
+      {automatic_methods, heat_methods, geodesic_methods, quadratic_methods, regularized_methods});
 }
 
 template <>

@@ -14,6 +14,13 @@ void check_has_option(const MethodInfo& method, const std::string& option) {
                    "'; it has: " + (known.empty() ? "none" : known));
 }
 
+bool has_options(const MethodInfo& method, const AnyMethod& choice) {
+  return std::all_of(choice.values().begin(), choice.values().end(), [&](const auto& given) {
+    return std::any_of(method.options.begin(), method.options.end(),
+                       [&](const OptionInfo& info) { return info.name == given.first; });
+  });
+}
+
 void check_domain(const MethodInfo& method, const std::string& kind,
                   const std::vector<MethodInfo>& all) {
   const auto runs = [&](const MethodInfo& m) {

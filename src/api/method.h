@@ -185,20 +185,31 @@ class Registry {
 void check_domain(const MethodInfo& method, const std::string& kind,
                   const std::vector<MethodInfo>& all);
 
+/// Has the method all options that the choice gives by name?
+bool has_options(const MethodInfo& method, const AnyMethod& choice);
+
+/// The method of the choice's name or, where it names none, the first with all its options.
+template <class D>
+std::shared_ptr<const Method<D>> chosen_method(const AnyMethod& choice) {
+  if (!choice.name().empty()) return Registry<D>::instance().find(choice.name());
+  const auto all = Registry<D>::instance().all();
+  for (const auto& method : all)
+    if (has_options(method->info, choice)) return method;
+  return all.front();
+}
+
 /// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
 template <class D>
 void check_method(const AnyMethod& choice) {
-  if (!choice.name().empty()) Registry<D>::instance().find(choice.name())->options(choice);
+  chosen_method<D>(choice)->options(choice);
 }
 
-/// Prepares the chosen method or, where the choice names none, the first that the library has.
+/// Prepares the chosen method or, where the choice names none, the first with its options.
 /// Throws InputError and UnsupportedError before anything is computed.
 template <class D>
 std::shared_ptr<const Solver<D>> prepare(const AnyMethod& choice, const D& domain, SolveHint hint,
                                          const Task& task, Report& report) {
-  const auto all = Registry<D>::instance().all();
-  const auto method =
-      choice.name().empty() ? all.front() : Registry<D>::instance().find(choice.name());
+  const auto method = chosen_method<D>(choice);
   const std::any options = method->options(choice);
   report.method = method->info.name;
   report.domain = domain.kind();

@@ -87,6 +87,23 @@ class Nearby {
 
 }  // namespace
 
+bool append_step(const SurfaceMesh& mesh, const SurfacePoint& p, const SurfacePoint& q,
+                 bool goes_on, PlacedSources& to) {
+  CurvePiece piece;
+  piece.is_signed = false;
+  piece.face = common_face(mesh, p, q);
+  piece.length = (mesh.position(q) - mesh.position(p)).norm();
+  if (piece.face < 0 || !(piece.length > 0)) return false;
+  if (!goes_on) ++to.n_curves, to.nodes.push_back({p});
+  to.nodes.back().push_back(q);
+  piece.curve = to.n_curves - 1;
+  piece.edge = common_edge(mesh, p, q);
+  piece.a = barycentrics_in(mesh, p, piece.face).value();
+  piece.b = barycentrics_in(mesh, q, piece.face).value();
+  to.pieces.push_back(piece);
+  return true;
+}
+
 PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sources,
                                const VecX& phi) {
   PlacedSources out = sources;
@@ -98,22 +115,10 @@ PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sou
     for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
       const SurfacePoint p = simplest(mesh, line.nodes[i]);
       const SurfacePoint q = simplest(mesh, line.nodes[(i + 1) % n]);
-      const Vec3 x = mesh.position(p), y = mesh.position(q);
-      CurvePiece piece;
-      piece.face = common_face(mesh, p, q);
-      piece.length = (y - x).norm();
-      if (piece.face < 0 || !(piece.length > 0) || given.has_beside(piece.face, 0.5 * (x + y))) {
-        goes_on = false;
-        continue;
-      }
-      if (!goes_on) ++out.n_curves, out.nodes.push_back({p});
-      goes_on = true;
-      out.nodes.back().push_back(q);
-      piece.curve = out.n_curves - 1;
-      piece.edge = common_edge(mesh, p, q);
-      piece.a = barycentrics_in(mesh, p, piece.face).value();
-      piece.b = barycentrics_in(mesh, q, piece.face).value();
-      out.pieces.push_back(piece);
+      const int face = common_face(mesh, p, q);
+      const Vec3 middle = 0.5 * (mesh.position(p) + mesh.position(q));
+      goes_on =
+          face >= 0 && !given.has_beside(face, middle) && append_step(mesh, p, q, goes_on, out);
     }
   }
   return out;

@@ -18,6 +18,12 @@ namespace littoral {
 PlacedSources completed_curves(const SurfaceMesh& mesh, const PlacedSources& sources,
                                const VecX& phi);
 
+/// Appends the straight step between two points of one face (in their simplest form) as part of an
+/// unsigned curve: of the last one if `goes_on`, else of a new one. False, and nothing appended,
+/// where no face holds both or they coincide.
+bool append_step(const SurfaceMesh& mesh, const SurfacePoint& p, const SurfacePoint& q,
+                 bool goes_on, PlacedSources& to);
+
 /// Signs: to the left (+1) or right (-1) of the nearest signed piece in triangles that hold one, of
 /// phi elsewhere, and +1 everywhere if no curve is signed.
 class CurveSides {

@@ -95,6 +95,12 @@ SurfaceAnswer SurfaceDiscretization::at_input(const VecX& values) const {
   return out;
 }
 
+JumpSurface::JumpSurface(const SurfaceMesh& mesh, Report& report)
+    : T(intrinsic_triangulation(mesh, report)) {
+  const Stopwatch watch(report, "operators");
+  J = std::make_shared<const JumpCalculus>(jump_calculus(T));
+}
+
 CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report) {
   const SurfaceMesh& input = *domain.mesh;
   CutPolygons cut{

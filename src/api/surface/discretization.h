@@ -10,6 +10,7 @@
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "domain/mesh/nodal_surface.h"
 #include "operators/calculus.h"
+#include "operators/jump_calculus.h"
 #include "sources/pieces.h"
 #include "sources/source_system.h"
 
@@ -51,6 +52,14 @@ class SurfaceDiscretization {
   std::shared_ptr<const IntrinsicTriangulation> T_;
   std::shared_ptr<const NodalSurface> nodal_;  // of all but triangle meshes
   std::shared_ptr<const Operators> ops_;
+};
+
+/// A triangle mesh as operators of functions that jump across edges.
+struct JumpSurface {
+  IntrinsicTriangulation T;
+  std::shared_ptr<const JumpCalculus> J;
+
+  JumpSurface(const SurfaceMesh& mesh, Report& report);
 };
 
 /// A polygon mesh cut into triangles on its own vertices; sources follow.

@@ -85,13 +85,13 @@ bool runs_along(const SurfaceMesh& mesh, int f, int e) {
   return true;
 }
 
-struct Orientation {
+struct EdgeTurns {
   int inconsistent_edges = 0;
   bool orientable = true;
 };
 
-Orientation orientation_of(const SurfaceMesh& mesh) {
-  Orientation out;
+EdgeTurns orientation_of(const SurfaceMesh& mesh) {
+  EdgeTurns out;
   const int n = mesh.n_faces();
   DisjointSets sets(2 * n);  // face f as given: f; reversed: f + n
   for (int e = 0; e < mesh.n_edges(); ++e) {
@@ -230,7 +230,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   int n_nonmanifold = 0, n_boundary = 0;
   for (int e = 0; e < mesh.n_edges(); ++e) n_nonmanifold += mesh.edge_faces(e).size() > 2;
   const int n_loops = count_boundary_loops(mesh, n_boundary);
-  const Orientation orientation = orientation_of(mesh);
+  const EdgeTurns orientation = orientation_of(mesh);
   const CsgShapes shapes = shapes_of(mesh, diagonal);
 
   std::vector<InfoEntry> out;

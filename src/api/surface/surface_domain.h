@@ -39,6 +39,7 @@ SurfaceDomain domain_of(const SurfaceMesh& mesh, const MatX3* face_normals = nul
 template <>
 std::vector<Method<SurfaceDomain>> library_methods();
 // Its families:
+std::vector<Method<SurfaceDomain>> automatic_methods();  // completes, then measures
 std::vector<Method<SurfaceDomain>> heat_methods();       // signed and unsigned
 std::vector<Method<SurfaceDomain>> geodesic_methods();   // exact polyhedral, fast marching
 std::vector<Method<SurfaceDomain>> quadratic_methods();  // quadratic-order geodesics

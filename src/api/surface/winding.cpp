@@ -6,15 +6,14 @@
 #include <memory>
 
 #include "api/surface/discretization.h"
+#include "api/surface/edge_chains.h"
 #include "api/surface/face_chains.h"
 #include "base/lazy.h"
 #include "base/stopwatch.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
 #include "domain/mesh/split_at_jumps.h"
 #include "littoral/error.h"
 #include "methods/winding/dual_winding.h"
 #include "methods/winding/nonconforming_winding.h"
-#include "operators/jump_calculus.h"
 #include "sources/conform.h"
 #include "sources/triangle_sources.h"
 
@@ -22,38 +21,9 @@ namespace littoral {
 
 namespace {
 
-/// Joins directed edges, each as often as it counts, head to tail into polylines of vertices.
-std::vector<std::vector<int>> chains(const SurfaceMesh& mesh, const VecX& times) {
-  std::multimap<int, int> out;  // vertex -> next
-  std::map<int, int> surplus;
-  for (int e = 0; e < mesh.n_edges(); ++e) {
-    const long n = std::lround(std::abs(times[e]));
-    for (long i = 0; i < n; ++i) {
-      const int a = mesh.edges()(e, times[e] > 0 ? 0 : 1);
-      const int b = mesh.edges()(e, times[e] > 0 ? 1 : 0);
-      out.emplace(a, b);
-      ++surplus[a];
-      --surplus[b];
-    }
-  }
-  std::vector<std::vector<int>> lines;
-  const auto follow = [&](int v) {
-    std::vector<int>& line = lines.emplace_back(1, v);
-    for (auto it = out.find(v); it != out.end(); it = out.find(v)) {
-      v = it->second;
-      out.erase(it);
-      line.push_back(v);
-    }
-  };
-  for (const auto& [v, n] : surplus)  // ends of open curves first
-    for (int i = 0; i < n; ++i) follow(v);
-  while (!out.empty()) follow(out.begin()->first);
-  return lines;
-}
-
 Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
   Polylines lines;
-  for (const std::vector<int>& chain : chains(mesh, times)) {
+  for (const std::vector<int>& chain : edge_chains(mesh, times)) {
     MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(chain.size()), 3);
     for (std::size_t i = 0; i < chain.size(); ++i)
       line.row(static_cast<Eigen::Index>(i)) = mesh.point(chain[i]);
@@ -199,17 +169,6 @@ void check_combination(const SurfaceWinding& options) {
         "option labels: cut needs curves along edges, formulation primal or dual");
 }
 
-/// A mesh that no curve cuts, as operators.
-struct Uncut {
-  IntrinsicTriangulation T;
-  std::shared_ptr<const JumpCalculus> J;
-
-  Uncut(const SurfaceMesh& mesh, Report& report) : T(intrinsic_triangulation(mesh, report)) {
-    const Stopwatch watch(report, "operators");
-    J = std::make_shared<const JumpCalculus>(jump_calculus(T));
-  }
-};
-
 class WindingOnSurface {
  public:
   explicit WindingOnSurface(WindingDomain domain) : domain_(std::move(domain)) {}
@@ -230,7 +189,7 @@ class WindingOnSurface {
     if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());
     task.checkpoint();
     // Without cuts the mesh is the input, numbers and all.
-    const auto made = [&] { return std::make_shared<const Uncut>(cut, report); };
+    const auto made = [&] { return std::make_shared<const JumpSurface>(cut, report); };
     const auto on = curves.is_cut ? made() : uncut_.get(made);
     const IntrinsicTriangulation& T = on->T;
     const auto& J = on->J;
@@ -265,7 +224,7 @@ class WindingOnSurface {
 
  private:
   WindingDomain domain_;
-  Kept<Uncut> uncut_;
+  Kept<JumpSurface> uncut_;
 };
 
 }  // namespace
@@ -293,7 +252,7 @@ std::vector<Method<WindingDomain>> library_methods() {
 
 Sources bounding_sources(const WindingAnswer& answer) {
   Sources sources;
-  for (const auto& chain : chains(answer.cut.mesh, answer.numbers.bounding)) {
+  for (const auto& chain : edge_chains(answer.cut.mesh, answer.numbers.bounding)) {
     Curve curve;
     for (int v : chain) curve.nodes.push_back(answer.cut.point[v]);
     sources.curves.push_back(std::move(curve));

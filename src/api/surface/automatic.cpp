@@ -1,0 +1,118 @@
+// Complete, then measure: the default for distance on surfaces.
+//
+// Where curves break, which side is which is one question and how far is another. Curves are made
+// whole first, which settles the sides; then distance to all of that is measured by what is most
+// accurate, and takes its sign from the sides.
+
+#include <memory>
+
+#include "api/surface/discretization.h"
+#include "api/surface/whole_curves.h"
+#include "base/stopwatch.h"
+#include "littoral/error.h"
+#include "methods/geodesic/exact_polyhedral.h"
+#include "methods/geodesic/fast_marching.h"
+#include "sources/triangle_sources.h"
+
+namespace littoral {
+
+namespace {
+
+const OptionTable<Automatic>& automatic_options() {
+  using O = Automatic;
+  static const OptionTable<O> table =
+      OptionTable<O>()
+          .choice(&O::completion, "completion", {"auto", "shortest", "heat", "none"},
+                  "How broken signed curves become whole: by the shortest curves that make them "
+                  "bound, by the zero set of the signed heat method, or not at all; auto: not "
+                  "where they bound, by the shortest curves where little is missing, by the zero "
+                  "set where much is.")
+          .choice(&O::metric, "metric", {"auto", "exact", "fast-marching", "heat"},
+                  "What measures distance to the curves made whole: exact polyhedral distance, "
+                  "fast marching, or signed heat itself; auto: exact on triangle and polygon "
+                  "meshes, heat elsewhere.");
+  return table;
+}
+
+class AutomaticOnTriangles {
+ public:
+  AutomaticOnTriangles(const SurfaceDomain& domain, SolveHint hint, Report& report)
+      : domain_(domain), T_(triangulation_of(domain, report)), curves_(domain, T_, hint) {}
+
+  SurfaceAnswer solve(const Sources& given, Automatic& options, Task& task, Report& report) const {
+    const PlacedSources placed =
+        place_sources(domain_, given, task.stage(0.05, "placing the sources"), report);
+    const WholeSources whole = curves_.complete(given, placed, options.completion,
+                                                task.stage(0.4, "completing the curves"), report);
+    options.completion = whole.by;
+    const TriangleSources on = triangle_sources(*domain_.mesh, *T_, whole.sources);
+    const Stopwatch watch(report, "distance");
+    const Task measuring = task.stage(0.55, "walking over the mesh");
+    if (options.metric == Metric::automatic) options.metric = Metric::exact;
+    const VecX distance = options.metric == Metric::exact
+                              ? exact_polyhedral(*T_, on, measuring, report)
+                              : fast_marching(*T_, on, measuring, report).cwiseAbs();
+    return {distance.cwiseProduct(whole.sign).array() + 0.0, {}};  // no negative zeros
+  }
+
+ private:
+  SurfaceDomain domain_;
+  std::shared_ptr<const IntrinsicTriangulation> T_;
+  WholeCurves curves_;
+};
+
+/// Surfaces without triangles: signed heat completes and measures at once.
+std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat(
+    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
+    Report& report) {
+  if (options.completion != Completion::automatic && options.completion != Completion::heat)
+    throw UnsupportedError("option completion: with metric heat there is heat only, as on a " +
+                           domain.kind());
+  return [heat = prepare<SurfaceDomain>(SignedHeat{}, domain, hint, task, report)](
+             const Sources& sources, Automatic& used, Task& t, Report& r) {
+    used.completion = Completion::heat;
+    used.metric = Metric::heat;
+    const std::string name = r.method;
+    SurfaceAnswer answer = heat->solve(sources, t, r);
+    r.method = name;
+    return answer;
+  };
+}
+
+std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> automatic(
+    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
+    Report& report) {
+  const std::string kind = domain.kind();
+  if (kind != "triangle mesh" && kind != "polygon mesh" && options.metric != Metric::automatic &&
+      options.metric != Metric::heat)
+    throw UnsupportedError("option metric: only heat measures on a " + kind);
+  if (options.metric == Metric::heat || (kind != "triangle mesh" && kind != "polygon mesh"))
+    return by_heat(domain, options, hint, task, report);
+  if (kind == "triangle mesh")
+    return [method = std::make_shared<const AutomaticOnTriangles>(domain, hint, report)](
+               const Sources& sources, Automatic& used, Task& t, Report& r) {
+      return method->solve(sources, used, t, r);
+    };
+  Report quiet;  // that polygons are cut needs no warning where nobody asked for triangles
+  auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, quiet));
+  return [cut, method = std::make_shared<const AutomaticOnTriangles>(cut->triangles, hint, report)](
+             const Sources& sources, Automatic& used, Task& t, Report& r) {
+    return method->solve(cut->cut(sources), used, t, r);
+  };
+}
+
+}  // namespace
+
+std::vector<Method<SurfaceDomain>> automatic_methods() {
+  return {make_method<SurfaceDomain>(
+      {Automatic::method,
+       "Signed distance to curves that may be broken and unsigned distance to others and to "
+       "points: curves are made whole, then distance is measured exactly where the surface allows.",
+       all_surfaces(),
+       {},
+       "completion: Feng, Crane (2024) and Feng, Gillespie, Crane (2023); distance: Mitchell, "
+       "Mount, Papadimitriou (1987)"},
+      automatic_options(), automatic)};
+}
+
+}  // namespace littoral

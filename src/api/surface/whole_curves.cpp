@@ -1,0 +1,231 @@
+#include "api/surface/whole_curves.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "api/surface/edge_chains.h"
+#include "base/stopwatch.h"
+#include "littoral/error.h"
+#include "methods/winding/shortest_completion.h"
+#include "sources/completed_curves.h"
+#include "sources/conform.h"
+#include "sources/straighten.h"
+#include "sources/surface_points.h"
+
+namespace littoral {
+
+namespace {
+
+// The shortest completion is trusted up to that share of the curve that is given.
+constexpr double trusted_share = 0.5;
+// A jump that contradicts the curve costs less on the curve than beside it: reversed pieces are
+// evidence of a boundary, too.
+constexpr double weight_on_curve = 0.7;
+
+std::vector<CurvePiece> pieces_with_sides(const PlacedSources& sources) {
+  std::vector<CurvePiece> pieces;
+  for (const CurvePiece& piece : sources.pieces)
+    if (piece.is_signed) pieces.push_back(piece);
+  return pieces;
+}
+
+}  // namespace
+
+/// Integer winding numbers on the mesh cut along curves.
+struct WholeCurves::Labelled {
+  ConformingCurves curves;
+  std::shared_ptr<const JumpSurface> on;
+  ShortestCompletion labels;
+  std::vector<int> component;  // triangles -> component of the input, -1: none
+
+  int added(int e) const { return curves.times[e] == 0 ? static_cast<int>(labels.jump[e]) : 0; }
+};
+
+int WholeCurves::component_of(int face) const {
+  return domain_.mesh->vertex_component()[domain_.mesh->face(face)[0]];
+}
+
+WholeCurves::Labelled WholeCurves::labelled(const std::vector<CurvePiece>& pieces,
+                                            const Task& task) const {
+  Report quiet;  // the mesh has been spoken of
+  Labelled out{conform(*domain_.mesh, pieces), {}, {}, {}};
+  const CutMesh& cut = out.curves.cut;
+  const auto made = [&] { return std::make_shared<const JumpSurface>(cut.mesh, quiet); };
+  out.on = out.curves.is_cut ? made() : uncut_.get(made);
+  out.labels = shortest_completion(*out.on->J, out.curves.times, weight_on_curve, task, quiet);
+  out.component.assign(static_cast<std::size_t>(out.on->J->n_faces), -1);
+  for (int f = 0; f < cut.mesh.n_faces(); ++f)
+    if (const int t = out.on->T.triangle_of_face[f]; t >= 0)
+      out.component[t] = component_of(cut.parent_face[f]);
+  return out;
+}
+
+WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& placed,
+                                   Completion how, Task task, Report& report) const {
+  WholeSources whole{placed, VecX::Ones(domain_.mesh->n_vertices()), Completion::none};
+  if (pieces_with_sides(placed).empty()) return whole;
+  const Stopwatch watch(report, "completion");
+  std::vector<char> settled(static_cast<std::size_t>(T_->n_components), 0);
+  if (how != Completion::heat)
+    settled = settle(placed, how, whole, task.stage(0.4, "integer winding numbers"), report);
+  std::vector<char> open(settled.size(), 0);
+  for (const CurvePiece& piece : placed.pieces) {
+    const int c = component_of(piece.face);
+    if (piece.is_signed && c >= 0 && !settled[c]) open[c] = 1;
+  }
+  if (std::find(open.begin(), open.end(), 1) == open.end()) return whole;
+  if (how == Completion::none)
+    throw InputError(
+        "option completion: none needs curves that bound; these have gaps, reversed "
+        "pieces or no inside");
+  complete_by_heat(given, placed, open, whole, task.stage(0.6, "signed heat"), report);
+  whole.by = Completion::heat;
+  return whole;
+}
+
+std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion how,
+                                      WholeSources& whole, Task task, Report& report) const {
+  std::vector<char> settled(static_cast<std::size_t>(T_->n_components), 1);
+  const std::optional<Labelled> maybe = [&]() -> std::optional<Labelled> {
+    try {
+      return labelled(pieces_with_sides(placed), task.stage(0.6, "shortest completion"));
+    } catch (const UnsupportedError&) {  // a curve where three faces meet; heat does without
+      return {};
+    }
+  }();
+  if (!maybe) return std::vector<char>(settled.size(), 0);
+  const Labelled& found = *maybe;
+  const double unit = found.on->T.unit;
+  double given = 0, added = 0, overruled = 0;
+  for (const ShortestCompletion::Part& part : found.labels.parts) {
+    given += part.given * unit;
+    added += part.added * unit;
+    overruled += part.overruled * unit;
+  }
+  report.sizes.emplace_back("given_length", given);
+  report.sizes.emplace_back("shortest_completion_length", added);
+  report.sizes.emplace_back("overruled_length", overruled);
+  std::vector<char> completed(found.labels.parts.size(), 0);
+  for (int t = 0; t < found.on->J->n_faces; ++t) {
+    const int part = found.on->J->component[t];
+    const ShortestCompletion::Part& p = found.labels.parts[part];
+    const bool wanted = how == Completion::shortest ||
+                        (how == Completion::automatic && p.added <= trusted_share * p.given);
+    if (p.given > 0 && (p.largest != 1 || !(p.bounds() || wanted)) && found.component[t] >= 0)
+      settled[found.component[t]] = 0;
+    completed[part] = !p.bounds();
+  }
+  bool any = false;
+  for (int t = 0; t < found.on->J->n_faces; ++t)
+    any = any || (completed[found.on->J->component[t]] && found.component[t] >= 0 &&
+                  settled[found.component[t]]);
+  whole.by = any ? Completion::shortest : Completion::none;
+  if (any && straighten_completion(found, settled, whole, task.stage(1, "straightening")))
+    return settled;
+  add_sides(found, settled, whole);
+  for (const auto& chain : edge_chains(
+           found.curves.cut.mesh, VecX::NullaryExpr(found.labels.jump.size(), [&](Eigen::Index e) {
+             return found.added(e);
+           }))) {
+    bool goes_on = false;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      goes_on = append_step(
+          *domain_.mesh, simplest(*domain_.mesh, found.curves.cut.point[chain[i]]),
+          simplest(*domain_.mesh, found.curves.cut.point[chain[i + 1]]), goes_on, whole.sources);
+  }
+  return settled;
+}
+
+/// Completions run along edges; shortened, they end as geodesics. The labels follow. False if these
+/// then take more than two values, where a geodesic crosses the curve.
+bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vector<char>& settled,
+                                        WholeSources& whole, const Task& task) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
+  const CutMesh& cut = zigzag.curves.cut;
+  const JumpCalculus& J = *zigzag.on->J;
+  VecX added = VecX::Zero(J.n_edges), kept = added;
+  for (int e = 0; e < J.n_edges; ++e) {
+    if (zigzag.labels.jump[e] == 0 || !J.interior(e)) continue;
+    const int c = zigzag.component[J.sides[e][0].face];
+    if (c < 0 || !settled[c]) continue;
+    (zigzag.added(e) != 0 ? added : kept)[e] = zigzag.labels.jump[e];
+  }
+  const auto at = [&](int v) { return simplest(mesh, cut.point[v]); };
+  PlacedSources boundary, completion;
+  for (const auto& chain : edge_chains(cut.mesh, kept)) {
+    bool goes_on = false;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      goes_on = append_step(mesh, at(chain[i]), at(chain[i + 1]), goes_on, boundary);
+  }
+  for (const auto& chain : edge_chains(cut.mesh, added)) {
+    SurfacePath path;
+    for (const int v : chain) path.nodes.push_back(at(v));
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      path.faces.push_back(common_face(mesh, path.nodes[i], path.nodes[i + 1]));
+    if (std::find(path.faces.begin(), path.faces.end(), -1) != path.faces.end()) return false;
+    straighten(mesh, path, 1 / T_->unit, task);
+    bool goes_on = false;
+    for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) {
+      append_step(mesh, path.nodes[i], path.nodes[i + 1], goes_on, completion);
+      goes_on = append_step(mesh, path.nodes[i], path.nodes[i + 1], goes_on, boundary);
+    }
+  }
+  for (CurvePiece& piece : boundary.pieces) piece.is_signed = true;
+  const Labelled straight = labelled(boundary.pieces, task);
+  for (int t = 0; t < straight.on->J->n_faces; ++t) {
+    const ShortestCompletion::Part& part = straight.labels.parts[straight.on->J->component[t]];
+    const int c = straight.component[t];
+    if (c >= 0 && settled[c] && part.given > 0 && !(part.bounds() && part.largest == 1))
+      return false;
+  }
+  add_sides(straight, settled, whole);
+  for (CurvePiece piece : completion.pieces) {
+    piece.curve += whole.sources.n_curves;
+    whole.sources.pieces.push_back(piece);
+  }
+  whole.sources.n_curves += completion.n_curves;
+  whole.sources.nodes.insert(whole.sources.nodes.end(), completion.nodes.begin(),
+                             completion.nodes.end());
+  return true;
+}
+
+void WholeCurves::add_sides(const Labelled& on, const std::vector<char>& settled,
+                            WholeSources& whole) const {
+  const JumpCalculus& J = *on.on->J;
+  for (int t = 0; t < J.n_faces; ++t) {
+    const int c = on.component[t];
+    if (c < 0 || !settled[c] || on.labels.parts[J.component[t]].largest == 0) continue;
+    if (on.labels.region[t] > 0) continue;
+    for (int k = 0; k < 3; ++k)  // vertices of the input come first
+      if (const int v = on.on->T.faces(t, k); v < domain_.mesh->n_vertices()) whole.sign[v] = -1;
+  }
+}
+
+void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& placed,
+                                   const std::vector<char>& open, WholeSources& whole, Task task,
+                                   Report& report) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
+  Report quiet;  // mesh and sources have been spoken of
+  const auto heat = heat_.get([&] {
+    return prepare<SurfaceDomain>(SignedHeat{}, domain_, hint_, task.stage(0.6, "factoring"),
+                                  quiet);
+  });
+  const VecX phi = heat->solve(given, task.stage(0.4, "solving"), quiet).values;
+  const PlacedSources completed = completed_curves(mesh, placed, phi);
+  const VecX sign = CurveSides(mesh, *T_, placed, phi).at_vertices();
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (const int c = mesh.vertex_component()[v]; c >= 0 && open[c]) whole.sign[v] = sign[v];
+  double added = 0;
+  for (std::size_t i = placed.pieces.size(); i < completed.pieces.size(); ++i) {
+    CurvePiece piece = completed.pieces[i];
+    const int c = component_of(piece.face);
+    if (c < 0 || !open[c]) continue;
+    added += piece.length;
+    whole.sources.nodes.push_back(completed.nodes[piece.curve]);
+    piece.curve = whole.sources.n_curves++;
+    whole.sources.pieces.push_back(piece);
+  }
+  report.sizes.emplace_back("heat_completion_length", added);
+}
+
+}  // namespace littoral

@@ -1,0 +1,52 @@
+#pragma once
+// Broken signed curves on triangle meshes, made whole so that they have sides.
+
+#include <memory>
+
+#include "api/surface/discretization.h"
+#include "base/lazy.h"
+#include "littoral/options.h"
+
+namespace littoral {
+
+/// Sources, made whole, and which side of them each vertex is on.
+struct WholeSources {
+  PlacedSources sources;  // as given, then what completes them as unsigned curves
+  VecX sign;              // vertices, +1 or -1; +1 on components without signed curves
+  Completion by = Completion::none;
+};
+
+/// Completes curves on one mesh, each component by itself; for several threads.
+class WholeCurves {
+ public:
+  WholeCurves(SurfaceDomain domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint)
+      : domain_(std::move(domain)), T_(std::move(T)), hint_(hint) {}
+
+  /// Curves that bound stay as they are and integer winding numbers give their sides. Others get
+  /// the shortest completion or, where that is long, the zero set of the signed heat method.
+  /// Reports lengths: given, of completions, and of the curve that these overrule. Throws
+  /// InputError if Completion::none is asked for and the curves do not bound.
+  WholeSources complete(const Sources& given, const PlacedSources& placed, Completion how,
+                        Task task, Report& report) const;
+
+ private:
+  struct Labelled;
+  Labelled labelled(const std::vector<CurvePiece>& pieces, const Task& task) const;
+  std::vector<char> settle(const PlacedSources& placed, Completion how, WholeSources& whole,
+                           Task task, Report& report) const;
+  bool straighten_completion(const Labelled& zigzag, const std::vector<char>& settled,
+                             WholeSources& whole, const Task& task) const;
+  void add_sides(const Labelled& on, const std::vector<char>& settled, WholeSources& whole) const;
+  void complete_by_heat(const Sources& given, const PlacedSources& placed,
+                        const std::vector<char>& open, WholeSources& whole, Task task,
+                        Report& report) const;
+  int component_of(int face) const;
+
+  SurfaceDomain domain_;
+  std::shared_ptr<const IntrinsicTriangulation> T_;
+  SolveHint hint_;
+  Kept<JumpSurface> uncut_;
+  Kept<Solver<SurfaceDomain>> heat_;
+};
+
+}  // namespace littoral

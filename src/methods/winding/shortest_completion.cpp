@@ -1,0 +1,110 @@
+#include "methods/winding/shortest_completion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "littoral/error.h"
+#include "methods/winding/surface_winding.h"
+
+namespace littoral {
+
+namespace {
+
+/// Labels by walking from face to face; `bounds` (components) says where that went without
+/// contradiction.
+VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<FacePair>& pairs,
+                    std::vector<char>& bounds) {
+  constexpr int unknown = std::numeric_limits<int>::min();
+  VecXi label = VecXi::Constant(J.n_faces, unknown);
+  bounds.assign(static_cast<std::size_t>(J.n_components), 1);
+  std::vector<std::vector<int>> sheets(static_cast<std::size_t>(J.n_faces));
+  for (const FacePair& p : pairs) {
+    sheets[p.left].push_back(p.right);
+    sheets[p.right].push_back(p.left);
+  }
+  std::vector<int> open;
+  const auto meet = [&](int f, int value) {
+    if (label[f] == unknown) {
+      label[f] = value;
+      open.push_back(f);
+    } else if (label[f] != value) {
+      bounds[J.component[f]] = 0;
+    }
+  };
+  for (int seed = 0; seed < J.n_faces; ++seed) {
+    if (label[seed] != unknown) continue;
+    meet(seed, 0);
+    while (!open.empty()) {
+      const int f = open.back();
+      open.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int e = J.edge(f, k);
+        if (!J.interior(e)) continue;
+        const auto& [left, right] = J.sides[e];
+        const int jump = static_cast<int>(std::lround(curve[e]));
+        if (left.face == right.face) {
+          if (jump != 0) bounds[J.component[f]] = 0;
+        } else if (left.face == f) {
+          meet(right.face, label[f] - jump);
+        } else {
+          meet(left.face, label[f] + jump);
+        }
+      }
+      for (int g : sheets[f]) meet(g, label[f]);
+    }
+  }
+  return label;
+}
+
+}  // namespace
+
+ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
+                                       double curve_weight, const Task& task, Report& report) {
+  for (int e = 0; e < J.n_edges; ++e)
+    if (curve[e] != 0 && !J.manifold[e])
+      throw UnsupportedError("a curve runs along an edge where more than two faces meet");
+  const std::vector<FacePair> pairs = pairs_at_nonmanifold_edges(J);
+  std::vector<char> bounds;
+  ShortestCompletion out;
+  out.region = walked_labels(J, curve, pairs, bounds);
+  if (std::find(bounds.begin(), bounds.end(), 0) != bounds.end()) {
+    const VecX weight =
+        (curve.array() != 0).select(curve_weight * J.length.array(), J.length.array());
+    const VecXi cut = cut_labels(J, curve, pairs, weight, task, report);
+    for (int f = 0; f < J.n_faces; ++f)
+      if (!bounds[J.component[f]]) out.region[f] = cut[f];
+  }
+  std::vector<int> least(static_cast<std::size_t>(J.n_components), std::numeric_limits<int>::max());
+  for (int f = 0; f < J.n_faces; ++f)
+    least[J.component[f]] = std::min(least[J.component[f]], out.region[f]);
+  out.parts.resize(static_cast<std::size_t>(J.n_components));
+  for (int f = 0; f < J.n_faces; ++f) {
+    const int c = J.component[f];
+    out.region[f] -= least[c];
+    out.parts[c].largest = std::max(out.parts[c].largest, out.region[f]);
+  }
+  out.jump = VecX::Zero(J.n_edges);
+  for (int e = 0; e < J.n_edges; ++e) {
+    const auto& [left, right] = J.sides[e];
+    const int known = left.face >= 0 ? left.face : right.face;
+    if (known < 0) continue;
+    auto& part = out.parts[J.component[known]];
+    const double given = std::round(curve[e]);
+    part.given += std::abs(given) * J.length[e];
+    if (!J.interior(e)) continue;
+    const double jump = out.region[left.face] - out.region[right.face];
+    out.jump[e] = jump;
+    if (given == 0) {
+      part.added += std::abs(jump) * J.length[e];
+    } else if (jump != given) {
+      part.overruled += J.length[e];
+    }
+  }
+  for (const FacePair& p : pairs)
+    out.parts[J.component[p.left]].added +=
+        std::abs(out.region[p.left] - out.region[p.right]) * J.length[p.edge];
+  return out;
+}
+
+}  // namespace littoral

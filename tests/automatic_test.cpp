@@ -1,0 +1,219 @@
+// Complete, then measure: what the default answers for whole and broken curves, points and
+// surfaces of several parts.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "heat_helpers.h"
+#include "littoral/error.h"
+#include "one_call.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+VecX answer(const SurfaceMesh& mesh, const Sources& sources, Report& report,
+            const Automatic& options = {}) {
+  return test::surface_distance(mesh, sources, options, report);
+}
+
+double size(const Report& report, const std::string& name) {
+  for (const auto& [key, value] : report.sizes)
+    if (key == name) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string option(const Report& report, const std::string& name) {
+  for (const auto& [key, value] : report.options)
+    if (key == name) return value;
+  return {};
+}
+
+/// Signed distance in the plane to a polygon given counterclockwise, positive inside.
+double to_polygon(const MatX3& polygon, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (Eigen::Index i = 0; i + 1 < polygon.rows(); ++i) {
+    const Vec3 a = polygon.row(i), b = polygon.row(i + 1), along = b - a;
+    const double t = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (a + t * along - x).norm());
+    if ((a[1] > x[1]) != (b[1] > x[1]) &&
+        x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+      inside = !inside;
+  }
+  return inside ? least : -least;
+}
+
+/// Runs of a closed polyline, some of them left out or reversed.
+Sources broken_circle(int segments, int runs, const std::vector<int>& missing,
+                      const std::vector<int>& reversed = {}) {
+  const MatX3 whole = test::circle(0.5, 0.5, 0, 0.3, segments);
+  Sources sources;
+  for (int r = 0; r < runs; ++r) {
+    if (std::find(missing.begin(), missing.end(), r) != missing.end()) continue;
+    const Eigen::Index from = r * segments / runs, to = (r + 1) * segments / runs;
+    MatX3 part = whole.middleRows(from, to - from + 1);
+    if (std::find(reversed.begin(), reversed.end(), r) != reversed.end())
+      part = part.colwise().reverse().eval();
+    const Sources run = test::space_curve(part);
+    sources.space_curves.insert(sources.space_curves.end(), run.space_curves.begin(),
+                                run.space_curves.end());
+  }
+  return sources;
+}
+
+double mean_difference(const VecX& a, const VecX& b) { return (a - b).cwiseAbs().mean(); }
+
+TEST(Automatic, ClosedCurvesGiveExactDistanceAndSidesEverywhere) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(30, 30, 0.3));
+  const MatX3 polygon = test::circle(0.5, 0.5, 0, 0.3, 40);
+  Report report;
+  const VecX phi = answer(mesh, test::space_curve(polygon), report);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_NEAR(phi[v], to_polygon(polygon, mesh.point(v)), 1e-9) << v;
+  EXPECT_EQ(option(report, "completion"), "none");
+  EXPECT_EQ(option(report, "metric"), "exact");
+  EXPECT_EQ(size(report, "shortest_completion_length"), 0);
+}
+
+TEST(Automatic, ReversedCurvesReverseTheSign) {
+  const SurfaceMesh mesh(test::octasphere_soup(4));
+  const Sources circle = test::space_curve(test::circle(0, 0, 0.3, std::sqrt(1 - 0.09), 60));
+  Report report;
+  const VecX phi = answer(mesh, circle, report), psi = answer(mesh, circle.reversed(), report);
+  EXPECT_LE((phi + psi).cwiseAbs().maxCoeff(), 1e-12);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_TRUE(std::abs(phi[v]) < 0.05 || (phi[v] > 0) == (mesh.point(v).z() > 0.3)) << v;
+}
+
+TEST(Automatic, GapsGetTheShortestCompletion) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(40, 40, 0.3));
+  const MatX3 polygon = test::circle(0.5, 0.5, 0, 0.3, 80);
+  Report report;
+  const VecX phi = answer(mesh, broken_circle(80, 20, {3, 9, 10}), report);
+  VecX exact(mesh.n_vertices());
+  for (int v = 0; v < mesh.n_vertices(); ++v) exact[v] = to_polygon(polygon, mesh.point(v));
+  EXPECT_LE(mean_difference(phi, exact), 0.004);
+  EXPECT_EQ(option(report, "completion"), "shortest");
+  const double missing = 3.0 / 20 * 2 * pi * 0.3;
+  EXPECT_NEAR(size(report, "shortest_completion_length"), missing, 0.4 * missing);
+  Report heat;
+  SignedHeat plain;
+  EXPECT_LE(mean_difference(phi, exact),
+            0.5 * mean_difference(
+                      test::surface_distance(mesh, broken_circle(80, 20, {3, 9, 10}), plain, heat),
+                      exact));
+}
+
+TEST(Automatic, ReversedRunsAreOverruled) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(40, 40, 0.3));
+  const MatX3 polygon = test::circle(0.5, 0.5, 0, 0.3, 80);
+  Report report;
+  const VecX phi = answer(mesh, broken_circle(80, 20, {}, {2, 7, 13}), report);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_NEAR(phi[v], to_polygon(polygon, mesh.point(v)), 1e-9) << v;
+  EXPECT_NEAR(size(report, "overruled_length"), 3.0 / 20 * 2 * pi * 0.3, 0.01);
+}
+
+TEST(Automatic, MuchMissingIsCompletedByHeat) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(40, 40, 0.3));
+  Report report;
+  const VecX phi = answer(mesh, broken_circle(80, 8, {1, 2, 3, 5, 6, 7}), report);
+  EXPECT_TRUE(phi.allFinite());
+  EXPECT_EQ(option(report, "completion"), "heat");
+  EXPECT_GT(size(report, "heat_completion_length"), 0.3);
+}
+
+TEST(Automatic, EachComponentIsCompletedByItself) {
+  PolygonSoup two = test::jittered_grid_soup(20, 20, 0.3);
+  const PolygonSoup other = test::jittered_grid_soup(20, 20, 0.2, 3);
+  const int n = two.n_vertices();
+  const MatX3 before = two.points;
+  two.points.resize(2 * n, 3);
+  two.points << before, (other.points * 1e-3).rowwise() + Eigen::RowVector3d(5, 0, 0);
+  for (int f = 0; f < other.n_faces(); ++f) {
+    std::vector<int> corners;
+    for (const int v : other.face(f)) corners.push_back(v + n);
+    two.add_face(corners);
+  }
+  const SurfaceMesh mesh(two), first(test::jittered_grid_soup(20, 20, 0.3));
+  const MatX3 whole = test::circle(0.5, 0.5, 0, 0.3, 40);
+  Sources both = test::space_curve(whole);
+  const MatX3 half = ((whole.topRows(12)) * 1e-3).rowwise() + Eigen::RowVector3d(5, 0, 0);
+  const Sources arc = test::space_curve(half);
+  both.space_curves.insert(both.space_curves.end(), arc.space_curves.begin(),
+                           arc.space_curves.end());
+  Report report;
+  const VecX phi = answer(mesh, both, report);
+  for (int v = 0; v < n; ++v) EXPECT_NEAR(phi[v], to_polygon(whole, mesh.point(v)), 1e-9) << v;
+  EXPECT_TRUE(phi.tail(n).allFinite());
+  EXPECT_LE(phi.tail(n).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_GT(phi.tail(n).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(Automatic, CurvesThatBoundNothingHaveNoOutsideButADistance) {
+  // A meridian of a torus: whatever completes it, distance to the curve itself is 0.
+  const SurfaceMesh mesh(test::torus_soup(48, 24));
+  const Sources loop =
+      test::space_curve(test::circle(0, 0, 0.4, 1, 96));  // the circle on top, once round the hole
+  Report report;
+  const VecX phi = answer(mesh, loop, report);
+  EXPECT_TRUE(phi.allFinite());
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_TRUE(mesh.point(v).z() < 0.4 - 1e-9 || std::abs(phi[v]) <= 2e-3) << v;
+}
+
+TEST(Automatic, PointsAndUnsignedCurvesAreExact) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(24, 24, 0.3));
+  Sources point;
+  point.points.push_back(SurfacePoint::in_face(300, 0.2, 0.3, 0.5));
+  const Vec3 x = mesh.position(point.points[0]);
+  Report report;
+  const VecX d = answer(mesh, point, report);
+  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_NEAR(d[v], (mesh.point(v) - x).norm(), 1e-9);
+  const MatX3 polygon = test::circle(0.5, 0.5, 0, 0.3, 40);
+  const VecX u = answer(mesh, test::space_curve(polygon, false), report);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_NEAR(u[v], std::abs(to_polygon(polygon, mesh.point(v))), 1e-9);
+}
+
+TEST(Automatic, OptionsThatCannotBeMetAreRefused) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
+  Report report;
+  EXPECT_THROW(answer(mesh, broken_circle(40, 8, {2}), report, {.completion = Completion::none}),
+               InputError);
+  EXPECT_THROW(answer(mesh, broken_circle(40, 8, {2}), report,
+                      {.completion = Completion::shortest, .metric = Metric::heat}),
+               UnsupportedError);
+}
+
+TEST(Automatic, MetricsAgreeUpToTheirAccuracy) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(30, 30, 0.3));
+  const Sources circle = test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 40));
+  Report report;
+  const VecX exact = answer(mesh, circle, report);
+  EXPECT_LE(mean_difference(answer(mesh, circle, report, {.metric = Metric::fast_marching}), exact),
+            0.003);
+  EXPECT_LE(mean_difference(answer(mesh, circle, report, {.metric = Metric::heat}), exact), 0.01);
+}
+
+TEST(Automatic, OptionsWithoutANameChooseTheMethodThatHasThem) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
+  const Sources circle = test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 40));
+  Report report;
+  test::surface_distance(mesh, circle, AnyMethod::named("", {{"constraint", "none"}}), report);
+  EXPECT_EQ(report.method, "signed-heat");
+  EXPECT_THROW(
+      test::surface_distance(mesh, circle, AnyMethod::named("", {{"no-such", "1"}}), report),
+      InputError);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -12,8 +12,8 @@ namespace littoral {
 // ---------------------------------------------------------------------------- on surfaces
 
 /// How broken signed curves become whole: by the shortest curves that make them bound, by the zero
-/// set of the signed heat method, not at all; automatic: not where they bound, by the shortest
-/// curves where little is missing, by the zero set where much is.
+/// set of the signed heat method, not at all; automatic: not where they bound, by the zero set
+/// where they have ends, by the shortest curves where pieces are reversed and nothing is missing.
 enum class Completion { automatic, shortest, heat, none };
 
 /// What measures how far: exact polyhedral distance, fast marching, or the signed heat method

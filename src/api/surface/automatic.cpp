@@ -25,8 +25,8 @@ const OptionTable<Automatic>& automatic_options() {
           .choice(&O::completion, "completion", {"auto", "shortest", "heat", "none"},
                   "How broken signed curves become whole: by the shortest curves that make them "
                   "bound, by the zero set of the signed heat method, or not at all; auto: not "
-                  "where they bound, by the shortest curves where little is missing, by the zero "
-                  "set where much is.")
+                  "where they bound, by the zero set where they have ends, by the shortest curves "
+                  "where pieces are reversed and nothing is missing.")
           .choice(&O::metric, "metric", {"auto", "exact", "fast-marching", "heat"},
                   "What measures distance to the curves made whole: exact polyhedral distance, "
                   "fast marching, or signed heat itself; auto: exact on triangle and polygon "

@@ -16,8 +16,6 @@ namespace littoral {
 
 namespace {
 
-// The shortest completion is trusted up to that share of the curve that is given.
-constexpr double trusted_share = 0.5;
 // A jump that contradicts the curve costs less on the curve than beside it: reversed pieces are
 // evidence of a boundary, too.
 constexpr double weight_on_curve = 0.7;
@@ -45,14 +43,15 @@ int WholeCurves::component_of(int face) const {
   return domain_.mesh->vertex_component()[domain_.mesh->face(face)[0]];
 }
 
-WholeCurves::Labelled WholeCurves::labelled(const std::vector<CurvePiece>& pieces,
+WholeCurves::Labelled WholeCurves::labelled(const std::vector<CurvePiece>& pieces, Complete which,
                                             const Task& task) const {
   Report quiet;  // the mesh has been spoken of
   Labelled out{conform(*domain_.mesh, pieces), {}, {}, {}};
   const CutMesh& cut = out.curves.cut;
   const auto made = [&] { return std::make_shared<const JumpSurface>(cut.mesh, quiet); };
   out.on = out.curves.is_cut ? made() : uncut_.get(made);
-  out.labels = shortest_completion(*out.on->J, out.curves.times, weight_on_curve, task, quiet);
+  out.labels =
+      shortest_completion(*out.on->J, out.curves.times, which, weight_on_curve, task, quiet);
   out.component.assign(static_cast<std::size_t>(out.on->J->n_faces), -1);
   for (int f = 0; f < cut.mesh.n_faces(); ++f)
     if (const int t = out.on->T.triangle_of_face[f]; t >= 0)
@@ -88,7 +87,11 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   std::vector<char> settled(static_cast<std::size_t>(T_->n_components), 1);
   const std::optional<Labelled> maybe = [&]() -> std::optional<Labelled> {
     try {
-      return labelled(pieces_with_sides(placed), task.stage(0.6, "shortest completion"));
+      return labelled(pieces_with_sides(placed),
+                      how == Completion::shortest    ? Complete::all
+                      : how == Completion::automatic ? Complete::without_ends
+                                                     : Complete::none,
+                      task.stage(0.6, "shortest completion"));
     } catch (const UnsupportedError&) {  // a curve where three faces meet; heat does without
       return {};
     }
@@ -97,21 +100,23 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   const Labelled& found = *maybe;
   const double unit = found.on->T.unit;
   double given = 0, added = 0, overruled = 0;
+  int ends = 0;
   for (const ShortestCompletion::Part& part : found.labels.parts) {
     given += part.given * unit;
+    ends += part.ends;
+    if (!part.solved) continue;
     added += part.added * unit;
     overruled += part.overruled * unit;
   }
   report.sizes.emplace_back("given_length", given);
+  report.sizes.emplace_back("curve_ends", ends);
   report.sizes.emplace_back("shortest_completion_length", added);
   report.sizes.emplace_back("overruled_length", overruled);
   std::vector<char> completed(found.labels.parts.size(), 0);
   for (int t = 0; t < found.on->J->n_faces; ++t) {
     const int part = found.on->J->component[t];
     const ShortestCompletion::Part& p = found.labels.parts[part];
-    const bool wanted = how == Completion::shortest ||
-                        (how == Completion::automatic && p.added <= trusted_share * p.given);
-    if (p.given > 0 && (p.largest != 1 || !(p.bounds() || wanted)) && found.component[t] >= 0)
+    if (p.given > 0 && (p.largest != 1 || !p.solved) && found.component[t] >= 0)
       settled[found.component[t]] = 0;
     completed[part] = !p.bounds();
   }
@@ -171,7 +176,7 @@ bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vecto
     }
   }
   for (CurvePiece& piece : boundary.pieces) piece.is_signed = true;
-  const Labelled straight = labelled(boundary.pieces, task);
+  const Labelled straight = labelled(boundary.pieces, Complete::none, task);
   for (int t = 0; t < straight.on->J->n_faces; ++t) {
     const ShortestCompletion::Part& part = straight.labels.parts[straight.on->J->component[t]];
     const int c = straight.component[t];

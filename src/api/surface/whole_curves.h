@@ -6,6 +6,7 @@
 #include "api/surface/discretization.h"
 #include "base/lazy.h"
 #include "littoral/options.h"
+#include "methods/winding/shortest_completion.h"
 
 namespace littoral {
 
@@ -22,8 +23,9 @@ class WholeCurves {
   WholeCurves(SurfaceDomain domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint)
       : domain_(std::move(domain)), T_(std::move(T)), hint_(hint) {}
 
-  /// Curves that bound stay as they are and integer winding numbers give their sides. Others get
-  /// the shortest completion or, where that is long, the zero set of the signed heat method.
+  /// Curves that bound stay as they are and integer winding numbers give their sides. Where pieces
+  /// are reversed but nothing is missing, the shortest completion overrules them. Curves with ends
+  /// are completed by the zero set of the signed heat method.
   /// Reports lengths: given, of completions, and of the curve that these overrule. Throws
   /// InputError if Completion::none is asked for and the curves do not bound.
   WholeSources complete(const Sources& given, const PlacedSources& placed, Completion how,
@@ -31,7 +33,7 @@ class WholeCurves {
 
  private:
   struct Labelled;
-  Labelled labelled(const std::vector<CurvePiece>& pieces, const Task& task) const;
+  Labelled labelled(const std::vector<CurvePiece>& pieces, Complete which, const Task& task) const;
   std::vector<char> settle(const PlacedSources& placed, Completion how, WholeSources& whole,
                            Task task, Report& report) const;
   bool straighten_completion(const Labelled& zigzag, const std::vector<char>& settled,

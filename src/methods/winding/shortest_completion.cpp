@@ -57,9 +57,32 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
   return label;
 }
 
+/// How many nodes inside a component are met by the curve an odd number of times.
+void count_ends(const JumpCalculus& J, const VecX& curve,
+                std::vector<ShortestCompletion::Part>& parts) {
+  std::vector<long> met(static_cast<std::size_t>(J.n_nodes), 0);
+  std::vector<char> on_boundary(met.size(), 0);
+  for (int e = 0; e < J.n_edges; ++e)
+    for (const JumpCalculus::Side& side : J.sides[e]) {
+      if (side.face < 0) continue;
+      for (const int corner : J.ends(side)) {
+        const int node = J.node(side.face, corner);
+        met[node] += std::lround(std::abs(curve[e]));
+        if (!J.interior(e)) on_boundary[node] = 1;
+      }
+    }
+  std::vector<char> counted(met.size(), 0);
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int node = J.node(f, k);
+      if (counted[node]++ || on_boundary[node]) continue;
+      if (met[node] / 2 % 2 != 0) ++parts[J.component[f]].ends;  // both sides of an edge count
+    }
+}
+
 }  // namespace
 
-ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
+ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve, Complete which,
                                        double curve_weight, const Task& task, Report& report) {
   for (int e = 0; e < J.n_edges; ++e)
     if (curve[e] != 0 && !J.manifold[e])
@@ -68,17 +91,25 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
   std::vector<char> bounds;
   ShortestCompletion out;
   out.region = walked_labels(J, curve, pairs, bounds);
-  if (std::find(bounds.begin(), bounds.end(), 0) != bounds.end()) {
+  out.parts.resize(static_cast<std::size_t>(J.n_components));
+  count_ends(J, curve, out.parts);
+  bool any = false;
+  for (int c = 0; c < J.n_components; ++c) {
+    auto& part = out.parts[c];
+    part.solved =
+        bounds[c] || which == Complete::all || (which == Complete::without_ends && part.ends == 0);
+    any = any || (part.solved && !bounds[c]);
+  }
+  if (any) {
     const VecX weight =
         (curve.array() != 0).select(curve_weight * J.length.array(), J.length.array());
     const VecXi cut = cut_labels(J, curve, pairs, weight, task, report);
     for (int f = 0; f < J.n_faces; ++f)
-      if (!bounds[J.component[f]]) out.region[f] = cut[f];
+      if (!bounds[J.component[f]] && out.parts[J.component[f]].solved) out.region[f] = cut[f];
   }
   std::vector<int> least(static_cast<std::size_t>(J.n_components), std::numeric_limits<int>::max());
   for (int f = 0; f < J.n_faces; ++f)
     least[J.component[f]] = std::min(least[J.component[f]], out.region[f]);
-  out.parts.resize(static_cast<std::size_t>(J.n_components));
   for (int f = 0; f < J.n_faces; ++f) {
     const int c = J.component[f];
     out.region[f] -= least[c];
@@ -93,6 +124,7 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
     const double given = std::round(curve[e]);
     part.given += std::abs(given) * J.length[e];
     if (!J.interior(e)) continue;
+    if (!part.solved) continue;
     const double jump = out.region[left.face] - out.region[right.face];
     out.jump[e] = jump;
     if (given == 0) {

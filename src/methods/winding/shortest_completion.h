@@ -21,11 +21,16 @@ struct ShortestCompletion {
     double added = 0;      // jumps off the curve
     double overruled = 0;  // curve whose jump is another
     int largest = 0;       // winding number
+    int ends = 0;          // where an odd number of edges of the curve meet, off the boundary
+    bool solved = true;    // false: it does not bound, and no completion was asked for
 
-    bool bounds() const { return added == 0 && overruled == 0; }
+    bool bounds() const { return solved && added == 0 && overruled == 0; }
   };
   std::vector<Part> parts;  // components
 };
+
+/// Which components that do not bound get a completion.
+enum class Complete { none, without_ends, all };
 
 /// `curve` (edges): how often it runs along each edge, against counted negative. Components whose
 /// curve bounds are labelled by walking over the faces; others by a minimum-cost flow, in which a
@@ -33,6 +38,7 @@ struct ShortestCompletion {
 /// length elsewhere. Throws UnsupportedError where the curve runs along an edge of three or more
 /// faces, which has no sides.
 ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
-                                       double curve_weight, const Task& task, Report& report);
+                                       Complete which, double curve_weight, const Task& task,
+                                       Report& report);
 
 }  // namespace littoral

@@ -158,8 +158,8 @@ TEST(MethodRegistry, WithoutANameTheFirstIsTaken) {
   const Sources source(SurfacePoint::at_vertex(3));
   Report report, same;
   EXPECT_EQ(test::surface_distance(mesh, source, {}, report),
-            test::surface_distance(mesh, source, SignedHeat{}, same));
-  EXPECT_EQ(report.method, "signed-heat");
+            test::surface_distance(mesh, source, Automatic{}, same));
+  EXPECT_EQ(report.method, "auto");
 }
 
 // ------------------------------------------------------------------ solvers that are used again

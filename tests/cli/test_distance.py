@@ -93,7 +93,7 @@ def test_lines_of_the_mesh_are_sources(run: Run, mesh: Path, tmp_path: Path) -> 
 
 
 def test_json_report(run: Run, mesh: Path) -> None:
-    report = json.loads(run(*CURVE, "--json", "-o", "a.txt").stdout)
+    report = json.loads(run(*CURVE, "--method", "signed-heat", "--json", "-o", "a.txt").stdout)
     assert report["method"] == "signed-heat"
     assert report["options"]["constraint"] == "zero-set"
     assert report["options"]["time-scale"] > 0
@@ -103,6 +103,19 @@ def test_json_report(run: Run, mesh: Path) -> None:
     assert report["timings"]["factor"] >= 0
     assert report["warnings"] == []
     assert report["unreachable_components"] == []
+
+
+def test_the_default_says_what_it_chose(run: Run, mesh: Path) -> None:
+    report = json.loads(run(*CURVE, "--json", "-o", "a.txt").stdout)
+    assert report["method"] == "auto"
+    assert report["options"] == {"completion": "none", "metric": "exact"}
+    assert report["sizes"]["curve_ends"] == 0
+    assert report["status"] == "converged"
+
+
+def test_options_choose_the_method_that_has_them(run: Run, mesh: Path) -> None:
+    report = json.loads(run(*CURVE, "--constraint", "none", "--json", "-o", "a.txt").stdout)
+    assert report["method"] == "signed-heat"
 
 
 def test_threads_do_not_matter(run: Run, mesh: Path, tmp_path: Path) -> None:

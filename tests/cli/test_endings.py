@@ -87,7 +87,8 @@ def test_a_failed_write_keeps_what_was_there(mesh: Path, tmp_path: Path) -> None
 def test_progress_bar(run: Run, mesh: Path) -> None:
     assert run(*CURVE, "-o", "a.txt").stderr == ""  # not a terminal
     assert run(*CURVE, "--progress", "never", "-o", "a.txt").stderr == ""
-    shown = run(*CURVE, "--progress", "always", "-o", "a.txt").stderr
+    heat = (*CURVE, "--method", "signed-heat")
+    shown = run(*heat, "--progress", "always", "-o", "a.txt").stderr
     # carriage returns were translated to newlines
     frames = re.findall(r"\n\x1b\[K\[(#*)(\.*)\] +(\d+) % ([^\n]*)", shown)
     assert len(frames) >= 5

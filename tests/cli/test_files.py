@@ -96,7 +96,7 @@ def test_contour_of_a_plane(run: Run, tmp_path: Path) -> None:
 def test_methods(run: Run) -> None:
     methods = json.loads(run("methods", "--json").stdout)
     names = [m["name"] for m in methods]
-    assert names[0] == "signed-heat"
+    assert names[0] == "auto"
     assert len({(m["name"], *m["domains"]) for m in methods}) == len(methods)
     for arguments in ((), ("--markdown",)):
         text = run("methods", *arguments).stdout

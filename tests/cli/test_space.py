@@ -260,7 +260,7 @@ def test_bad_clouds_are_named(run: Run, tmp_path: Path, row: str, words: str) ->
         (("--bounds", "5,5,5,6,6,6"), "misses"),
         (("--bounds", "1,2,3"), "--bounds"),
         (("--method", "magic"), "unknown method"),
-        (("--sharpness", "2"), "no option"),
+        (("--method", "signed-heat", "--sharpness", "2"), "no option"),
     ],
 )
 def test_bad_usage_is_said_in_one_line(

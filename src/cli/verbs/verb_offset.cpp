@@ -145,9 +145,11 @@ void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
                 "of a point cloud: compute normals from neighbouring points");
   add_grid_options(verb, arguments.space);
   add_shape_options(verb, arguments.space, false);
+  const auto& on_surfaces = Registry<SurfaceDomain>::instance();
   add_method_options(verb, arguments.method.options,
                      joined(Registry<SpaceDomain>::instance().infos(),
-                            {Registry<SurfaceDomain>::instance().all().front()->info}));
+                            {on_surfaces.find(Automatic::method)->info,
+                             on_surfaces.find(SignedHeat::method)->info}));
   add_index_option(verb, session);
   add_json_option(verb, session);
 }

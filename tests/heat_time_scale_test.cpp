@@ -34,7 +34,8 @@ VecX exact(const SurfaceMesh& mesh, const Sources& sources) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   return exact_polyhedral(T, triangle_sources(mesh, T, place_sources(mesh, sources, report)), {},
-                          report);
+                          report)
+      .distance;
 }
 
 /// Mean error over the largest distance.

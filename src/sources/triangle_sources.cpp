@@ -43,26 +43,37 @@ std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
 
 namespace {
 
+struct Numbered {
+  SurfacePoint point;
+  int source;
+};
+
 TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   std::vector<SurfacePoint> points, std::vector<char>& reached) {
+                                   std::vector<Numbered> points, std::vector<char>& reached) {
   auto key = [](const SurfacePoint& p) {
     return std::tuple(static_cast<int>(p.on), p.element,
                       p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
   };
-  for (SurfacePoint& p : points) p = simplest(mesh, p);
-  std::sort(points.begin(), points.end(),
-            [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) < key(q); });
-  const auto same = [&](const SurfacePoint& p, const SurfacePoint& q) { return key(p) == key(q); };
+  for (Numbered& n : points) n.point = simplest(mesh, n.point);
+  std::sort(points.begin(), points.end(), [&](const Numbered& p, const Numbered& q) {
+    return std::pair(key(p.point), p.source) < std::pair(key(q.point), q.source);
+  });
+  const auto same = [&](const Numbered& p, const Numbered& q) {
+    return key(p.point) == key(q.point);
+  };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   TriangleSources::Points out;
-  for (const SurfacePoint& p : points) {
+  for (const auto& [p, source] : points) {
     const std::vector<PointInFace> where = triangles_around(mesh, T, p);
     if (where.empty()) continue;
     reached[T.component[T.faces(where.front().face, 0)]] = 1;
-    if (p.on == SurfacePoint::On::vertex)
+    if (p.on == SurfacePoint::On::vertex) {
       out.vertices.push_back(p.element);
-    else
+      out.vertex_source.push_back(source);
+    } else {
       out.inside.insert(out.inside.end(), where.begin(), where.end());
+      out.inside_source.resize(out.inside.size(), source);
+    }
   }
   return out;
 }
@@ -73,16 +84,22 @@ TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangu
                                  const PlacedSources& sources) {
   TriangleSources out;
   out.reached.assign(T.n_components, 0);
-  std::vector<SurfacePoint> nodes;
-  for (const CurvePiece& piece : sources.pieces) {
+  std::vector<Numbered> nodes, isolated;
+  for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
+    const CurvePiece& piece = sources.pieces[i];
     if (T.triangle_of_face[piece.face] < 0) continue;
-    for (const TriangleSources::Segment& segment : segments_of(mesh, T, piece))
+    const int source = static_cast<int>(i);
+    for (TriangleSources::Segment segment : segments_of(mesh, T, piece)) {
+      segment.source = source;
       out.segments.push_back(segment);
+    }
     for (const auto& b : {piece.a, piece.b})
-      nodes.push_back(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
+      nodes.push_back({SurfacePoint::in_face(piece.face, b[0], b[1], b[2]), source});
   }
+  for (std::size_t i = 0; i < sources.points.size(); ++i)
+    isolated.push_back({sources.points[i], static_cast<int>(sources.pieces.size() + i)});
   out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);
-  out.isolated = sorted_out(mesh, T, sources.points, out.reached);
+  out.isolated = sorted_out(mesh, T, std::move(isolated), out.reached);
   if (std::find(out.reached.begin(), out.reached.end(), 1) == out.reached.end())
     throw InputError("no source lies on a face with three different vertices");
   return out;

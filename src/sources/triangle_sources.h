@@ -10,17 +10,20 @@
 
 namespace littoral {
 
-/// Everything distance is measured from, triangle by triangle.
+/// Everything distance is measured from, triangle by triangle. Sources are numbered: the pieces of
+/// PlacedSources in their order, then its points. The end of pieces counts as the first of them.
 struct TriangleSources {
   struct Segment {
     int triangle;
     std::array<double, 3> a{}, b{};  // start and end, per corner
     bool is_signed = true;           // positive to the left of travel
+    int source = -1;                 // number of the piece
   };
   /// Points, each once: a vertex, or one entry for every triangle that contains the point.
   struct Points {
     std::vector<int> vertices;
     std::vector<PointInFace> inside;
+    std::vector<int> vertex_source, inside_source;  // number of each entry; the least, if several
   };
   std::vector<Segment> segments;  // along an edge: once for every triangle there
   Points nodes;                   // ends of segments

@@ -46,7 +46,8 @@ std::vector<Method<SurfaceDomain>> geodesic_methods() {
            "Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987)"},
           exact_options,
           [](const SurfaceDomain& domain, const Exact&, SolveHint, const Task&, Report& report) {
-            return [solve = solve_on_triangles<Exact>(domain, exact_polyhedral, report)](
+            const auto distance = [](auto&&... of) { return exact_polyhedral(of...).distance; };
+            return [solve = solve_on_triangles<Exact>(domain, distance, report)](
                        const Sources& sources, Exact& options, Task& task, Report& r) {
               warn_of_signs(sources, r);
               return solve(sources, options, task, r);

@@ -1,13 +1,13 @@
 #include "methods/geodesic/exact_polyhedral.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <string>
 
-#include "domain/mesh/edge_sides.h"
-#include "littoral/error.h"
-#include "methods/geodesic/polyhedral_window.h"
+#include "methods/geodesic/edge_envelopes.h"
+#include "methods/geodesic/exact_polyhedral_pages.h"
 #include "methods/heat/finalize.h"
 
 namespace littoral {
@@ -15,85 +15,46 @@ namespace littoral {
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double slack_share = 1e-12;    // of the longest distance in play: ties are kept
+constexpr double slack_share = EdgeEnvelopes::slack_share;
 constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
+/// How many triangles paths run straight through after each time the limit on windows is met.
+constexpr std::array<int, 4> straight = {65536, 8, 2, 0};
 
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
-
-/// Vertices at which a shortest path may bend: not inside a disk of at most a full turn.
-std::vector<char> bending_vertices(const IntrinsicTriangulation& T, const EdgeSides& sides) {
-  VecX turn = VecX::Zero(T.n_vertices);
-  std::vector<int> corners(T.n_vertices, 0), spokes(T.n_vertices, 0), walked(T.n_vertices, 0);
-  std::vector<char> bends(T.n_vertices, 0);
-  std::vector<TriangleSide> corner_of(T.n_vertices, {-1, 0});
-  for (int f = 0; f < T.n_faces(); ++f) {
-    const TriangleShape t = T.shape(f);
-    for (int k = 0; k < 3; ++k) {
-      turn[T.faces(f, k)] += std::atan2(1.0, t.cot[k]);
-      ++corners[T.faces(f, k)];
-      corner_of[T.faces(f, k)] = {f, k};
-    }
-  }
-  for (int e = 0; e < T.n_edges(); ++e)
-    if (sides.at(e).size() != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
-  for (int v = 0; v < T.n_vertices; ++v) {
-    if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
-    if (bends[v] || corners[v] == 0) continue;
-    // Walk around: a cone comes back to its first triangle after all its corners.
-    int f = corner_of[v].face, enter = corner_of[v].k, n = 0;  // side `enter` starts or ends at v
-    do {
-      int k = 0;
-      while (T.faces(f, k) != v) ++k;
-      const int leave = enter == k ? (k + 2) % 3 : k;
-      const auto at = sides.at(T.side_edge(f, leave));
-      const TriangleSide next = at[0].face == f && at[0].k == leave ? at[1] : at[0];
-      f = next.face;
-      enter = next.k;
-    } while (++n < corners[v] && f != corner_of[v].face);
-    if (n != corners[v] || f != corner_of[v].face) bends[v] = 1;
-  }
-  return bends;
-}
+double cross(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 
 class Front {
  public:
-  Front(const IntrinsicTriangulation& T) : T_(T), sides_(edge_sides(T)) {
-    bends_ = bending_vertices(T, sides_);
-    d_ = VecX::Constant(T.n_vertices, inf);
-    const std::size_t n_sides = 3 * std::size_t(T.n_faces());
-    apex_.resize(n_sides);
-    winner_.assign(n_sides, {inf, 0});
-    corner_offsets_.assign(T.n_vertices + 1, 0);
-    for (int f = 0; f < T.n_faces(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const double a = T.length(f, k), b = T.length(f, (k + 1) % 3), c = T.length(f, (k + 2) % 3);
-        apex_[3 * f + k] = triangle_shape(a, b, c, false).p[2];
-        ++corner_offsets_[T.faces(f, k) + 1];
-      }
-    for (int v = 0; v < T.n_vertices; ++v) corner_offsets_[v + 1] += corner_offsets_[v];
-    corners_.resize(n_sides);
-    std::vector<int> next(corner_offsets_.begin(), corner_offsets_.end() - 1);
-    for (int f = 0; f < T.n_faces(); ++f)
-      for (int k = 0; k < 3; ++k) corners_[next[T.faces(f, k)]++] = 3 * f + k;
+  Front(const IntrinsicTriangulation& T, double most_windows)
+      : T_(T),
+        pages_(T),
+        envelopes_(T.n_edges()),
+        most_windows_(most_windows),
+        distance_(VecX::Constant(T.n_vertices, inf)),
+        nearest_(VecXi::Constant(T.n_vertices, -1)),
+        key_(T.n_edges(), inf),
+        winner_(3 * std::size_t(T.n_faces()), {inf, 0}) {
+    envelopes_.reserve(least_room());
   }
 
-  void start_at(int vertex) {
-    if (d_[vertex] == 0) return;
-    d_[vertex] = 0;
+  void start_at(int vertex, int source) {
+    if (distance_[vertex] == 0) return;
+    distance_[vertex] = 0;
+    nearest_[vertex] = source;
+    ++n_reached_;
     queue_.push({0, -1 - vertex});
   }
 
   /// Rays from a point in every direction inside one triangle that contains it.
-  void start_in(const PointInFace& where) {
+  void start_in(const PointInFace& where, int source) {
     const TriangleShape t = flat(where.face);
     const Complex p = point(t, where.b);
     for (int k = 0; k < 3; ++k) {
-      offer(T_.faces(where.face, k), std::abs(t.p[k] - p));
+      offer(T_.faces(where.face, k), std::abs(t.p[k] - p), source);
       if (where.b[(k + 2) % 3] == 0) continue;
       Window w;
       w.b1 = T_.length(where.face, k);
-      w.image = p;
-      cross_side(seen_from(w, t.p[k], t.side[k]), where.face, k);
+      w.source = source;
+      leave(3 * where.face + k, seen_from(w, p, t.p[k], t.side[k]));
     }
   }
 
@@ -106,14 +67,14 @@ class Front {
     for (int k = 0; k < 3; ++k) {
       const double x =
           std::clamp((std::conj(ab) * (t.p[k] - a)).real() / (length * length), 0., 1.);
-      offer(T_.faces(s.triangle, k), std::abs(t.p[k] - a - x * ab));
+      offer(T_.faces(s.triangle, k), std::abs(t.p[k] - a - x * ab), s.source);
     }
     for (const double turn : {-1., 1.}) {
       const Complex n = Complex(0, turn) * ab / length;
       Window w;
       w.parallel = true;
-      w.image = n;
-      w.d = -(std::conj(n) * a).real();
+      w.source = s.source;
+      w.behind = -(std::conj(n) * a).real();
       for (int k = 0; k < 3; ++k) {
         const double L = T_.length(s.triangle, k);
         w.b0 = 0;
@@ -129,9 +90,9 @@ class Front {
         const Complex g = ab / length;
         clip(g, (std::conj(g) * a).real());
         clip(-g, -(std::conj(g) * a).real() - length);
-        clip(n, -w.d);
+        clip(n, -w.behind);
         if (w.b1 > w.b0 && s.a[(k + 2) % 3] + s.b[(k + 2) % 3] > 0)
-          cross_side(seen_from(w, t.p[k], t.side[k]), s.triangle, k);
+          leave(3 * s.triangle + k, seen_from(w, n, t.p[k], t.side[k]));
       }
     }
   }
@@ -139,26 +100,33 @@ class Front {
   void run(const Task& task) {
     std::size_t steps = 0;
     while (!queue_.empty()) {
-      if ((++steps & 0xfff) == 0) task.checkpoint(double(n_reached_) / T_.n_vertices);
+      if ((++steps & 0x3ff) == 0) task.checkpoint(double(n_reached_) / T_.n_vertices);
       const auto [key, id] = queue_.top();
       queue_.pop();
       if (id < 0) {
-        if (key <= d_[-1 - id]) leave_vertex(-1 - id);
-        continue;
+        if (key > distance_[-1 - id]) continue;
+        leave_vertex(-1 - id);
+      } else {
+        if (key > key_[id]) continue;
+        key_[id] = inf;
+        go_on(id);
       }
-      Window w = pool_[id];
-      free_.push_back(id);
-      if (trim(w)) propagate(w);
+      if (envelopes_.is_full()) make_room(key);
+      if (envelopes_.n_taken() > budget_ && relaxed_ + 1 < straight.size()) relax(key);
     }
   }
 
-  const VecX& distance() const { return d_; }
-  double windows() const { return n_windows_; }
+  const VecX& distance() const { return distance_; }
+  const VecXi& nearest() const { return nearest_; }
+  double windows() const { return envelopes_.n_taken(); }
+  double windows_at_once() const { return double(most_held_); }
+  /// Distances up to here are exact.
+  double exact_within() const { return exact_within_; }
 
  private:
   struct Entry {
     double key;
-    int id;  // of a window; -1 - vertex
+    int id;  // of an edge with open windows; -1 - vertex
     bool operator<(const Entry& other) const {
       return key > other.key || (key == other.key && id > other.id);
     }
@@ -166,6 +134,12 @@ class Front {
   struct Winner {
     double distance;  // least at the far corner among rays through a side
     double crossing;  // where they cross the side
+  };
+  /// A window before one of its pages.
+  struct Ray {
+    Window w;
+    double at_apex;       // its distance there, seen or not
+    double apex0, apex1;  // > 0: the apex lies left of the ray at the window's start, end
   };
 
   TriangleShape flat(int f) const {
@@ -175,146 +149,213 @@ class Front {
     return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
   }
 
-  void offer(int v, double distance) {
-    if (!(distance < d_[v])) return;
-    if (d_[v] == inf) ++n_reached_;
-    d_[v] = distance;
-    if (bends_[v]) queue_.push({distance, -1 - v});
+  /// A window whose image (parallel: direction) and distance behind are given in a plane, in the
+  /// coordinates of a side that starts at `start` and runs along the unit vector `along`.
+  static Window seen_from(const Window& w, Complex image, Complex start, Complex along) {
+    Window v = w;
+    const Complex z = (w.parallel ? image : image - start) * std::conj(along);
+    if (w.parallel) v.behind += (std::conj(image) * start).real();
+    v.x = z.real();
+    v.y = z.imag();
+    return v;
+  }
+
+  void offer(int v, double distance, int source) {
+    if (!(distance < distance_[v])) return;
+    if (distance_[v] == inf) ++n_reached_;
+    distance_[v] = distance;
+    nearest_[v] = source;
+    if (pages_.bends[v]) queue_.push({distance, -1 - v});
   }
 
   /// Paths that bend at a vertex: along its edges and into its triangles.
   void leave_vertex(int v) {
-    for (int i = corner_offsets_[v]; i < corner_offsets_[v + 1]; ++i) {
-      const int f = corners_[i] / 3, k = corners_[i] % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      offer(T_.faces(f, k1), d_[v] + T_.length(f, k));
-      offer(T_.faces(f, k2), d_[v] + T_.length(f, k2));
+    const double d = distance_[v];
+    const int source = nearest_[v];
+    for (const int side : pages_.around(v)) {
+      const int f = side / 3, k1 = side % 3, k2 = (k1 + 1) % 3, k = (k1 + 2) % 3;
+      offer(T_.faces(f, k1), d + T_.length(f, k), source);
+      offer(T_.faces(f, k2), d + T_.length(f, k2), source);
+      const TriangleShape t = triangle_shape(T_.length(f, k1), T_.length(f, k2), T_.length(f, k),
+                                             false);
       Window w;
       w.b1 = T_.length(f, k1);
-      w.image = apex_[3 * f + k1];
-      w.at_vertex = true;
-      w.d = d_[v];
-      cross_side(w, f, k1);
+      w.x = t.p[2].real();
+      w.y = t.p[2].imag();
+      w.behind = d;
+      w.source = source;
+      leave(side, w);
     }
   }
 
-  /// Cuts off what the ends of the side reach sooner; false if nothing is left.
-  bool trim(Window& w) const {
-    const int f = w.side / 3, k = w.side % 3;
-    const double start = d_[T_.faces(f, k)], end = d_[T_.faces(f, (k + 1) % 3)];
-    const double L = T_.length(f, k);
-    if (start < inf) w.trim_start(start, slack_share * (start + L));
-    if (end < inf && w.b1 > w.b0) w.trim_end(end, L, slack_share * (end + L));
-    return w.b1 - w.b0 > slack_share * L;
+  /// Cuts off what the ends of the edge reach sooner; false if nothing is left.
+  bool trim(Window& w, int edge) const {
+    const double tail = distance_[T_.edges(edge, 0)], head = distance_[T_.edges(edge, 1)];
+    const double L = pages_.edge_length[edge];
+    if (tail < inf) w.trim_start(tail, slack_share * (tail + L));
+    if (head < inf && w.b1 > w.b0) w.trim_end(head, L, slack_share * (head + L));
+    return w.b1 - w.b0 > EdgeEnvelopes::narrow_share * L;
   }
 
-  /// Hands rays that leave triangle f through its side k to the triangles beyond.
-  void cross_side(const Window& w, int f, int k) {
-    const double L = T_.length(f, k);
-    for (const TriangleSide& s : sides_.at(T_.side_edge(f, k))) {
-      if (s.face == f && s.k == k) continue;
-      Window v = from_other_side(w, L, T_.along(s.face, s.k) != T_.along(f, k));
-      v.side = 3 * s.face + s.k;
-      if (!trim(v)) continue;
-      ++n_windows_;
-      int id = pool_.size();
-      if (free_.empty()) {
-        if (pool_.size() >= 200'000'000)
-          throw SolveError("exact distance needs more than 2e8 open windows on this mesh");
-        pool_.push_back(v);
-      } else {
-        id = free_.back();
-        free_.pop_back();
-        pool_[id] = v;
-      }
-      queue_.push({v.least(), id});
+  /// Rays that leave a triangle through a side, in that side's coordinates with the triangle (and
+  /// the image) above it.
+  void leave(int side, Window w) {
+    const int f = side / 3, k = side % 3, edge = T_.side_edge(f, k);
+    if (!pages_.leads_on(edge, side)) return;
+    const double L = pages_.edge_length[edge];
+    w.y = -w.y;
+    if (T_.along(f, k) < 0) w = w.turned(L);
+    w.b0 = std::max(w.b0, 0.0);
+    w.b1 = std::min(w.b1, L);
+    w.from = side;
+    w.measure_ends();
+    if (!trim(w, edge)) return;
+    const double least = envelopes_.insert(edge, L, w);
+    if (!(least < key_[edge])) return;
+    key_[edge] = least;
+    queue_.push({least, edge});
+  }
+
+  /// Hands the new windows of an edge to its triangles.
+  void go_on(int edge) {
+    envelopes_.take_open(edge, open_);
+    std::erase_if(open_, [&](Window& w) { return !trim(w, edge); });
+    if (open_.empty()) return;
+    for (const PolyhedralPages::Page& page : pages_.at(edge)) {
+      rays_.clear();
+      for (const Window& w : open_)
+        if (w.from != page.side) look(page.turned ? w.turned(pages_.edge_length[edge]) : w, page);
+      for (Ray& ray : rays_) propagate(ray, page);
     }
   }
 
-  void propagate(const Window& w) {
-    const int f = w.side / 3, k = w.side % 3;
-    const Complex p = apex_[w.side];
-    const double L = T_.length(f, k), L1 = T_.length(f, (k + 1) % 3),
-                 L2 = T_.length(f, (k + 2) % 3);
-    const int v = T_.faces(f, (k + 2) % 3);
-    const Complex g0 = w.direction(w.b0), g1 = w.direction(w.b1);
-    bool left = cross(g0, p - w.b0)<0, right = cross(g1, p - w.b1)> 0;
-    const double tolerance = coverage_share * L;
-    if (cross(g0, p - (w.b0 - tolerance)) <= 0 && cross(g1, p - (w.b1 + tolerance)) >= 0) {
-      const double distance = w.at(p);
-      if (left && right) one_angle_one_split(w, p, distance, left, right);
-      offer(v, distance);
+  /// What a window sees of the far corner.
+  void look(const Window& w, const PolyhedralPages::Page& page) {
+    const double px = page.apex.real(), py = page.apex.imag();
+    const double gy = w.direction_y(), g0 = w.direction_x(w.b0), g1 = w.direction_x(w.b1);
+    const double at_apex = w.at(px, py);
+    const double apex0 = cross(g0, gy, px - w.b0, py), apex1 = cross(g1, gy, px - w.b1, py);
+    rays_.push_back({w, at_apex, apex0, apex1});
+    const double tolerance = coverage_share * page.length;
+    if (apex0 > gy * tolerance || apex1 < -gy * tolerance) return;
+    offer(page.far, at_apex, w.source);
+    Winner& winner = winner_[page.side];
+    if (at_apex < winner.distance) {
+      const double crossing = w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
+      winner = {at_apex, std::clamp(crossing, w.b0, w.b1)};
+    }
+  }
+
+  void propagate(Ray& ray, const PolyhedralPages::Page& page) {
+    Window& w = ray.w;
+    if (w.depth >= straight[relaxed_]) return;
+    const double px = page.apex.real(), py = page.apex.imag(), L = page.length;
+    bool left = ray.apex0 < 0, right = ray.apex1 > 0;
+    // One angle, one split: rays beyond those that reach the far corner soonest do not cross them.
+    const Winner& winner = winner_[page.side];
+    const double far = distance_[page.far], slack = slack_share * (far + L);
+    if (ray.at_apex > winner.distance + slack) {
+      if (w.b0 >= winner.crossing) left = false;
+      if (w.b1 <= winner.crossing) right = false;
     }
     // Beyond the line from an end of the window to the far corner, that corner may be nearer.
-    const double slack = slack_share * (d_[v] + L);
-    if (left && d_[v] + std::abs(p - w.b0) + slack < w.at(w.b0)) left = false;
-    if (right && d_[v] + std::abs(p - w.b1) + slack < w.at(w.b1)) right = false;
-    // Where a ray from b along g leaves, as a share of the way to the far corner.
-    auto on_left = [&](double b, Complex g) {
-      return std::clamp(-g.imag() * b / cross(g, p), 0.0, 1.0);
-    };
-    auto on_right = [&](double b, Complex g) {
-      return std::clamp(g.imag() * (L - b) / cross(g, p - L), 0.0, 1.0);
-    };
+    if (left && far + std::hypot(px - w.b0, py) + slack < w.d0) left = false;
+    if (right && far + std::hypot(px - w.b1, py) + slack < w.d1) right = false;
+    if (!left && !right) return;
+    const double gy = w.direction_y(), g0 = w.direction_x(w.b0), g1 = w.direction_x(w.b1);
+    Window child = w;
+    child.open = true;
+    child.depth = static_cast<std::uint16_t>(std::min(w.depth + 1, 65535));
+    const Complex image(w.x, w.y);
     if (right) {
-      const Complex along = (p - L) / L1;
-      Window child = seen_from(w, L, along);
-      child.b0 = L1 * on_right(w.b1, g1);
-      child.b1 = cross(g0, p - w.b0) > 0 ? L1 * on_right(w.b0, g0) : L1;
-      cross_side(child, f, (k + 1) % 3);
+      // Where a ray from b along (g, gy) leaves, as a share of the way to the far corner.
+      const auto share = [&](double b, double g) {
+        return std::clamp(gy * (L - b) / cross(g, gy, px - L, py), 0.0, 1.0);
+      };
+      child.b0 = page.length1 * share(w.b1, g1);
+      child.b1 = ray.apex0 > 0 ? page.length1 * share(w.b0, g0) : page.length1;
+      const Complex along = (page.apex - L) / page.length1;
+      leave(next_side(page.side), seen_from(child, image, L, along));
     }
     if (left) {
-      const Complex along = -p / L2;
-      Window child = seen_from(w, p, along);
-      child.b0 = cross(g1, p - w.b1) < 0 ? L2 * (1 - on_left(w.b1, g1)) : 0;
-      child.b1 = L2 * (1 - on_left(w.b0, g0));
-      cross_side(child, f, (k + 2) % 3);
+      const auto share = [&](double b, double g) {
+        return std::clamp(-gy * b / cross(g, gy, px, py), 0.0, 1.0);
+      };
+      child.b0 = ray.apex1 < 0 ? page.length2 * (1 - share(w.b1, g1)) : 0;
+      child.b1 = page.length2 * (1 - share(w.b0, g0));
+      const Complex along = -page.apex / page.length2;
+      leave(next_side(next_side(page.side)), seen_from(child, image, page.apex, along));
     }
   }
 
-  /// Of all rays through a side that reach the far corner only the nearest go on to both sides of
-  /// it; others keep the side of the corner on which they cross the nearest ones (Chen and Han).
-  void one_angle_one_split(const Window& w, Complex p, double distance, bool& left, bool& right) {
-    if (w.parallel) return;
-    const double crossing =
-        w.image.real() - w.image.imag() * (p.real() - w.image.real()) / (p.imag() - w.image.imag());
-    Winner& winner = winner_[w.side];
-    if (distance < winner.distance) {
-      // The proof wants no image within another fan of rays, as a source inside a face may be.
-      if (w.at_vertex) winner = {distance, crossing};
-    } else if (distance > winner.distance * (1 + slack_share)) {
-      if (crossing < winner.crossing) right = false;
-      if (crossing > winner.crossing) left = false;
+  static int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+
+  /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
+  void make_room(double key) {
+    most_held_ = std::max(most_held_, envelopes_.n_held());
+    for (int e = 0; e < T_.n_edges(); ++e) {
+      const double ends = distance_[T_.edges(e, 0)] + distance_[T_.edges(e, 1)];
+      if (key_[e] == inf && 0.5 * (ends + pages_.edge_length[e]) < key) envelopes_.forget(e);
     }
+    envelopes_.reserve(std::max(2 * envelopes_.n_held(), least_room()));
+  }
+
+  /// Enough that going through all edges costs little beside filling it.
+  std::size_t least_room() const { return 4096 + std::size_t(T_.n_edges()) / 2; }
+
+  /// Follows straight lines less far from now on, and lets paths bend at every vertex instead.
+  void relax(double key) {
+    ++relaxed_;
+    budget_ += most_windows_;
+    exact_within_ = std::min(exact_within_, key);
+    std::fill(pages_.bends.begin(), pages_.bends.end(), 1);
+    for (int v = 0; v < T_.n_vertices; ++v)
+      if (distance_[v] < inf) queue_.push({distance_[v], -1 - v});
   }
 
   const IntrinsicTriangulation& T_;
-  EdgeSides sides_;
-  std::vector<char> bends_;
-  VecX d_;                     // vertices; least distance found so far
-  std::vector<Complex> apex_;  // sides; the far corner above the side
-  std::vector<Winner> winner_;
-  std::vector<int> corner_offsets_, corners_;  // vertex -> 3 triangle + corner
-  std::vector<Window> pool_;
-  std::vector<int> free_;
+  PolyhedralPages pages_;
+  EdgeEnvelopes envelopes_;
+  const double most_windows_;
+  double budget_ = most_windows_;
+  std::size_t relaxed_ = 0;  // times the limit was met
+  double exact_within_ = inf;
+  VecX distance_;              // vertices; least found so far
+  VecXi nearest_;
+  std::vector<double> key_;    // edges; least distance of open windows
+  std::vector<Winner> winner_;  // sides
   std::priority_queue<Entry> queue_;
+  std::vector<Window> open_;
+  std::vector<Ray> rays_;
   int n_reached_ = 0;
-  double n_windows_ = 0;
+  std::size_t most_held_ = 0;
 };
 
 }  // namespace
 
-VecX exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
-                      const Task& task, Report& report) {
-  Front front(T);
+ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
+                               const Task& task, Report& report, double most_windows) {
+  if (!(most_windows > 0)) most_windows = std::max(1e7, 2000.0 * T.n_faces());
+  Front front(T, most_windows);
   for (const auto* points : {&sources.nodes, &sources.isolated}) {
-    for (int v : points->vertices) front.start_at(v);
-    for (const PointInFace& where : points->inside) front.start_in(where);
+    for (std::size_t i = 0; i < points->vertices.size(); ++i)
+      front.start_at(points->vertices[i], points->vertex_source[i]);
+    for (std::size_t i = 0; i < points->inside.size(); ++i)
+      front.start_in(points->inside[i], points->inside_source[i]);
   }
   for (const TriangleSources::Segment& s : sources.segments) front.start_along(s);
   front.run(task);
   report.iterations.emplace_back("windows", front.windows());
-  return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
-                        report);
+  if (front.exact_within() < inf)
+    report.warn("exact distance met its limit of " + std::to_string(std::size_t(most_windows)) +
+                " windows of straight paths: distances up to " +
+                std::to_string(front.exact_within() * T.unit) +
+                " are exact, those beyond are at least that, and at most as large as given; they are "
+                "lengths of paths that may be too long. Merge or remove overlapping faces");
+  VecXi nearest = front.nearest();
+  return {finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
+                         report),
+          std::move(nearest)};
 }
 
 }  // namespace littoral

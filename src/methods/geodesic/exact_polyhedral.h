@@ -8,18 +8,30 @@
 
 namespace littoral {
 
-/// Unsigned distance at the vertices (vertices) [length of the input], exact to rounding, from
-/// points, and from curves as the exact distance to their straight pieces; +inf on components that
-/// no source reaches.
+struct ExactDistance {
+  VecX distance;  // vertices [length of the input]; +inf where no source reaches
+  VecXi nearest;  // vertices: the source the shortest path starts from, -1 where none reaches
+};
+
+/// Unsigned distance at the vertices, exact to rounding, from points, and from curves as the exact
+/// distance to their straight pieces; +inf on components that no source reaches. Sources are
+/// numbered as in TriangleSources; of equally near ones any is named.
 ///
-/// Windows of straight rays are carried from triangle to triangle in the order of their distance
-/// (Mitchell, Mount and Papadimitriou, "The discrete geodesic problem", 1987), not merged on edges
-/// but thrown away once vertices nearby prove them useless (Chen and Han 1990; Xin and Wang,
-/// "Improving Chen and Han's algorithm on the discrete geodesic problem", 2009), and cut where a
-/// path along the edge is shorter. Any topology: rays that reach an edge of many triangles go on
-/// into each; paths bend only at vertices with more than a full turn around them, on the boundary
-/// and where the surface is not a manifold. Throws SolveError when more than 2e8 windows are open.
-VecX exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
-                      const Task& task, Report& report);
+/// Windows of straight rays are carried from edge to edge, nearly in the order of their distance
+/// (Mitchell, Mount and Papadimitriou, "The discrete geodesic problem", 1987). Each edge keeps the
+/// nearest window at each of its points, from whichever of its triangles; all that are new go on
+/// together, as in Qin et al., "Fast and exact discrete geodesic computation based on triangle-
+/// oriented wavefront propagation", 2016. They are cut where a path along the edge is shorter,
+/// thrown away where vertices nearby prove them useless (Chen and Han 1990; Xin and Wang,
+/// "Improving Chen and Han's algorithm on the discrete geodesic problem", 2009). Any topology: rays
+/// that reach an edge of many triangles go on into each; paths bend only at vertices with more than
+/// a full turn around them, on the boundary and where the surface is not a manifold.
+///
+/// More than `most_windows` (0: 2000 a triangle and at least 1e7) are not followed: from there on
+/// paths may bend at every vertex and run straight through a few triangles only. A warning then
+/// says up to which distance values are exact; those beyond are lengths of paths, hence too large if
+/// not exact.
+ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
+                               const Task& task, Report& report, double most_windows = 0);
 
 }  // namespace littoral

@@ -3,88 +3,91 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "littoral/types.h"
+#include <cstdint>
 
 namespace littoral {
 
-/// Rays that enter a triangle through [b0, b1] of a side. Coordinates: the side on the real axis
-/// from 0 to its length, the triangle above it. Rays come straight from the image of a point below
-/// the axis, or are parallel (from a straight piece of a curve).
+/// Rays that cross an edge within [b0, b1]. Coordinates: the edge on the real axis from its tail at
+/// 0 to its length, and the rays going up, whichever triangle they came through: all triangles at
+/// the edge but that one, laid above it, see them so. Rays come straight from the image of a point
+/// below the axis, or are parallel (from a straight piece of a curve).
 struct Window {
-  int side = 0;            // 3 triangle + k, the side the rays enter through
-  bool parallel = false;   // rays of a segment
-  bool at_vertex = false;  // rays of a vertex
-  double b0 = 0, b1 = 0;
-  Complex image;  // of the point; parallel: the rays' unit direction
-  double d = 0;   // distance already behind: at the image; parallel: at 0
+  double b0 = 0, b1 = 0;    // the stretch
+  double d0 = 0, d1 = 0;    // distance at its ends
+  double x = 0, y = 0;      // image of the point, y <= 0; parallel: the rays' unit direction, y >= 0
+  double behind = 0;        // distance already behind: at the image; parallel: at the tail
+  int from = -1;            // 3 triangle + k: the side the rays came through
+  int source = -1;          // the number of what the path starts from
+  int next = -1;            // in a list of windows
+  std::uint16_t depth = 0;  // triangles crossed since the source or the last bend
+  bool parallel = false;    // rays of a segment
+  bool open = true;         // has not gone on yet
 
   /// Distance along the rays to a point of the plane.
-  double at(Complex x) const {
-    return parallel ? d + (std::conj(image) * x).real() : d + std::abs(x - image);
+  double at(double px, double py = 0) const {
+    if (parallel) return behind + x * px + y * py;
+    const double u = px - x, v = py - y;
+    return behind + std::sqrt(u * u + v * v);
   }
-  Complex direction(double b) const { return parallel ? image : b - image; }
+  /// How fast the distance grows along the edge.
+  double slope(double px) const {
+    return parallel ? x : (px - x) / std::sqrt((px - x) * (px - x) + y * y);
+  }
+  double direction_x(double px) const { return parallel ? x : px - x; }
+  double direction_y() const { return parallel ? y : -y; }
 
-  /// Least distance over the window, what the queue orders by.
+  void measure_ends() {
+    d0 = at(b0);
+    d1 = at(b1);
+  }
+
+  /// Least distance over the window.
   double least() const {
-    if (parallel) return std::min(at(b0), at(b1));
-    return at(std::clamp(image.real(), b0, b1));
+    if (parallel || x <= b0 || x >= b1) return std::min(d0, d1);
+    return behind - y;
   }
 
-  /// Cuts off what is reached sooner along the side from its start, at distance d_start: at every x
-  /// where d_start + x < at(x). at(x) - x never grows with x, so a stretch [b0, x*) goes.
-  void trim_start(double d_start, double slack) {
-    if (at(b0) <= d_start + b0 + slack) return;
-    if (at(b1) > d_start + b1 + slack) {
-      b0 = b1;
-    } else {
-      b0 = std::clamp(meeting(d_start, b0), b0, b1);
-    }
+  /// Cuts off what is reached sooner along the edge from its tail, at distance `tail`: at every p
+  /// where tail + p < at(p). at(p) - p never grows with p, so a stretch [b0, p*) goes.
+  void trim_start(double tail, double slack) {
+    if (d0 <= tail + b0 + slack) return;
+    b0 = d1 > tail + b1 + slack ? b1 : std::clamp(meeting(x, behind, tail, b0), b0, b1);
+    d0 = at(b0);
   }
-  /// The same from the end of the side (at `length`), at distance d_end.
-  void trim_end(double d_end, double length, double slack) {
-    if (at(b1) <= d_end + (length - b1) + slack) return;
-    if (at(b0) > d_end + (length - b0) + slack) {
+  /// The same from the head of the edge, which is `length` long.
+  void trim_end(double head, double length, double slack) {
+    if (d1 <= head + (length - b1) + slack) return;
+    if (d0 > head + (length - b0) + slack) {
       b1 = b0;
     } else {
-      Window mirror = *this;
-      mirror.image = parallel ? -std::conj(image) : length - std::conj(image);
-      mirror.d = parallel ? at(length) : d;
-      b1 = std::clamp(length - mirror.meeting(d_end, length - b1), b0, b1);
+      const double p =
+          parallel ? meeting(-x, at(length), head, 0) : meeting(length - x, behind, head, 0);
+      b1 = std::clamp(length - p, b0, b1);
     }
+    d1 = at(b1);
+  }
+
+  /// The same rays, seen along the edge from its head.
+  Window turned(double length) const {
+    Window w = *this;
+    w.b0 = length - b1;
+    w.b1 = length - b0;
+    w.d0 = d1;
+    w.d1 = d0;
+    w.x = parallel ? -x : length - x;
+    if (parallel) w.behind = at(length);
+    return w;
   }
 
  private:
-  /// x with at(x) = d_start + x; `otherwise` where rounding leaves none.
-  double meeting(double d_start, double otherwise) const {
-    const double c = d_start - d;
-    const double x =
-        parallel ? -c / (1 - image.real()) : (std::norm(image) - c * c) / (2 * (c + image.real()));
-    return std::isfinite(x) ? x : otherwise;
+  /// p where the distance of an image at height y is `end` + p; `otherwise` where rounding leaves
+  /// none.
+  double meeting(double image_x, double image_behind, double end, double otherwise) const {
+    const double c = end - image_behind;
+    const double p = parallel ? -c / (1 - image_x)
+                              : (image_x * image_x + y * y - c * c) / (2 * (c + image_x));
+    return std::isfinite(p) ? p : otherwise;
   }
 };
-
-/// A window turned into the coordinates of another side: that side starts at `start` and runs along
-/// the unit vector `along`; what lies left of it there lies above its axis.
-inline Window seen_from(const Window& w, Complex start, Complex along) {
-  Window v = w;
-  v.image = (w.parallel ? w.image : w.image - start) * std::conj(along);
-  if (w.parallel) v.d = w.at(start);
-  return v;
-}
-
-/// The same side as its other triangle sees it, which runs along it (`reversed`: against it).
-inline Window from_other_side(const Window& w, double length, bool reversed) {
-  Window v = w;
-  if (!reversed) {
-    v.image = std::conj(w.image);
-    return v;
-  }
-  v.b0 = length - w.b1;
-  v.b1 = length - w.b0;
-  v.image = w.parallel ? -w.image : length - w.image;
-  if (w.parallel) v.d = w.at(length);
-  return v;
-}
 
 }  // namespace littoral

@@ -1,0 +1,98 @@
+#include "methods/geodesic/exact_polyhedral_pages.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace littoral {
+
+namespace {
+
+/// Triangles but for those with the same three edges as one before.
+std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
+  const int n = T.n_faces();
+  std::vector<std::array<int, 3>> key(n);
+  for (int f = 0; f < n; ++f) {
+    for (int k = 0; k < 3; ++k) key[f][k] = T.side_edge(f, k);
+    std::sort(key[f].begin(), key[f].end());
+  }
+  std::vector<char> is_first(n, 1);
+  std::vector<int> order;  // only where all three edges have a third triangle can there be a copy
+  for (int f = 0; f < n; ++f)
+    if (T.edge_use[key[f][0]] > 1 && T.edge_use[key[f][1]] > 1 && T.edge_use[key[f][2]] > 1)
+      order.push_back(f);
+  std::stable_sort(order.begin(), order.end(), [&](int f, int g) { return key[f] < key[g]; });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key[order[i]] == key[order[i - 1]]) is_first[order[i]] = 0;
+  return is_first;
+}
+
+/// Whether the triangles around a vertex, from side `enter` of triangle f on, close up to a cone.
+bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v, int first_side,
+               int n_corners) {
+  // `first_side` starts at v.
+  int side = first_side, n = 0;
+  do {
+    const int f = side / 3, k = side % 3;
+    const bool starts = T.faces(f, k) == v;
+    const int leave = starts ? (k + 2) % 3 : (k + 1) % 3;
+    const auto at = P.at(T.side_edge(f, leave));
+    side = at[0].side == 3 * f + leave ? at[1].side : at[0].side;
+  } while (++n < n_corners && side / 3 != first_side / 3);
+  return n == n_corners && side / 3 == first_side / 3;
+}
+
+}  // namespace
+
+PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
+    : offsets(T.n_edges() + 1, 0),
+      edge_length(T.n_edges(), std::numeric_limits<double>::infinity()),
+      bends(T.n_vertices, 0),
+      corner_offsets(T.n_vertices + 1, 0) {
+  const std::vector<char> is_first = first_of_its_edges(T);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      double& length = edge_length[T.side_edge(f, k)];
+      length = std::min(length, T.length(f, k));
+      offsets[T.side_edge(f, k) + 1] += is_first[f];
+      corner_offsets[T.faces(f, k) + 1] += is_first[f];
+    }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::partial_sum(corner_offsets.begin(), corner_offsets.end(), corner_offsets.begin());
+  pages.resize(offsets.back());
+  across.resize(corner_offsets.back());
+  std::vector<int> next(offsets.begin(), offsets.end() - 1);
+  std::vector<int> next_corner(corner_offsets.begin(), corner_offsets.end() - 1);
+  VecX turn = VecX::Zero(T.n_vertices);
+  for (int f = 0; f < T.n_faces(); ++f) {
+    if (!is_first[f]) continue;
+    const TriangleShape shape = T.shape(f);
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      Page& page = pages[next[T.side_edge(f, k)]++];
+      page.side = 3 * f + k;
+      page.far = T.faces(f, k2);
+      page.turned = T.along(f, k) < 0;
+      page.length = T.length(f, k);
+      page.length1 = T.length(f, k1);
+      page.length2 = T.length(f, k2);
+      page.apex = triangle_shape(page.length, page.length1, page.length2, false).p[2];
+      across[next_corner[T.faces(f, k)]++] = 3 * f + k1;
+      turn[T.faces(f, k)] += std::atan2(1.0, shape.cot[k]);
+    }
+  }
+  for (int e = 0; e < T.n_edges(); ++e)
+    if (at(e).size() != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
+  for (int v = 0; v < T.n_vertices; ++v) {
+    if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
+    const auto corners = around(v);
+    if (bends[v] || corners.empty()) continue;
+    const int side = corners.front(), f = side / 3;
+    if (!closes_up(T, *this, v, 3 * f + (side + 2) % 3, static_cast<int>(corners.size())))
+      bends[v] = 1;
+  }
+}
+
+}  // namespace littoral

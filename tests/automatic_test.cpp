@@ -132,6 +132,40 @@ TEST(Automatic, MuchMissingIsCompletedByHeat) {
   EXPECT_TRUE(phi.allFinite());
   EXPECT_EQ(option(report, "completion"), "heat");
   EXPECT_GT(size(report, "heat_completion_length"), 0.3);
+  EXPECT_THAT(report.warnings, testing::ElementsAre(testing::HasSubstr("option confidence")));
+}
+
+TEST(Automatic, ConfidenceIsLowWhereCurvesAreCompleted) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(40, 40, 0.3));
+  const MatX3 polygon = test::circle(0.5, 0.5, 0, 0.3, 80);
+  Report report;
+  const Automatic options{.confidence = true};
+  const SurfaceAnswer broken =
+      test::surface_answer(mesh, broken_circle(80, 8, {3}), options, report);
+  ASSERT_EQ(broken.confidence.size(), mesh.n_vertices());
+  const double gap = 2 * pi / 8 * 0.3;
+  double lowest = 1;
+  int far = 0;
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    EXPECT_GE(broken.confidence[v], 0);
+    EXPECT_LE(broken.confidence[v], 1);
+    const Vec3 x = mesh.point(v) - Vec3(0.5, 0.5, 0);
+    const double angle = std::atan2(x.y(), x.x()), middle = 2 * pi * 3.5 / 8;
+    const bool in_gap = std::abs(std::remainder(angle - middle, 2 * pi)) < pi / 16;
+    if (in_gap) lowest = std::min(lowest, broken.confidence[v]);
+    if (std::abs(x.norm() - 0.3) > gap) {
+      EXPECT_GE(broken.confidence[v], 0.999) << v;
+      ++far;
+    }
+  }
+  EXPECT_LE(lowest, 0.3);
+  EXPECT_GT(far, 100);
+  const SurfaceAnswer closed =
+      test::surface_answer(mesh, test::space_curve(polygon), options, report);
+  EXPECT_EQ(closed.confidence, VecX::Ones(mesh.n_vertices()));
+  EXPECT_EQ(
+      test::surface_answer(mesh, test::space_curve(polygon), Automatic{}, report).confidence.size(),
+      0);
 }
 
 TEST(Automatic, EachComponentIsCompletedByItself) {

@@ -41,7 +41,7 @@ int run(int n_meshes, char** meshes) {
                             {"curve and its offset, 50 % missing", .5, 0, 3},
                             {"the same, 10 % reversed", .5, .1, 3}};
   const Answer answers[] = {
-      {"default", Automatic{}},
+      {"default", Automatic{.confidence = true}},
       {"zero set", Automatic{.completion = Completion::heat}},
       {"shortest", Automatic{.completion = Completion::shortest}},
       {"signed heat", SignedHeat{.time_scale = 1, .constraint = Constraint::none}}};
@@ -50,6 +50,7 @@ int run(int n_meshes, char** meshes) {
   std::printf("\n|---|---|---|");
   for (std::size_t d = 0; d < std::size(damages); ++d) std::printf("---|");
   std::printf("\n");
+  double sure[10] = {}, right[10] = {};  // area by confidence, in tenths
   for (int m = 0; m < n_meshes; ++m) {
     const SurfaceMesh mesh(io::read_surface(meshes[m]));
     Report report;
@@ -78,11 +79,16 @@ int run(int n_meshes, char** meshes) {
           input.curves.insert(input.curves.end(), copy.curves.begin(), copy.curves.end());
         }
         for (std::size_t a = 0; a < std::size(answers); ++a) {
-          const VecX broken = solvers[a]->solve(input, {}, report).values;
+          const SurfaceAnswer answer = solvers[a]->solve(input, {}, report);
+          const VecX& broken = answer.values;
           double e = 0, wrong = 0;
           for (Eigen::Index i = 0; i < phi.size(); ++i) {
             e += M[i] * std::abs(broken[i] - phi[i]);
             if (broken[i] * phi[i] < 0) wrong += M[i];
+            if (answer.confidence.size() == 0 || damages[d].offset > 0) continue;
+            const auto bin = std::min<std::size_t>(9, std::size_t(10 * answer.confidence[i]));
+            sure[bin] += M[i] / M.sum();
+            if (broken[i] * phi[i] >= 0) right[bin] += M[i] / M.sum();
           }
           errors[a][d].distance += share * e / M.sum() / range;
           errors[a][d].area += share * wrong / M.sum();
@@ -98,6 +104,12 @@ int run(int n_meshes, char** meshes) {
     }
     std::fflush(stdout);
   }
+  std::printf("\n| confidence | share of the area | right signs |\n|---|---|---|\n");
+  double all = 0;
+  for (const double a : sure) all += a;
+  for (int bin = 0; bin < 10; ++bin)
+    std::printf("| %.1f to %.1f | %.2f %% | %.2f %% |\n", bin / 10.0, (bin + 1) / 10.0,
+                100 * sure[bin] / all, 100 * right[bin] / sure[bin]);
   return 0;
 }
 

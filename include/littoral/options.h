@@ -26,6 +26,7 @@ struct Automatic {
   static constexpr const char* method = "auto";
   Completion completion = Completion::automatic;
   Metric metric = Metric::automatic;
+  bool confidence = false;  // how sure each sign is, 0 to 1, beside the distance
 };
 
 /// How values at the source are held (signed heat method, section 7.1).

@@ -113,6 +113,13 @@ def test_the_default_says_what_it_chose(run: Run, mesh: Path) -> None:
     assert report["status"] == "converged"
 
 
+def test_confidence_stands_beside_the_distance(run: Run, mesh: Path, tmp_path: Path) -> None:
+    run(*CURVE, "--confidence", "-o", "a.ply")
+    header = (tmp_path / "a.ply").read_bytes().split(b"end_header")[0].decode()
+    assert "distance" in header
+    assert "confidence" in header
+
+
 def test_options_choose_the_method_that_has_them(run: Run, mesh: Path) -> None:
     report = json.loads(run(*CURVE, "--constraint", "none", "--json", "-o", "a.txt").stdout)
     assert report["method"] == "signed-heat"

@@ -4,7 +4,10 @@
 // whole first, which settles the sides; then distance to all of that is measured by what is most
 // accurate, and takes its sign from the sides.
 
+#include <cmath>
+#include <map>
 #include <memory>
+#include <numbers>
 
 #include "api/surface/discretization.h"
 #include "api/surface/whole_curves.h"
@@ -18,6 +21,9 @@ namespace littoral {
 
 namespace {
 
+// Calibrated on damaged curves (docs/accuracy.md).
+constexpr double spread = 0.1;
+
 const OptionTable<Automatic>& automatic_options() {
   using O = Automatic;
   static const OptionTable<O> table =
@@ -30,7 +36,10 @@ const OptionTable<Automatic>& automatic_options() {
           .choice(&O::metric, "metric", {"auto", "exact", "fast-marching", "heat"},
                   "What measures distance to the curves made whole: exact polyhedral distance, "
                   "fast marching, or signed heat itself; auto: exact on triangle and polygon "
-                  "meshes, heat elsewhere.");
+                  "meshes, heat elsewhere.")
+          .toggle(&O::confidence, "confidence",
+                  "Beside the distance, how sure its sign is, from 0 on what completes a curve to "
+                  "1 far from it (triangle and polygon meshes).");
   return table;
 }
 
@@ -50,12 +59,37 @@ class AutomaticOnTriangles {
     const Task measuring = task.stage(0.55, "walking over the mesh");
     if (options.metric == Metric::automatic) options.metric = Metric::exact;
     const VecX distance = options.metric == Metric::exact
-                              ? exact_polyhedral(*T_, on, measuring, report)
+                              ? exact_polyhedral(*T_, on, measuring, report).distance
                               : fast_marching(*T_, on, measuring, report).cwiseAbs();
-    return {distance.cwiseProduct(whole.sign).array() + 0.0, {}};  // no negative zeros
+    SurfaceAnswer answer{distance.cwiseProduct(whole.sign).array() + 0.0, {}, {}};  // no -0
+    if (options.confidence) answer.confidence = confidence(placed, whole, measuring);
+    return answer;
   }
 
  private:
+  /// How sure the signs are. The curve that is missing in a gap lies beside its completion, at a
+  /// distance like a normal variable of deviation `spread` times the gap's length.
+  VecX confidence(const PlacedSources& given, const WholeSources& whole, const Task& task) const {
+    PlacedSources completion;
+    std::map<int, double> gap;  // curve -> length
+    for (std::size_t i = given.pieces.size(); i < whole.sources.pieces.size(); ++i) {
+      const CurvePiece& piece = whole.sources.pieces[i];
+      completion.pieces.push_back(piece);
+      gap[piece.curve] += piece.length;
+    }
+    VecX sure = VecX::Ones(domain_.mesh->n_vertices());
+    if (completion.pieces.empty()) return sure;
+    Report quiet;
+    const ExactDistance to =
+        exact_polyhedral(*T_, triangle_sources(*domain_.mesh, *T_, completion), task, quiet);
+    for (int v = 0; v < sure.size(); ++v)
+      if (to.nearest[v] >= 0) {
+        const double width = spread * gap[completion.pieces[to.nearest[v]].curve];
+        sure[v] = std::erf(to.distance[v] / (width * std::numbers::sqrt2));
+      }
+    return sure;
+  }
+
   SurfaceDomain domain_;
   std::shared_ptr<const IntrinsicTriangulation> T_;
   WholeCurves curves_;
@@ -65,6 +99,9 @@ class AutomaticOnTriangles {
 std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat(
     const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
     Report& report) {
+  if (options.confidence)
+    throw UnsupportedError("option confidence: there is none with metric heat, as on a " +
+                           domain.kind());
   if (options.completion != Completion::automatic && options.completion != Completion::heat)
     throw UnsupportedError("option completion: with metric heat there is heat only, as on a " +
                            domain.kind());

@@ -17,6 +17,8 @@ struct SurfaceAnswer {
   VecX values;                       // vertices of the input [length], +inf where no source reaches
   std::optional<PolygonSoup> shown;  // a finer or cut surface with a scalar "distance", where that
                                      // says more than values at the input's vertices
+  VecX confidence{};                 // vertices of the input, 0 to 1: how sure the sign is; empty
+                                     // unless asked for
 };
 
 /// A triangle mesh, polygon mesh, point cloud (a mesh without faces, normals in its soup where

@@ -221,16 +221,29 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (const int c = mesh.vertex_component()[v]; c >= 0 && open[c]) whole.sign[v] = sign[v];
   double added = 0;
+  int curve = -1;
   for (std::size_t i = placed.pieces.size(); i < completed.pieces.size(); ++i) {
     CurvePiece piece = completed.pieces[i];
     const int c = component_of(piece.face);
     if (c < 0 || !open[c]) continue;
     added += piece.length;
-    whole.sources.nodes.push_back(completed.nodes[piece.curve]);
-    piece.curve = whole.sources.n_curves++;
+    if (piece.curve != curve) {
+      curve = piece.curve;
+      whole.sources.nodes.push_back(completed.nodes[curve]);
+      ++whole.sources.n_curves;
+    }
+    piece.curve = whole.sources.n_curves - 1;
     whole.sources.pieces.push_back(piece);
   }
   report.sizes.emplace_back("heat_completion_length", added);
+  double length = 0;
+  for (const CurvePiece& piece : placed.pieces)
+    if (const int c = component_of(piece.face); piece.is_signed && c >= 0 && open[c])
+      length += piece.length;
+  if (added > length)
+    report.warn("more of the zero set completes the curves (" + number_text(added) +
+                ") than they make up themselves (" + number_text(length) +
+                "): which side is which is a guess there; option confidence shows where");
 }
 
 }  // namespace littoral

@@ -113,6 +113,8 @@ void measure_on_surface(const DistanceArguments& arguments, Session& session) {
           const SurfaceAnswer& answer) {
         PolygonSoup result = answer.shown ? *answer.shown : mesh.soup();
         if (!answer.shown) result.scalars = {{"distance", answer.values}};
+        if (!answer.shown && answer.confidence.size() > 0)
+          result.scalars["confidence"] = answer.confidence;
         if (mesh.n_faces() == 0 && io::is_written_as(file, {Kind::field}))
           result = cloud_with(result, mesh);
         write_result(file, result, "distance", arguments.domain, session.report,

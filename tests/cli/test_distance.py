@@ -108,7 +108,7 @@ def test_json_report(run: Run, mesh: Path) -> None:
 def test_the_default_says_what_it_chose(run: Run, mesh: Path) -> None:
     report = json.loads(run(*CURVE, "--json", "-o", "a.txt").stdout)
     assert report["method"] == "auto"
-    assert report["options"] == {"completion": "none", "metric": "exact"}
+    assert report["options"] == {"completion": "none", "metric": "exact", "confidence": False}
     assert report["sizes"]["curve_ends"] == 0
     assert report["status"] == "converged"
 

@@ -224,7 +224,7 @@ TEST(ExactPolyhedralRandom, LayersOfAPlaneStayBounded) {
   }
 }
 
-/// Random triangles over few points, many of them the same: the case that never ended.
+/// Random triangles over few points, many of them the same: windows that are not compared multiply.
 TEST(ExactPolyhedralRandom, CoincidentTrianglesStayBounded) {
   for (const auto& [points, faces] :
        std::vector<std::pair<int, int>>{{4, 9}, {5, 9}, {6, 9}, {8, 56}, {12, 220}, {30, 2000}})

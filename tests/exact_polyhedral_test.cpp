@@ -131,31 +131,6 @@ TEST(ExactPolyhedral, UnitCube) {
   for (int v = 4; v < 8; ++v) EXPECT_NEAR(c[v], std::sqrt(2.5), 1e-13);
 }
 
-/// A few random triangles glued at random along edges: nonmanifold, with boundary, bent.
-PolygonSoup scrap(unsigned seed, int n_faces) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> u(-1, 1);
-  PolygonSoup soup;
-  std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  std::vector<std::array<int, 2>> edges = {{0, 1}, {1, 2}, {2, 0}};
-  test::add_triangle(soup, 0, 1, 2);
-  while (soup.n_faces() < n_faces) {
-    const auto [a, b] = edges[random() % edges.size()];
-    int c = static_cast<int>(points.size());
-    if (random() % 3 == 0) c = static_cast<int>(random() % points.size());
-    if (c == a || c == b) continue;
-    if (c == static_cast<int>(points.size()))
-      points.push_back((points[a] + points[b]) / 2 + Vec3(u(random), u(random), u(random)));
-    test::add_triangle(soup, a, b, c);
-    edges.push_back({b, c});
-    edges.push_back({c, a});
-  }
-  soup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    soup.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  return soup;
-}
-
 void expect_oracle(const SurfaceMesh& mesh) {
   const test::GeodesicOracle oracle(mesh);
   for (int a = 0; a < mesh.n_vertices(); ++a) {
@@ -168,7 +143,7 @@ void expect_oracle(const SurfaceMesh& mesh) {
 TEST(ExactPolyhedral, NonmanifoldScrapsLikeExhaustiveSearch) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
-    expect_oracle(SurfaceMesh(scrap(seed, 12)));
+    expect_oracle(SurfaceMesh(test::scrap(seed, 12)));
   }
 }
 

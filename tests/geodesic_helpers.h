@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <random>
 
 #include "domain/mesh/edge_sides.h"
 #include "heat_helpers.h"
@@ -52,6 +53,31 @@ inline SurfaceMesh ring(int n, int rows, double row_height) {
       add_triangle(soup, a, b + n, a + n);
     }
   return SurfaceMesh(soup);
+}
+
+/// A few random triangles glued at random along edges: nonmanifold, with boundary, bent.
+inline PolygonSoup scrap(unsigned seed, int n_faces) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  PolygonSoup soup;
+  std::vector<Vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<std::array<int, 2>> edges = {{0, 1}, {1, 2}, {2, 0}};
+  add_triangle(soup, 0, 1, 2);
+  while (soup.n_faces() < n_faces) {
+    const auto [a, b] = edges[random() % edges.size()];
+    int c = static_cast<int>(points.size());
+    if (random() % 3 == 0) c = static_cast<int>(random() % points.size());
+    if (c == a || c == b) continue;
+    if (c == static_cast<int>(points.size()))
+      points.push_back((points[a] + points[b]) / 2 + Vec3(u(random), u(random), u(random)));
+    add_triangle(soup, a, b, c);
+    edges.push_back({b, c});
+    edges.push_back({c, a});
+  }
+  soup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    soup.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  return soup;
 }
 
 /// The mesh in vertices.txt and faces_1based.txt of a folder.

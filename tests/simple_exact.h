@@ -1,6 +1,6 @@
 #pragma once
-// Exact polyhedral distance, the simple way: windows one by one, none compared with another. What the
-// library's is compared with. Slow where many triangles coincide.
+// Exact polyhedral distance, the simple way: windows one by one, none compared with another. What
+// the library's is compared with. Slow where many triangles coincide.
 
 #include <limits>
 #include <numbers>
@@ -14,8 +14,9 @@
 namespace littoral::test::simple {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
-inline constexpr double slack_share = 1e-12;    // of the longest distance in play: ties are kept
-inline constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
+inline constexpr double slack_share = 1e-12;  // of the longest distance in play: ties are kept
+inline constexpr double coverage_share =
+    1e-9;  // of a side: rays this near a window's end reach a vertex
 
 inline double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
@@ -215,8 +216,7 @@ class SimpleFront {
       ++n_windows_;
       int id = pool_.size();
       if (free_.empty()) {
-        if (pool_.size() >= 200'000'000)
-          throw std::length_error("2e8 open windows");
+        if (pool_.size() >= 200'000'000) throw std::length_error("2e8 open windows");
         pool_.push_back(v);
       } else {
         id = free_.back();
@@ -270,7 +270,8 @@ class SimpleFront {
 
   /// Of all rays through a side that reach the far corner only the nearest go on to both sides of
   /// it; others keep the side of the corner on which they cross the nearest ones (Chen and Han).
-  void one_angle_one_split(const SimpleWindow& w, Complex p, double distance, bool& left, bool& right) {
+  void one_angle_one_split(const SimpleWindow& w, Complex p, double distance, bool& left,
+                           bool& right) {
     if (w.parallel) return;
     const double crossing =
         w.image.real() - w.image.imag() * (p.real() - w.image.real()) / (p.imag() - w.image.imag());

@@ -103,11 +103,11 @@ int main(int argc, char** argv) {
            },
            [&](const Sources& s) { return point_solver.solve(s).values; }},
           point_sources, rounds);
-  compare({"exact, a point",
-           [&](const Sources& s) {
-             return exact_polyhedral(*T, triangle_sources(by_hand, *T, placed(s)), {}, report)
-                 .distance;
-           },
-           [&](const Sources& s) { return exact_solver.solve(s).values; }},
-          point_sources, rounds);
+  compare(
+      {"exact, a point",
+       [&](const Sources& s) {
+         return exact_polyhedral(*T, triangle_sources(by_hand, *T, placed(s)), {}, report).distance;
+       },
+       [&](const Sources& s) { return exact_solver.solve(s).values; }},
+      point_sources, rounds);
 }

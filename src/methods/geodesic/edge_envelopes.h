@@ -1,6 +1,7 @@
 #pragma once
 // The windows of every edge that are nearest somewhere on it.
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -10,72 +11,79 @@
 namespace littoral {
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
-/// all that was offered. Of two windows, from whichever triangles, only the nearer one at a point of
-/// the edge can belong to a shortest path there; at a tie the older one stays, as a path that swaps
-/// one for the other either coincides with it or bends at the edge and is not shortest.
+/// all that was offered. Of two windows, from whichever triangles, only the nearer one at a point
+/// of the edge can belong to a shortest path there; at a tie the older one stays, as a path that
+/// swaps one for the other either coincides with it or bends at the edge and is not shortest.
 class EdgeEnvelopes {
  public:
   static constexpr double slack_share = 1e-12;   // of the distance: nearer by less is a tie
   static constexpr double narrow_share = 1e-12;  // of the edge: narrower stretches are left out
 
-  explicit EdgeEnvelopes(int n_edges) : head_(n_edges, -1) {}
+  struct List {
+    std::vector<Window> windows;
+    double due = std::numeric_limits<double>::infinity();  // when the open ones are to go on
+  };
+
+  explicit EdgeEnvelopes(int n_edges) : lists_(n_edges) {}
+
+  List& operator[](int edge) { return lists_[edge]; }
+  const List& operator[](int edge) const { return lists_[edge]; }
 
   /// Takes what is nearest of the window on an edge of the given length; the least distance there,
   /// +inf if nothing is left of it.
-  double insert(int edge, double length, const Window& w) {
-    int before = -1, n = head_[edge];
-    while (n >= 0 && pool_[n].b1 <= w.b0) {
-      before = n;
-      n = pool_[n].next;
-    }
-    if (n < 0 || pool_[n].b0 >= w.b1) {
-      const int id = add(w, n);
-      link(before, edge) = id;
-      ++n_taken_;
-      return w.least();
-    }
-    n = compare(w, n, length);
-    return replace(edge, before, n, w, narrow_share * length);
+  double insert(List& list, double length, const Window& w) {
+    std::vector<Window>& all = list.windows;
+    if (all.capacity() == 0) all.reserve(4);
+    const auto beyond =
+        std::partition_point(all.begin(), all.end(), [&](const Window& o) { return o.b1 <= w.b0; });
+    if (beyond != all.end() && beyond->b0 < w.b1)
+      return replace(all, compare(w, all, beyond - all.begin(), length), w, narrow_share * length);
+    all.insert(beyond, w);
+    ++n_taken_;
+    ++n_held_;
+    return w.least();
   }
 
-  /// Hands over the windows of an edge that have not gone on, from tail to head.
-  void take_open(int edge, std::vector<Window>& out) {
+  /// Hands over the windows of a list, from tail to head, that have not gone on and whose least
+  /// distance is up to `now`; the least distance of the others.
+  static double take_open(List& list, double now, std::vector<Window>& out) {
+    double least = std::numeric_limits<double>::infinity();
     out.clear();
-    for (int n = head_[edge]; n >= 0; n = pool_[n].next)
-      if (std::exchange(pool_[n].open, false)) out.push_back(pool_[n]);
+    for (Window& w : list.windows) {
+      if (!w.open) continue;
+      const double d = w.least();
+      if (d > now) {
+        least = std::min(least, d);
+      } else {
+        w.open = false;
+        out.push_back(w);
+      }
+    }
+    return least;
   }
 
-  void forget(int edge) {
-    for (int n = std::exchange(head_[edge], -1); n >= 0; n = pool_[n].next) free_.push_back(n);
+  static double least_open(const List& list) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Window& w : list.windows)
+      if (w.open) least = std::min(least, w.least());
+    return least;
   }
 
-  double n_taken() const { return n_taken_; }               // windows ever held
-  std::size_t n_held() const { return pool_.size() - free_.size(); }
-  bool is_full() const { return free_.empty() && pool_.size() == pool_.capacity(); }
-  void reserve(std::size_t n) { pool_.reserve(n); }
+  void forget(List& list) {
+    n_held_ -= double(list.windows.size());
+    std::vector<Window>().swap(list.windows);
+  }
+
+  double n_taken() const { return n_taken_; }  // windows ever held
+  double n_held() const { return n_held_; }
 
  private:
   struct Piece {
-    int old;  // row of olds_; -1: of the new window
+    int old;  // which window of the list; -1: the new one
     double b0, b1, d0, d1;
   };
 
-  int& link(int before, int edge) { return before < 0 ? head_[edge] : pool_[before].next; }
-
-  int add(const Window& w, int next) {
-    int id = static_cast<int>(pool_.size());
-    if (free_.empty()) {
-      pool_.push_back(w);
-    } else {
-      id = free_.back();
-      free_.pop_back();
-      pool_[id] = w;
-    }
-    pool_[id].next = next;
-    return id;
-  }
-
-  void emit(int old, double b0, double b1, double d0, double d1) {
+  [[gnu::always_inline]] void emit(int old, double b0, double b1, double d0, double d1) {
     if (!pieces_.empty() && pieces_.back().old == old) {
       pieces_.back().b1 = b1;
       pieces_.back().d1 = d1;
@@ -84,20 +92,22 @@ class EdgeEnvelopes {
     }
   }
 
-  /// Cuts the new window and the old ones it overlaps, from window n on, into pieces where one of
-  /// them is nearest. The first old window beyond.
-  int compare(const Window& w, int n, double length) {
+  struct Range {
+    std::size_t first, last;  // windows of the list that overlap the new one, and the one beyond
+  };
+
+  /// Cuts the new window and the old ones it overlaps into pieces where one of them is nearest.
+  Range compare(const Window& w, const std::vector<Window>& all, std::size_t first, double length) {
     pieces_.clear();
-    olds_.clear();
     double u = w.b0, wu = w.d0;
+    std::size_t i = first;
     while (u < w.b1) {
-      if (n < 0 || pool_[n].b0 >= w.b1) {
+      if (i == all.size() || all[i].b0 >= w.b1) {
         emit(-1, u, w.b1, wu, w.d1);
         break;
       }
-      const Window& o = pool_[n];
-      const int old = static_cast<int>(olds_.size());
-      olds_.push_back(n);
+      const Window& o = all[i];
+      const int old = static_cast<int>(i++);
       double ou = o.d0;
       if (o.b0 > u) {
         const double d = w.at(o.b0);
@@ -114,9 +124,8 @@ class EdgeEnvelopes {
       if (v < o.b1) emit(old, v, o.b1, ov, o.d1);
       u = v;
       wu = wv;
-      n = o.next;
     }
-    return n;
+    return {first, i};
   }
 
   /// A point of the edge and both windows' distances there.
@@ -184,10 +193,9 @@ class EdgeEnvelopes {
     return m;
   }
 
-  /// Where |p - I| - |p - J| = c: squared twice, (4 c^2 - b^2) p^2 - 2 (4 c^2 I_x - (a + c^2) b) p +
-  /// 4 c^2 |I|^2 - (a + c^2)^2 = 0 with a = |I|^2 - |J|^2, b = 2 (I_x - J_x).
-  static double hyperbola(const Window& w, const Window& o, double slack, double low,
-                          double high) {
+  /// Where |p - I| - |p - J| = c: squared twice, (4 c^2 - b^2) p^2 - 2 (4 c^2 I_x - (a + c^2) b) p
+  /// + 4 c^2 |I|^2 - (a + c^2)^2 = 0 with a = |I|^2 - |J|^2, b = 2 (I_x - J_x).
+  static double hyperbola(const Window& w, const Window& o, double slack, double low, double high) {
     const double c = o.behind - w.behind - slack, c4 = 4 * c * c;
     const double norm = w.x * w.x + w.y * w.y;
     const double a = norm - o.x * o.x - o.y * o.y + c * c, b = 2 * (w.x - o.x);
@@ -198,55 +206,39 @@ class EdgeEnvelopes {
     return p > low && p < high ? p : rest / q;
   }
 
-  /// Puts the pieces in the place of the old windows after `before` and up to `rest`.
-  double replace(int edge, int before, int rest, const Window& w, double narrow) {
+  /// Puts the pieces in the place of the windows they were cut from.
+  double replace(std::vector<Window>& all, Range range, const Window& w, double narrow) {
     double least = std::numeric_limits<double>::infinity();
     bool taken = false;
     for (const Piece& p : pieces_) taken |= p.old < 0 && p.b1 - p.b0 > narrow;
     if (!taken) return least;
-    std::size_t done = 0;  // of the old windows
-    bool used = false;     // the next old window has its first piece
-    const auto finish = [&](std::size_t until) {
-      while (done < until) {
-        if (!std::exchange(used, false)) free_.push_back(olds_[done]);
-        ++done;
-      }
-    };
-    int last = before;
+    made_.clear();
     for (const Piece& p : pieces_) {
       if (!(p.b1 - p.b0 > narrow)) continue;
-      int id;
-      if (p.old < 0) {
-        id = add(w, -1);
-        ++n_taken_;
-      } else {
-        finish(p.old);
-        id = olds_[p.old];
-        if (std::exchange(used, true)) {
-          const Window copy = pool_[id];
-          id = add(copy, -1);
-        }
-      }
-      Window& at = pool_[id];
-      at.b0 = p.b0;
-      at.b1 = p.b1;
-      at.d0 = p.d0;
-      at.d1 = p.d1;
-      if (p.old < 0) least = std::min(least, at.least());
-      link(last, edge) = id;
-      last = id;
+      Window& made = made_.emplace_back(p.old < 0 ? w : all[p.old]);
+      made.b0 = p.b0;
+      made.b1 = p.b1;
+      made.d0 = p.d0;
+      made.d1 = p.d1;
+      if (p.old >= 0) continue;
+      ++n_taken_;
+      least = std::min(least, made.least());
     }
-    finish(olds_.size());
-    link(last, edge) = rest;
+    const auto at = all.begin() + std::ptrdiff_t(range.first);
+    const std::size_t before = range.last - range.first, kept = std::min(before, made_.size());
+    n_held_ += double(made_.size()) - double(before);
+    std::copy_n(made_.begin(), kept, at);
+    if (made_.size() > before)
+      all.insert(at + std::ptrdiff_t(kept), made_.begin() + std::ptrdiff_t(kept), made_.end());
+    else
+      all.erase(at + std::ptrdiff_t(kept), at + std::ptrdiff_t(before));
     return least;
   }
 
-  std::vector<int> head_;     // edges; its first window
-  std::vector<Window> pool_;
-  std::vector<int> free_;
+  std::vector<List> lists_;    // edges
   std::vector<Piece> pieces_;  // of the insertion under way
-  std::vector<int> olds_;
-  double n_taken_ = 0;
+  std::vector<Window> made_;
+  double n_taken_ = 0, n_held_ = 0;
 };
 
 }  // namespace littoral

@@ -27,10 +27,10 @@ struct ExactDistance {
 /// that reach an edge of many triangles go on into each; paths bend only at vertices with more than
 /// a full turn around them, on the boundary and where the surface is not a manifold.
 ///
-/// More than `most_windows` (0: 2000 a triangle and at least 1e7) are not followed: from there on
-/// paths may bend at every vertex and run straight through a few triangles only. A warning then
-/// says up to which distance values are exact; those beyond are lengths of paths, hence too large if
-/// not exact.
+/// More than `most_windows` (0: 1000 a triangle and at least 1e7) are not followed: from there on
+/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A warning
+/// says up to which distance values are exact; those beyond are lengths of paths, hence too large
+/// if not exact.
 ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
                                const Task& task, Report& report, double most_windows = 0);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace littoral {
 
@@ -47,23 +48,26 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
 }  // namespace
 
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
-    : offsets(T.n_edges() + 1, 0),
-      edge_length(T.n_edges(), std::numeric_limits<double>::infinity()),
-      bends(T.n_vertices, 0),
-      corner_offsets(T.n_vertices + 1, 0) {
+    : edges(T.n_edges()), bends(T.n_vertices, 0), corner_offsets(T.n_vertices + 1, 0) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < T.n_edges(); ++e) edges[e] = {inf, inf, T.edges(e, 0), T.edges(e, 1), 0, 0};
   const std::vector<char> is_first = first_of_its_edges(T);
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) {
-      double& length = edge_length[T.side_edge(f, k)];
-      length = std::min(length, T.length(f, k));
-      offsets[T.side_edge(f, k) + 1] += is_first[f];
+      Edge& edge = edges[T.side_edge(f, k)];
+      edge.length = std::min(edge.length, T.length(f, k));
+      edge.wait = std::min(edge.wait, 0.5 * T.length.row(f).minCoeff());
+      edge.n_pages += is_first[f];
       corner_offsets[T.faces(f, k) + 1] += is_first[f];
     }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  int n_pages = 0;
+  for (Edge& edge : edges) {
+    edge.first_page = n_pages;
+    n_pages += std::exchange(edge.n_pages, 0);
+  }
   std::partial_sum(corner_offsets.begin(), corner_offsets.end(), corner_offsets.begin());
-  pages.resize(offsets.back());
-  across.resize(corner_offsets.back());
-  std::vector<int> next(offsets.begin(), offsets.end() - 1);
+  pages.resize(n_pages);
+  across.resize(n_pages);
   std::vector<int> next_corner(corner_offsets.begin(), corner_offsets.end() - 1);
   VecX turn = VecX::Zero(T.n_vertices);
   for (int f = 0; f < T.n_faces(); ++f) {
@@ -71,10 +75,15 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     const TriangleShape shape = T.shape(f);
     for (int k = 0; k < 3; ++k) {
       const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      Page& page = pages[next[T.side_edge(f, k)]++];
+      Edge& edge = edges[T.side_edge(f, k)];
+      Page& page = pages[edge.first_page + edge.n_pages++];
       page.side = 3 * f + k;
       page.far = T.faces(f, k2);
+      page.edge1 = T.side_edge(f, k1);
+      page.edge2 = T.side_edge(f, k2);
       page.turned = T.along(f, k) < 0;
+      page.turned1 = T.along(f, k1) < 0;
+      page.turned2 = T.along(f, k2) < 0;
       page.length = T.length(f, k);
       page.length1 = T.length(f, k1);
       page.length2 = T.length(f, k2);
@@ -84,7 +93,7 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     }
   }
   for (int e = 0; e < T.n_edges(); ++e)
-    if (at(e).size() != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
+    if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
   for (int v = 0; v < T.n_vertices; ++v) {
     if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
     const auto corners = around(v);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace littoral {
 
@@ -12,13 +13,12 @@ namespace littoral {
 /// the edge but that one, laid above it, see them so. Rays come straight from the image of a point
 /// below the axis, or are parallel (from a straight piece of a curve).
 struct Window {
-  double b0 = 0, b1 = 0;    // the stretch
-  double d0 = 0, d1 = 0;    // distance at its ends
-  double x = 0, y = 0;      // image of the point, y <= 0; parallel: the rays' unit direction, y >= 0
-  double behind = 0;        // distance already behind: at the image; parallel: at the tail
-  int from = -1;            // 3 triangle + k: the side the rays came through
-  int source = -1;          // the number of what the path starts from
-  int next = -1;            // in a list of windows
+  double b0 = 0, b1 = 0;  // the stretch
+  double d0 = 0, d1 = 0;  // distance at its ends
+  double x = 0, y = 0;    // image of the point, y <= 0; parallel: the rays' unit direction, y >= 0
+  double behind = 0;      // distance already behind: at the image; parallel: at the tail
+  int from = -1;          // 3 triangle + k: the side the rays came through
+  int source = -1;        // the number of what the path starts from
   std::uint16_t depth = 0;  // triangles crossed since the source or the last bend
   bool parallel = false;    // rays of a segment
   bool open = true;         // has not gone on yet
@@ -67,16 +67,12 @@ struct Window {
     d1 = at(b1);
   }
 
-  /// The same rays, seen along the edge from its head.
-  Window turned(double length) const {
-    Window w = *this;
-    w.b0 = length - b1;
-    w.b1 = length - b0;
-    w.d0 = d1;
-    w.d1 = d0;
-    w.x = parallel ? -x : length - x;
-    if (parallel) w.behind = at(length);
-    return w;
+  /// Turns to coordinates along the edge from its head.
+  void turn(double length) {
+    if (parallel) behind = at(length);
+    x = parallel ? -x : length - x;
+    b0 = length - std::exchange(b1, length - b0);
+    std::swap(d0, d1);
   }
 
  private:
@@ -84,8 +80,8 @@ struct Window {
   /// none.
   double meeting(double image_x, double image_behind, double end, double otherwise) const {
     const double c = end - image_behind;
-    const double p = parallel ? -c / (1 - image_x)
-                              : (image_x * image_x + y * y - c * c) / (2 * (c + image_x));
+    const double p =
+        parallel ? -c / (1 - image_x) : (image_x * image_x + y * y - c * c) / (2 * (c + image_x));
     return std::isfinite(p) ? p : otherwise;
   }
 };

@@ -1,0 +1,110 @@
+// The windows an edge keeps are the lower envelope of all it was offered.
+
+#include "methods/geodesic/edge_envelopes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace littoral {
+namespace {
+
+Window point_window(double b0, double b1, double x, double y, double behind) {
+  Window w;
+  w.b0 = b0;
+  w.b1 = b1;
+  w.x = x;
+  w.y = y;
+  w.behind = behind;
+  w.measure_ends();
+  return w;
+}
+
+TEST(EdgeEnvelopes, OfTwoPointsTheNearerMayBeSoInTheMiddleOnly) {
+  // p from the middle: sqrt(p^2 + 1) = sqrt(p^2 + .01) + .5, squared: .74 = sqrt(p^2 + .01).
+  const double r = 0.74, p = std::sqrt(r * r - 0.01);
+  for (const bool far_first : {true, false}) {
+    EdgeEnvelopes all(1);
+    const Window far = point_window(0, 4, 2, -1, 0), near = point_window(0, 4, 2, -0.1, 0.5);
+    all.insert(all[0], 4, far_first ? far : near);
+    all.insert(all[0], 4, far_first ? near : far);
+    const std::vector<Window>& kept = all[0].windows;
+    ASSERT_EQ(kept.size(), 3);
+    EXPECT_EQ(kept[0].behind, 0);
+    EXPECT_EQ(kept[1].behind, 0.5);
+    EXPECT_EQ(kept[2].behind, 0);
+    EXPECT_NEAR(kept[1].b0, 2 - p, 1e-10);
+    EXPECT_NEAR(kept[1].b1, 2 + p, 1e-10);
+    EXPECT_EQ(all.n_held(), 3);
+    EXPECT_EQ(all.n_taken(), far_first ? 2 : 3);
+  }
+}
+
+TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(0, 1);
+  const double length = 3;
+  for (int round = 0; round < 300; ++round) {
+    EdgeEnvelopes all(1);
+    std::vector<Window> offered;
+    for (int i = 0; i < 25; ++i) {
+      double b0 = length * u(random), b1 = length * u(random);
+      if (b0 > b1) std::swap(b0, b1);
+      Window w = point_window(b0, b1, 5 * u(random) - 1, -2 * u(random) * u(random), u(random));
+      if (i % 5 == 4) {
+        const double angle = 3.1 * u(random) + 0.02;
+        w.parallel = true;
+        w.x = std::cos(angle);
+        w.y = std::sin(angle);
+        w.behind = 2 * u(random);
+        w.measure_ends();
+      }
+      if (i % 7 == 6) w = offered[random() % offered.size()];  // the same again
+      w.source = i;
+      offered.push_back(w);
+      const double least = all.insert(all[0], length, w);
+      double best = std::numeric_limits<double>::infinity();
+      for (const Window& kept : all[0].windows)
+        if (kept.source == i) best = std::min(best, kept.least());
+      EXPECT_EQ(least, best);
+    }
+    const std::vector<Window>& kept = all[0].windows;
+    for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_LE(kept[i - 1].b1, kept[i].b0);
+    EXPECT_EQ(all.n_held(), double(kept.size()));
+    for (int s = 0; s <= 1000; ++s) {
+      const double p = length * s / 1000;
+      double expected = std::numeric_limits<double>::infinity(), found = expected;
+      for (const Window& w : offered)
+        if (p >= w.b0 + 1e-9 && p <= w.b1 - 1e-9) expected = std::min(expected, w.at(p));
+      for (const Window& w : kept) {
+        EXPECT_NEAR(w.d0, w.at(w.b0), 1e-14);
+        EXPECT_NEAR(w.d1, w.at(w.b1), 1e-14);
+        if (p >= w.b0 && p <= w.b1) found = std::min(found, w.at(p));
+      }
+      EXPECT_LE(found, expected + 1e-11) << round << " " << p;
+    }
+  }
+}
+
+TEST(EdgeEnvelopes, TheSameWindowAgainIsNotTaken) {
+  EdgeEnvelopes all(2);
+  const Window w = point_window(0.5, 2, 1, -1, 0.25);
+  EXPECT_EQ(all.insert(all[1], 3, w), 1.25);
+  for (const double nudge : {0., 1e-15, -1e-15}) {
+    Window again = w;
+    again.behind += nudge;
+    again.measure_ends();
+    EXPECT_EQ(all.insert(all[1], 3, again), std::numeric_limits<double>::infinity());
+  }
+  std::vector<Window> open;
+  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 1, open), 1.25);
+  EXPECT_TRUE(open.empty());
+  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 2, open), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(open.size(), 1);
+  EXPECT_EQ(all.n_held(), 1);
+  all.forget(all[1]);
+  EXPECT_EQ(all.n_held(), 0);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -103,7 +103,7 @@ TEST(Completed, EnclosedSpaceIsInsideWhicheverWayAllNormalsPoint) {
   EXPECT_THAT(fine.warnings, IsEmpty());
   EXPECT_EQ(fine.status, "converged");
   expect_same(by_default(reversed(torus), grid, warned), values);
-  EXPECT_THAT(warned.warnings, Contains(HasSubstr("normals point into")));
+  EXPECT_THAT(warned.warnings, Contains(HasSubstr("count as reversed")));
   EXPECT_EQ(size_of(warned, "share of the area that bounds"), 1);
   // --flip takes the normals at their word.
   expect_same(by_default(torus, grid, quiet, true), -values);

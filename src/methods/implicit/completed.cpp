@@ -104,7 +104,7 @@ MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces,
   }
   if (sides_.sense < 0)
     report.warn(
-        "the normals point into the space that the input encloses: they count as reversed, so that "
+        "most normals point into the space that the input encloses: all count as reversed, so that "
         "this space is inside");
   report_shares(given, report);
   return faces;
@@ -168,6 +168,7 @@ double CompletedDistance::value_after(const Vec3& x, int& last) const {
 VecX CompletedDistance::at_nodes(const Grid& grid, const Task& task, Report& report) const {
   VecX values(grid.n_nodes());
   const std::size_t rows = std::size_t(grid.n[1]) * grid.n[2];
+  const double reach = (closed_ ? 1 + 1e-9 : 1.5) * grid.spacing[0] + 1.5 * patch_.finest;
   parallel_for(rows, 1, [&](std::size_t row, std::size_t) {
     task.checkpoint(static_cast<double>(row) / static_cast<double>(rows));
     const int j = static_cast<int>(row % grid.n[1]), k = static_cast<int>(row / grid.n[1]);
@@ -177,8 +178,9 @@ VecX CompletedDistance::at_nodes(const Grid& grid, const Task& task, Report& rep
       const Vec3 x = grid.point(i, j, k);
       const NearestPoint foot = bvh_->closest_point(x, last);
       last = foot.face;
-      // The ball up to the nearest point of a closed surface is on one side of it.
-      const bool same = closed_ && std::abs(before) > (1 + 1e-9) * grid.spacing[0];
+      // The ball up to the nearest point is on one side of the surface and its patches, which end
+      // up to a cell before the surface.
+      const bool same = std::abs(before) > reach;
       const bool inside = same ? before < 0 : is_inside(x);
       before = inside ? -foot.distance : foot.distance;
       values[index(grid.node(i, j, k))] = before;

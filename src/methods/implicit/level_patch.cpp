@@ -20,13 +20,15 @@ using Corner = std::array<int, 3>;
 
 constexpr int extra_levels = 3;  // below the spacing, beside the boundary
 constexpr int most_levels = 18;  // above it: corners of 21 bits
-constexpr double margin = 0.25;  // around the boundary, in the longest side of its box
+constexpr double margin = 0.5;   // around the boundary, in the longest side of its box
 constexpr double clear = 1.1;    // from the boundary, in sides: here values modulo 1 are a function
 constexpr double steepness =
     0.35;  // of values times the distance to the boundary; 1 / 2 pi beside one edge
+constexpr double beside_edge =
+    0.75;                          // of the distance to that half plane, as there are other edges
 constexpr double integral = 0.4;   // modulo 1 farther from the level: the surface's sides
 constexpr double off_patch = 0.1;  // to both sides of a triangle, in sides
-constexpr std::size_t most_cells = 150000;
+constexpr std::size_t most_cells = 130000;
 
 /// A cube of the octree, its centre's value modulo 1 in [-1/2, 1/2].
 struct Cube {
@@ -104,6 +106,8 @@ class Search {
   Verdict judge(int level, double value, double distance) const {
     const double side = tree_.side_at(level), reach = side * std::sqrt(0.75);
     if (std::abs(value) * (distance - reach) > steepness * reach) return Verdict::leave;
+    // Beside one edge the value is an angle, and the level set a half plane.
+    if (beside_edge * distance * std::min(1.0, 4 * std::abs(value)) > reach) return Verdict::leave;
     if (level < tree_.spacing_level) return Verdict::halve;
     if (distance >= clear * side) return Verdict::keep;
     return level < tree_.finest ? Verdict::halve : Verdict::leave;

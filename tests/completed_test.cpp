@@ -169,6 +169,12 @@ TEST(Completed, SoupsAreOrientedByParityWhereTheirOrientationDisagrees) {
   std::mt19937 random(3);
   const PolygonSoup mixed = turned(torus, [&](int) { return random() % 2 == 0; });
   const PolygonSoup doubled = joined(torus, reversed(torus));
+  // A reversed patch bounds by its own winding number, the wrong way round.
+  const PolygonSoup patched =
+      turned(torus, [&](int f) { return torus.points(torus.face(f)[0], 0) > 0.55; });
+  Report of_patched;
+  expect_same(by_default(patched, grid, of_patched), values);
+  EXPECT_THAT(of_patched.warnings, Contains(HasSubstr("orientation of faces disagrees")));
   // Two bodies, one of them inside out.
   PolygonSoup other = test::octasphere_soup(2);
   other.points = (0.2 * other.points).rowwise() + Eigen::RowVector3d(0.1, -0.9, 0.8);

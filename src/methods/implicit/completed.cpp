@@ -1,6 +1,7 @@
 #include "methods/implicit/completed.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -22,6 +23,7 @@ constexpr double doubtful = 0.02;  // share of the area with the outside on both
 constexpr double walls = 0.05;     // with the inside on both sides
 constexpr double nothing = 0.01;   // share of the area that bounds
 constexpr double sure = 0.8;       // lines for the orientation, less those against
+constexpr double few = 0.001;      // of the area, turned
 constexpr double jumps_allowed = 0.01;
 constexpr double off_surface = 1e-6;
 
@@ -87,20 +89,33 @@ MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces,
   const SideCensus census = side_census(points, faces, winding_);
   sides_ = choose_sides(census, as_given);
   const SideCensus::Shares given = census.shares(sides_);
-  if (given.without > doubtful) {
+  // A patch of reversed faces bounds by its own measure, with inside and outside exchanged: it
+  // shows by its edges, or by the lines that pass it.
+  double against = 0;
+  if (given.without > doubtful || !boundary_edges(points, faces).empty()) {
     const OrientedSoup soup = orient_soup(points, faces, task);
     WindingNumber oriented(points, soup.faces);
     SideCensus::Shares shares = side_census(points, soup.faces, oriented).shares({});
     for (double* share : {&shares.bounds, &shares.within, &shares.without})
       *share *= 1 - soup.left_out;
     shares.without += soup.left_out;
-    if (shares.bounds > given.bounds + doubtful) {
+    // Where all normals point inward, those that were not turned are the odd ones.
+    const double kept = 1 - soup.turned - soup.left_out;
+    against = std::min(soup.turned, kept);
+    if (shares.bounds > given.bounds + doubtful ||
+        (std::min(soup.surely_turned, kept) > few && shares.bounds > given.bounds - doubtful)) {
       winding_ = std::move(oriented);
       sides_ = as_given ? SideRule{-1, -0.5} : SideRule{};
       report_orientation(soup, report);
       report_shares(shares, report);
       return soup.faces;
     }
+  }
+  if (against > doubtful) {
+    report.status = "uncertain";
+    report.warn("lines through " + percent(against) +
+                " of the area tell another orientation than its faces have, but do not agree: "
+                "signs are uncertain there");
   }
   if (sides_.sense < 0)
     report.warn(

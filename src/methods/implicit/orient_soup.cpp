@@ -20,6 +20,7 @@ constexpr int directions = 13;
 constexpr int places_in_all = 4096, places_at_least = 4;  // on parts
 constexpr double least_valid = 0.1;     // share of lines that pass an odd number on one side alone
 constexpr double least_agreeing = 0.4;  // of these, for less against
+constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
 
 /// Triangles by where lines of one direction meet them.
 class LineCaster {
@@ -273,7 +274,11 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
     kept.row(n) = all.row(f);
     const bool turn = count.minus > count.plus;
     if (turn) std::swap(kept(n, 1), kept(n, 2));
-    if (turn != (turned[f] != 0)) out.turned += areas[f] / total;
+    if (turn != (turned[f] != 0)) {
+      out.turned += areas[f] / total;
+      if (valid > sure_valid * lines && agreement > sure_agreeing)
+        out.surely_turned += areas[f] / total;
+    }
     ++n;
     bounding += areas[f];
     out.certainty += agreement * areas[f];

@@ -8,10 +8,11 @@ namespace littoral {
 
 /// What becomes of a soup of faces.
 struct OrientedSoup {
-  MatX3i faces{0, 3};    // those that bound, turned outward; each once
-  double turned = 0;     // share of the area whose faces were turned
-  double left_out = 0;   // share of the area that bounds nothing: sheets, walls within
-  double certainty = 0;  // mean over the area of what bounds: 1 where all lines agree
+  MatX3i faces{0, 3};        // those that bound, turned outward; each once
+  double turned = 0;         // share of the area whose faces were turned
+  double surely_turned = 0;  // of that, where hardly a line disagrees
+  double left_out = 0;       // share of the area that bounds nothing: sheets, walls within
+  double certainty = 0;      // mean over the area of what bounds: 1 where all lines agree
 };
 
 /// Orients a soup by the parity of lines, which takes no notice of the orientation that is there.

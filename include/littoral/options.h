@@ -195,6 +195,13 @@ struct TetQuadratic {
 
 // ---------------------------------------------------------------------------- in space
 
+/// Distance to the nearest point of a surface and of patches over its holes, negative inside: the
+/// default for surfaces in space. Exact around closed ones.
+/// After Barill et al.: Fast Winding Numbers for Soups and Clouds (2018).
+struct Completed {
+  static constexpr const char* method = "completed";
+};
+
 /// How values at the source are held in space: not, at zero, or pulled towards zero. Level sets of
 /// parts are not told apart. Automatic: zero through tets that are given or follow the input, where
 /// no weight is given; otherwise pulled.

@@ -12,7 +12,8 @@ namespace littoral {
 struct Report {
   std::string method;
   std::string domain;
-  std::string status = "converged";  // or "not converged": the answer is then the best iterate
+  // Or "not converged": the answer is then the best iterate; or "uncertain": see the warnings.
+  std::string status = "converged";
   std::vector<std::pair<std::string, std::string>> options;  // name, value as text
   std::vector<std::pair<std::string, double>> sizes;         // e.g. "vertices"
   std::vector<std::pair<std::string, double>> timings;       // stage, seconds

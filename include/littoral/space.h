@@ -62,7 +62,7 @@ class Sdf {
 };
 
 /// Signed distance to the input: a surface where the soup has faces, otherwise a cloud. Without a
-/// method, tori for clouds, and for all else the nearest point with the sign of the winding number.
+/// method, tori for clouds; surfaces are completed over their holes and then measured.
 /// Throws InputError for bad input (nothing to measure from, numbers that are not finite).
 Sdf signed_distance(const PolygonSoup& input, const AnyMethod& method = {},
                     const Orientation& orientation = {}, const Context& context = {});

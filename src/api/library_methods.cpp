@@ -44,8 +44,8 @@ std::vector<Method<TetDomain>> library_methods() {
 
 template <>
 std::vector<Method<SpaceDomain>> library_methods() {
-  return all_of<SpaceDomain>({space_heat_methods, closest_point_methods, convolutional_methods,
-                              tori_methods, regularized_space_methods});
+  return all_of<SpaceDomain>({completed_methods, space_heat_methods, closest_point_methods,
+                              convolutional_methods, tori_methods, regularized_space_methods});
 }
 
 std::vector<MethodFamily> method_families() {

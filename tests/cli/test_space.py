@@ -48,7 +48,7 @@ def test_query_gives_values_and_gradients(run: Run, cube: Path, tmp_path: Path) 
     assert outside == pytest.approx([2, 1, 0, 0])
     assert b"(2, 4)" in (tmp_path / "a.npy").read_bytes()
     run("query", "cube.obj", "--points", "points.csv", "--flip", "-o", "b.csv", "-o", "b.ply")
-    assert rows(tmp_path / "b.csv")[1][0] == pytest.approx(2)  # a winding number of -1 is outside
+    assert [row[0] for row in rows(tmp_path / "b.csv")] == pytest.approx([1, -2])
 
 
 @pytest.mark.parametrize("method", ["closest-point", "hopf-cole", "planar", "log-sum-exp", "tori"])
@@ -63,12 +63,43 @@ def test_sdf_writes_volumes_surfaces_and_a_report(run: Run, cube: Path, tmp_path
     names = [x for e in ("vti", "npy", "nrrd", "obj", "png") for x in ("-o", "a." + e)]
     result = run("sdf", "cube.obj", "--resolution", 24, "--level", "0,0.2", "--json", *names)
     report = json.loads(result.stdout)
-    assert report["method"] == "signed-heat"
+    assert report["method"] == "completed"
     assert report["domain"] == "grid"
     assert report["sizes"]["nodes"] == 24**3
     info = json.loads(run("info", "a.obj", "--json").stdout)
     assert info["components"] == 2
     assert info["boundary_edges"] == 0
+
+
+def test_what_is_doubtful_is_said(run: Run, cube: Path, tmp_path: Path) -> None:
+    sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"
+    (tmp_path / "sheet.obj").write_text(sheet)
+    result = run("sdf", "sheet.obj", "--resolution", 8, "--json", "-o", "a.npy")
+    assert json.loads(result.stdout)["status"] == "uncertain"
+    assert "encloses nothing" in result.stderr
+    faces = CUBE.splitlines()
+    turned = [" ".join(["f", *line.split()[:0:-1]]) for line in faces if line.startswith("f")]
+    corners = [line for line in faces if line.startswith("v")]
+    right = [line for line in faces if line.startswith("f")]
+    (tmp_path / "odd.obj").write_text("\n".join([*corners, *turned[:2], *right[2:]]) + "\n")
+    result = run("query", "odd.obj", "--points", "points.csv", "-o", "a.csv")
+    assert "orientation of faces disagrees" in result.stderr
+    assert [row[0] for row in rows(tmp_path / "a.csv")] == pytest.approx([-1, 2])
+
+
+def test_offset_of_an_open_box_is_closed_and_measured(run: Run, cube: Path, tmp_path: Path) -> None:
+    lines = CUBE.splitlines()
+    (tmp_path / "open.obj").write_text("\n".join(lines[:-1]) + "\n")
+    arguments = ("--distance", "0.3", "--resolution", 32, "--json", "-o", "a.ply")
+    report = json.loads(run("offset", "open.obj", *arguments).stdout)
+    assert report["status"] == "converged"
+    sizes = report["sizes"]
+    assert sizes["offset 0.3: open edges"] == 0
+    assert sizes["offset 0.3: median distance"] == pytest.approx(0.3, abs=0.003)
+    assert 0.08 < sizes["offset 0.3: share over holes"] < 0.2
+    assert clean(run, "a.ply")["components"] == 1
+    result = run("offset", "open.obj", "--method", "signed-heat", *arguments)
+    assert "more than a tenth off" in result.stderr or "open there" in result.stderr
 
 
 def test_sdf_on_tets(run: Run, cube: Path, tmp_path: Path) -> None:

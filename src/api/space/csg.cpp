@@ -100,11 +100,14 @@ Grid choose_grid(const CsgShapes& shapes, const GridOptions& request) {
 }
 
 VecX grid_distance(const CsgShapes& shapes, const Grid& grid, Task task, Report& report) {
+  return grid_answer(shapes, grid, task, report).at_nodes;
+}
+
+SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Report& report) {
   check_combination(shapes.csg, shapes.all.size());
   const std::size_t n = shapes.all.size();
   if (shapes.plain())
-    return grid_distance(shapes.all.front().surface, grid, shapes.all.front().request, task,
-                         report);
+    return grid_answer(shapes.all.front().surface, grid, shapes.all.front().request, task, report);
   check_grid(grid);
   std::vector<VecX> values(n);
   for (std::size_t s = 0; s < n; ++s) {
@@ -132,7 +135,7 @@ VecX grid_distance(const CsgShapes& shapes, const Grid& grid, Task task, Report&
           combined[i] = combine(shapes.csg, samples).value;
         }
       });
-  return combined;
+  return {std::move(combined), {}, {}, {}};
 }
 
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const CsgShapes& shapes, Task task,

@@ -49,6 +49,9 @@ Grid choose_grid(const CsgShapes& shapes, const GridOptions& request);
 /// one input, and InputError for radii that are not finite or negative.
 VecX grid_distance(const CsgShapes& shapes, const Grid& grid, Task task, Report& report);
 
+/// The same with the completion of the surface, where there is but one and the method has one.
+SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Report& report);
+
 /// The same at any point: a field that can be asked in the units of the input. Throws
 /// UnsupportedError for methods that need a grid.
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const CsgShapes& shapes, Task task,

@@ -24,16 +24,26 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Any
                                  task, report);
 }
 
+/// The default where the choice names none, with the option values of the choice.
+AnyMethod chosen_or(const AnyMethod& fallback, const AnyMethod& chosen) {
+  if (!chosen.name().empty()) return chosen;
+  return AnyMethod::named(fallback.name(), chosen.values());
+}
+
 }  // namespace
 
 AnyMethod method_for_points(const PolygonSoup& input) {
   if (input.n_faces() == 0) return Tori{};
-  return WindingSign{};
+  return Completed{};
 }
 
 AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen) {
-  if (!chosen.name().empty()) return chosen;
-  return AnyMethod::named(method_for_points(input).name(), chosen.values());
+  return chosen_or(method_for_points(input), chosen);
+}
+
+AnyMethod method_on_grid(const PolygonSoup& input, const SpaceDomain& domain) {
+  if (input.n_faces() == 0 || domain.tets) return SpaceSignedHeat{};
+  return Completed{};
 }
 
 void check_queries(const MatX3& queries) {
@@ -94,12 +104,21 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
 
 VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                    Task task, Report& report) {
-  return solve(input, {grid, {}}, request.method, request, task, report).at_nodes;
+  return grid_answer(input, grid, request, task, report).at_nodes;
+}
+
+SpaceAnswer grid_answer(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
+                        Task task, Report& report) {
+  const SpaceDomain domain{grid, {}};
+  return solve(input, domain, chosen_or(method_on_grid(input, domain), request.method), request,
+               task, report);
 }
 
 SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFilling& filling,
                          const SpaceRequest& request, Task task, Report& report) {
-  return solve(input, {grid, filling}, request.method, request, task, report);
+  const SpaceDomain domain{grid, filling};
+  return solve(input, domain, chosen_or(method_on_grid(input, domain), request.method), request,
+               task, report);
 }
 
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,

@@ -18,18 +18,23 @@ namespace littoral {
 
 /// How an input is measured from: by which method, and from which side.
 struct SpaceRequest {
-  AnyMethod method;   // none: the registry's first for one surface on a grid, otherwise as
-                      // method_for_points says
-  bool flip = false;  // reverse all normals: the other side is positive
+  AnyMethod method;               // none: as method_on_grid and method_for_points say
+  bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
 };
 
-/// The method that answers at points where none is named: tori for clouds, otherwise the nearest
-/// point with the sign of the winding number.
+/// The method that answers at points where none is named: tori for clouds, otherwise the surface is
+/// completed and then measured.
 AnyMethod method_for_points(const PolygonSoup& input);
-inline constexpr const char* method_for_points_text = "tori for point clouds, otherwise winding";
+inline constexpr const char* method_for_points_text = "tori for point clouds, otherwise completed";
 /// The same where the choice names none, with the option values of the choice.
 AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen);
+
+/// The method for one input on a grid where none is named: signed heat for clouds and through tets,
+/// otherwise the surface is completed and then measured.
+AnyMethod method_on_grid(const PolygonSoup& input, const SpaceDomain& domain);
+inline constexpr const char* method_on_grid_text =
+    "completed; signed-heat for point clouds and through tets";
 
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,
@@ -44,6 +49,10 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request);
 /// not do, Cancelled.
 VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                    Task task, Report& report);
+
+/// The same with the completion of the surface, where the method has one [length].
+SpaceAnswer grid_answer(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
+                        Task task, Report& report);
 
 /// The same through tets that fill the grid's box; with the values at their vertices.
 SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFilling& filling,

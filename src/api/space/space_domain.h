@@ -30,6 +30,7 @@ struct SpaceAnswer {
   VecX at_nodes;                                      // of the grid, where there is one
   std::shared_ptr<const PointwiseDistance> function;  // at any point, where there is no grid
   TetField tets;                                      // where tets fill the grid's box
+  PolygonSoup completion;  // triangles over holes, where a method has them
 };
 
 /// Values scale with the input and do not change when it is moved with the grid. Errors: InputError
@@ -50,6 +51,7 @@ struct SpaceDomain {
 template <>
 std::vector<Method<SpaceDomain>> library_methods();
 // Its families:
+std::vector<Method<SpaceDomain>> completed_methods();
 std::vector<Method<SpaceDomain>> space_heat_methods();
 std::vector<Method<SpaceDomain>> closest_point_methods();
 std::vector<Method<SpaceDomain>> convolutional_methods();
@@ -94,7 +96,7 @@ Method<SpaceDomain> make_grid_method(MethodInfo info, const OptionTable<S>& tabl
           // exceed the grid's.
           const SpaceInput input = make_input(sources, frame, local.spacing.minCoeff(), task, r);
           Task rest = task.stage(0.95, "distance");
-          return SpaceAnswer{on_grid(input, local, options, rest, r) * frame.unit, {}, {}};
+          return SpaceAnswer{on_grid(input, local, options, rest, r) * frame.unit, {}, {}, {}};
         };
       });
 }
@@ -119,7 +121,10 @@ Method<SpaceDomain> make_pointwise_method(MethodInfo info, const OptionTable<S>&
           const Frame frame(bounding_box(sources.soup));
           const SpaceInput input = make_input(sources, frame, query_side, task, report);
           return SpaceAnswer{
-              {}, placed(make(input, options, task.stage(0.95, "preparing"), report), frame), {}};
+              {},
+              placed(make(input, options, task.stage(0.95, "preparing"), report), frame),
+              {},
+              {}};
         };
       });
   method.prepare = [at_points = method.prepare, on_grid](const SpaceDomain& domain,

@@ -54,6 +54,7 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
   const Stopwatch watch(report, "sources");
   const PolygonSoup& soup = sources.soup;
   SpaceInput input;
+  input.flipped = sources.flip;
   PolygonSoup& surface = input.surface;
   surface.points = frame.local(soup.points);
   if (soup.n_faces() > 0) {

@@ -24,6 +24,7 @@ struct SpaceInput {
   PolygonSoup surface;      // triangles, or points with normals and no faces
   OrientedPoints samples;   // of it, as fine as was asked for
   std::vector<Torus> tori;  // at the points, where the file held fitted ones; or empty
+  bool flipped = false;     // normals were reversed
 
   bool is_cloud() const { return surface.n_faces() == 0; }
   MatX3i triangles() const;  // faces x 3

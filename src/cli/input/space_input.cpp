@@ -29,7 +29,7 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) 
     group(add_repeated_option(verb, name, *files, what + kinds))->type_name("FILE");
   group(verb.add_option("--operand-method", texts.operand_method,
                         "of the shapes after INPUT [default: as --method where that is given, "
-                        "otherwise tori for clouds, winding for all else]"))
+                        "otherwise tori for clouds, completed for all else]"))
       ->type_name("NAME");
   group(verb.add_option("--blend", texts.blend,
                         "round corners where shapes meet, this far from them [length; default 0]"))

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "api/space/isosurfaces.h"
+#include "api/space/offset_quality.h"
 #include "api/surface/level_lines.h"
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
@@ -65,36 +66,53 @@ void offset_curves(OffsetArguments& arguments, const std::vector<double>& distan
   write_lines(arguments.out, mesh, levels);
 }
 
-/// Signed distance around a shape or several, on a grid that holds all offsets of it; that of a
-/// volume alone is there already.
-Volume distance_around(OffsetArguments& arguments, const std::vector<double>& distances,
-                       Session& session) {
+/// Signed distance, and the surfaces that it was measured from: the input and what completes it;
+/// none where there are several shapes or points.
+struct DistanceAround {
+  Volume distance;
+  PolygonSoup input, completion;
+};
+
+/// Around a shape or several, on a grid that holds all offsets of it; that of a volume alone is
+/// there already.
+DistanceAround distance_around(OffsetArguments& arguments, const std::vector<double>& distances,
+                               Session& session) {
   SpaceArguments& space = arguments.space;
   space.input = arguments.in;
   space.field = arguments.field;
   space.method = arguments.method;
   CsgShapes shapes = read_shapes(space, session);
-  if (shapes.all.size() == 1 && shapes.all.front().field) return *shapes.all.front().field;
+  if (shapes.all.size() == 1 && shapes.all.front().field)
+    return {*shapes.all.front().field, {}, {}};
   double farthest = 0;
   for (const double d : distances) farthest = std::max(farthest, std::abs(d));
   const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
   GridOptions grid = grid_request(space);
   grid.padding += reach / longest_side(shapes);
-  Volume volume;
-  volume.grid = choose_grid(shapes, grid);
+  DistanceAround around;
+  around.distance.grid = choose_grid(shapes, grid);
   session.reading = false;
-  volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
-  return volume;
+  SpaceAnswer answer = grid_answer(shapes, around.distance.grid, session.task(), session.report);
+  around.distance.values = std::move(answer.at_nodes);
+  around.completion = std::move(answer.completion);
+  if (shapes.plain()) around.input = std::move(shapes.all.front().surface);
+  return around;
 }
 
 void offset_shape(OffsetArguments& arguments, const std::vector<double>& distances,
                   Session& session) {
   check_level_outputs(arguments.out, distances.size(), {io::Kind::surface});
-  const Volume distance = distance_around(arguments, distances, session);
+  const DistanceAround around = distance_around(arguments, distances, session);
   session.reading = false;
   Task task = session.task();
-  const auto surfaces = offset_isosurfaces(distance, distances, arguments.morphology,
-                                           arguments.clip, session.report, task);
+  const auto surfaces =
+      offset_isosurfaces(around.distance, distances, arguments.morphology, arguments.clip,
+                         session.report, task.stage(0.9, "offsets"));
+  const bool once = arguments.morphology.open == 0 && arguments.morphology.close == 0;
+  if (once && around.input.n_faces() > 0)
+    for (const Isosurface& surface : surfaces)
+      measure_offset(surface, around.input, around.completion, session.report,
+                     task.stage(0.1 / static_cast<double>(surfaces.size()), "measuring offsets"));
   task.checkpoint(1);
   write_isosurfaces(arguments.out, surfaces);
 }

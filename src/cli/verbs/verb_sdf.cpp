@@ -127,9 +127,9 @@ void add_sdf(CLI::App& program, Session& session) {
                   "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->type_name("W");
-  add_space_method(verb, arguments->space,
-                   Registry<SpaceDomain>::instance().all().front()->info.name +
-                       "; of several shapes " + method_for_points_text);
+  add_space_method(
+      verb, arguments->space,
+      std::string(method_on_grid_text) + "; of several shapes " + method_for_points_text);
   add_shape_options(verb, arguments->space);
   add_json_option(verb, session);
 }

@@ -1,0 +1,106 @@
+#include "api/space/offset_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "base/index.h"
+#include "base/parallel.h"
+#include "domain/mesh/triangulate.h"
+#include "littoral/options.h"
+#include "spatial/boundary_edges.h"
+#include "spatial/morton_order.h"
+#include "spatial/triangle_bvh.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double median_allowed = 0.02;               // of what was asked for
+constexpr double far_off = 0.1, far_off_share = 0.1;  // of it, of the area
+
+std::string short_text(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+/// A third of the triangles around each vertex.
+VecX vertex_areas(const MatX3& points, const MatX3i& faces) {
+  VecX areas = VecX::Zero(points.rows());
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 a = points.row(faces(f, 0)), b = points.row(faces(f, 1)),
+               c = points.row(faces(f, 2));
+    const double area = (b - a).cross(c - a).norm() / 6;
+    for (int k = 0; k < 3; ++k) areas[faces(f, k)] += area;
+  }
+  return areas;
+}
+
+}  // namespace
+
+void measure_offset(const Isosurface& offset, const PolygonSoup& input,
+                    const PolygonSoup& completion, Report& report, const Task& task) {
+  const PolygonSoup& surface = offset.surface;
+  if (surface.n_faces() == 0) return;
+  const MatX3i triangles = triangles_of(triangulate(input)), patches = triangles_of(completion);
+  MatX3 points(input.points.rows() + completion.points.rows(), 3);
+  points << input.points, completion.points;
+  MatX3i all(triangles.rows() + patches.rows(), 3);
+  all << triangles, patches.array() + static_cast<int>(input.points.rows());
+  const TriangleBvh bvh(points, all);
+  task.checkpoint();
+
+  const auto n = surface.points.rows();
+  VecX distance(n);
+  std::vector<char> over_hole(n);
+  const std::vector<int> order = morton_order(surface.points);
+  parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint(static_cast<double>(begin) / static_cast<double>(n));
+    int near = -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      const NearestPoint foot = bvh.closest_point(surface.points.row(order[i]), near);
+      near = foot.face;
+      distance[order[i]] = foot.distance;
+      over_hole[order[i]] = foot.face >= triangles.rows();
+    }
+  });
+
+  const MatX3i faces = triangles_of(surface);
+  const VecX areas = vertex_areas(surface.points, faces);
+  const double total = areas.sum(), asked = std::abs(offset.level);
+  std::vector<int> sorted(n);
+  std::iota(sorted.begin(), sorted.end(), 0);
+  std::sort(sorted.begin(), sorted.end(), [&](int a, int b) {
+    return distance[a] < distance[b] || (distance[a] == distance[b] && a < b);
+  });
+  double below = 0, holes = 0, off = 0, median = distance[sorted.back()];
+  for (const int v : sorted) {
+    if (below < total / 2) median = distance[v];
+    below += areas[v];
+    if (over_hole[v] != 0) holes += areas[v];
+    if (std::abs(distance[v] - asked) > far_off * asked) off += areas[v];
+  }
+  const std::string name = "offset " + short_text(offset.level) + ": ";
+  const auto edges = boundary_edges(surface.points, faces).size();
+  report.sizes.emplace_back(name + "least distance", distance.minCoeff());
+  report.sizes.emplace_back(name + "median distance", median);
+  report.sizes.emplace_back(name + "greatest distance", distance.maxCoeff());
+  report.sizes.emplace_back(name + "share over holes", total > 0 ? holes / total : 0);
+  report.sizes.emplace_back(name + "open edges", static_cast<double>(edges));
+  if (edges > 0) report.status = "uncertain";  // the contour has warned
+  if (asked == 0 || !(total > 0)) return;
+  if (std::abs(median - asked) > median_allowed * asked || off > far_off_share * total) {
+    report.status = "uncertain";
+    report.warn(name + "half of the surface is nearer than " + short_text(median) + ", and " +
+                short_text(100 * off / total) +
+                " % of it is more than a tenth off what was asked; use a larger resolution" +
+                (report.method == Completed::method
+                     ? ""
+                     : std::string(", and method ") + Completed::method + " for exact distances"));
+  }
+}
+
+}  // namespace littoral

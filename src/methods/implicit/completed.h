@@ -1,0 +1,57 @@
+#pragma once
+// Distance to a surface in space that may have holes: complete it first, then measure.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/task.h"
+#include "littoral/report.h"
+#include "littoral/volume.h"
+#include "methods/implicit/level_patch.h"
+#include "methods/implicit/pointwise.h"
+#include "methods/implicit/side_census.h"
+#include "spatial/triangle_bvh.h"
+#include "spatial/winding_number.h"
+
+namespace littoral {
+
+/// Distance to the nearest point of a surface and of the patches over its holes, negative inside:
+/// exact around closed surfaces.
+///
+/// Inside is where the winding number exceeds 1/2, as in Barill et al. (2018); patches are the set
+/// where it equals 1/2 away from the surface (`level_patch`), so the distance vanishes where the
+/// sign changes. Closed surfaces need none. What the surface's own winding number says about its
+/// orientation is reported, with warnings where the sign is doubtful.
+class CompletedDistance final : public PointwiseDistance {
+ public:
+  /// points: n x 3, about unit size; faces: m x 3, with finite corners and an area; spacing: of the
+  /// places that will be asked, patches are as fine; as_given: inside is behind the normals even
+  /// where the surface encloses the other side.
+  CompletedDistance(const MatX3& points, const MatX3i& faces, double spacing, bool as_given,
+                    const Task& task, Report& report);
+
+  DistanceSample at(const Vec3& x) const override;
+  double value_after(const Vec3& x, int& last) const override;
+
+  /// At the nodes of a grid. Reports where the sign changes without a surface between two nodes.
+  VecX at_nodes(const Grid& grid, const Task& task, Report& report) const;
+
+  /// Over holes; none where the surface is closed.
+  const LevelPatch& patch() const { return patch_; }
+
+ private:
+  /// Settles winding_ and sides_; returns the faces that bound, oriented.
+  MatX3i settle_sides(const MatX3& points, const MatX3i& faces, bool as_given, const Task& task,
+                      Report& report);
+  bool is_inside(const Vec3& x) const;
+
+  WindingNumber winding_;
+  SideRule sides_;
+  bool closed_ = true;
+  LevelPatch patch_;
+  std::unique_ptr<TriangleBvh> bvh_;  // faces, then those of the patch
+  MatX3 normals_;                     // of these
+};
+
+}  // namespace littoral

@@ -1,0 +1,291 @@
+#include "methods/implicit/orient_soup.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/index.h"
+#include "base/parallel.h"
+#include "spatial/boundary_edges.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int directions = 13;
+constexpr int places_in_all = 4096, places_at_least = 4;  // on parts
+constexpr double least_valid = 0.1;     // share of lines that pass an odd number on one side alone
+constexpr double least_agreeing = 0.4;  // of these, for less against
+constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
+
+/// Triangles by where lines of one direction meet them.
+class LineCaster {
+ public:
+  LineCaster(const MatX3& points, const MatX3i& faces, const Vec3& direction) : faces_(faces) {
+    const Vec3 u = direction.unitOrthogonal(), v = direction.cross(u);
+    Eigen::Matrix3d turn;
+    turn << u.transpose(), v.transpose(), direction.transpose();
+    turn_ = turn;
+    points_ = points * turn.transpose();
+    low_ = points_.leftCols<2>().colwise().minCoeff();
+    const Vec2 size = points_.leftCols<2>().colwise().maxCoeff().transpose() - low_;
+    n_ = std::clamp(static_cast<int>(std::sqrt(double(faces.rows()))), 1, 512);
+    cell_ = std::max(size.maxCoeff() / n_, 1e-300);
+    begin_.assign(std::size_t(n_) * n_ + 1, 0);
+    for (const bool counting : {true, false}) {
+      for (int f = 0; f < faces.rows(); ++f) {
+        Eigen::Array2i from, to;
+        bins(f, from, to);
+        for (int j = from[1]; j <= to[1]; ++j)
+          for (int i = from[0]; i <= to[0]; ++i) {
+            const std::size_t bin = std::size_t(j) * n_ + i;
+            if (counting)
+              ++begin_[bin + 1];
+            else
+              in_bin_[begin_[bin] + filled_[bin]++] = f;
+          }
+      }
+      if (!counting) break;
+      for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
+      in_bin_.resize(begin_.back());
+      filled_.assign(begin_.size(), 0);
+    }
+  }
+
+  /// How many faces but `own` the line through x passes on the side of the direction, and before.
+  std::pair<int, int> passed(const Vec3& x, int own) const {
+    const Vec3 q = turn_ * x;
+    const Eigen::Array2i at = bin_of(q.head<2>());
+    const std::size_t bin = std::size_t(at[1]) * n_ + at[0];
+    int after = 0, before = 0;
+    for (std::size_t k = begin_[bin]; k < begin_[bin + 1]; ++k) {
+      const int f = in_bin_[k];
+      if (f == own) continue;
+      std::array<Vec3, 3> p;
+      for (int c = 0; c < 3; ++c) p[c] = points_.row(faces_(f, c)).transpose() - q;
+      const auto cross = [](const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; };
+      const double a = cross(p[1], p[2]), b = cross(p[2], p[0]), c = cross(p[0], p[1]);
+      if ((a >= 0) != (b >= 0) || (b >= 0) != (c >= 0)) continue;
+      const double area = a + b + c;
+      if (area == 0) continue;
+      const double height = (a * p[0][2] + b * p[1][2] + c * p[2][2]) / area;
+      ++(height > 0 ? after : before);
+    }
+    return {after, before};
+  }
+
+ private:
+  Eigen::Array2i bin_of(const Vec2& p) const {
+    return (((p - low_) / cell_).array().floor().max(0).min(n_ - 1)).cast<int>();
+  }
+  void bins(int f, Eigen::Array2i& from, Eigen::Array2i& to) const {
+    Vec2 low = points_.row(faces_(f, 0)).head<2>(), high = low;
+    for (int c = 1; c < 3; ++c) {
+      low = low.cwiseMin(points_.row(faces_(f, c)).head<2>().transpose());
+      high = high.cwiseMax(points_.row(faces_(f, c)).head<2>().transpose());
+    }
+    from = bin_of(low);
+    to = bin_of(high);
+  }
+
+  const MatX3i& faces_;
+  Eigen::Matrix3d turn_;
+  MatX3 points_;  // the direction is the third axis
+  Vec2 low_;
+  int n_ = 1;
+  double cell_ = 1;
+  std::vector<std::size_t> begin_, filled_;
+  std::vector<int> in_bin_;
+};
+
+/// Each set of corners once, as the first face has them, without those of fewer than three.
+/// Vertices are the lowest ones of their positions.
+MatX3i distinct_faces(const MatX3& points, const MatX3i& faces) {
+  const std::vector<int> first = same_positions(points);
+  std::vector<std::pair<std::array<int, 3>, int>> keys;
+  for (int f = 0; f < faces.rows(); ++f) {
+    std::array<int, 3> key;
+    for (int k = 0; k < 3; ++k) key[k] = first[faces(f, k)];
+    std::sort(key.begin(), key.end());
+    if (key[0] != key[1] && key[1] != key[2]) keys.emplace_back(key, f);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (i == 0 || keys[i].first != keys[i - 1].first) kept.push_back(keys[i].second);
+  std::sort(kept.begin(), kept.end());
+  MatX3i out(kept.size(), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (int k = 0; k < 3; ++k) out(index(i), k) = first[faces(kept[i], k)];
+  return out;
+}
+
+/// Numbers of the parts; faces are turned to agree with the first one of theirs.
+std::vector<int> agreeing_parts(MatX3i& faces, std::vector<char>& turned) {
+  struct Side {
+    std::pair<int, int> ends;
+    int face;
+    bool forward;
+  };
+  std::vector<Side> sides;
+  for (int f = 0; f < faces.rows(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = faces(f, k), b = faces(f, (k + 1) % 3);
+      sides.push_back({std::minmax({a, b}), f, a < b});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.ends < b.ends || (a.ends == b.ends && a.face < b.face);
+  });
+  struct Neighbour {
+    int face;
+    bool agrees;
+  };
+  std::vector<std::vector<Neighbour>> next(faces.rows());
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].ends == sides[begin].ends) ++end;
+    if (end - begin != 2) continue;
+    const Side &a = sides[begin], &b = sides[begin + 1];
+    next[a.face].push_back({b.face, a.forward != b.forward});
+    next[b.face].push_back({a.face, a.forward != b.forward});
+  }
+  std::vector<int> part(faces.rows(), -1), stack;
+  turned.assign(faces.rows(), 0);
+  int parts = 0;
+  for (int start = 0; start < faces.rows(); ++start) {
+    if (part[start] >= 0) continue;
+    part[start] = parts;
+    stack.push_back(start);
+    while (!stack.empty()) {
+      const int f = stack.back();
+      stack.pop_back();
+      for (const Neighbour& n : next[f]) {
+        if (part[n.face] >= 0) continue;
+        part[n.face] = parts;
+        turned[n.face] = static_cast<char>((turned[f] != 0) == n.agrees);
+        stack.push_back(n.face);
+      }
+    }
+    ++parts;
+  }
+  for (int f = 0; f < faces.rows(); ++f)
+    if (turned[f] != 0) std::swap(faces(f, 1), faces(f, 2));
+  return part;
+}
+
+struct Place {
+  int face;
+  Vec3 x;
+};
+
+/// Places spread evenly over each part, more on large ones.
+std::vector<Place> places_on(const MatX3& points, const MatX3i& faces, const VecX& areas,
+                             const std::vector<int>& part) {
+  std::map<int, std::vector<int>> members;
+  for (int f = 0; f < faces.rows(); ++f) members[part[f]].push_back(f);
+  std::vector<Place> out;
+  const double total = areas.sum();
+  for (const auto& [number, all] : members) {
+    double area = 0;
+    for (const int f : all) area += areas[f];
+    if (!(area > 0)) continue;
+    const int n =
+        std::max(places_at_least, static_cast<int>(std::lround(places_in_all * area / total)));
+    std::size_t at = 0;
+    double sum = areas[all[0]];
+    for (int i = 0; i < n; ++i) {
+      while (sum < (i + 0.5) / n * area && at + 1 < all.size()) sum += areas[all[++at]];
+      double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0),
+             v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const auto face = faces.row(all[at]);
+      out.push_back({all[at], (1 - u - v) * points.row(face[0]) + u * points.row(face[1]) +
+                                  v * points.row(face[2])});
+    }
+  }
+  return out;
+}
+
+/// Even over the half sphere and along no axis (a spiral of golden angles).
+Vec3 direction_number(int d) {
+  const double z = (d + 0.5) / directions, turn = 2.399963229728653 * d + 0.7;
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+}  // namespace
+
+OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& task) {
+  MatX3i all = distinct_faces(points, faces);
+  OrientedSoup out;
+  std::vector<char> turned;
+  const std::vector<int> part = agreeing_parts(all, turned);
+  VecX areas(all.rows());
+  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+    const Vec3 a = points.row(all(f, 0)), b = points.row(all(f, 1)), c = points.row(all(f, 2));
+    areas[f] = (b - a).cross(c - a).norm() / 2;
+  }
+  const double total = areas.sum();
+  if (!(total > 0)) return out;
+  const std::vector<Place> places = places_on(points, all, areas, part);
+
+  // +1 behind the face is inside, -1 before it, 0 no telling.
+  std::vector<std::array<signed char, directions>> votes(places.size());
+  for (int d = 0; d < directions; ++d) {
+    const Vec3 direction = direction_number(d);
+    const LineCaster lines(points, all, direction);
+    parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
+      task.checkpoint();
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto corners = all.row(places[i].face);
+        const Vec3 a = points.row(corners[0]), b = points.row(corners[1]),
+                   c = points.row(corners[2]);
+        const bool along = (b - a).cross(c - a).dot(direction) > 0;
+        auto [front, behind] = lines.passed(places[i].x, places[i].face);
+        if (!along) std::swap(front, behind);
+        votes[i][d] = static_cast<signed char>((front + behind) % 2 == 0 ? 0 : behind % 2 * 2 - 1);
+      }
+    });
+  }
+  struct Count {
+    double plus = 0, minus = 0, none = 0;
+  };
+  std::vector<Count> counts(1 + *std::max_element(part.begin(), part.end()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (const signed char vote : votes[i]) {
+      Count& count = counts[part[places[i].face]];
+      ++(vote > 0 ? count.plus : vote < 0 ? count.minus : count.none);
+    }
+
+  MatX3i kept(all.rows(), 3);
+  Eigen::Index n = 0;
+  double bounding = 0;
+  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+    const Count& count = counts[part[f]];
+    const double valid = count.plus + count.minus, lines = valid + count.none;
+    const double agreement = valid > 0 ? std::abs(count.plus - count.minus) / valid : 0;
+    if (valid < least_valid * lines || agreement < least_agreeing || !(lines > 0)) {
+      out.left_out += areas[f] / total;
+      continue;
+    }
+    kept.row(n) = all.row(f);
+    const bool turn = count.minus > count.plus;
+    if (turn) std::swap(kept(n, 1), kept(n, 2));
+    if (turn != (turned[f] != 0)) {
+      out.turned += areas[f] / total;
+      if (valid > sure_valid * lines && agreement > sure_agreeing)
+        out.surely_turned += areas[f] / total;
+    }
+    ++n;
+    bounding += areas[f];
+    out.certainty += agreement * areas[f];
+  }
+  if (bounding > 0) out.certainty /= bounding;
+  out.faces = kept.topRows(n);
+  return out;
+}
+
+}  // namespace littoral

@@ -1,0 +1,21 @@
+#pragma once
+// Where a surface in space ends.
+
+#include <array>
+#include <vector>
+
+#include "littoral/types.h"
+
+namespace littoral {
+
+/// The sides of faces that other faces do not run back along as often: the boundary of the surface
+/// as a chain, each once, from vertex to vertex. None where the surface is closed and consistently
+/// oriented, nonmanifold edges or not: its winding number is then an integer everywhere. Vertices
+/// at one position count as one; faces with a corner that is not finite count as nothing.
+/// points: n x 3; faces: m x 3, rows index points.
+std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces);
+
+/// For each vertex, the lowest one at its position.
+std::vector<int> same_positions(const MatX3& points);
+
+}  // namespace littoral

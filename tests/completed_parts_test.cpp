@@ -1,0 +1,85 @@
+// What completion is made of: where a surface ends, patches over holes, orientation by parity.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "broken_shapes.h"
+#include "methods/implicit/level_patch.h"
+#include "methods/implicit/orient_soup.h"
+#include "spatial/winding_number.h"
+
+namespace littoral {
+namespace {
+
+using test::hemisphere;
+using test::joined;
+using test::part_of;
+using test::turned;
+
+TEST(LevelPatch, CornersLieOnTheLevelAndCracksGetNone) {
+  const PolygonSoup open = hemisphere(3, false);
+  const MatX3i faces = triangles_of(open);
+  const WindingNumber winding(open.points, faces);
+  const auto inside = [&](const Vec3& x) { return winding(x, 1e9) - 0.5; };
+  const auto rim = boundary_edges(open.points, faces);
+  EXPECT_EQ(rim.size(), 32u);
+  const LevelPatch patch = level_patch(inside, open.points, rim, 0.05, Task());
+  EXPECT_TRUE(patch.complete);
+  EXPECT_NEAR(patch.area, 3.1, 0.06);  // of the polygon
+  EXPECT_LT(patch.points.col(2).cwiseAbs().maxCoeff(), 1e-3);
+  for (Eigen::Index f = 0; f < patch.faces.rows(); ++f) {
+    const Vec3 a = patch.points.row(3 * f), b = patch.points.row(3 * f + 1),
+               c = patch.points.row(3 * f + 2);
+    EXPECT_GE((b - a).cross(c - a)[2], -1e-9);  // outward is up
+  }
+  // A cut along the equator whose two sides stand a thousandth apart.
+  PolygonSoup upper =
+      part_of(test::octasphere_soup(3), [](int, const Vec3& c) { return c[2] > 0; });
+  upper.points.col(2).array() += 1e-3;
+  const PolygonSoup cut = joined(open, upper);
+  const MatX3i both = triangles_of(cut);
+  const WindingNumber around(cut.points, both);
+  const auto cracks = boundary_edges(cut.points, both);
+  EXPECT_EQ(cracks.size(), 64u);
+  EXPECT_EQ(level_patch([&](const Vec3& x) { return around(x, 1e9) - 0.5; }, cut.points, cracks,
+                        0.05, Task())
+                .faces.rows(),
+            0);
+}
+
+TEST(BoundaryEdges, AreThoseOfTheChain) {
+  const PolygonSoup sphere = test::octasphere_soup(1);
+  const auto of = [](const PolygonSoup& soup) {
+    return boundary_edges(soup.points, triangles_of(soup)).size();
+  };
+  EXPECT_EQ(of(sphere), 0u);
+  EXPECT_EQ(of(joined(sphere, sphere)), 0u);  // edges of four faces
+  EXPECT_EQ(of(part_of(sphere, [](int f, const Vec3&) { return f != 0; })), 3u);
+  EXPECT_EQ(of(turned(sphere, [](int f) { return f == 0; })), 3u);
+  PolygonSoup loose;  // nothing shared but positions
+  for (int f = 0; f < sphere.n_faces(); ++f)
+    loose = joined(loose, part_of(sphere, [&](int g, const Vec3&) { return g == f; }));
+  EXPECT_EQ(of(loose), 0u);
+}
+
+TEST(OrientSoup, LeavesOutWallsAndSheetsAndCountsWhatItTurned) {
+  const PolygonSoup sphere = test::octasphere_soup(3);
+  PolygonSoup wall = test::grid_soup(4, 4);  // a square through the middle
+  wall.points = (wall.points.array() - 0.5).matrix();
+  wall.points.col(2).setConstant(0.013);
+  const PolygonSoup with_wall = joined(sphere, wall);
+  const OrientedSoup oriented = orient_soup(with_wall.points, triangles_of(with_wall), Task());
+  EXPECT_EQ(oriented.faces.rows(), sphere.n_faces());
+  EXPECT_NEAR(oriented.left_out, 1.0 / (1 + 4 * M_PI), 0.005);
+  EXPECT_EQ(oriented.turned, 0);
+  const PolygonSoup one = turned(sphere, [](int f) { return f < 64; });
+  const OrientedSoup again = orient_soup(one.points, triangles_of(one), Task());
+  EXPECT_NEAR(again.turned, 64.0 / 512, 0.01);
+  EXPECT_NEAR(WindingNumber(one.points, again.faces)(Vec3(0.1, 0, 0)), 1, 1e-4);
+  EXPECT_EQ(orient_soup(wall.points, triangles_of(wall), Task()).faces.rows(), 0);
+  EXPECT_EQ(orient_soup(MatX3(3, 3).setZero(), MatX3i::Zero(1, 3), Task()).faces.rows(), 0);
+}
+
+}  // namespace
+}  // namespace littoral

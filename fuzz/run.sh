@@ -13,7 +13,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
 export here build seconds="$2"
 # Each prints when it is done, so that the outputs do not mix.
-printf '%s\n' obj off ply stl pc xyz pcd vti nrrd npy vol mesh tet vtk sources |
+printf '%s\n' obj off ply stl pc xyz pcd vti nrrd npy vol mesh tet vtk sources methods |
   xargs -P "${JOBS:-$(nproc)}" -n 1 sh -c '
     found="$build/fuzz/$0"
     mkdir -p "$found/corpus" "$found/failed"

@@ -59,6 +59,30 @@ TEST(AllPairs, CircleWithDirichletEnergy) {
   }
 }
 
+TEST(AllPairs, StopsWhereNoGradientReachesOneOrAllIsSymmetricByItself) {
+  // As above, with 2 alpha > pi: u'' = -1 / (2 alpha), u(0) = 0, u'(pi) = 0, |u'| < 1 throughout.
+  const int n = 60;
+  const double height = 2e-3, pi = std::numbers::pi, area = 2 * pi * height, alpha = 3;
+  const MatX U = pairs_on(test::ring(n, 1, height), alpha / std::sqrt(area), 1e-4);
+  for (int i = 0; i < n; ++i) {
+    const double x = 2 * pi * i / n;
+    EXPECT_NEAR(U(i, 0), x * (2 * pi - x) / (4 * alpha), 0.01) << i;
+  }
+  PolygonSoup tetrahedron;
+  tetrahedron.points.resize(4, 3);
+  tetrahedron.points << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+  for (const auto& f : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+    tetrahedron.add_face(f);
+  for (const double alpha_hat : {0.05, 2.0})
+    for (const PolygonSoup& soup :
+         {tetrahedron, test::octasphere_soup(0), test::octasphere_soup(1)}) {
+      const MatX D = pairs_on(SurfaceMesh(soup), alpha_hat);
+      const double edge = (soup.points.row(0) - soup.points.row(2)).norm();
+      EXPECT_GT(D(0, 2), 0.05 * edge);
+      EXPECT_LT(D(0, 2), 1.01 * edge);
+    }
+}
+
 TEST(AllPairs, SymmetricZeroAtHomeAndOfSlopeOne) {
   const SurfaceMesh mesh(test::jittered_grid_soup(5, 5, 0.25));
   const MatX U = pairs_on(mesh, 0.05);
@@ -150,6 +174,18 @@ TEST(PairStatistics, CountsWhatIsWrong) {
   s = pair_statistics(D, 4, {});
   EXPECT_DOUBLE_EQ(s.largest_asymmetry, 0.25);
   EXPECT_DOUBLE_EQ(s.mean_asymmetry, 0.25 * 2 / 12);
+}
+
+TEST(PairStatistics, CountsNoTripletsAcrossComponents) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  MatX D = MatX::Constant(5, 5, far);  // three points of a line, and two of another
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j)
+      if ((i < 3) == (j < 3)) D(i, j) = std::abs(i - j);
+  const PairStatistics s = pair_statistics(D, 1, {});
+  EXPECT_EQ(s.triplets, 3);  // three pairs, one other each; the fourth pair has none
+  D(0, 2) = D(2, 0) = 3;
+  EXPECT_DOUBLE_EQ(pair_statistics(D, 1, {}).violations, 1. / 3);
 }
 
 TEST(PairStatistics, ExactDistanceIsAMetric) {
@@ -260,6 +296,33 @@ TEST(Pairs, ComponentsAndStrayVertices) {
               << method << " " << a << " " << b;
       }
   }
+}
+
+TEST(Pairs, ReportsTheWorstComponentAndEach) {
+  PolygonSoup soup = test::octasphere_soup(1);
+  const PolygonSoup other = test::jittered_grid_soup(3, 3, 0.2);
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(n + other.n_vertices() + 1, 3);
+  for (int v = 0; v < other.n_vertices(); ++v)
+    soup.points.row(n + v) = 1e-3 * other.points.row(v) + Vec3(5, 0, 0).transpose();
+  for (int f = 0; f < other.n_faces(); ++f)
+    test::add_triangle(soup, n + other.face(f)[0], n + other.face(f)[1], n + other.face(f)[2]);
+  const int stray = n + other.n_vertices();
+  soup.points.row(stray) << 9, 9, 9;
+  test::add_triangle(soup, stray, stray, stray);  // no triangle, and no reason to refuse the rest
+  Report report;
+  test::pair_distances(SurfaceMesh(soup), {}, AnyMethod::named("symmetric", {}), report);
+  const auto value = [&](const std::string& name) {
+    for (const auto& [key, number] : report.residuals)
+      if (key == name) return number;
+    return -1.0;
+  };
+  const std::string name = "all pairs, over what is compared";
+  const double first = value(name + ", component 0"), second = value(name + ", component 1");
+  EXPECT_GT(first, 0);
+  EXPECT_GT(second, 0);
+  EXPECT_EQ(value(name), std::max(first, second));
+  EXPECT_EQ(report.status, "converged");
 }
 
 TEST(Pairs, BadRequestsSayWhatIsWrong) {

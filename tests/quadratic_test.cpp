@@ -140,6 +140,114 @@ TEST(QuadraticSolver, ComponentsWithoutSourceAreInfiniteAndListed) {
   EXPECT_EQ(report.unreachable_components, std::vector<int>{1});
 }
 
+/// One mesh, and a second one beside it that is smaller.
+PolygonSoup beside(const PolygonSoup& large, const PolygonSoup& small, double scale) {
+  PolygonSoup soup = large;
+  const int n = soup.n_vertices();
+  soup.points.conservativeResize(n + small.n_vertices(), 3);
+  for (int v = 0; v < small.n_vertices(); ++v)
+    soup.points.row(n + v) = scale * small.points.row(v) + Vec3(3, 0, 0).transpose();
+  for (int f = 0; f < small.n_faces(); ++f)
+    test::add_triangle(soup, n + small.face(f)[0], n + small.face(f)[1], n + small.face(f)[2]);
+  return soup;
+}
+
+TEST(QuadraticSolver, EachComponentIsAProblemOfItsOwn) {
+  const PolygonSoup grid = test::jittered_grid_soup(6, 6, 0.2);
+  const int n = grid.n_vertices();
+  for (const double scale : {1e-3, 1e-4, 1e-5}) {
+    const SurfaceMesh mesh(beside(grid, grid, scale));
+    Sources sources = point_source(SurfacePoint::at_vertex(8));
+    sources.points.push_back(SurfacePoint::at_vertex(n + 8));
+    Report report;
+    const VecX d = quadratic(mesh, sources, {}, report).at_vertices();
+    EXPECT_EQ(report.status, "converged");
+    for (int v = 0; v < n; ++v) {
+      const double exact = (grid.points.row(v) - grid.points.row(8)).norm();
+      EXPECT_NEAR(d[v], exact, 3e-4);
+      EXPECT_NEAR(d[n + v] / scale, exact, 3e-4) << scale;
+    }
+    std::vector<std::string> names;
+    for (const auto& [name, value] : report.residuals) names.push_back(name);
+    for (const char* name : {"duality gap", "duality gap, component 0", "duality gap, component 1"})
+      EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
+}
+
+TEST(QuadraticSolver, EveryVertexMayBeASource) {
+  PolygonSoup triangle;
+  triangle.points.resize(3, 3);
+  triangle.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  test::add_triangle(triangle, 0, 1, 2);
+  for (const PolygonSoup& soup : {triangle, test::grid_soup(3, 2), test::octasphere_soup(0),
+                                  test::octasphere_soup(2), beside(triangle, triangle, 1e-5)}) {
+    const SurfaceMesh mesh(soup);
+    Sources sources;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      sources.points.push_back(SurfacePoint::at_vertex(v));
+    Report report;
+    const auto field = quadratic(mesh, sources, {}, report);
+    EXPECT_EQ(report.status, "converged");
+    EXPECT_LT(field.at_vertices().maxCoeff(), 1e-3);
+    const double half = 0.5 * (mesh.point(mesh.face(0)[0]) - mesh.point(mesh.face(0)[1])).norm();
+    EXPECT_NEAR(field.distance(0, P2Shape<2>::middle(0)), half, 1e-3 * half);
+  }
+}
+
+TEST(QuadraticSolver, SeveralPointsInOneTriangle) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(6, 5, 0.2));
+  const double h = 0.2;
+  const int f = 23;
+  std::vector<std::vector<SurfacePoint>> sets;
+  for (const double apart : {0.5, 0.1, 0.01})
+    sets.push_back({SurfacePoint::in_face(f, 0.4, 0.3, 0.3),
+                    SurfacePoint::in_face(f, 0.4 - apart / 2, 0.3 + apart / 2, 0.3)});
+  sets.push_back(
+      {SurfacePoint::at_vertex(mesh.face(f)[0]), SurfacePoint::at_vertex(mesh.face(f)[1])});
+  sets.push_back(
+      {SurfacePoint::at_vertex(mesh.face(f)[0]), SurfacePoint::in_face(f, 0.2, 0.2, 0.6)});
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    Sources sources;
+    sources.points = sets[k];
+    const double apart = (mesh.position(sets[k][0]) - mesh.position(sets[k][1])).norm();
+    Report report;
+    const VecX d = quadratic(mesh, sources, {}, report).at_vertices();
+    EXPECT_EQ(report.status, "converged");
+    double worst = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      const double exact = std::min((mesh.point(v) - mesh.position(sets[k][0])).norm(),
+                                    (mesh.point(v) - mesh.position(sets[k][1])).norm());
+      worst = std::max(worst, std::abs(d[v] - exact));
+    }
+    EXPECT_LT(worst, 0.5 * std::min(apart, 0.2 * h)) << k << ", " << apart << " apart";
+  }
+}
+
+TEST(QuadraticSolver, ScalesWhoseSquaresOverflow) {
+  for (const double scale : {1e160, 1e-160}) {
+    PolygonSoup soup = test::grid_soup(3, 3);
+    soup.points *= scale;
+    const SurfaceMesh mesh(soup);
+    Report report;
+    const VecX d =
+        quadratic(mesh, point_source(SurfacePoint::at_vertex(0)), {}, report).at_vertices();
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      EXPECT_NEAR(d[v] / scale, (mesh.point(v) / scale).norm(), 1e-3);
+  }
+}
+
+TEST(QuadraticSolver, CoincidentCornersAreNoReasonToFail) {
+  PolygonSoup soup = test::grid_soup(4, 4);
+  soup.points.row(7) = soup.points.row(6);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const VecX d =
+      quadratic(mesh, point_source(SurfacePoint::at_vertex(0)), {}, report).at_vertices();
+  EXPECT_EQ(report.status, "converged");
+  EXPECT_NEAR(d[6], d[7], 1e-3);
+  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_GT(d[v], mesh.point(v).norm() - 1e-2) << v;
+}
+
 TEST(QuadraticSolver, ThreePagesOfABookAreFlatTwoByTwo) {
   PolygonSoup soup;  // three half squares around the edge 0-1
   soup.points.resize(8, 3);

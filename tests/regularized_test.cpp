@@ -208,6 +208,36 @@ TEST(RegularizedSolver, GapClosesAndBoundsTheObjective) {
   }
 }
 
+TEST(RegularizedSolver, EachComponentIsAProblemOfItsOwn) {
+  const PolygonSoup grid = test::jittered_grid_soup(9, 7, 0.2);
+  const int n = grid.n_vertices();
+  for (const auto regularizer :
+       {Regularizer::dirichlet, Regularizer::hessian, Regularizer::max_norm}) {
+    const Regularized options = with_alpha(0.05, 2e-3);
+    const VecX alone = solve(SurfaceMesh(grid), test::vertex_points({12}), options, regularizer).u;
+    for (const double scale : {1.0, 1e-3, 1e-5}) {
+      PolygonSoup both = grid;
+      both.points.conservativeResize(2 * n + 1, 3);
+      for (int v = 0; v < n; ++v)
+        both.points.row(n + v) = scale * grid.points.row(v) + Vec3(3, 0, 0).transpose();
+      both.points.row(2 * n).setZero();  // in no face
+      for (int f = 0; f < grid.n_faces(); ++f) {
+        const auto c = grid.face(f);
+        test::add_triangle(both, n + c[0], n + c[1], n + c[2]);
+      }
+      const Solved s =
+          solve(SurfaceMesh(both), test::vertex_points({12, n + 12}), options, regularizer);
+      EXPECT_EQ(s.report.status, "converged");
+      EXPECT_LT((s.u.head(n) - alone).cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_LT((s.u.segment(n, n) / scale - alone).cwiseAbs().maxCoeff(), 1e-7) << scale;
+      const double gap = residual(s.report, "duality gap");
+      EXPECT_LT(gap, 10 * options.tolerance);
+      EXPECT_EQ(gap, std::max(residual(s.report, "duality gap, component 0"),
+                              residual(s.report, "duality gap, component 1")));
+    }
+  }
+}
+
 TEST(RegularizedSolver, ManySourcesAgreeHoweverTheyAreHeld) {
   // 64 rows go through the shared factor, more by elimination: adding a duplicate changes nothing.
   const SurfaceMesh mesh(test::grid_soup(30, 10));

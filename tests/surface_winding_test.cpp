@@ -258,6 +258,51 @@ TEST(WindingSolver, CrossingSegmentsGetACommonVertex) {
       EXPECT_GE(cut.mesh.find_edge(path[i], path[i + 1]), 0);
 }
 
+TEST(WindingSolver, OneEdgeOfThreeFacesDoesNotRefuseTheMesh) {
+  const PolygonSoup plain = test::octasphere_soup(2);
+  PolygonSoup fin = plain;
+  int far = 0;  // from the equator
+  while (plain.points(plain.face(far)[0], 2) < 0.3 || plain.points(plain.face(far)[1], 2) < 0.3)
+    ++far;
+  const int a = plain.face(far)[0], b = plain.face(far)[1], top = fin.n_vertices();
+  fin.points.conservativeResize(top + 1, 3);
+  fin.points.row(top) = 1.5 * (plain.points.row(a) + plain.points.row(b));
+  test::add_triangle(fin, a, b, top);
+  Sources equator;
+  std::vector<int> line;
+  for (int v = 0; v < plain.n_vertices(); ++v)
+    if (std::abs(plain.points(v, 2)) < 1e-9) line.push_back(v);
+  std::sort(line.begin(), line.end(), [&](int v, int w) {
+    return std::atan2(plain.points(v, 1), plain.points(v, 0)) <
+           std::atan2(plain.points(w, 1), plain.points(w, 0));
+  });
+  line.push_back(line.front());
+  equator.curves = {Curve::along_vertices(line)};
+  const SurfaceMesh mesh(plain), with_fin(fin);
+  for (const Formulation formulation : {Formulation::primal, Formulation::nonconforming}) {
+    SurfaceWinding options;
+    options.formulation = formulation;
+    Report report;
+    const WindingAnswer answer =
+        solve_once<WindingDomain>(options, {domain_of(with_fin).mesh}, equator, {}, report);
+    const VecXi expected =
+        solve_once<WindingDomain>(options, {domain_of(mesh).mesh}, equator, {}, report).region;
+    EXPECT_EQ(answer.region.head(mesh.n_faces()), expected);
+    EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const auto& text) {
+      return text.find("more than two faces") != std::string::npos;
+    }));
+  }
+  SignedHeat options;
+  options.bounding_only = true;
+  Report report;
+  const VecX phi =
+      solve_once<SurfaceDomain>(options, domain_of(with_fin), equator, {}, report).values;
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (std::abs(plain.points(v, 2)) < 0.2) continue;
+    EXPECT_EQ(phi[v] > 0, plain.points(v, 2) > 0) << v;
+  }
+}
+
 TEST(WindingSolver, RefusesWhatHasNoSides) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
   Sources sources;
@@ -268,7 +313,7 @@ TEST(WindingSolver, RefusesWhatHasNoSides) {
   book.points.row(4) << 0.5, 0.5, 1;
   test::add_triangle(book, 0, 3, 4);  // three faces at the diagonal
   Sources line;
-  line.curves = {curve_of({0, 1})};
+  line.curves = {curve_of({0, 3})};  // along the edge of three faces
   EXPECT_THROW(winding(SurfaceMesh(book), line), UnsupportedError);
 }
 

@@ -1,5 +1,6 @@
 #include "api/report_json.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -48,11 +49,25 @@ Json sums(const std::vector<std::pair<std::string, double>>& list) {
   return out;
 }
 
-/// Named values; of those named twice the last, for values that cannot be added.
+/// Named values; of those named twice the last, for sizes, which may be stated again.
 Json object(const std::vector<std::pair<std::string, double>>& list) {
   Json out = Json::object();
   for (const auto& [name, value] : list) out[name] = number(value);
   return out;
+}
+
+/// Named values; of those named twice the largest, for what is left of several equations.
+Json largest(const std::vector<std::pair<std::string, double>>& list) {
+  std::vector<std::pair<std::string, double>> unique;
+  for (const auto& [name, value] : list) {
+    const auto it = std::find_if(unique.begin(), unique.end(),
+                                 [&](const auto& known) { return known.first == name; });
+    if (it == unique.end())
+      unique.emplace_back(name, value);
+    else if (std::isnan(value) || value > it->second)
+      it->second = value;
+  }
+  return object(unique);
 }
 
 struct InfoValueJson {
@@ -83,7 +98,7 @@ std::string report_json(const Report& report) {
   out["sizes"] = object(report.sizes);
   out["timings"] = sums(report.timings);
   out["iterations"] = sums(report.iterations);
-  out["residuals"] = object(report.residuals);
+  out["residuals"] = largest(report.residuals);
   out["warnings"] = report.warnings;
   out["unreachable_components"] = report.unreachable_components;
   out["peak_memory_mb"] = std::round(peak_memory() / (1 << 20));

@@ -1,6 +1,7 @@
 #pragma once
 // One triangle from its three side lengths: everything the operators need, no coordinates.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -27,13 +28,21 @@ inline double area_of_lengths(double a, double b, double c) {
   return 0.25 * std::sqrt(std::max(0.0, product));
 }
 
+/// a^2 + b^2 - c^2, also where the shorter of a and b is less than the round-off of the others.
+inline double law_of_cosines(double a, double b, double c) {
+  const double least = std::min({a, b, c});
+  if (least > 1e-6 * std::max({a, b, c})) return a * a + b * b - c * c;
+  if (a < b) std::swap(a, b);
+  return b * b + (a - c) * (a + c);
+}
+
 inline TriangleShape triangle_shape(double l0, double l1, double l2, bool mirrored) {
   TriangleShape t;
   t.area = area_of_lengths(l0, l1, l2);
-  const double s0 = l0 * l0, s1 = l1 * l1, s2 = l2 * l2, four = 4 * t.area;
-  t.cot = {(s0 + s2 - s1) / four, (s0 + s1 - s2) / four, (s1 + s2 - s0) / four};
+  const double four = 4 * t.area, along = law_of_cosines(l0, l2, l1);
+  t.cot = {along / four, law_of_cosines(l0, l1, l2) / four, law_of_cosines(l1, l2, l0) / four};
   const double y = 2 * t.area / l0;
-  t.p = {Complex(0, 0), Complex(l0, 0), Complex((s0 + s2 - s1) / (2 * l0), mirrored ? -y : y)};
+  t.p = {Complex(0, 0), Complex(l0, 0), Complex(along / (2 * l0), mirrored ? -y : y)};
   t.side = {Complex(1, 0), (t.p[2] - t.p[1]) / l1, -t.p[2] / l2};
   return t;
 }

@@ -133,25 +133,41 @@ SpMat P2Elements<D>::mass() const {
   return M;
 }
 
+VecX mean_edge_lengths(const IntrinsicTriangulation& T) {
+  VecX length = VecX::Constant(T.n_edges(), -1);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) length[T.side_edge(f, k)] = T.length(f, k);
+  VecX sum = VecX::Zero(T.n_components), count = sum;
+  for (int e = 0; e < T.n_edges(); ++e) {
+    if (length[e] < 0) continue;
+    sum[T.component[T.edges(e, 0)]] += length[e];
+    ++count[T.component[T.edges(e, 0)]];
+  }
+  return sum.cwiseQuotient(count);
+}
+
 P2Elements<2> p2_elements(const IntrinsicTriangulation& T) {
   P2Elements<2> E;
   E.unit = T.unit;
   E.n_vertices = T.n_vertices;
   E.n_edges = T.n_edges();
   E.h = T.mean_edge_length;
+  E.component_h = mean_edge_lengths(T);
   E.component = T.component;
   E.n_components = T.n_components;
-  E.edge_length = VecX::Zero(E.n_edges);
   E.measure.resize(T.n_faces());
   E.node.resize(T.n_faces());
   E.grad.resize(E.node.size());
+  E.side.resize(E.node.size());
   for (int f = 0; f < T.n_faces(); ++f) {
-    const auto l = T.length.row(f);
-    const double slack = l.sum() - 2 * l.maxCoeff();  // of the triangle inequality
-    E.mollified = std::max(E.mollified, 1e-6 * E.h - slack);
-  }
-  for (int f = 0; f < T.n_faces(); ++f) {
-    const Eigen::Vector3d l = T.length.row(f).transpose().array() + E.mollified;
+    Eigen::Vector3d& l = E.side[f] = T.length.row(f);
+    const double h = E.component_h[T.component[T.faces(f, 0)]], longest = l.maxCoeff();
+    const double margin = 1e-6 * std::max(longest, 1e-2 * h);
+    const double slack = l.sum() - 2 * longest;  // of the triangle inequality
+    if (slack < margin) {
+      l.array() += margin - slack;
+      ++E.mollified;
+    }
     const TriangleShape t = triangle_shape(l[0], l[1], l[2], T.orientation[f] < 0);
     E.measure[f] = t.area;
     const double side = T.orientation[f] < 0 ? -1 : 1;
@@ -162,7 +178,6 @@ P2Elements<2> p2_elements(const IntrinsicTriangulation& T) {
       E.grad[f].col(i) << g.real(), g.imag();
       E.node[f][i] = T.faces(f, i);
       E.node[f][3 + i] = T.n_vertices + T.side_edge(f, i);
-      E.edge_length[T.side_edge(f, i)] = l[i];
     }
   }
   return E;

@@ -21,6 +21,7 @@ struct P2Shape {
   using Values = Eigen::Matrix<double, nodes, 1>;       // one number per local node
   using Slopes = std::array<Values, D>;                 // one vector per local node
   using Gradients = Eigen::Matrix<double, D, corners>;  // of the barycentrics
+  using Sides = Eigen::Matrix<double, edges, 1>;        // one number per local edge
 
   /// End corners of local edge k: a triangle's edge k is its side k (corner k to k + 1), a
   /// tetrahedron's are 01, 02, 03, 12, 13, 23.
@@ -49,11 +50,12 @@ struct P2Elements {
   std::vector<std::array<int, Shape::nodes>> node;  // elements
   std::vector<typename Shape::Gradients> grad;      // elements; in the element's own frame
   VecX measure;                                     // elements [length^D]
-  VecX edge_length;                                 // edges
+  std::vector<typename Shape::Sides> side;          // elements; lengths of their edges
   double h = 0;                                     // mean edge length
+  VecX component_h;                                 // components; the same of each
   std::vector<int> component;                       // vertices; -1 without an element
   int n_components = 0;
-  double mollified = 0;  // added to every edge length so that no element is degenerate
+  int mollified = 0;  // elements whose edges were lengthened
 
   int n_nodes() const { return n_vertices + n_edges; }
   int n_elements() const { return node.size(); }
@@ -69,9 +71,13 @@ struct P2Elements {
   SpMat mass() const;     // nodes x nodes; integrals of products of two basis functions
 };
 
-/// The elements of a triangle mesh; element f is triangle f. Lengths are T.length plus the smallest
-/// number that makes a + b - c >= 1e-6 h in every triangle (Sharp & Crane 2020, section 4.5), so
-/// that slivers have a bounded effect.
+/// Mean length of the edges of each component (components).
+VecX mean_edge_lengths(const IntrinsicTriangulation& T);
+
+/// The elements of a triangle mesh; element f is triangle f. Triangles with a + b - c < 1e-6 times
+/// their longest side, or 1e-8 times the component's mean if that is more, get their own sides
+/// lengthened until it is that (Sharp & Crane 2020, section 4.5, for each by itself), so that
+/// slivers have a bounded effect and no other triangle is moved.
 P2Elements<2> p2_elements(const IntrinsicTriangulation& T);
 
 /// A point of an element.

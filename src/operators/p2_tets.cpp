@@ -31,21 +31,27 @@ P2Tets p2_elements(const TetMesh& mesh, const TetOperators& ops) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   E.n_edges = edges.size();
   E.measure = Eigen::Map<const VecX>(measure.data(), measure.size());
-  E.edge_length.resize(E.n_edges);
+  VecX length(E.n_edges), sum = VecX::Zero(E.n_components), count = sum;
   for (int e = 0; e < E.n_edges; ++e) {
     const Eigen::Index a = edges[e] >> 32;
     const Eigen::Index b = edges[e] & 0xffffffffU;
-    E.edge_length[e] = (mesh.points.row(a) - mesh.points.row(b)).norm();
+    length[e] = (mesh.points.row(a) - mesh.points.row(b)).norm();
+    sum[E.component[a]] += length[e];
+    ++count[E.component[a]];
   }
-  E.h = E.n_edges > 0 ? E.edge_length.mean() : 0;
+  E.h = E.n_edges > 0 ? length.mean() : 0;
+  E.component_h = sum.cwiseQuotient(count.cwiseMax(1.0));
   for (int t = 0; t < mesh.n_tets(); ++t) {
     if (out.element_of_tet[t] < 0) continue;
     std::array<int, Shape::nodes> node{};
+    Shape::Sides side;
     for (int i = 0; i < Shape::corners; ++i) node[i] = mesh.tets(t, i);
     for (int k = 0; k < Shape::edges; ++k) {
       const auto at = std::lower_bound(edges.begin(), edges.end(), key(t, k)) - edges.begin();
       node[Shape::corners + k] = E.n_vertices + at;
+      side[k] = length[at];
     }
+    E.side.push_back(side);
     E.node.push_back(node);
   }
   return out;

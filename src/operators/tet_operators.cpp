@@ -112,6 +112,10 @@ TetOperators tet_operators(const TetMesh& mesh) {
     to.setFromTriplets(entries.begin(), entries.end());
   };
   matrix(ops.L, n, laplacian);
+  std::vector<char> held(ops.n_faces, 0);
+  for (const auto& entry : face_mass) held[entry.row()] = 1;
+  for (int f = 0; f < ops.n_faces; ++f)
+    if (held[f] == 0) face_mass.emplace_back(f, f, 1);  // of flat tets alone: 0 stays 0
   matrix(ops.face_laplacian, ops.n_faces, face_laplacian);
   matrix(ops.face_mass, ops.n_faces, face_mass);
   return ops;

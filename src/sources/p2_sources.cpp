@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
-#include <tuple>
 
+#include "base/option_table.h"
 #include "littoral/error.h"
 #include "sources/surface_points.h"
 #include "sources/triangle_sources.h"
@@ -13,6 +12,8 @@
 namespace littoral {
 
 namespace {
+
+constexpr double least_spacing = 1e-3;  // many samples in one triangle say nothing more
 
 template <class B>
 Complex on(const TriangleShape& t, const B& b) {
@@ -38,7 +39,13 @@ class Builder {
     }
     if (source.where.empty()) return;
     const auto& [element, b] = source.where.front();
-    if (points_.insert({element, b[0], b[1], b[2]}).second) sources.push_back(std::move(source));
+    std::vector<Vec3>& before = points_[element];
+    const auto same = [&, here = b](const Vec3& other) {
+      return (other - here).cwiseAbs().maxCoeff() < 1e-9;
+    };
+    if (std::any_of(before.begin(), before.end(), same)) return;
+    before.push_back(b);
+    sources.push_back(std::move(source));
   }
 
   /// The point at fraction s of a piece.
@@ -77,8 +84,8 @@ class Builder {
   std::vector<P2Source<2>> sources;
 
  private:
-  std::set<std::tuple<int, double, double, double>> points_;  // so that each counts once
-  std::map<int, std::size_t> around_;                         // node -> its place among the sources
+  std::map<int, std::vector<Vec3>> points_;  // element -> points in it, so that each counts once
+  std::map<int, std::size_t> around_;        // node -> its place among the sources
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
 };
@@ -92,9 +99,9 @@ void sample(std::span<const CurvePiece> pieces, double step, Builder& out) {
   for (const CurvePiece& piece : pieces) {
     const bool last = &piece == &pieces.back();
     for (; next <= count; ++next) {
-      const double s = (length * (next / count) - before) / piece.length;
-      if (s > 1 && !(last && next == count)) break;
-      out.add_on(piece, std::clamp(s, 0.0, 1.0));
+      const double along = length * (next / count) - before;
+      if (along > piece.length && !(last && next == count)) break;
+      out.add_on(piece, piece.length > 0 ? std::clamp(along / piece.length, 0.0, 1.0) : 0);
     }
     before += piece.length;
   }
@@ -104,17 +111,24 @@ void sample(std::span<const CurvePiece> pieces, double step, Builder& out) {
 
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                     const PlacedSources& sources, double spacing) {
+  if (spacing > 0 && spacing < least_spacing)
+    throw InputError("option spacing: 0, or at least " + number_text(least_spacing));
+  const VecX h = mean_edge_lengths(T);
   Builder out(mesh, T);
   for (const SurfacePoint& p : sources.points) out.add_point(p);
   const std::span<const CurvePiece> pieces = sources.pieces;
   for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
     while (end < pieces.size() && pieces[end].curve == pieces[begin].curve) ++end;
     const auto curve = pieces.subspan(begin, end - begin);
-    if (spacing > 0) {
-      sample(curve, spacing * T.mean_edge_length * T.unit, out);
-      continue;
-    }
-    out.add_around(curve);
+    const auto on = std::find_if(curve.begin(), curve.end(), [&](const CurvePiece& piece) {
+      return T.triangle_of_face[piece.face] >= 0;
+    });
+    if (on == curve.end()) continue;
+    const int component = T.component[T.faces(T.triangle_of_face[on->face], 0)];
+    if (spacing > 0)
+      sample(curve, spacing * h[component] * T.unit, out);
+    else
+      out.add_around(curve);
   }
   if (out.sources.empty())
     throw InputError("no source lies on a face with three different vertices");

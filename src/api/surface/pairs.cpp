@@ -1,15 +1,18 @@
 #include "api/surface/pairs.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <mutex>
 #include <numeric>
 
+#include "base/component_values.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
 #include "operators/triangles.h"
+#include "sources/surface_points.h"
 
 namespace littoral {
 
@@ -39,21 +42,70 @@ std::pair<PolygonSoup, std::vector<int>> component_of(const SurfaceMesh& mesh, i
   return {std::move(soup), std::move(vertices)};
 }
 
+/// What solves on several components say: sums of iterations, the worst of residuals, also each
+/// one's, and of sizes the largest.
+void merge_components(const std::vector<std::pair<int, Report>>& of, Report& report) {
+  const auto gather = [&](auto list, auto put) {
+    std::vector<std::pair<std::string, ComponentValues>> named;
+    for (const auto& [c, one] : of)
+      for (const auto& [name, value] : one.*list) {
+        const auto known = std::find_if(named.begin(), named.end(),
+                                        [&](const auto& entry) { return entry.first == name; });
+        ComponentValues& values = known != named.end()
+                                      ? known->second
+                                      : named.emplace_back(name, ComponentValues(name)).second;
+        values.add(c, value);
+      }
+    for (const auto& [name, values] : named) put(name, values);
+  };
+  gather(&Report::iterations,
+         [&](const std::string&, const ComponentValues& v) { v.report_sum(report.iterations); });
+  gather(&Report::residuals,
+         [&](const std::string&, const ComponentValues& v) { v.report_worst(report.residuals); });
+  gather(&Report::sizes, [&](const std::string& name, const ComponentValues& v) {
+    report.sizes.emplace_back(name, v.worst());
+  });
+  for (const auto& [c, one] : of) {
+    for (const std::string& text : one.warnings)
+      report.warn(of.size() > 1 ? "component " + std::to_string(c) + ": " + text : text);
+    if (one.status != "converged") report.status = one.status;
+  }
+}
+
+bool has_triangle(const SurfaceMesh& mesh) {
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    if (has_distinct_corners(mesh, f)) return true;
+  return false;
+}
+
 /// All rows, component by component (Alg. 2).
 MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Report& report) {
   MatX D = MatX::Constant(mesh.n_vertices(), mesh.n_vertices(), unreached);
   D.diagonal().setZero();
   const Stopwatch watch(report, "solve");
+  std::vector<std::pair<int, Report>> of_components;
+  int without = 0;
   for (int c = 0; c < mesh.n_components(); ++c) {
     auto [soup, vertices] = component_of(mesh, c);
     const SurfaceMesh part(std::move(soup));
-    const Operators ops = triangle_operators(intrinsic_triangulation(part, report));
+    if (!has_triangle(part)) {
+      ++without;
+      continue;
+    }
+    Report& one = of_components.emplace_back(c, Report()).second;
+    const Operators ops = triangle_operators(intrinsic_triangulation(part, one));
     const double share = static_cast<double>(vertices.size()) / mesh.n_vertices();
-    const MatX U = all_pairs(ops, options, task.stage(share, "all pairs"), report);
+    const MatX U = all_pairs(ops, options, task.stage(share, "all pairs"), one);
     for (std::size_t j = 0; j < vertices.size(); ++j)
       for (std::size_t i = 0; i < vertices.size(); ++i)
         D(vertices[i], vertices[j]) = U(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
+  merge_components(of_components, report);
+  if (of_components.empty()) throw InputError("the mesh has no face with three different vertices");
+  if (without > 0)
+    report.warn(std::to_string(without) +
+                " components have no face with three different vertices; their distances are "
+                "infinite");
   return D;
 }
 

@@ -146,17 +146,18 @@ void require_manifold_edges(const SurfaceMesh& mesh, const JumpCalculus& J, cons
                              "chain of faces (c)");
 }
 
-void require_manifold_mesh(const SurfaceMesh& mesh, const JumpCalculus& J) {
+/// Faces at edges of three or more are not glued there: the edge is a boundary of each.
+void warn_of_nonmanifold_edges(const SurfaceMesh& mesh, const JumpCalculus& J, Report& report) {
   int count = 0, first = -1;
   for (int e = 0; e < J.n_edges; ++e)
     if (!J.manifold[e]) {
       if (count++ == 0) first = e;
     }
   if (count == 0) return;
-  throw UnsupportedError("winding numbers of curves need at most two faces at every edge; " +
-                         std::to_string(count) + " edges have more, the first between vertices " +
-                         std::to_string(mesh.edges()(first, 0)) + " and " +
-                         std::to_string(mesh.edges()(first, 1)));
+  report.warn(
+      std::to_string(count) + " edges have more than two faces, the first between vertices " +
+      std::to_string(mesh.edges()(first, 0)) + " and " + std::to_string(mesh.edges()(first, 1)) +
+      "; the surface was taken apart there; formulation dual goes on across them");
 }
 
 void check_combination(const SurfaceWinding& options) {
@@ -201,7 +202,8 @@ class WindingOnSurface {
       add_chains(sources.chains, *J, answer.triangle_of_face, curve);
       answer.numbers = dual_winding(*J, curve, options, work, report);
     } else {
-      require_manifold_mesh(cut, *J);
+      require_manifold_edges(cut, *J, curves.times);
+      warn_of_nonmanifold_edges(cut, *J, report);
       answer.numbers =
           formulation == Formulation::primal
               ? WindingSolver(J).solve(curves.times, options, work, report)

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/component_values.h"
 #include "base/index.h"
 #include "base/stopwatch.h"
 #include "methods/quadratic/quadratic_program.h"
@@ -34,7 +35,8 @@ const OptionTable<Quadratic>& quadratic_options() {
   static const OptionTable<O> table =
       with_stopping(OptionTable<O>())
           .number(&O::spacing, "spacing", "mean edge lengths, 0 = none", 0, 100,
-                  "Distance between samples on curves; 0 knows the distance around them instead.")
+                  "Distance between samples on curves, at least 0.001; 0 knows the distance around "
+                  "them instead.")
           .toggle(&O::is_signed, "signed",
                   "Takes the sign, and curves that fill gaps, from the signed heat method.")
           .integer(
@@ -53,12 +55,16 @@ template <int D>
 double QuadraticField<D>::distance(int element, const typename P2Shape<D>::Point& b) const {
   const auto local = elements->gather(u, element);
   if (!local.allFinite()) return std::numeric_limits<double>::infinity();
-  return std::sqrt(std::max(0.0, P2Shape<D>::values(b).dot(local)));
+  const double length = unit[elements->component[elements->node[element][0]]];
+  return length * std::sqrt(std::max(0.0, P2Shape<D>::values(b).dot(local)));
 }
 
 template <int D>
 VecX QuadraticField<D>::at_vertices() const {
-  return u.head(elements->n_vertices).cwiseMax(0.0).cwiseSqrt();
+  VecX d = u.head(elements->n_vertices).cwiseMax(0.0).cwiseSqrt();
+  for (Eigen::Index v = 0; v < d.size(); ++v)
+    if (const int c = elements->component[v]; c >= 0) d[v] *= unit[c];
+  return d;
 }
 
 template <int D>
@@ -101,8 +107,8 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   field.elements = elements_;
   field.u = VecX::Constant(E.n_nodes(), std::numeric_limits<double>::infinity());
   if (E.mollified > 0)
-    report.warn("edges lengthened by " + number_text(E.mollified * E.unit) +
-                " because of nearly degenerate elements");
+    report.warn(std::to_string(E.mollified) +
+                " nearly degenerate elements had their sides lengthened minimally");
   std::vector<std::vector<P2Source<D>>> of_part(parts_.size());
   for (const P2Source<D>& source : sources)
     of_part[E.component[E.node[source.where.at(0).element][0]]].push_back(source);
@@ -110,7 +116,12 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   for (std::size_t c = 0; c < parts_.size(); ++c)
     if (!of_part[c].empty()) total += static_cast<double>(parts_[c]->part.elements.size());
 
-  double iterations = 0, gap = 0, residual = 0, samples = 0;
+  field.unit.resize(index(parts_.size()));
+  for (std::size_t c = 0; c < parts_.size(); ++c)
+    field.unit[index(c)] = parts_[c]->part.scale * E.unit;
+  ComponentValues iterations("interior point"), gap("duality gap"), residual("constraints"),
+      dual("dual constraints");
+  double samples = 0;
   bool converged = true;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     if (of_part[c].empty()) {
@@ -124,7 +135,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
       return parts_[c]->solver(stage.stage(0.1, "analysing"));
     }();
     const Stopwatch watch(report, "solve");
-    const QuadraticProgram<D> program(E, part, of_part[c], options.source_radius * E.h);
+    const QuadraticProgram<D> program(E, part, of_part[c], options.source_radius * part.h);
     typename Part::Solver::Inserter insert;
     if (options.insert_samples)
       insert = [&](const VecX& u, double share) {
@@ -133,22 +144,24 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
     const ParaboloidResult result = solver->solve(program.program(), program.start(),
                                                   {options.tolerance, options.max_iterations},
                                                   insert, stage.stage(0.9, "interior point"));
-    const double to_input = std::pow(part.scale * E.unit, 2);
-    for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      field.u[part.nodes[i]] = to_input * result.x[i];
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) field.u[part.nodes[i]] = result.x[i];
     converged = converged && result.converged;
-    iterations += result.iterations;
+    const int component = c;
+    iterations.add(component, result.iterations);
+    gap.add(component, result.gap);
+    residual.add(component, result.primal_residual);
+    dual.add(component, result.dual_residual);
     samples += static_cast<double>(result.samples);
-    gap = std::max(gap, result.gap);
-    residual = std::max(residual, result.primal_residual);
   }
-  report.iterations.emplace_back("interior point", iterations);
-  report.residuals.emplace_back("duality gap", gap);
-  report.residuals.emplace_back("constraints", residual);
+  iterations.report_sum(report.iterations);
+  gap.report_worst(report.residuals);
+  residual.report_worst(report.residuals);
+  dual.report_worst(report.residuals);
   report.sizes.emplace_back("samples", samples);
   if (!converged) {
     report.status = "not converged";
-    report.warn("the solver stopped at a relative duality gap of " + number_text(gap));
+    report.warn("the solver stopped at a relative duality gap of " + number_text(gap.worst()) +
+                " and residuals of " + number_text(std::max(residual.worst(), dual.worst())));
   }
   return field;
 }

@@ -23,7 +23,8 @@ const OptionTable<TetQuadratic>& tet_quadratic_options();
 template <int D>
 struct QuadraticField {
   std::shared_ptr<const P2Elements<D>> elements;
-  VecX u;  // nodes; squares of the input's length, +inf where no source reaches
+  VecX u;     // nodes; squares of the component's unit, +inf where no source reaches
+  VecX unit;  // components [length]
 
   /// Distance at a point of an element [length], +inf where no source reaches.
   double distance(int element, const typename P2Shape<D>::Point& b) const;
@@ -40,8 +41,9 @@ class QuadraticSolver {
   ~QuadraticSolver();
 
   /// u = argmax of the integral of u, u >= |grad u|^2 / 4, u(b) = 0 at the sources (section 4),
-  /// for each component by itself: +inf on those without a source. Reports gap, residual,
-  /// iterations and samples; "not converged" with the best iterate where a solve stalls.
+  /// for each component by itself: +inf on those without a source. Reports gap, residuals and
+  /// iterations, also of each component, and samples; "not converged" with the best iterate where
+  /// a solve stalls.
   QuadraticField<D> solve(const std::vector<P2Source<D>>& sources, const Quadratic& options,
                           Task task, Report& report) const;
 

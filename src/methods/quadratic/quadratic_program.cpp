@@ -22,7 +22,7 @@ double squared_length(const P2Elements<D>& E, int element,
   double sum = 0;
   for (int k = 0; k < Shape::edges; ++k) {
     const auto [i, j] = Shape::edge(k);
-    const double l = E.edge_length[E.node[element][Shape::corners + k] - E.n_vertices];
+    const double l = E.side[element][k];
     sum -= difference[i] * difference[j] * l * l;
   }
   return std::max(0.0, sum);
@@ -49,8 +49,7 @@ VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
     for (std::size_t e = 0; e < part.elements.size(); ++e)
       for (int k = 0; k < Shape::edges; ++k) {
         const auto [i, j] = Shape::edge(k);
-        const int middle = part.nodes[part.local_node[e][Shape::corners + k]] - E.n_vertices;
-        visit(part.local_node[e][i], part.local_node[e][j], E.edge_length[middle]);
+        visit(part.local_node[e][i], part.local_node[e][j], E.side[part.elements[e]][k]);
       }
   };
   each_edge([&](int a, int b, double) { ++first[a + 1], ++first[b + 1]; });
@@ -86,6 +85,11 @@ VecX distance_along_edges(const P2Elements<D>& E, const QuadraticPart<D>& part,
       const auto [i, j] = Shape::edge(k);
       d[node[Shape::corners + k]] = 0.5 * (d[node[i]] + d[node[j]]);
     }
+  if (d.maxCoeff() > 0) return d;
+  // Every vertex is a source: all that is left lies between them.
+  for (std::size_t e = 0; e < part.elements.size(); ++e)
+    for (int k = 0; k < Shape::edges; ++k)
+      d[part.local_node[e][Shape::corners + k]] = 0.5 * E.side[part.elements[e]][k];
   return d;
 }
 
@@ -141,7 +145,10 @@ std::vector<QuadraticPart<D>> quadratic_parts(const P2Elements<D>& E) {
     part.elements.push_back(e);
     part.local_node.push_back(local);
   }
-  for (std::size_t c = 0; c < parts.size(); ++c) parts[c].scale = std::pow(measure[c], 1.0 / D);
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    parts[c].scale = std::pow(measure[c], 1.0 / D);
+    parts[c].h = E.component_h[c];
+  }
   return parts;
 }
 
@@ -182,33 +189,43 @@ std::pair<double, typename P2Shape<D>::Point> p2_minimum(const typename P2Shape<
 }
 
 template <int D>
+int QuadraticProgram<D>::local(int element) const {
+  const auto at = std::lower_bound(part_.elements.begin(), part_.elements.end(), element);
+  const bool found = at != part_.elements.end() && *at == element;
+  return found ? static_cast<int>(at - part_.elements.begin()) : -1;
+}
+
+template <int D>
+double QuadraticProgram<D>::cap(double distance, double radius) const {
+  return (radius * radius + distance * distance) / (part_.scale * part_.scale);
+}
+
+template <int D>
 QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPart<D>& part,
                                       const std::vector<P2Source<D>>& sources, double radius)
-    : E_(E), part_(part), curve_inside_(part.elements.size(), 0) {
+    : E_(E),
+      part_(part),
+      curve_inside_(part.elements.size(), 0),
+      crowded_(part.elements.size(), 0) {
   using Shape = P2Shape<D>;
   std::vector<Touched<D>> touched;
-  std::vector<int> holds(part.elements.size(), 0);  // sources
-  const auto local = [&](int element) {
-    const auto at = std::lower_bound(part.elements.begin(), part.elements.end(), element);
-    const bool found = at != part.elements.end() && *at == element;
-    return found ? static_cast<int>(at - part.elements.begin()) : -1;
-  };
-  const auto cap = [&](double distance) {
-    return (radius * radius + distance * distance) / (part.scale * part.scale);
-  };
+  PointsInside inside;
+  int count = 0;
   for (const P2Source<D>& source : sources) {
+    const std::size_t before = touched.size();
     for (const P2Point<D>& point : source.where) {
       const int e = local(point.element);
       if (e < 0) continue;
       touched.push_back({e, point, source.distance});
-      ++holds[e];
-      if (source.on_curve) curve_inside_[e] = 1;
-      if (&point == &source.where.front())
-        program_.caps.push_back({e, cap(source.distance), Shape::values(point.b)});
+      if (source.on_curve)
+        curve_inside_[e] = 1;
+      else
+        inside[e].push_back(point.b);
     }
+    if (touched.size() > before) ++count;
   }
   if (touched.empty()) return;
-  alone_ = program_.caps.size() == 1;
+  alone_ = count == 1;
   d_ = distance_along_edges(E, part, touched) / part.scale;
 
   // Objective: the integral of u, over the part's measure.
@@ -217,26 +234,77 @@ QuadraticProgram<D>::QuadraticProgram(const P2Elements<D>& E, const QuadraticPar
   for (std::size_t i = 0; i < part.nodes.size(); ++i)
     program_.c[i] = integral[part.nodes[i]] / std::pow(part.scale, D);
 
-  // Samples: the nodes and the centre of each element (section 5), and a source that is alone in
-  // its elements: without a sample there, its elements are not exact in the plane.
+  if (D == 2) find_crowded(inside, radius);
+  for (const P2Source<D>& source : sources)
+    for (const P2Point<D>& point : source.where) {
+      const int e = local(point.element);
+      if (e < 0 || (crowded_[e] && !source.on_curve)) continue;
+      program_.caps.push_back({e, cap(source.distance, radius), Shape::values(point.b)});
+      break;
+    }
+  add_samples(sources, inside);
+}
+
+template <int D>
+void QuadraticProgram<D>::find_crowded(const PointsInside& inside, double radius) {
+  using Shape = P2Shape<D>;
+  for (const auto& [e, points] : inside) {
+    if (points.size() == 1 && !curve_inside_[e]) continue;
+    crowded_[e] = 1;
+    const auto& node = part_.local_node[e];
+    for (int i = 0; i < Shape::nodes; ++i) {
+      const bool corner = i < Shape::corners;
+      const typename Shape::Point b = corner ? Shape::corner(i) : Shape::middle(i - Shape::corners);
+      const auto to = [&](const typename Shape::Point& other) {
+        return std::sqrt(squared_length(E_, part_.elements[e], other - b));
+      };
+      double distance = infinity;
+      for (const auto& point : points) distance = std::min(distance, to(point));
+      for (int k = 0; k < Shape::corners; ++k)
+        distance = std::min(distance, d_[node[k]] * part_.scale + to(Shape::corner(k)));
+      if (!corner) d_[node[i]] = distance / part_.scale;
+      program_.caps.push_back({e, cap(distance, radius), Shape::values(b)});
+    }
+  }
+  // The integral of a quadratic over a triangle does not depend on its corners: without a weight of
+  // their own they give way to other nodes.
+  constexpr double urgent = 30;
+  for (const auto& [e, points] : inside)
+    for (int i = 0; i < Shape::corners && crowded_[e]; ++i)
+      program_.c[part_.local_node[e][i]] +=
+          urgent * E_.measure[part_.elements[e]] / std::pow(part_.scale, D);
+}
+
+template <int D>
+void QuadraticProgram<D>::add_samples(const std::vector<P2Source<D>>& sources,
+                                      const PointsInside& inside) {
+  using Shape = P2Shape<D>;
+  // The nodes and the centre of each element (section 5), and a source that is alone in its
+  // elements: without a sample there, its elements are not exact in the plane.
   std::vector<typename Shape::Point> points;
   for (int i = 0; i < Shape::corners; ++i) points.push_back(Shape::corner(i));
   for (int k = 0; k < Shape::edges; ++k) points.push_back(Shape::middle(k));
   points.push_back(Shape::centre());
+  const int usual = int_size(points);
   for (const auto& b : points) program_.points.push_back(reference_rows<D>(b));
-  for (std::size_t e = 0; e < part.elements.size(); ++e) {
-    program_.transform.push_back(E.grad[part.elements[e]].template rightCols<D>() * part.scale);
-    program_.weight.push_back(E.measure[part.elements[e]]);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const int element = e;
-      program_.samples.push_back({element, static_cast<int>(i), size(element, points[i])});
-    }
+  // Where several points are inside, u >= 0 at the nodes alone.
+  for (int i = 0; i < Shape::nodes; ++i) {
+    program_.points.push_back({Shape::values(points[i]), {}});
+    program_.points.back().g.fill(Program::Row::Zero());
+  }
+  for (std::size_t e = 0; e < part_.elements.size(); ++e) {
+    program_.transform.push_back(E_.grad[part_.elements[e]].template rightCols<D>() * part_.scale);
+    program_.weight.push_back(E_.measure[part_.elements[e]]);
+    const int element = e;
+    for (int i = 0; i < (crowded_[e] ? Shape::nodes : usual); ++i)
+      program_.samples.push_back({element, crowded_[e] ? usual + i : i, size(element, points[i])});
   }
   for (const P2Source<D>& source : sources) {
     if (source.on_curve) continue;
     for (const P2Point<D>& point : source.where) {
       const int e = local(point.element);
-      if (e < 0 || holds[e] != 1 || point.b.maxCoeff() >= 1) continue;
+      const bool lone = e >= 0 && !crowded_[e] && !curve_inside_[e] && inside.at(e).size() == 1;
+      if (!lone || point.b.maxCoeff() >= 1) continue;
       program_.samples.push_back({e, int_size(program_.points), size(e, point.b)});
       program_.points.push_back(reference_rows<D>(point.b));
     }
@@ -247,7 +315,7 @@ template <int D>
 double QuadraticProgram<D>::size(int local, const typename P2Shape<D>::Point& b) const {
   double d = 0;
   for (int i = 0; i < P2Shape<D>::corners; ++i) d += b[i] * d_[part_.local_node[local][i]];
-  return std::pow(std::max(d, 0.5 * E_.h / part_.scale), 2);
+  return std::pow(std::max(d, 0.5 * part_.h / part_.scale), 2);
 }
 
 template <int D>
@@ -264,9 +332,9 @@ std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>
     const int element = e;
     found.push_back({element, reference_rows<D>(b), size(element, b)});
   };
-  const double h2 = std::pow(E_.h / part_.scale, 2);
+  const double h2 = std::pow(part_.h / part_.scale, 2);
   for (std::size_t e = 0; e < part_.elements.size(); ++e) {
-    if (curve_inside_[e]) continue;
+    if (curve_inside_[e] || crowded_[e]) continue;
     typename Shape::Values local;
     for (int i = 0; i < Shape::nodes; ++i) local[i] = u[part_.local_node[e][i]];
     const typename Shape::Gradients grad = E_.grad[part_.elements[e]] * part_.scale;

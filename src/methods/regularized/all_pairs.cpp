@@ -254,13 +254,20 @@ class AllPairs {
     }
   }
 
-  /// The largest residual over its tolerance; adapts the penalties (Boyd et al. 3.4.1).
+  /// The largest residual over its tolerance; adapts the penalties (Boyd et al. 3.4.1). What the
+  /// X-step's equation lacks is compared with the largest of its terms, that of the objective among
+  /// them: 1/2 M_i at each (i, j). Multipliers alone may vanish, where no gradient reaches length 1
+  /// (large alpha) or X is symmetric by itself.
   double check_convergence(const Norms& s, int k) {
     auto over = [this](double residual, double compared) {
       return std::sqrt(residual) / (o_.tolerance * (std::sqrt(compared) + 1e-300));
     };
-    const double primal1 = over(s.gap, std::max(s.g, s.z)), dual1 = over(s.dz, s.w);
-    const double primal2 = over(s.split, std::max(s.x, s.u)), dual2 = over(s.du, s.h);
+    const double given1 = 0.25 * area_ * C_.M.squaredNorm() / (rho1_ * rho1_);
+    const double given2 = 0.25 * area_ * area_ / (rho2_ * rho2_);
+    const double primal1 = over(s.gap, std::max(s.g, s.z));
+    const double primal2 = over(s.split, std::max(s.x, s.u));
+    const double dual1 = over(s.dz, std::max(s.w, given1));
+    const double dual2 = over(s.du, std::max(s.h, given2));
     const double worst = std::max({primal1, dual1, primal2, dual2});
     if (!std::isfinite(worst)) throw SolveError("all pairs diverged: non-finite iterate");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));

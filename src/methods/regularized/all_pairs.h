@@ -30,7 +30,7 @@ struct PairStatistics {
   double violations = 0;         // share of triplets of different nodes against the triangle
                                  // inequality, of the symmetric part of D
   double largest_violation = 0;  // over sqrt(area)
-  double triplets = 0;           // looked at
+  double triplets = 0;           // looked at, all three within reach of each other
 };
 
 /// D: nodes x nodes, columns are sources; entries that are not finite are left out. area: of the

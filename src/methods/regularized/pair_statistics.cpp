@@ -42,17 +42,18 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
       for (Eigen::Index j = i + 1; j < n; ++j) {
         const double d = S(i, j);
         if (!std::isfinite(d)) continue;
-        int violated = 0;
+        int violated = 0, reached = -2;  // k = i and k = j do not count
         double least = std::numeric_limits<double>::infinity();
         const double* a = S.col(i).data();
         const double* b = S.col(j).data();
         for (Eigen::Index k = 0; k < n; ++k) {
           const double around = a[k] + b[k];  // k = i, j: d itself
           violated += around < d - round_off;
+          reached += std::isfinite(around);
           least = std::min(least, around);
         }
         count.violated += violated;
-        count.triplets += static_cast<double>(n - 2);
+        count.triplets += reached;
         count.largest = std::max(count.largest, (d - least) / root);
       }
     }

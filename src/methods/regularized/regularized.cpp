@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "littoral/error.h"
 #include "methods/heat/finalize.h"
-#include "solve/optimization/gradient_energy.h"
 
 namespace littoral {
 
@@ -26,7 +24,8 @@ template <class S>
 OptionTable<S> with_stopping(OptionTable<S> table) {
   return table
       .number(&S::tolerance, "tolerance", "", 1e-10, 1,
-              "Iterations stop when both residuals are below this share of what they compare.")
+              "Iterations stop when both residuals are below this share of what they compare, and "
+              "the duality gap below ten times it.")
       .number(&S::gap, "gap", "", 0, 1,
               "If not 0, iterations go on until the duality gap is below this share of the "
               "objective.")
@@ -83,29 +82,31 @@ const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options() {
 
 namespace {
 
-/// alpha of eq. 11 from alpha-hat (7.1); in space alpha, a length, scales with the cube root of the
-/// volume.
-double alpha_of(const Regularized& options, Regularizer regularizer, double measure, int dim) {
-  const double root = std::pow(measure, 1.0 / dim);
-  return options.alpha * (regularizer == Regularizer::hessian ? root * root * root : root);
-}
-
-/// The part of the objective that is a function of each cell's gradient, with |grad u| <= 1.
-std::unique_ptr<GradientEnergy> cell_energy(Regularizer regularizer, const RegularizerData& data,
-                                            double alpha, double beta, int dim) {
-  switch (regularizer) {
-    case Regularizer::align:
-      return std::make_unique<BallQuadraticEnergy>(dim, alpha, alpha * beta, data.V);
-    case Regularizer::max_norm:
-      return std::make_unique<BallMaxNormEnergy>(alpha, data.frames);
-    case Regularizer::dirichlet:
-    case Regularizer::hessian:
-      break;
+/// The rows of each component, in its own nodes (components).
+std::vector<SpMat> split_rows(const SpMat& rows, const Calculus& C,
+                              const std::vector<RegularizedPart>& parts) {
+  std::vector<int> local(C.component.size(), -1);
+  for (const RegularizedPart& part : parts)
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) local[part.nodes[i]] = i;
+  std::vector<Triplets> entries(parts.size());
+  std::vector<int> count(parts.size(), 0);
+  const SpRows by_row = rows;
+  for (int r = 0; r < by_row.outerSize(); ++r) {
+    int c = -1;
+    for (SpRows::InnerIterator it(by_row, r); it; ++it) {
+      if (c < 0) c = C.component[it.col()];
+      if (c >= 0 && C.component[it.col()] == c)
+        entries[c].emplace_back(count[c], local[it.col()], it.value());
+    }
+    if (c >= 0) ++count[c];
   }
-  return std::make_unique<BallQuadraticEnergy>(dim, 0, 0, VecX());
+  std::vector<SpMat> out(parts.size());
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    out[c].resize(count[c], parts[c].nodes.size());
+    out[c].setFromTriplets(entries[c].begin(), entries[c].end());
+  }
+  return out;
 }
-
-VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
 
 }  // namespace
 
@@ -113,85 +114,45 @@ RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regul
                                      RegularizerData data, const Task& task,
                                      ConstrainedSystem::Rows expected)
     : ops_(std::move(ops)),
-      regularizer_(regularizer),
-      data_(std::make_shared<const RegularizerData>(std::move(data))) {
-  const Calculus& C = ops_->scalar;
-  if (regularizer == Regularizer::align && data_->V.size() != C.G.rows)
-    throw InputError(
-        "aligned distance needs one direction per face: option field names a file of them");
-  if (regularizer == Regularizer::align && !data_->V.allFinite())
-    throw InputError("a direction of the field is not finite");
-  if (regularizer == Regularizer::max_norm && data_->frames.rows() != C.G.rows)
-    throw UnsupportedError("the max-norm regularizer needs faces in space");
-  if (regularizer == Regularizer::hessian) {
-    if (data_->W.rows() != C.L.rows())
-      throw UnsupportedError("the Hessian regularizer needs a triangle mesh");
-    return;  // nothing to factor before rho is known
-  }
-  laplacian_ =
-      std::make_shared<const ConstrainedSystem>(C.L, C.component, C.n_components, task, expected);
+      parts_(regularized_parts(std::shared_ptr<const Calculus>(ops_, &ops_->scalar), regularizer,
+                               std::move(data), expected)) {
+  if (parts_.size() == 1) parts_[0].factor(task);
 }
 
 AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& options,
                                        AdmmState& state, const Task& task, const VecX* sign) const {
+  if (parts_.size() == 1) return parts_[0].minimize(rows, options, state, task, sign);
   const Calculus& C = ops_->scalar;
-  std::vector<char> active(C.n_components, 0);
-  for (int j = 0; j < rows.outerSize(); ++j)
-    for (SpMat::InnerIterator it(rows, j); it; ++it)
-      if (C.component[it.col()] >= 0) active[C.component[it.col()]] = 1;
-  double area = 0;
-  SplitProblem problem;
-  problem.b = C.M;  // A_V
-  for (Eigen::Index i = 0; i < C.M.size(); ++i) {
-    const int c = C.component[i];
-    if (c < 0 || !active[c]) problem.b[i] = 0;
-    area += problem.b[i];
+  const std::vector<SpMat> rows_of = split_rows(rows, C, parts_);
+  double nodes = 0;
+  for (std::size_t c = 0; c < parts_.size(); ++c)
+    if (rows_of[c].rows() > 0) nodes += static_cast<double>(parts_[c].nodes.size());
+  state.parts.resize(parts_.size());
+  AdmmResult all;
+  all.converged = true;
+  all.u = VecX::Zero(C.M.size());
+  Task rest = task;
+  for (std::size_t c = 0; c < parts_.size(); ++c) {
+    if (rows_of[c].rows() == 0) continue;
+    const std::vector<int>& of_all = parts_[c].nodes;
+    const VecX sign_here = sign ? VecX((*sign)(of_all)) : VecX();
+    const Task stage =
+        rest.stage(static_cast<double>(of_all.size()) / nodes, "alternating directions");
+    AdmmResult one =
+        parts_[c].minimize(rows_of[c], options, state.parts[c], stage, sign ? &sign_here : nullptr);
+    for (std::size_t i = 0; i < of_all.size(); ++i) all.u[of_all[i]] = one.u[i];
+    all.objective += one.objective;
+    all.gap = std::max(all.gap, one.gap);
+    all.primal = std::max(all.primal, one.primal);
+    all.dual = std::max(all.dual, one.dual);
+    all.largest = std::max(all.largest, one.largest);
+    all.iterations += one.iterations;
+    all.converged = all.converged && one.converged;
+    one.u = VecX();
+    one.component = c;
+    all.parts.push_back(std::move(one));
   }
-  if (sign) problem.b = problem.b.cwiseProduct(*sign);
-  const int dim = C.G.rows / C.A.size();
-  const double alpha = alpha_of(options, regularizer_, area, dim);
-  const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
-  problem.A = C.A;
-  problem.dim = dim;
-  problem.energy = energy.get();
-  problem.G = C.G.matrix();
-
-  AdmmOptions admm_options;
-  admm_options.relative = options.tolerance;
-  admm_options.absolute = std::min(5e-6, 5e-4 * options.tolerance);
-  admm_options.gap = options.gap;
-  admm_options.max_iterations = options.max_iterations;
-
-  ConstrainedSystem::Constrained constrained;
-  double constrained_rho = -1;  // Hessian: the penalty for which `constrained` was factored
-  if (regularizer_ == Regularizer::hessian) {
-    const SpMat& W = data_->W;
-    problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
-    problem.solve = [&](const VecX& b, double rho) {
-      if (rho != constrained_rho) {
-        constrained = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components,
-                                        task, ConstrainedSystem::Rows::many)
-                          .constrain(rows, task);
-        constrained_rho = rho;
-      }
-      return constrained.solve(b);
-    };
-    admm_options.penalty_changes = 8;
-  } else if (regularizer_ == Regularizer::dirichlet) {
-    // Alg. 1: alpha W + rho W_D = (alpha + rho) W_D, so the factor of W_D serves every penalty.
-    constrained = laplacian_->constrain(rows, task);
-    if (alpha > 0)
-      problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
-    problem.solve = [&constrained, alpha](const VecX& b, double rho) {
-      return VecX(constrained.solve(b) / (alpha + rho));
-    };
-  } else {
-    constrained = laplacian_->constrain(rows, task);
-    problem.solve = [&constrained](const VecX& b, double rho) {
-      return VecX(constrained.solve(b) / rho);
-    };
-  }
-  return admm(problem, admm_options, state, task);
+  return all;
 }
 
 VecX RegularizedSolver::solve(const SourceSystem& system, const Regularized& options,

@@ -8,9 +8,9 @@
 #include "base/task.h"
 #include "littoral/options.h"
 #include "littoral/report.h"
+#include "methods/regularized/regularized_part.h"
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
-#include "solve/poisson/constrained_system.h"
 #include "sources/source_system.h"
 
 namespace littoral {
@@ -25,27 +25,21 @@ const OptionTable<BelyaevFayolle>& belyaev_fayolle_options();
 const OptionTable<SpaceRegularized>& space_regularized_options();
 const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options();
 
-/// What some regularizers need beside the operators.
-struct RegularizerData {
-  VecX V;              // 2 cells; align: directions in the cells' frames, of length at most 1
-  MatX3 frames{0, 3};  // 2 cells x 3; max_norm: each cell's axes in space
-  SpMat W;             // nodes x nodes, lower triangle; hessian: W_H
-};
-
 /// One domain and one regularizer; immutable, `solve` may be called from several threads.
 class RegularizedSolver {
  public:
-  /// Factors the Laplacian W_D once: every alpha, penalty, source set and regularizer of gradients
-  /// solves with it, scaled. The Hessian, whose matrix alpha W_H + rho W_D no scaling reaches, is
-  /// factored per penalty. Throws InputError if the data a regularizer needs is missing.
-  /// Where many rows are expected (surfaces in space) it is factored for each source set instead.
+  /// Factors the Laplacian W_D once, of several components each when a source reaches it: every
+  /// alpha, penalty, source set and regularizer of gradients solves with it, scaled. The Hessian,
+  /// whose matrix alpha W_H + rho W_D no scaling reaches, is factored per penalty. Throws
+  /// InputError if the data a regularizer needs is missing. Where many rows are expected (surfaces
+  /// in space) it is factored for each source set instead.
   RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
                     RegularizerData data, const Task& task,
                     ConstrainedSystem::Rows expected = ConstrainedSystem::Rows::few);
 
   /// Distance to the sources at the nodes (nodes) [length of the input], not negative, +inf on
-  /// components that no source reaches: minimises eq. 11 by Alg. 1. `state`: from an earlier solve
-  /// with the same sources, to start from; left as it is at the end.
+  /// components that no source reaches: minimises eq. 11 by Alg. 1, on each component by itself.
+  /// `state`: from an earlier solve with the same sources, to start from; left as it is at the end.
   VecX solve(const SourceSystem& system, const Regularized& options, const Task& task,
              Report& report, AdmmState* state = nullptr) const;
 
@@ -58,9 +52,7 @@ class RegularizedSolver {
 
  private:
   std::shared_ptr<const Operators> ops_;
-  Regularizer regularizer_;
-  std::shared_ptr<const RegularizerData> data_;
-  std::shared_ptr<const ConstrainedSystem> laplacian_;
+  std::vector<RegularizedPart> parts_;  // components; of one component alone, all nodes
 };
 
 }  // namespace littoral

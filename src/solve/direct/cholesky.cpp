@@ -249,7 +249,32 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
   }
 }
 
+template <class Scalar>
+RaisedCholesky<Scalar> raised_cholesky(const Eigen::SparseMatrix<Scalar>& lower,
+                                       const std::shared_ptr<const Elimination>& structure,
+                                       const Task& task, bool to_be_patched) {
+  try {
+    return {Cholesky<Scalar>(lower, structure, task, to_be_patched), 0};
+  } catch (const SolveError&) {  // not positive definite to working precision
+  }
+  for (double share = 1e-14;; share *= 100) {
+    Eigen::SparseMatrix<Scalar> higher = lower;
+    higher.diagonal() *= 1 + share;
+    try {
+      return {Cholesky<Scalar>(higher, structure, task), share};
+    } catch (const SolveError&) {
+      if (share > 1e-9) throw;
+    }
+  }
+}
+
 template class Cholesky<double>;
 template class Cholesky<Complex>;
+template RaisedCholesky<double> raised_cholesky(const SpMat&,
+                                                const std::shared_ptr<const Elimination>&,
+                                                const Task&, bool);
+template RaisedCholesky<Complex> raised_cholesky(const SpMatC&,
+                                                 const std::shared_ptr<const Elimination>&,
+                                                 const Task&, bool);
 
 }  // namespace littoral

@@ -62,6 +62,25 @@ class Cholesky {
 extern template class Cholesky<double>;
 extern template class Cholesky<Complex>;
 
+/// The factor of a matrix that is positive definite but for round-off, as thin triangles leave it,
+/// and by what share its diagonal had to be raised for that: the smallest of 0, 1e-14, 1e-12, 1e-10
+/// and 1e-8 that helps. Throws SolveError where none does, Cancelled.
+template <class Scalar>
+struct RaisedCholesky {
+  Cholesky<Scalar> factor;
+  double raised = 0;
+};
+template <class Scalar>
+RaisedCholesky<Scalar> raised_cholesky(const Eigen::SparseMatrix<Scalar>& lower,
+                                       const std::shared_ptr<const Elimination>& structure,
+                                       const Task& task, bool to_be_patched = false);
+extern template RaisedCholesky<double> raised_cholesky(const SpMat&,
+                                                       const std::shared_ptr<const Elimination>&,
+                                                       const Task&, bool);
+extern template RaisedCholesky<Complex> raised_cholesky(const SpMatC&,
+                                                        const std::shared_ptr<const Elimination>&,
+                                                        const Task&, bool);
+
 /// For matrices that are positive definite but for round-off, as in the last steps of an
 /// interior-point method: the diagonal is raised, by as little as possible, where a pivot fails,
 /// and solutions are refined with the matrix itself.

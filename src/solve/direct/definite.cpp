@@ -71,27 +71,15 @@ DefiniteSystem::DefiniteSystem(const SpMat& lower, const Task& task)
 DefiniteSystem::DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure,
                                const Task& task, bool to_be_patched)
     : A_(std::make_shared<const SpMat>(std::move(lower))) {
-  try {
-    factor_ = std::make_shared<const Cholesky<double>>(*A_, structure, task, to_be_patched);
-    patchable_ = to_be_patched;
-  } catch (const SolveError&) {
-    factor_lifted(task, structure);
-  }
+  factor(task, structure, to_be_patched);
 }
 
-void DefiniteSystem::factor_lifted(const Task& task,
-                                   const std::shared_ptr<const Elimination>& structure) {
-  for (double lift : {1e-14, 1e-12, 1e-10, 1e-8}) {
-    SpMat lifted = *A_;
-    lifted.diagonal() *= 1 + lift;
-    lift_ = lift;
-    try {
-      factor_ = std::make_shared<const Cholesky<double>>(lifted, structure, task);
-      return;
-    } catch (const SolveError&) {
-      if (lift == 1e-8) throw;
-    }
-  }
+void DefiniteSystem::factor(const Task& task, const std::shared_ptr<const Elimination>& structure,
+                            bool to_be_patched) {
+  RaisedCholesky<double> made = raised_cholesky(*A_, structure, task, to_be_patched);
+  factor_ = std::make_shared<const Cholesky<double>>(std::move(made.factor));
+  lift_ = made.raised;
+  patchable_ = to_be_patched && lift_ == 0;
 }
 
 DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& changed,
@@ -102,7 +90,7 @@ DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& chan
     out.factor_ =
         std::make_shared<const Cholesky<double>>(factor_->patched(*out.A_, changed, task));
   } catch (const SolveError&) {
-    out.factor_lifted(task, factor_->structure());
+    out.factor(task, factor_->structure(), false);
   }
   return out;
 }

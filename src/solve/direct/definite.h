@@ -65,7 +65,8 @@ class DefiniteSystem {
 
  private:
   DefiniteSystem() = default;
-  void factor_lifted(const Task& task, const std::shared_ptr<const Elimination>& structure);
+  void factor(const Task& task, const std::shared_ptr<const Elimination>& structure,
+              bool to_be_patched);
 
   std::shared_ptr<const SpMat> A_;
   std::shared_ptr<const Cholesky<double>> factor_;  // one of the two

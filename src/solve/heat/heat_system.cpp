@@ -45,12 +45,14 @@ HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint hin
     return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
   const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
-  if (structure->values() <= limit / sizeof(Scalar)) factor_.emplace(*A_, structure, task);
+  if (structure->values() <= limit / sizeof(Scalar))
+    factor_.emplace(raised_cholesky(*A_, structure, task).factor);
 }
 
 template <class Scalar>
 Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
-  return Cholesky<Scalar>(*A_, task, in_blocks(order_, block_));
+  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
+  return raised_cholesky(*A_, structure, task).factor;
 }
 
 template <class Scalar>

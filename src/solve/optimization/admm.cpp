@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/component_values.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
@@ -47,7 +48,8 @@ class Admm {
       const bool small = result.primal <= primal_tolerance_ && result.dual <= dual_tolerance_;
       if (small || last || (o_.gap > 0 && k % 20 == 0)) {
         evaluate_duality_gap(result);
-        result.converged = o_.gap > 0 ? result.gap <= o_.gap : small;
+        const bool certified = o_.certified <= 0 || result.gap <= o_.certified;
+        result.converged = o_.gap > 0 ? result.gap <= o_.gap : small && certified;
         if (result.converged) break;
       }
       const double ratio =
@@ -155,7 +157,9 @@ class Admm {
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
     r.objective = 0.5 * shrink * shrink * uPu - shrink * p_.b.dot(u_) + phi;
     const double bound = -0.5 * uPu - conjugate;
-    r.gap = (r.objective - bound) / std::max(std::abs(r.objective), 1e-300);
+    // Where the constraints leave nothing but 0, the objective is round-off of this size.
+    const double least = 1e-12 * p_.b.lpNorm<1>() * p_.length();
+    r.gap = (r.objective - bound) / std::max({std::abs(r.objective), least, 1e-300});
   }
 
   const SplitProblem& p_;
@@ -185,11 +189,20 @@ AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmSta
 }
 
 void report_admm(const AdmmResult& result, Report& report) {
-  report.iterations.emplace_back("admm", result.iterations);
-  report.residuals.emplace_back("admm, primal", result.primal);
-  report.residuals.emplace_back("admm, dual", result.dual);
-  report.residuals.emplace_back("duality gap", result.gap);
-  report.residuals.emplace_back("largest gradient over 1", std::max(0.0, result.largest - 1));
+  ComponentValues iterations("admm"), primal("admm, primal"), dual("admm, dual"),
+      gap("duality gap"), longest("largest gradient over 1");
+  const auto add = [&](const AdmmResult& r) {
+    iterations.add(r.component, r.iterations);
+    primal.add(r.component, r.primal);
+    dual.add(r.component, r.dual);
+    gap.add(r.component, r.gap);
+    longest.add(r.component, std::max(0.0, r.largest - 1));
+  };
+  for (const AdmmResult& part : result.parts) add(part);
+  if (result.parts.empty()) add(result);
+  iterations.report_sum(report.iterations);
+  for (const ComponentValues* values : {&primal, &dual, &gap, &longest})
+    values->report_worst(report.residuals);
   if (!result.converged) {
     report.status = "not converged";
     report.warn("alternating directions stopped after " + std::to_string(result.iterations) +

@@ -4,6 +4,7 @@
 // multipliers", 2011). Knows matrices only.
 
 #include <functional>
+#include <vector>
 
 #include "base/task.h"
 #include "littoral/report.h"
@@ -33,6 +34,7 @@ struct AdmmOptions {
   double relative = 1e-2;  // eps^rel
   double absolute = 5e-6;  // eps^abs
   double gap = 0;          // > 0: stop below this relative duality gap, whatever the residuals
+  double certified = 0;    // > 0: below the residuals' tolerances the gap must be below this too
   int max_iterations = 10000;
   double relaxation = 1.8;     // over-relaxation (3.4.3)
   int penalty_changes = 1000;  // at most (3.4.1); 0 keeps rho
@@ -42,7 +44,8 @@ struct AdmmOptions {
 struct AdmmState {
   VecX z, w;
   double rho = 0;
-  bool empty() const { return z.size() == 0; }
+  std::vector<AdmmState> parts;  // of a problem that falls into parts, and then nothing else
+  bool empty() const { return z.size() == 0 && parts.empty(); }
 };
 
 struct AdmmResult {
@@ -53,6 +56,9 @@ struct AdmmResult {
   double largest = 0;           // largest gauge of G u: 1.01 means a gradient 1 % too long
   int iterations = 0;
   bool converged = false;
+  int component = 0;              // of a problem that is one of several parts
+  std::vector<AdmmResult> parts;  // of a problem that falls into parts: theirs, without u; what is
+                                  // above is then the sum or the worst of them
 };
 
 /// Minimises; the last iterate comes back with converged = false when iterations run out. Starts
@@ -60,7 +66,7 @@ struct AdmmResult {
 AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
                 const Task& task);
 
-/// Number of iterations, residuals, gap and status, for a report.
+/// Number of iterations, residuals, gap and status, for a report; also of each part.
 void report_admm(const AdmmResult& result, Report& report);
 
 }  // namespace littoral

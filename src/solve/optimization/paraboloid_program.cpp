@@ -66,23 +66,23 @@ class Run {
   }
 
   ParaboloidResult run(const Inserter& insert) {
-    ParaboloidResult best;
+    ParaboloidResult best{.x = x_};
     double best_merit = infinity;
     int rounds = 0;
     for (int iteration = 0;; ++iteration) {
       if (!refresh()) break;
       ParaboloidResult now = measure();
       now.iterations = iteration;
-      const double merit = std::max(now.gap, now.primal_residual);
+      const double merit = std::max({now.gap, now.dual_residual, now.primal_residual});
       // Gaps fall by about a constant factor per iteration, from 1e2 on.
       task_.checkpoint(std::log(1e2 / merit) / std::log(1e2 / options_.tolerance));
       // Round-off leaves a dual residual of some 1e-6 where the solution is not unique.
-      now.converged = gap_ < options_.tolerance * std::abs(now.objective) &&
-                      now.primal_residual < options_.tolerance && now.gap < 10 * options_.tolerance;
+      now.converged = now.gap < options_.tolerance && now.primal_residual < options_.tolerance &&
+                      now.dual_residual < 10 * options_.tolerance;
       const bool done = now.converged;
       if (merit < best_merit || done) std::tie(best, best_merit) = std::pair(now, merit);
       // Dips show early; what is missing in the end is put in where there was still room for it.
-      const bool early = rounds == 0 && now.gap < 1e-2;
+      const bool early = rounds == 0 && std::max(now.gap, now.dual_residual) < 1e-2;
       if (insert && rounds < 8 && (early || done)) {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
@@ -222,11 +222,11 @@ class Run {
     return !sums.outside && std::isfinite(gap_) && dual_residual_.allFinite();
   }
   ParaboloidResult measure() const {
-    ParaboloidResult now;
-    now.x = x_;
+    ParaboloidResult now{.x = x_};
     now.objective = program_.c.dot(x_);
-    now.gap = std::max(gap_, std::abs(dual_residual_.dot(x_))) /
-              std::max(std::abs(now.objective), 1e-300);
+    const double size = std::max(std::abs(now.objective), 1e-300);
+    now.gap = gap_ / size;
+    now.dual_residual = std::abs(dual_residual_.dot(x_)) / size;
     now.primal_residual = primal_residual_;
     return now;
   }

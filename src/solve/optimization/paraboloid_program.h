@@ -7,6 +7,7 @@
 // each row touching only the unknowns of one element e. Solved by an interior-point method.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -63,9 +64,11 @@ struct ParaboloidResult {
   bool converged = false;
   int iterations = 0;
   double objective = 0;  // c^T x
-  double gap = 0;        // max(s^T z, |r^T x|) / objective, r the residual of the dual constraints
-  double primal_residual = 0;  // largest |s - g(x)|, relative to tau
-  std::size_t samples = 0;     // in the end, with those that were inserted
+  // s^T z / objective: a bound of what is missing where both residuals are 0.
+  double gap = std::numeric_limits<double>::infinity();
+  double primal_residual = gap;  // largest |s - g(x)|, relative to tau
+  double dual_residual = gap;    // |r^T x| / objective, r what the dual constraints lack
+  std::size_t samples = 0;       // in the end, with those that were inserted
 };
 
 /// Primal-dual interior-point method with Mehrotra's predictor and corrector. One symbolic

@@ -1,0 +1,227 @@
+#include "methods/regularized/regularized_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/index.h"
+#include "littoral/error.h"
+#include "solve/optimization/gradient_energy.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double gap_over_tolerance = 10;  // residuals below the tolerance do not bound the gap
+
+/// alpha of eq. 11 from alpha-hat (7.1); in space alpha, a length, scales with the cube root of the
+/// volume.
+double alpha_of(const Regularized& options, Regularizer regularizer, double measure, int dim) {
+  const double root = std::pow(measure, 1.0 / dim);
+  return options.alpha * (regularizer == Regularizer::hessian ? root * root * root : root);
+}
+
+/// The part of the objective that is a function of each cell's gradient, with |grad u| <= 1.
+std::unique_ptr<GradientEnergy> cell_energy(Regularizer regularizer, const RegularizerData& data,
+                                            double alpha, double beta, int dim) {
+  switch (regularizer) {
+    case Regularizer::align:
+      return std::make_unique<BallQuadraticEnergy>(dim, alpha, alpha * beta, data.V);
+    case Regularizer::max_norm:
+      return std::make_unique<BallMaxNormEnergy>(alpha, data.frames);
+    case Regularizer::dirichlet:
+    case Regularizer::hessian:
+      break;
+  }
+  return std::make_unique<BallQuadraticEnergy>(dim, 0, 0, VecX());
+}
+
+VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
+
+void check_data(const Calculus& C, Regularizer regularizer, const RegularizerData& data) {
+  if (regularizer == Regularizer::align && data.V.size() != C.G.rows)
+    throw InputError(
+        "aligned distance needs one direction per face: option field names a file of them");
+  if (regularizer == Regularizer::align && !data.V.allFinite())
+    throw InputError("a direction of the field is not finite");
+  if (regularizer == Regularizer::max_norm && data.frames.rows() != C.G.rows)
+    throw UnsupportedError("the max-norm regularizer needs faces in space");
+  if (regularizer == Regularizer::hessian && data.W.rows() != C.L.rows())
+    throw UnsupportedError("the Hessian regularizer needs a triangle mesh");
+}
+
+/// The entries of a matrix that couples no components, for each of them in its own numbers.
+std::vector<SpMat> split_matrix(const SpMat& lower, const std::vector<int>& component,
+                                const std::vector<int>& local, const std::vector<int>& sizes) {
+  std::vector<Triplets> entries(sizes.size());
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (SpMat::InnerIterator it(lower, j); it && component[j] >= 0; ++it)
+      if (component[it.row()] == component[j])
+        entries[component[j]].emplace_back(local[it.row()], local[j], it.value());
+  std::vector<SpMat> out(sizes.size());
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    out[c].resize(sizes[c], sizes[c]);
+    out[c].setFromTriplets(entries[c].begin(), entries[c].end());
+  }
+  return out;
+}
+
+LinearMap as_map(SpRows matrix) {
+  LinearMap G;
+  G.rows = matrix.rows();
+  G.cols = matrix.cols();
+  const auto A = std::make_shared<const SpRows>(std::move(matrix));
+  G.apply = [A](const VecX& u) { return VecX(*A * u); };
+  G.adjoint = [A](const VecX& X) { return VecX(A->transpose() * X); };
+  G.matrix = [A] { return *A; };
+  return G;
+}
+
+/// Cells of each component, by the nodes of their gradients; cells without any are in none.
+std::vector<std::vector<int>> cells_of(const Calculus& C, const SpRows& G, int dim) {
+  std::vector<std::vector<int>> cells(C.n_components);
+  for (int k = 0; k < C.A.size(); ++k) {
+    int c = -1;
+    for (int r = dim * k; r < dim * (k + 1) && c < 0; ++r)
+      for (SpRows::InnerIterator it(G, r); it && c < 0; ++it) c = C.component[it.col()];
+    if (c >= 0) cells[c].push_back(k);
+  }
+  return cells;
+}
+
+}  // namespace
+
+RegularizedPart::RegularizedPart(std::shared_ptr<const Calculus> C, Regularizer regularizer,
+                                 RegularizerData data, ConstrainedSystem::Rows expected)
+    : C_(std::move(C)),
+      regularizer_(regularizer),
+      data_(std::make_shared<const RegularizerData>(std::move(data))),
+      expected_(expected),
+      laplacian_(std::make_shared<Kept<ConstrainedSystem>>()) {}
+
+std::shared_ptr<const ConstrainedSystem> RegularizedPart::laplacian(const Task& task) const {
+  return laplacian_->get(
+      [&] { return ConstrainedSystem(C_->L, C_->component, C_->n_components, task, expected_); });
+}
+
+void RegularizedPart::factor(const Task& task) const {
+  // Of the Hessian there is nothing to factor before rho is known.
+  if (regularizer_ != Regularizer::hessian) laplacian(task);
+}
+
+AdmmResult RegularizedPart::minimize(const SpMat& rows, const Regularized& options,
+                                     AdmmState& state, const Task& task, const VecX* sign) const {
+  const Calculus& C = *C_;
+  if (rows.nonZeros() == 0) {  // nothing holds it
+    AdmmResult nothing;
+    nothing.u = VecX::Zero(C.M.size());
+    nothing.converged = true;
+    return nothing;
+  }
+  SplitProblem problem;
+  problem.b = C.M;  // A_V
+  for (Eigen::Index i = 0; i < C.M.size(); ++i)
+    if (C.component[i] < 0) problem.b[i] = 0;
+  const double area = problem.b.sum();
+  if (sign) problem.b = problem.b.cwiseProduct(*sign);
+  const int dim = C.G.rows / C.A.size();
+  const double alpha = alpha_of(options, regularizer_, area, dim);
+  const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
+  problem.A = C.A;
+  problem.dim = dim;
+  problem.energy = energy.get();
+  problem.G = C.G.matrix();
+
+  AdmmOptions admm_options;
+  admm_options.relative = options.tolerance;
+  admm_options.absolute = std::min(5e-6, 5e-4 * options.tolerance);
+  admm_options.gap = options.gap;
+  admm_options.certified = gap_over_tolerance * options.tolerance;
+  admm_options.max_iterations = options.max_iterations;
+
+  ConstrainedSystem::Constrained constrained;
+  double constrained_rho = -1;  // Hessian: the penalty for which `constrained` was factored
+  if (regularizer_ == Regularizer::hessian) {
+    const SpMat& W = data_->W;
+    problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
+    problem.solve = [&](const VecX& b, double rho) {
+      if (rho != constrained_rho) {
+        constrained = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components,
+                                        task, ConstrainedSystem::Rows::many)
+                          .constrain(rows, task);
+        constrained_rho = rho;
+      }
+      return constrained.solve(b);
+    };
+    admm_options.penalty_changes = 8;
+  } else if (regularizer_ == Regularizer::dirichlet) {
+    // Alg. 1: alpha W + rho W_D = (alpha + rho) W_D, so the factor of W_D serves every penalty.
+    constrained = laplacian(task)->constrain(rows, task);
+    if (alpha > 0)
+      problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
+    problem.solve = [&constrained, alpha](const VecX& b, double rho) {
+      return VecX(constrained.solve(b) / (alpha + rho));
+    };
+  } else {
+    constrained = laplacian(task)->constrain(rows, task);
+    problem.solve = [&constrained](const VecX& b, double rho) {
+      return VecX(constrained.solve(b) / rho);
+    };
+  }
+  return admm(problem, admm_options, state, task);
+}
+
+std::vector<RegularizedPart> regularized_parts(const std::shared_ptr<const Calculus>& C,
+                                               Regularizer regularizer, RegularizerData data,
+                                               ConstrainedSystem::Rows expected) {
+  check_data(*C, regularizer, data);
+  std::vector<RegularizedPart> out;
+  if (C->n_components <= 1) {
+    out.emplace_back(C, regularizer, std::move(data), expected);
+    return out;
+  }
+  const int dim = C->G.rows / C->A.size();
+  const SpRows G = C->G.matrix();
+  std::vector<std::vector<int>> nodes(C->n_components);
+  std::vector<int> local(C->component.size(), -1), sizes;
+  for (std::size_t i = 0; i < C->component.size(); ++i)
+    if (const int c = C->component[i]; c >= 0) {
+      local[i] = int_size(nodes[c]);
+      nodes[c].push_back(i);
+    }
+  for (const auto& of_part : nodes) sizes.push_back(int_size(of_part));
+  std::vector<SpMat> L = split_matrix(C->L, C->component, local, sizes), W(sizes.size());
+  if (data.W.size() > 0) W = split_matrix(data.W, C->component, local, sizes);
+  const std::vector<std::vector<int>> cells = cells_of(*C, G, dim);
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    Calculus part;
+    part.L = std::move(L[c]);
+    part.M = C->M(nodes[c]);
+    part.A = C->A(cells[c]);
+    part.h = C->h;
+    part.component.assign(nodes[c].size(), 0);
+    part.n_components = 1;
+    RegularizerData of_part;
+    of_part.W = std::move(W[c]);
+    if (data.V.size() > 0) of_part.V.resize(dim * part.A.size());
+    if (data.frames.rows() > 0) of_part.frames.resize(dim * part.A.size(), 3);
+    Triplets entries;
+    for (std::size_t k = 0; k < cells[c].size(); ++k)
+      for (int d = 0; d < dim; ++d) {
+        const int to = dim * static_cast<int>(k) + d, from = dim * cells[c][k] + d;
+        for (SpRows::InnerIterator it(G, from); it; ++it)
+          entries.emplace_back(to, local[it.col()], it.value());
+        if (data.V.size() > 0) of_part.V[to] = data.V[from];
+        if (data.frames.rows() > 0) of_part.frames.row(to) = data.frames.row(from);
+      }
+    SpRows gradient(dim * part.A.size(), sizes[c]);
+    gradient.setFromTriplets(entries.begin(), entries.end());
+    part.G = as_map(std::move(gradient));
+    out.emplace_back(std::make_shared<const Calculus>(std::move(part)), regularizer,
+                     std::move(of_part), expected);
+    out.back().nodes = std::move(nodes[c]);
+  }
+  return out;
+}
+
+}  // namespace littoral

@@ -28,9 +28,9 @@ struct ExactDistance {
 /// a full turn around them, on the boundary and where the surface is not a manifold.
 ///
 /// More than `most_windows` (0: 1000 a triangle and at least 1e7) are not followed: from there on
-/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A warning
-/// says up to which distance values are exact; those beyond are lengths of paths, hence too large
-/// if not exact.
+/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A
+/// warning says up to which distance values are exact; those beyond are lengths of paths, hence too
+/// large if not exact.
 ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
                                const Task& task, Report& report, double most_windows = 0);
 

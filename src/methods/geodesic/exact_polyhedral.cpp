@@ -273,8 +273,7 @@ class Front {
 
   /// Follows straight lines less far from now on, and lets paths bend at every vertex instead.
   void relax() {
-    exact_within_ = std::min(exact_within_, least_open());
-    ++relaxed_;
+    if (relaxed_++ == 0) exact_within_ = least_open();
     budget_ += most_windows_;
     std::fill(pages_.bends.begin(), pages_.bends.end(), 1);
     for (int v = 0; v < T_.n_vertices; ++v)
@@ -326,7 +325,8 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
     front.start_in(s.triangle, rays_of_segment(T, s), s.source);
   front.run(task);
   report.iterations.emplace_back("windows", front.windows());
-  if (front.exact_within() < inf) {
+  const double exact_within = front.exact_within() * T.unit;
+  if (exact_within < inf) {
     std::ostringstream text;
     text
         << "exact distance met its limit of " << most_windows << " windows: values up to "
@@ -338,7 +338,7 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
   VecXi nearest = front.nearest();
   return {finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
                          report),
-          std::move(nearest)};
+          std::move(nearest), exact_within};
 }
 
 }  // namespace littoral

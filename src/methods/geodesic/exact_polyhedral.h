@@ -11,6 +11,7 @@ namespace littoral {
 struct ExactDistance {
   VecX distance;  // vertices [length of the input]; +inf where no source reaches
   VecXi nearest;  // vertices: the source the shortest path starts from, -1 where none reaches
+  double exact_within = 0;  // [length of the input] values up to here are exact; +inf: all are
 };
 
 /// Unsigned distance at the vertices, exact to rounding, from points, and from curves as the exact

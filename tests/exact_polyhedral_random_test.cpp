@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -269,29 +270,51 @@ TEST(ExactPolyhedralRandom, AtTheLimitValuesAreTooLargeIfAnything) {
   const VecX exact = on.exact().distance;
   const double windows = on.windows();
   EXPECT_TRUE(on.report.warnings.empty());
-  for (const auto& [share, error] :
-       std::vector<std::pair<double, double>>{{0.5, 0.02}, {0.01, 0.1}}) {
+  for (const double share : {0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}) {
+    SCOPED_TRACE(share);
+    const double error = share < 0.5 ? 0.1 : 0.02;
     OnMesh limited(soup, test::vertex_points({0}));
-    const VecX d = limited.exact(share * windows).distance;
+    const ExactDistance found = limited.exact(share * windows);
+    const VecX& d = found.distance;
     EXPECT_GE((d - exact).minCoeff(), -1e-12);
     EXPECT_LT((d - exact).maxCoeff(), error * exact.maxCoeff());
     EXPECT_GT((d - exact).maxCoeff(), 1e-9) << "the limit was not met";
-    ASSERT_EQ(limited.report.warnings.size(), 1);
-    const std::string& warning = limited.report.warnings[0];
-    const auto at = warning.find("values up to ");
-    ASSERT_NE(at, std::string::npos) << warning;
-    const double within = std::stod(warning.substr(at + 13));
-    EXPECT_GT(within, 0);  // of six digits
+    EXPECT_EQ(limited.report.warnings.size(), 1);
+    EXPECT_GT(found.exact_within, 0);
     for (int v = 0; v < d.size(); ++v) {
-      if (exact[v] < within * 0.99999) {
+      if (exact[v] < found.exact_within) {
         EXPECT_NEAR(d[v], exact[v], 1e-12);
       }
     }
     EXPECT_LT(limited.windows(), 40 * windows);
   }
   OnMesh enough(soup, test::vertex_points({0}));
-  enough.exact(windows + 1);
+  EXPECT_TRUE(std::isinf(enough.exact(windows + 1).exact_within));
   EXPECT_TRUE(enough.report.warnings.empty());
+}
+
+/// Six unit triangles around a vertex, and six more behind them: the first windows are half the
+/// root of three away, and go no further.
+TEST(ExactPolyhedralRandom, ExactUpToTheNearestWindowLeft) {
+  PolygonSoup soup;
+  soup.points = MatX3::Zero(13, 3);
+  for (int i = 0; i < 6; ++i) {
+    const double angle = std::numbers::pi * i / 3;
+    soup.points.row(1 + i) << 5 * std::cos(angle), 5 * std::sin(angle), 0;
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    soup.points.row(7 + i) = soup.points.row(1 + i) + soup.points.row(1 + next);
+    test::add_triangle(soup, 0, 1 + i, 1 + next);
+    test::add_triangle(soup, 7 + i, 1 + next, 1 + i);
+  }
+  OnMesh on(soup, test::vertex_points({0}));
+  const ExactDistance d = on.exact(1);
+  EXPECT_NEAR(d.exact_within, 5 * std::sqrt(0.75), 1e-12);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(d.distance[1 + i], 5, 1e-12);
+    EXPECT_NEAR(d.distance[7 + i], 5 * std::sqrt(3.0), 1e-12);  // one triangle further, straight
+  }
 }
 
 }  // namespace

@@ -33,7 +33,10 @@ class EdgeEnvelopes {
   /// +inf if nothing is left of it.
   double insert(List& list, double length, const Window& w) {
     std::vector<Window>& all = list.windows;
-    if (all.capacity() == 0) all.reserve(4);
+    if (all.capacity() == 0 && !spare_.empty()) {
+      all.swap(spare_.back());
+      spare_.pop_back();
+    }
     const auto beyond =
         std::partition_point(all.begin(), all.end(), [&](const Window& o) { return o.b1 <= w.b0; });
     if (beyond != all.end() && beyond->b0 < w.b1)
@@ -71,7 +74,8 @@ class EdgeEnvelopes {
 
   void forget(List& list) {
     n_held_ -= double(list.windows.size());
-    std::vector<Window>().swap(list.windows);
+    list.windows.clear();
+    spare_.emplace_back().swap(list.windows);
   }
 
   double n_taken() const { return n_taken_; }  // windows ever held
@@ -235,8 +239,9 @@ class EdgeEnvelopes {
     return least;
   }
 
-  std::vector<List> lists_;    // edges
-  std::vector<Piece> pieces_;  // of the insertion under way
+  std::vector<List> lists_;                 // edges
+  std::vector<std::vector<Window>> spare_;  // empty, with room
+  std::vector<Piece> pieces_;               // of the insertion under way
   std::vector<Window> made_;
   double n_taken_ = 0, n_held_ = 0;
 };

@@ -9,6 +9,7 @@
 
 #include "methods/geodesic/edge_envelopes.h"
 #include "methods/geodesic/exact_polyhedral_pages.h"
+#include "methods/geodesic/exact_polyhedral_starts.h"
 #include "methods/heat/finalize.h"
 
 namespace littoral {
@@ -44,63 +45,24 @@ class Front {
     queue_.push({0, -1 - vertex});
   }
 
-  /// Rays from a point in every direction inside one triangle that contains it.
-  void start_in(const PointInFace& where, int source) {
-    const TriangleShape t = flat(where.face);
-    const Complex p = point(t, where.b);
-    for (int k = 0; k < 3; ++k) {
-      offer(T_.faces(where.face, k), std::abs(t.p[k] - p), source);
-      if (where.b[(k + 2) % 3] == 0) continue;
-      Window w;
-      w.b1 = T_.length(where.face, k);
+  /// A source inside a triangle.
+  void start_in(int triangle, const TriangleRays& rays, int source) {
+    for (int k = 0; k < 3; ++k) offer(T_.faces(triangle, k), rays.corners[k], source);
+    for (auto [side, w] : rays.leaving) {
       w.source = source;
-      leave_face(3 * where.face + k, seen_from(w, p, t.p[k], t.side[k]));
-    }
-  }
-
-  /// Rays perpendicular to a segment of one triangle, to both sides. Its ends are points.
-  void start_along(const TriangleSources::Segment& s) {
-    const TriangleShape t = flat(s.triangle);
-    const Complex a = point(t, s.a), ab = point(t, s.b) - a;
-    const double length = std::abs(ab);
-    if (!(length > 0)) return;
-    for (int k = 0; k < 3; ++k) {
-      const double x =
-          std::clamp((std::conj(ab) * (t.p[k] - a)).real() / (length * length), 0., 1.);
-      offer(T_.faces(s.triangle, k), std::abs(t.p[k] - a - x * ab), s.source);
-    }
-    for (const double turn : {-1., 1.}) {
-      const Complex n = Complex(0, turn) * ab / length;
-      Window w;
-      w.parallel = true;
-      w.source = s.source;
-      w.behind = -(std::conj(n) * a).real();
-      for (int k = 0; k < 3; ++k) {
-        const double L = T_.length(s.triangle, k);
-        w.b0 = 0;
-        w.b1 = L;
-        // The stretch of the side beyond the segment: between its ends, and in front of it.
-        auto clip = [&](Complex g, double c) {  // keeps x with Re(conj(g) (p_k + x side_k)) >= c
-          const double v0 = (std::conj(g) * t.p[k]).real() - c;
-          const double v1 = v0 + L * (std::conj(g) * t.side[k]).real();
-          if (v0 < 0 && v1 < 0) w.b1 = w.b0;
-          if (v0 < 0 && v1 >= 0) w.b0 = std::max(w.b0, L * v0 / (v0 - v1));
-          if (v0 >= 0 && v1 < 0) w.b1 = std::min(w.b1, L * v0 / (v0 - v1));
-        };
-        const Complex g = ab / length;
-        clip(g, (std::conj(g) * a).real());
-        clip(-g, -(std::conj(g) * a).real() - length);
-        clip(n, -w.behind);
-        if (w.b1 > w.b0 && s.a[(k + 2) % 3] + s.b[(k + 2) % 3] > 0)
-          leave_face(3 * s.triangle + k, seen_from(w, n, t.p[k], t.side[k]));
-      }
+      leave_face(side, w);
     }
   }
 
   void run(const Task& task) {
     std::size_t steps = 0;
+    double next_check = 0;
     while (!queue_.empty()) {
-      if ((++steps & 0x3ff) == 0) task.checkpoint(double(n_reached_) / T_.n_vertices);
+      const double work = double(++steps) + windows();
+      if (work > next_check) {
+        task.checkpoint(double(n_reached_) / T_.n_vertices);
+        next_check = work + 4096;
+      }
       const auto [key, id] = queue_.top();
       queue_.pop();
       if (id < 0) {
@@ -141,24 +103,6 @@ class Front {
     double at_apex;       // its distance there, seen or not
     double apex0, apex1;  // > 0: the apex lies left of the ray at the window's start, end
   };
-
-  TriangleShape flat(int f) const {
-    return triangle_shape(T_.length(f, 0), T_.length(f, 1), T_.length(f, 2), false);
-  }
-  static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
-    return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
-  }
-
-  /// A window whose image (parallel: direction) and distance behind are given in a plane, in the
-  /// coordinates of a side that starts at `start` and runs along the unit vector `along`.
-  static Window seen_from(const Window& w, Complex image, Complex start, Complex along) {
-    Window v = w;
-    const Complex z = (w.parallel ? image : image - start) * std::conj(along);
-    if (w.parallel) v.behind += (std::conj(image) * start).real();
-    v.x = z.real();
-    v.y = z.imag();
-    return v;
-  }
 
   void offer(int v, double distance, int source) {
     if (!(distance < distance_[v])) return;
@@ -231,6 +175,9 @@ class Front {
   /// Hands the new windows of an edge to its triangles.
   void go_on(int id, double now) {
     const PolyhedralPages::Edge& edge = pages_.edges[id];
+    // Their way from memory is longer than it takes to collect the windows.
+    __builtin_prefetch(&pages_.pages[edge.first_page]);
+    __builtin_prefetch(&pages_.pages[edge.first_page] + 1);
     EdgeEnvelopes::List& list = envelopes_[id];
     list.due = inf;
     const double next = EdgeEnvelopes::take_open(list, now, open_);
@@ -326,8 +273,7 @@ class Front {
 
   /// Follows straight lines less far from now on, and lets paths bend at every vertex instead.
   void relax() {
-    exact_within_ = std::min(exact_within_, least_open());
-    ++relaxed_;
+    if (relaxed_++ == 0) exact_within_ = least_open();
     budget_ += most_windows_;
     std::fill(pages_.bends.begin(), pages_.bends.end(), 1);
     for (int v = 0; v < T_.n_vertices; ++v)
@@ -372,12 +318,15 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
     for (std::size_t i = 0; i < points->vertices.size(); ++i)
       front.start_at(points->vertices[i], points->vertex_source[i]);
     for (std::size_t i = 0; i < points->inside.size(); ++i)
-      front.start_in(points->inside[i], points->inside_source[i]);
+      front.start_in(points->inside[i].face, rays_of_point(T, points->inside[i]),
+                     points->inside_source[i]);
   }
-  for (const TriangleSources::Segment& s : sources.segments) front.start_along(s);
+  for (const TriangleSources::Segment& s : sources.segments)
+    front.start_in(s.triangle, rays_of_segment(T, s), s.source);
   front.run(task);
   report.iterations.emplace_back("windows", front.windows());
-  if (front.exact_within() < inf) {
+  const double exact_within = front.exact_within() * T.unit;
+  if (exact_within < inf) {
     std::ostringstream text;
     text
         << "exact distance met its limit of " << most_windows << " windows: values up to "
@@ -389,7 +338,7 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
   VecXi nearest = front.nearest();
   return {finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
                          report),
-          std::move(nearest)};
+          std::move(nearest), exact_within};
 }
 
 }  // namespace littoral

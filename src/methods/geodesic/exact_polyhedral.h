@@ -11,6 +11,7 @@ namespace littoral {
 struct ExactDistance {
   VecX distance;  // vertices [length of the input]; +inf where no source reaches
   VecXi nearest;  // vertices: the source the shortest path starts from, -1 where none reaches
+  double exact_within = 0;  // [length of the input] values up to here are exact; +inf: all are
 };
 
 /// Unsigned distance at the vertices, exact to rounding, from points, and from curves as the exact
@@ -28,9 +29,9 @@ struct ExactDistance {
 /// a full turn around them, on the boundary and where the surface is not a manifold.
 ///
 /// More than `most_windows` (0: 1000 a triangle and at least 1e7) are not followed: from there on
-/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A warning
-/// says up to which distance values are exact; those beyond are lengths of paths, hence too large
-/// if not exact.
+/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A
+/// warning says up to which distance values are exact; those beyond are lengths of paths, hence too
+/// large if not exact.
 ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
                                const Task& task, Report& report, double most_windows = 0);
 

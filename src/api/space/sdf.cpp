@@ -27,7 +27,8 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Any
 
 /// Throws InputError naming the methods that have an option which the default has not.
 void check_options_of_default(const AnyMethod& fallback, const AnyMethod& chosen) {
-  for (const auto& [option, text] : chosen.values()) {
+  for (const auto& value : chosen.values()) {
+    const std::string& option = value.first;
     std::string having;
     for (const MethodInfo& info : Registry<SpaceDomain>::instance().infos()) {
       const bool has = std::any_of(info.options.begin(), info.options.end(),

@@ -272,6 +272,39 @@ TEST(Completed, DoesNotDependOnThreadsPlaceOrScale) {
             1e-3 * grid.spacing[0]);
 }
 
+TEST(Completed, RandomSoupsGiveFiniteDistancesNoLargerThanTheNearestFace) {
+  std::mt19937 random(11);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 20; ++round) {
+    PolygonSoup soup;
+    const int n = 4 + below(9);
+    soup.points.resize(n, 3);
+    // Often on a lattice, so that faces meet, repeat and degenerate.
+    for (double& x : soup.points.reshaped()) x = round % 3 == 0 ? below(3) : below(1000) / 400.0;
+    soup.points *= std::pow(10.0, below(17) - 8);
+    for (int f = 1 + below(16); f > 0; --f) {
+      const int a = below(n), b = below(n), c = below(n);
+      test::add_triangle(soup, a, b, c);
+      if (below(4) == 0) test::add_triangle(soup, c, b, a);
+    }
+    const double size =
+        (soup.points.colwise().maxCoeff() - soup.points.colwise().minCoeff()).maxCoeff();
+    MatX3 queries = test::random_points(20, 2, round);
+    queries = (size * queries).rowwise() + soup.points.row(0);
+    Report report, exact;
+    VecX values, nearest;
+    try {
+      values = asked(soup, queries, report);
+      nearest = query_distance(soup, queries, {WindingSign{}}, nullptr, Task(), exact).cwiseAbs();
+    } catch (const InputError&) {
+      continue;  // no area
+    }
+    ASSERT_TRUE(values.allFinite()) << round;
+    EXPECT_LE((values.cwiseAbs() - nearest).maxCoeff(), 1e-12 * size) << round;
+    EXPECT_TRUE(report.status == "converged" || !report.warnings.empty()) << round;
+  }
+}
+
 TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
   const PolygonSoup open = hemisphere(4, false);
   Report report;

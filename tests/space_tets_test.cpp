@@ -131,7 +131,8 @@ TEST(SignedHeatTets, SphereErrorFallsWithTheSpacingAndValuesReachTheGrid) {
     const SpaceRequest request{AnyMethod::named("signed-heat", {{"constraint", constraint}})};
     Report report;
     const Grid grid = test::cube_grid(n, 1.5);
-    const auto [on_grid, function, field] = tet_distance(sphere, grid, {}, request, Task(), report);
+    const auto [on_grid, function, field, completion] =
+        tet_distance(sphere, grid, {}, request, Task(), report);
     double near = 0;
     int count = 0;
     for (int v = 0; v < field.mesh.n_vertices(); ++v) {

@@ -77,6 +77,8 @@ def test_what_is_doubtful_is_said(run: Run, cube: Path, tmp_path: Path) -> None:
     result = run("sdf", "sheet.obj", "--resolution", 8, "--json", "-o", "a.npy")
     assert json.loads(result.stdout)["status"] == "uncertain"
     assert "encloses nothing" in result.stderr
+    wrong = run("sdf", "cube.obj", "--soft", "10", "-o", "a.npy", status=2)
+    assert "may name one that has: signed-heat" in wrong.stderr
     faces = CUBE.splitlines()
     turned = [" ".join(["f", *line.split()[:0:-1]]) for line in faces if line.startswith("f")]
     corners = [line for line in faces if line.startswith("v")]

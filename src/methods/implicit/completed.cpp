@@ -82,8 +82,9 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
 
 }  // namespace
 
-MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces, bool as_given,
-                                       const Task& task, Report& report) {
+CompletedDistance::Bounding CompletedDistance::settle_sides(const MatX3& points,
+                                                            const MatX3i& faces, bool as_given,
+                                                            const Task& task, Report& report) {
   const Stopwatch watch(report, "sides");
   winding_ = WindingNumber(points, faces);
   const SideCensus census = side_census(points, faces, winding_);
@@ -92,7 +93,8 @@ MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces,
   // A patch of reversed faces bounds by its own measure, with inside and outside exchanged: it
   // shows by its edges, or by the lines that pass it.
   double against = 0;
-  if (given.without > doubtful || !boundary_edges(points, faces).empty()) {
+  std::vector<std::array<int, 2>> boundary = boundary_edges(points, faces);
+  if (given.without > doubtful || !boundary.empty()) {
     const OrientedSoup soup = orient_soup(points, faces, task);
     WindingNumber oriented(points, soup.faces);
     SideCensus::Shares shares = side_census(points, soup.faces, oriented).shares({});
@@ -108,7 +110,7 @@ MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces,
       sides_ = as_given ? SideRule{-1, -0.5} : SideRule{};
       report_orientation(soup, report);
       report_shares(shares, report);
-      return soup.faces;
+      return {soup.faces, boundary_edges(points, soup.faces)};
     }
   }
   if (against > doubtful) {
@@ -122,14 +124,13 @@ MatX3i CompletedDistance::settle_sides(const MatX3& points, const MatX3i& faces,
         "most normals point into the space that the input encloses: all count as reversed, so that "
         "this space is inside");
   report_shares(given, report);
-  return faces;
+  return {faces, std::move(boundary)};
 }
 
 CompletedDistance::CompletedDistance(const MatX3& points, const MatX3i& faces, double spacing,
                                      bool as_given, const Task& task, Report& report)
     : winding_(points, MatX3i(0, 3)) {
-  const MatX3i bounding = settle_sides(points, faces, as_given, task, report);
-  const auto boundary = boundary_edges(points, bounding);
+  const auto [bounding, boundary] = settle_sides(points, faces, as_given, task, report);
   task.checkpoint(0.3);
   closed_ = boundary.empty();
   report.sizes.emplace_back("free edges", static_cast<double>(boundary.size()));

@@ -1,6 +1,7 @@
 #pragma once
 // Distance to a surface in space that may have holes: complete it first, then measure.
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,9 +42,14 @@ class CompletedDistance final : public PointwiseDistance {
   const LevelPatch& patch() const { return patch_; }
 
  private:
-  /// Settles winding_ and sides_; returns the faces that bound, oriented.
-  MatX3i settle_sides(const MatX3& points, const MatX3i& faces, bool as_given, const Task& task,
-                      Report& report);
+  /// The faces that bound, oriented, and where they end.
+  struct Bounding {
+    MatX3i faces;
+    std::vector<std::array<int, 2>> boundary;
+  };
+  /// Settles winding_ and sides_.
+  Bounding settle_sides(const MatX3& points, const MatX3i& faces, bool as_given, const Task& task,
+                        Report& report);
   bool is_inside(const Vec3& x) const;
 
   WindingNumber winding_;

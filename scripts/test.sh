@@ -8,6 +8,7 @@
 # LITTORAL_SHARED names a larger collection of test data (by default ../shared beside the checkout);
 # tests that need it are reported as skipped where it is absent.
 # FUZZ_SECONDS: time for each fuzz target (10; 300 in the long tier).   JOBS: processes at once (all cores).
+# FUZZ_CASES: random cases of all methods, by seeds, in the long tier (1000000).
 set -uo pipefail
 cd "$(dirname "$0")/.."
 export LITTORAL_SHARED="${LITTORAL_SHARED:-$(dirname "$PWD")/shared}"
@@ -102,7 +103,17 @@ stage_sanitize_slow() {
 }
 
 stage_fuzz_long() {
-  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-300}"
+  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-300}" &&
+    many_cases "${FUZZ_CASES:-1000000}"
+}
+
+# Methods on random domains, by seeds; each process takes its share.
+many_cases() {
+  build release --target littoral_tests &&
+    seq 0 $((jobs - 1)) | xargs -P "$jobs" -I{} sh -c '
+      share=$(($1 / $2))
+      LITTORAL_CASES=$(({} * share)):$share exec build/release/tests/littoral_tests --gtest_brief=1 \
+        --gtest_filter=MethodCases.KeepWhatIsPromised' _ "$1" "$jobs"
 }
 
 stage_studies() { build bench; }  # benchmarks and studies compile

@@ -96,8 +96,10 @@ bool is_sound(std::span<const int> face) {
 VecX along_edges(const Mesh& mesh, const Sources& sources) {
   const PolygonSoup& soup = mesh.soup();
   std::vector<std::vector<std::pair<int, double>>> beside(soup.points.rows());
+  bool all_sound = true;
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto face = soup.face(f);
+    all_sound = all_sound && is_sound(face);
     if (!is_sound(face)) continue;
     for (std::size_t k = 0; k < face.size(); ++k) {
       const int a = face[k], b = face[(k + 1) % face.size()];
@@ -123,8 +125,14 @@ VecX along_edges(const Mesh& mesh, const Sources& sources) {
       reach(v, (soup.points.row(v) - x.transpose()).stableNorm());
   };
   for (const SurfacePoint& p : sources.points) start(p);
-  for (const Curve& curve : sources.curves)
-    for (const SurfacePoint& p : curve.nodes) start(p);
+  for (const Curve& curve : sources.curves) {
+    double length = 0;
+    for (std::size_t i = 1; i < curve.nodes.size(); ++i)
+      length += (mesh.position(curve.nodes[i]) - mesh.position(curve.nodes[i - 1])).stableNorm();
+    // Pieces in faces that repeat a vertex are left out with these.
+    for (std::size_t i = 0; i < curve.nodes.size() && length > 0 && all_sound; ++i)
+      start(curve.nodes[i]);
+  }
   while (!queue.empty()) {
     const auto [at, v] = queue.top();
     queue.pop();
@@ -149,8 +157,11 @@ bool at_vertices(const Sources& sources) {
 /// By how much a method may exceed the way along edges [length], given the longest such way and the
 /// longest edge; +inf where no bound is promised.
 double excess_of(const MethodCase& given, const Report& report, double longest, double edge) {
-  if (report.status != "converged") return infinity;
-  if (given.method == "exact" || given.method == "fast-marching") return 1e-6 * longest;
+  if (report.status != "converged" || report.domain != "triangle mesh") return infinity;
+  if (given.method == "exact") return 1e-6 * longest;
+  // Fronts of first order start from the corners of the faces that hold a source.
+  if (given.method == "fast-marching")
+    return 1e-6 * longest + (at_vertices(given.sources) ? 0 : edge);
   // The gradient is at most 1 and what is reported. Between nodes the mean of a source is held.
   if (given.method == "regularized" || given.method == "belyaev-fayolle") {
     const double tolerance = option(given, "tolerance", 2e-3);
@@ -242,7 +253,7 @@ void check_surface(const MethodCase& given, Choices& choose, double seconds, Fai
   check_values(given, mesh, field.values, field.report, out);
   check_report(given, field.report, out);
   if (!out.list.empty() || mesh.n_faces() == 0) return;
-  if (choose.chance(0.15))
+  if (choose.chance(0.15) && given.sources.space_curves.empty())
     check_scale(given, field.values, budget, choose.pick<int>({-40, 40}), out);
   if (given.method == "exact" && at_vertices(given.sources) && choose.chance(0.3))
     check_order(given, field.values, budget, choose, out);

@@ -60,8 +60,9 @@ Json object(const std::vector<std::pair<std::string, double>>& list) {
 Json largest(const std::vector<std::pair<std::string, double>>& list) {
   std::vector<std::pair<std::string, double>> unique;
   for (const auto& [name, value] : list) {
-    const auto it = std::find_if(unique.begin(), unique.end(),
-                                 [&](const auto& known) { return known.first == name; });
+    const auto it = std::find_if(unique.begin(), unique.end(), [&sought = name](const auto& known) {
+      return known.first == sought;
+    });
     if (it == unique.end())
       unique.emplace_back(name, value);
     else if (std::isnan(value) || value > it->second)

@@ -49,8 +49,9 @@ void merge_components(const std::vector<std::pair<int, Report>>& of, Report& rep
     std::vector<std::pair<std::string, ComponentValues>> named;
     for (const auto& [c, one] : of)
       for (const auto& [name, value] : one.*list) {
-        const auto known = std::find_if(named.begin(), named.end(),
-                                        [&](const auto& entry) { return entry.first == name; });
+        const auto known =
+            std::find_if(named.begin(), named.end(),
+                         [&sought = name](const auto& entry) { return entry.first == sought; });
         ComponentValues& values = known != named.end()
                                       ? known->second
                                       : named.emplace_back(name, ComponentValues(name)).second;

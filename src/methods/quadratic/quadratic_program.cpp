@@ -255,8 +255,8 @@ void QuadraticProgram<D>::find_crowded(const PointsInside& inside, double radius
     for (int i = 0; i < Shape::nodes; ++i) {
       const bool corner = i < Shape::corners;
       const typename Shape::Point b = corner ? Shape::corner(i) : Shape::middle(i - Shape::corners);
-      const auto to = [&](const typename Shape::Point& other) {
-        return std::sqrt(squared_length(E_, part_.elements[e], other - b));
+      const auto to = [&, element = part_.elements[e]](const typename Shape::Point& other) {
+        return std::sqrt(squared_length(E_, element, other - b));
       };
       double distance = infinity;
       for (const auto& point : points) distance = std::min(distance, to(point));

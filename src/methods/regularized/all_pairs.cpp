@@ -121,7 +121,17 @@ class AllPairs {
     K.setFromTriplets(entries.begin(), entries.end());
     K += (alpha_ + rho1_) * C_.L;
     if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
-    factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
+    for (double raised = 0;;) {  // thin triangles leave it indefinite by round-off
+      try {
+        factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
+        break;
+      } catch (const SolveError&) {
+        if (raised > 1e-9) throw;
+      }
+      const double next = raised == 0 ? 1e-14 : 100 * raised;
+      K.diagonal() *= (1 + next) / (1 + raised);
+      raised = next;
+    }
     response_.resize(n_, n_);
     parallel_for(n_, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
@@ -334,8 +344,18 @@ MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task,
   report.sizes.emplace_back("matrices, bytes", bytes);
   check_memory(bytes, "all pairs of " + std::to_string(C.M.size()) + " vertices",
                "simplify the mesh, or measure from some vertices with another method");
-  MatX U = single ? AllPairs<float>(C, options, task).run(report)
-                  : AllPairs<double>(C, options, task).run(report);
+  const auto in_full = [&] { return AllPairs<double>(C, options, task).run(report); };
+  const auto in_single = [&] {
+    try {
+      return AllPairs<float>(C, options, task).run(report);
+    } catch (const SolveError&) {  // thin triangles take more digits
+      check_memory(full, "all pairs of " + std::to_string(C.M.size()) + " vertices",
+                   "simplify the mesh: its thin triangles take full precision");
+      report.warn("thin triangles take full precision: option storage was not followed");
+      return in_full();
+    }
+  };
+  MatX U = single ? in_single() : in_full();
   U *= ops.unit;
   for (Eigen::Index i = 0; i < U.rows(); ++i)
     if (C.component[i] < 0) {

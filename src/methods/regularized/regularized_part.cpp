@@ -210,7 +210,8 @@ std::vector<RegularizedPart> regularized_parts(const std::shared_ptr<const Calcu
       for (int d = 0; d < dim; ++d) {
         const int to = dim * static_cast<int>(k) + d, from = dim * cells[c][k] + d;
         for (SpRows::InnerIterator it(G, from); it; ++it)
-          entries.emplace_back(to, local[it.col()], it.value());
+          if (C->component[it.col()] == static_cast<int>(c))  // flat cells may have others
+            entries.emplace_back(to, local[it.col()], it.value());
         if (data.V.size() > 0) of_part.V[to] = data.V[from];
         if (data.frames.rows() > 0) of_part.frames.row(to) = data.frames.row(from);
       }

@@ -1,7 +1,9 @@
 #include "solve/poisson/constrained_system.h"
 
-#include "base/index.h"
+#include <cmath>
+
 #include "base/dense_decompositions.h"
+#include "base/index.h"
 
 namespace littoral {
 
@@ -125,7 +127,22 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
     task.checkpoint(double(i) / double(columns.cols()));
     response.col(i) = constrained.solve_gauged(VecX(columns.col(i)));
   }
-  constrained.inverse_ = pseudo_inverse(columns.transpose() * response);
+  // Responses differ by many orders where thin triangles are, so each row is compared with itself:
+  // a row whose unknowns would give way far more if all others were held depends on other rows.
+  const Eigen::MatrixXd S = columns.transpose() * response;
+  const VecX stiffness_of = K_->diagonal();
+  VecX scale(S.rows());
+  for (Eigen::Index i = 0; i < S.rows(); ++i) {
+    double alone = 0;
+    for (SpMat::InnerIterator it(columns, i); it; ++it)
+      if (stiffness_of[it.row()] > 0)
+        alone = std::max(alone, it.value() * it.value() / stiffness_of[it.row()]);
+    scale[i] = S(i, i) > 1e-12 * alone ? 1 / std::sqrt(S(i, i)) : 0;
+  }
+  constrained.inverse_ =
+      scale.asDiagonal() *
+      pseudo_inverse(Eigen::MatrixXd(scale.asDiagonal() * S * scale.asDiagonal())) *
+      scale.asDiagonal();
   constrained.rest_ = std::move(columns);
   constrained.response_ = std::move(response);
   return constrained;

@@ -14,11 +14,21 @@ void check_has_option(const MethodInfo& method, const std::string& option) {
                    "'; it has: " + (known.empty() ? "none" : known));
 }
 
-bool has_options(const MethodInfo& method, const AnyMethod& choice) {
-  return std::all_of(choice.values().begin(), choice.values().end(), [&](const auto& given) {
+void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,
+                              const std::vector<MethodInfo>& all) {
+  const auto has = [](const MethodInfo& method, const std::string& option) {
     return std::any_of(method.options.begin(), method.options.end(),
-                       [&](const OptionInfo& info) { return info.name == given.first; });
-  });
+                       [&](const OptionInfo& info) { return info.name == option; });
+  };
+  for (const auto& [option, text] : choice.values()) {
+    if (has(fallback, option)) continue;
+    std::string having;
+    for (const MethodInfo& method : all)
+      if (has(method, option)) having += (having.empty() ? "" : ", ") + method.name;
+    if (!having.empty())
+      throw InputError("method " + fallback.name + ", the default here, has no option '" + option +
+                       "'; option method may name one that has: " + having);
+  }
 }
 
 void check_domain(const MethodInfo& method, const std::string& kind,

@@ -185,16 +185,17 @@ class Registry {
 void check_domain(const MethodInfo& method, const std::string& kind,
                   const std::vector<MethodInfo>& all);
 
-/// Has the method all options that the choice gives by name?
-bool has_options(const MethodInfo& method, const AnyMethod& choice);
+/// Throws InputError, naming the methods that have it, where a choice without a name gives an
+/// option that the default has not.
+void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,
+                              const std::vector<MethodInfo>& all);
 
-/// The method of the choice's name or, where it names none, the first with all its options.
+/// The method of the choice's name or, where it names none, the first that the library has.
 template <class D>
 std::shared_ptr<const Method<D>> chosen_method(const AnyMethod& choice) {
   if (!choice.name().empty()) return Registry<D>::instance().find(choice.name());
   const auto all = Registry<D>::instance().all();
-  for (const auto& method : all)
-    if (has_options(method->info, choice)) return method;
+  check_options_of_default(all.front()->info, choice, Registry<D>::instance().infos());
   return all.front();
 }
 
@@ -204,7 +205,7 @@ void check_method(const AnyMethod& choice) {
   chosen_method<D>(choice)->options(choice);
 }
 
-/// Prepares the chosen method or, where the choice names none, the first with its options.
+/// Prepares the chosen method or, where the choice names none, the first that the library has.
 /// Throws InputError and UnsupportedError before anything is computed.
 template <class D>
 std::shared_ptr<const Solver<D>> prepare(const AnyMethod& choice, const D& domain, SolveHint hint,

@@ -121,9 +121,10 @@ def test_what_does_not_go_together(run: Run, surfaces: dict[str, str], mesh: Pat
         for option in ("--intrinsic-delaunay", "--discontinuous", "--bounding-only"):
             if domain == "polygon mesh":
                 continue  # cut into triangles
-            done = run("distance", file, "--vertex", 0, option, "-o", "a.txt", status=2)
+            heat = ("--method", "signed-heat", option)
+            done = run("distance", file, "--vertex", 0, *heat, "-o", "a.txt", status=2)
             assert f"works on triangle and polygon meshes, not on a {domain}" in done.stderr
         done = run("distance", file, "--vertex", 0, "--method", "exact", "-o", "a.txt", status=2)
         assert "signed-heat" in done.stderr
-    both = ("--intrinsic-delaunay", "--discontinuous")
+    both = ("--method", "signed-heat", "--intrinsic-delaunay", "--discontinuous")
     run("distance", mesh, "--sources", "curve.txt", *both, "-o", "a.txt", status=2)

@@ -62,9 +62,9 @@ def test_help_lists_extensions(run: Run, verb: str) -> None:
 
 def test_options_have_hyphens_in_messages(run: Run, mesh: Path) -> None:
     for arguments, said in (
-        (("--soft", "-1"), "option --soft"),
+        (("--method", "signed-heat", "--soft", "-1"), "option --soft"),
         (("--vertex", "9999"), "option --vertex"),
-        (("--constraint", "what"), "option --constraint"),
+        (("--method", "signed-heat", "--constraint", "what"), "option --constraint"),
     ):
         error = run(
             "distance", "square.obj", "-s", "curve.txt", *arguments, "-o", "a.csv", status=2

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "api/space/tori_cloud.h"
@@ -25,30 +24,11 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Any
                                  task, report);
 }
 
-/// Throws InputError naming the methods that have an option which the default has not.
-void check_options_of_default(const AnyMethod& fallback, const AnyMethod& chosen) {
-  for (const auto& value : chosen.values()) {
-    const std::string& option = value.first;
-    std::string having;
-    for (const MethodInfo& info : Registry<SpaceDomain>::instance().infos()) {
-      const bool has = std::any_of(info.options.begin(), info.options.end(),
-                                   [&](const OptionInfo& known) { return known.name == option; });
-      if (has && info.name == fallback.name()) {
-        having.clear();
-        break;
-      }
-      if (has) having += (having.empty() ? "" : ", ") + info.name;
-    }
-    if (!having.empty())
-      throw InputError("method " + fallback.name() + ", the default here, has no option '" +
-                       option + "'; option method may name one that has: " + having);
-  }
-}
-
 /// The default where the choice names none, with the option values of the choice.
 AnyMethod chosen_or(const AnyMethod& fallback, const AnyMethod& chosen) {
   if (!chosen.name().empty()) return chosen;
-  check_options_of_default(fallback, chosen);
+  const auto& all = Registry<SpaceDomain>::instance();
+  check_options_of_default(all.find(fallback.name())->info, chosen, all.infos());
   return AnyMethod::named(fallback.name(), chosen.values());
 }
 

@@ -275,7 +275,7 @@ TEST(Completed, DoesNotDependOnThreadsPlaceOrScale) {
 TEST(Completed, RandomSoupsGiveFiniteDistancesNoLargerThanTheNearestFace) {
   std::mt19937 random(11);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < 12; ++round) {
     PolygonSoup soup;
     const int n = 4 + below(9);
     soup.points.resize(n, 3);

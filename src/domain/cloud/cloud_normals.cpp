@@ -7,9 +7,9 @@
 #include <tuple>
 #include <vector>
 
+#include "base/dense_decompositions.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "base/dense_decompositions.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {

@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "base/dense_decompositions.h"
 #include "base/index.h"
 #include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
-#include "base/dense_decompositions.h"
 
 namespace littoral {
 

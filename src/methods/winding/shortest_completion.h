@@ -37,8 +37,7 @@ enum class Complete { none, without_ends, all };
 /// jump that differs from the curve's costs `curve_weight` times its length on the curve, and its
 /// length elsewhere. Throws UnsupportedError where the curve runs along an edge of three or more
 /// faces, which has no sides.
-ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
-                                       Complete which, double curve_weight, const Task& task,
-                                       Report& report);
+ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve, Complete which,
+                                       double curve_weight, const Task& task, Report& report);
 
 }  // namespace littoral

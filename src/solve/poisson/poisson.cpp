@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "littoral/error.h"
 #include "base/dense_decompositions.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

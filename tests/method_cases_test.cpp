@@ -32,9 +32,11 @@ void run(unsigned long first, unsigned long count) {
     const fuzz::MethodCase given = fuzz::random_case(choose);
     const fuzz::Outcome outcome = fuzz::run_case(given, choose, 60);
     ++counts[outcome.kind];
-    if (outcome.kind == Kind::answered || outcome.kind == Kind::refused) continue;
+    if (outcome.kind == Kind::broke_down)
+      std::printf("seed %lu: %s\n", seed, outcome.error.c_str());
+    if (outcome.failures.empty()) continue;
     ++failed;
-    std::string what = outcome.error;
+    std::string what;
     for (const std::string& failure : outcome.failures) what += failure + "\n";
     ADD_FAILURE() << "LITTORAL_CASES=" << seed << ":1\n" << what << "\n" << description(given);
   }
@@ -42,10 +44,12 @@ void run(unsigned long first, unsigned long count) {
   std::printf("%lu cases, %.0f a second: %lu answered, %lu refused, %lu broke down, %lu failed\n",
               count, double(count) / seconds.count(), counts[Kind::answered], counts[Kind::refused],
               counts[Kind::broke_down], counts[Kind::failed]);
+  // An error says so where thin triangles leave nothing of a matrix, but that must stay rare.
+  EXPECT_LE(counts[Kind::broke_down], 1 + count / 200);
 }
 
 TEST(MethodCases, KeepWhatIsPromised) {
-  const auto [first, count] = seeds(0, 1000);
+  const auto [first, count] = seeds(0, 400);
   run(first, count);
 }
 

@@ -202,7 +202,7 @@ std::shared_ptr<const Method<D>> chosen_method(const AnyMethod& choice) {
 /// Throws InputError if there is no such method, it lacks an option, or a value is out of range.
 template <class D>
 void check_method(const AnyMethod& choice) {
-  chosen_method<D>(choice)->options(choice);
+  if (!choice.name().empty()) Registry<D>::instance().find(choice.name())->options(choice);
 }
 
 /// Prepares the chosen method or, where the choice names none, the first that the library has.

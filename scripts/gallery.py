@@ -160,10 +160,15 @@ def main(program: str, shared: Path) -> None:
                 subprocess.run(command, check=True)
 
         def solid(
-            name: str, shape: Path, verb: str, *options: str, look: tuple[str, ...] = ()
+            name: str,
+            shape: Path,
+            verb: str,
+            *options: str,
+            look: tuple[str, ...] = (),
+            resolution: int = 96,
         ) -> None:
             made = work / ("shape.nrrd" if verb == "sdf" else "shape.off")
-            fine = ["--resolution", "96"]
+            fine = ["--resolution", str(resolution)]
             solve = [program, verb, str(shape), *options, *fine, "--quiet", "-o", str(made)]
             draw = [program, "render", str(made), *look, *SIZE, "-o", str(out / f"{name}.png")]
             for command in (solve, draw):
@@ -174,14 +179,21 @@ def main(program: str, shared: Path) -> None:
         picture("mixed", work / "square.obj", work / "mixed.json")
         data = ROOT / "examples" / "data"
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
-        sharp = "--time-scale", "400", "--sharpen"
+        heat = "--method", "signed-heat"
+        sharp = *heat, "--time-scale", "400", "--sharpen"
         picture("sharpened", data / "spot.obj", data / "spot-jersey.txt", *sharp)
+        sure = str(work / "sure.ply")
+        jersey = ["--sources", str(data / "spot-jersey.txt"), "--quiet"]
+        solve = [program, "distance", str(data / "spot.obj"), *jersey, "--confidence", "-o", sure]
+        subprocess.run(solve, check=True)
+        draw = [program, "render", sure, *jersey, "--field", "confidence", "--isolines", "0", *SIZE]
+        subprocess.run([*draw, "-o", str(out / "confidence.png")], check=True)
         volume = str(work / "sharpened.nrrd")
-        around = [program, "sdf", str(data / "spot.obj"), "--sharpen", "--resolution", "28"]
+        around = [program, "sdf", str(data / "spot.obj"), *heat, "--sharpen", "--resolution", "28"]
         subprocess.run([*around, "--quiet", "-o", volume], check=True)
         draw = [program, "render", volume, "--axis", "x", *SIZE]
         subprocess.run([*draw, "-o", str(out / "sharpened-grid.png")], check=True)
-        quadratic = "--sharpen", "quadratic"
+        quadratic = *heat, "--sharpen", "quadratic"
         picture("quadratic-signed", data / "spot.obj", data / "spot-jersey.txt", *quadratic)
         (work / "snout.txt").write_text("unsigned_point\nv 306\n")
         (work / "rows.txt").write_text(rows_for_knitting(data / "spot.obj"))
@@ -194,13 +206,13 @@ def main(program: str, shared: Path) -> None:
             print(f"{curves} is not there: the other pictures are left as they are")
             return
         data = shared / "data"
-        solid("chair-slice", data / "soups" / "shm3d-chair.obj", "sdf")
+        solid("chair-slice", data / "soups" / "shm3d-chair.obj", "sdf", resolution=160)
         solid("chair-offset", data / "soups" / "shm3d-chair.obj", "offset", "--dilate", "0.25")
         bottle = data / "clouds" / "SprayBottle.pc"
         solid("spray-bottle", bottle, "sdf", "--method", "tori", look=("--axis", "x"))
         cloud_pictures(program, data / "clouds", work, out)
         bumpy = curves / "bumpy-sphere.obj"
-        levels = "--constraint", "level-sets"
+        levels = *heat, "--constraint", "level-sets"
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)
         moebius = curves / "mobius-orientable-curve.obj"
         picture("moebius", moebius, moebius.with_suffix(".txt"))
@@ -209,10 +221,9 @@ def main(program: str, shared: Path) -> None:
         subprocess.run([program, "winding", loops, "--quiet", "-o", str(regions)], check=True)
         bear = curves / "polygon-bear.obj"
         picture("polygon-bear", bear, bear.with_suffix(".txt"))
-        intrinsic = "--intrinsic-delaunay"
-        for name, mesh, axis, height, turn, more in (
-            ("holes", data / "soups" / "shm3d-chair.obj", 1, 0.5, 1.0, [intrinsic]),
-            ("tunnels", data / "surfaces" / "3holes.off", 0, 0.5, 0.8, []),
+        for name, mesh, axis, height, turn in (
+            ("holes", data / "soups" / "shm3d-chair.obj", 1, 0.5, 1.0),
+            ("tunnels", data / "surfaces" / "3holes.off", 0, 0.5, 0.8),
         ):
             cut = work / "cut.obj"
             convert = [program, "convert", str(mesh), "-o", str(cut), "--quiet"]
@@ -220,9 +231,9 @@ def main(program: str, shared: Path) -> None:
             rows = [line.split() for line in cut.read_text().splitlines()]
             points = [[float(x) for x in row[1:4]] for row in rows if row[:1] == ["v"]]
             (work / "ring.obj").write_text(ring_around(points, axis, height, turn))
-            picture(name, mesh, work / "ring.obj", *more)
+            picture(name, mesh, work / "ring.obj")
         (work / "door.txt").write_text("unsigned_point\nv 500\n")
-        picture("nonmanifold", data / "soups" / "beetle.obj", work / "door.txt", intrinsic)
+        picture("nonmanifold", data / "soups" / "beetle.obj", work / "door.txt")
         duck = curves / "ducky-star.pc"
         picture("ducky-star", duck, duck.with_suffix(".txt"))
         hand, tets = data / "tets" / "hand.mesh", str(work / "tets.vtk")

@@ -168,6 +168,26 @@ TEST(Automatic, ConfidenceIsLowWhereCurvesAreCompleted) {
       0);
 }
 
+TEST(Automatic, SourcesWithoutSidesDoNotMoveTheSides) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(40, 40, 0.3));
+  const Sources arc = broken_circle(80, 8, {6, 7});
+  Sources all = arc;
+  all.points.push_back(SurfacePoint::at_vertex(45));
+  MatX3 segment(2, 3);
+  segment << 0.7, 0.1, 0, 0.95, 0.4, 0;
+  const Sources line = test::space_curve(segment, false);
+  all.space_curves.insert(all.space_curves.end(), line.space_curves.begin(),
+                          line.space_curves.end());
+  Report report;
+  const VecX alone = answer(mesh, arc, report), beside = answer(mesh, all, report);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    EXPECT_LE(std::abs(beside[v]), std::abs(alone[v]) + 1e-12) << v;
+    if (std::abs(beside[v]) > 1e-12) {
+      EXPECT_EQ(beside[v] > 0, alone[v] > 0) << v;
+    }
+  }
+}
+
 TEST(Automatic, EachComponentIsCompletedByItself) {
   PolygonSoup two = test::jittered_grid_soup(20, 20, 0.3);
   const PolygonSoup other = test::jittered_grid_soup(20, 20, 0.2, 3);

@@ -34,6 +34,7 @@ def solve(program: str, points: Floats, faces: Ints, sources: Path, *more: str) 
             file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points.tolist())
             file.writelines(f"f {a} {b} {c}\n" for a, b, c in (faces + 1).tolist())
         command = [program, "distance", str(mesh), "--sources", str(sources), "--quiet", *more]
+        command += ["--method", "signed-heat"]
         subprocess.run([*command, "-o", str(out)], check=True)
         return np.loadtxt(out)
 

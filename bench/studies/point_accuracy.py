@@ -16,10 +16,17 @@ import pygeodesic.geodesic as geodesic
 
 COLUMNS = {
     "unsigned": ["--method", "unsigned-heat"],
-    "signed, 4": ["--time-scale", "4"],
-    "signed, 16": ["--time-scale", "16"],
-    "signed, 64": ["--time-scale", "64"],
-    "signed, 16, radial": ["--time-scale", "16", "--point-sources", "radial"],
+    "signed, 4": ["--method", "signed-heat", "--time-scale", "4"],
+    "signed, 16": ["--method", "signed-heat", "--time-scale", "16"],
+    "signed, 64": ["--method", "signed-heat", "--time-scale", "64"],
+    "signed, 16, radial": [
+        "--method",
+        "signed-heat",
+        "--time-scale",
+        "16",
+        "--point-sources",
+        "radial",
+    ],
 }
 
 

@@ -51,6 +51,7 @@ def distance(program: str, mesh: Path, sources: Path, *options: str) -> Floats:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "out.txt"
         command = [program, "distance", str(mesh), "--sources", str(sources), "-o", str(out)]
+        command += ["--method", "signed-heat"]
         subprocess.run([*command, "--quiet", *options], check=True)
         return np.loadtxt(out)
 

@@ -215,14 +215,22 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
     return prepare<SurfaceDomain>(SignedHeat{}, domain_, hint_, task.stage(0.6, "factoring"),
                                   quiet);
   });
-  const VecX phi = heat->solve(given, task.stage(0.4, "solving"), quiet).values;
-  const PlacedSources completed = completed_curves(mesh, placed, phi);
+  Sources with_sides;  // others would draw the zero set to themselves
+  for (const Curve& curve : given.curves)
+    if (curve.is_signed) with_sides.curves.push_back(curve);
+  for (const SpaceCurve& curve : given.space_curves)
+    if (curve.is_signed) with_sides.space_curves.push_back(curve);
+  const VecX phi = heat->solve(with_sides, task.stage(0.4, "solving"), quiet).values;
+  PlacedSources sided = placed;
+  sided.points.clear();
+  sided.pieces = pieces_with_sides(placed);
+  const PlacedSources completed = completed_curves(mesh, sided, phi);
   const VecX sign = CurveSides(mesh, *T_, placed, phi).at_vertices();
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (const int c = mesh.vertex_component()[v]; c >= 0 && open[c]) whole.sign[v] = sign[v];
   double added = 0;
   int curve = -1;
-  for (std::size_t i = placed.pieces.size(); i < completed.pieces.size(); ++i) {
+  for (std::size_t i = sided.pieces.size(); i < completed.pieces.size(); ++i) {
     CurvePiece piece = completed.pieces[i];
     const int c = component_of(piece.face);
     if (c < 0 || !open[c]) continue;

@@ -215,6 +215,26 @@ TEST(Automatic, EachComponentIsCompletedByItself) {
   EXPECT_GT(phi.tail(n).cwiseAbs().maxCoeff(), 1e-4);
 }
 
+TEST(Automatic, ComponentsOfFacesWithoutAreaDoNotDisturbOthers) {
+  const PolygonSoup grid = test::jittered_grid_soup(20, 20, 0.3);
+  const int n = grid.n_vertices();
+  PolygonSoup soup;
+  soup.points.resize(n + 2, 3);
+  soup.points << Eigen::RowVector3d(3, 0, 0), Eigen::RowVector3d(3, 1, 0), grid.points;
+  soup.add_face(std::vector<int>{0, 0, 1});
+  for (int f = 0; f < grid.n_faces(); ++f) {
+    std::vector<int> corners;
+    for (const int v : grid.face(f)) corners.push_back(v + 2);
+    soup.add_face(corners);
+  }
+  Report report, alone;
+  const Sources broken = broken_circle(80, 20, {3});
+  const VecX phi = answer(SurfaceMesh(soup), broken, report);
+  const VecX expected = answer(SurfaceMesh(grid), broken, alone);
+  EXPECT_LE((phi.tail(n) - expected).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(phi[0], std::numeric_limits<double>::infinity());
+}
+
 TEST(Automatic, CurvesThatBoundNothingHaveNoOutsideButADistance) {
   // A meridian of a torus: whatever completes it, distance to the curve itself is 0.
   const SurfaceMesh mesh(test::torus_soup(48, 24));

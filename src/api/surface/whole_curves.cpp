@@ -36,7 +36,16 @@ struct WholeCurves::Labelled {
   ShortestCompletion labels;
   std::vector<int> component;  // triangles -> component of the input, -1: none
 
-  int added(int e) const { return curves.times[e] == 0 ? static_cast<int>(labels.jump[e]) : 0; }
+  /// Jumps on the curve or off it (edges), on the components whose labels are taken.
+  VecX jumps(const std::vector<char>& settled, bool on_curve) const {
+    VecX out = VecX::Zero(labels.jump.size());
+    for (int e = 0; e < out.size(); ++e) {
+      if (labels.jump[e] == 0 || (curves.times[e] != 0) != on_curve) continue;
+      const int c = component[on->J->sides[e][0].face];
+      if (c >= 0 && settled[c]) out[e] = labels.jump[e];
+    }
+    return out;
+  }
 };
 
 int WholeCurves::component_of(int face) const {
@@ -64,7 +73,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
   WholeSources whole{placed, VecX::Ones(domain_.mesh->n_vertices()), Completion::none};
   if (pieces_with_sides(placed).empty()) return whole;
   const Stopwatch watch(report, "completion");
-  std::vector<char> settled(static_cast<std::size_t>(T_->n_components), 0);
+  std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 0);
   if (how != Completion::heat)
     settled = settle(placed, how, whole, task.stage(0.4, "integer winding numbers"), report);
   std::vector<char> open(settled.size(), 0);
@@ -84,7 +93,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
 
 std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion how,
                                       WholeSources& whole, Task task, Report& report) const {
-  std::vector<char> settled(static_cast<std::size_t>(T_->n_components), 1);
+  std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 1);
   const std::optional<Labelled> maybe = [&]() -> std::optional<Labelled> {
     try {
       return labelled(pieces_with_sides(placed),
@@ -128,10 +137,7 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   if (any && straighten_completion(found, settled, whole, task.stage(1, "straightening")))
     return settled;
   add_sides(found, settled, whole);
-  for (const auto& chain : edge_chains(
-           found.curves.cut.mesh, VecX::NullaryExpr(found.labels.jump.size(), [&](Eigen::Index e) {
-             return found.added(e);
-           }))) {
+  for (const auto& chain : edge_chains(found.curves.cut.mesh, found.jumps(settled, false))) {
     bool goes_on = false;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       goes_on = append_step(
@@ -147,22 +153,14 @@ bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vecto
                                         WholeSources& whole, const Task& task) const {
   const SurfaceMesh& mesh = *domain_.mesh;
   const CutMesh& cut = zigzag.curves.cut;
-  const JumpCalculus& J = *zigzag.on->J;
-  VecX added = VecX::Zero(J.n_edges), kept = added;
-  for (int e = 0; e < J.n_edges; ++e) {
-    if (zigzag.labels.jump[e] == 0 || !J.interior(e)) continue;
-    const int c = zigzag.component[J.sides[e][0].face];
-    if (c < 0 || !settled[c]) continue;
-    (zigzag.added(e) != 0 ? added : kept)[e] = zigzag.labels.jump[e];
-  }
   const auto at = [&](int v) { return simplest(mesh, cut.point[v]); };
   PlacedSources boundary, completion;
-  for (const auto& chain : edge_chains(cut.mesh, kept)) {
+  for (const auto& chain : edge_chains(cut.mesh, zigzag.jumps(settled, true))) {
     bool goes_on = false;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       goes_on = append_step(mesh, at(chain[i]), at(chain[i + 1]), goes_on, boundary);
   }
-  for (const auto& chain : edge_chains(cut.mesh, added)) {
+  for (const auto& chain : edge_chains(cut.mesh, zigzag.jumps(settled, false))) {
     SurfacePath path;
     for (const int v : chain) path.nodes.push_back(at(v));
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)

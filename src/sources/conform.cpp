@@ -41,10 +41,15 @@ bool halve_lonely(const CutMesh& cut, const VecX& times, std::vector<CutSegment>
 
 }  // namespace
 
-std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report) {
+std::vector<CurvePiece> pieces_with_sides(const PlacedSources& sources) {
   std::vector<CurvePiece> pieces;
   for (const CurvePiece& piece : sources.pieces)
     if (piece.is_signed) pieces.push_back(piece);
+  return pieces;
+}
+
+std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report) {
+  std::vector<CurvePiece> pieces = pieces_with_sides(sources);
   const std::size_t left_out = sources.points.size() + sources.pieces.size() - pieces.size();
   if (left_out > 0)
     report.warn(std::to_string(left_out) +

@@ -14,8 +14,10 @@ struct ConformingCurves {
   bool is_cut = false;  // false: the mesh is the given one
 };
 
-/// The pieces that have sides: of signed curves. Others are left out with a warning. Throws
-/// InputError if none remains.
+/// The pieces that have sides: of signed curves.
+std::vector<CurvePiece> pieces_with_sides(const PlacedSources& sources);
+
+/// The same, with a warning that counts the others. Throws InputError if none remains.
 std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report);
 
 /// Signed curves as a chain of edges. Parts of one edge that no other follows are halved, because

@@ -20,11 +20,15 @@ namespace {
 // evidence of a boundary, too.
 constexpr double weight_on_curve = 0.7;
 
-std::vector<CurvePiece> pieces_with_sides(const PlacedSources& sources) {
-  std::vector<CurvePiece> pieces;
-  for (const CurvePiece& piece : sources.pieces)
-    if (piece.is_signed) pieces.push_back(piece);
-  return pieces;
+/// Appends chains of vertices of the cut mesh as unsigned curves on the mesh it was cut from.
+void append_chains(const SurfaceMesh& mesh, const CutMesh& cut,
+                   const std::vector<std::vector<int>>& chains, PlacedSources& to) {
+  for (const std::vector<int>& chain : chains) {
+    bool goes_on = false;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      goes_on = append_step(mesh, simplest(mesh, cut.point[chain[i]]),
+                            simplest(mesh, cut.point[chain[i + 1]]), goes_on, to);
+  }
 }
 
 }  // namespace
@@ -137,13 +141,9 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   if (any && straighten_completion(found, settled, whole, task.stage(1, "straightening")))
     return settled;
   add_sides(found, settled, whole);
-  for (const auto& chain : edge_chains(found.curves.cut.mesh, found.jumps(settled, false))) {
-    bool goes_on = false;
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      goes_on = append_step(
-          *domain_.mesh, simplest(*domain_.mesh, found.curves.cut.point[chain[i]]),
-          simplest(*domain_.mesh, found.curves.cut.point[chain[i + 1]]), goes_on, whole.sources);
-  }
+  const CutMesh& cut = found.curves.cut;
+  append_chains(*domain_.mesh, cut, edge_chains(cut.mesh, found.jumps(settled, false)),
+                whole.sources);
   return settled;
 }
 
@@ -153,16 +153,11 @@ bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vecto
                                         WholeSources& whole, const Task& task) const {
   const SurfaceMesh& mesh = *domain_.mesh;
   const CutMesh& cut = zigzag.curves.cut;
-  const auto at = [&](int v) { return simplest(mesh, cut.point[v]); };
   PlacedSources boundary, completion;
-  for (const auto& chain : edge_chains(cut.mesh, zigzag.jumps(settled, true))) {
-    bool goes_on = false;
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      goes_on = append_step(mesh, at(chain[i]), at(chain[i + 1]), goes_on, boundary);
-  }
+  append_chains(mesh, cut, edge_chains(cut.mesh, zigzag.jumps(settled, true)), boundary);
   for (const auto& chain : edge_chains(cut.mesh, zigzag.jumps(settled, false))) {
     SurfacePath path;
-    for (const int v : chain) path.nodes.push_back(at(v));
+    for (const int v : chain) path.nodes.push_back(simplest(mesh, cut.point[v]));
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
       path.faces.push_back(common_face(mesh, path.nodes[i], path.nodes[i + 1]));
     if (std::find(path.faces.begin(), path.faces.end(), -1) != path.faces.end()) return false;

@@ -100,6 +100,9 @@ TEST(FrontDistance, OfALineIsLinearAndSigned) {
   EXPECT_NEAR(d.at(SurfacePoint::in_face(0, 0.5, 0.25, 0.25)),
               0.5 - mesh.position(SurfacePoint::in_face(0, 0.5, 0.25, 0.25))[0], 1e-12);
   EXPECT_EQ(s.report.method, "auto");
+  EXPECT_EQ(s.confidence.size(), 0);
+  EXPECT_EQ(distance(mesh, square.line(4), Automatic{.confidence = true}).confidence,
+            VecX::Ones(mesh.n_vertices()));
   ASSERT_EQ(d.isolines(0.2).size(), 2U);
   for (const MatX3& line : d.isolines(0.2))
     for (Eigen::Index i = 0; i < line.rows(); ++i)

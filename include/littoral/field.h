@@ -20,6 +20,7 @@ struct Field {
   /// `values` are those at the mesh's own vertices all the same.
   std::optional<PolygonSoup> refined{};
   Report report;
+  VecX confidence{};  // vertices of the mesh, 0 to 1: how sure the sign is; empty unless asked for
 
   /// Linear between the mesh's vertices [length].
   double at(const SurfacePoint& point) const { return mesh.interpolate(values, point); }

@@ -14,7 +14,12 @@ namespace littoral {
 namespace {
 
 Field field_of(const Mesh& mesh, const Sources& sources, SurfaceAnswer answer, Report report) {
-  return {mesh, sources, std::move(answer.values), std::move(answer.shown), std::move(report)};
+  return {mesh,
+          sources,
+          std::move(answer.values),
+          std::move(answer.shown),
+          std::move(report),
+          std::move(answer.confidence)};
 }
 
 /// A report of a preparation as the beginning of a solve's: what was found out, not the seconds.

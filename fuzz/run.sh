@@ -1,8 +1,7 @@
 #!/bin/sh
 # Runs every fuzz target of a build for a bounded time and fails if one crashes, hangs or eats memory.
 # Usage: fuzz/run.sh BUILD_DIR SECONDS      JOBS: targets at once (all cores)
-#   cmake -S . -B BUILD_DIR -DLITTORAL_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++ && \
-#   cmake --build BUILD_DIR --target fuzzers
+#   cmake --preset asan && cmake --build build/asan --target fuzzers && fuzz/run.sh build/asan 10
 # Inputs found on the way, and those that failed, go to BUILD_DIR/fuzz/NAME.
 set -eu
 if [ $# -ne 2 ]; then

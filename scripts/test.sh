@@ -84,7 +84,7 @@ stage_threads() {  # ThreadSanitizer
 }
 
 stage_fuzz() {
-  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-10}"
+  with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-10}"
 }
 
 stage_viewer() {
@@ -103,7 +103,7 @@ stage_sanitize_slow() {
 }
 
 stage_fuzz_long() {
-  with_clang fuzz --target fuzzers && JOBS="$jobs" fuzz/run.sh build/fuzz "${FUZZ_SECONDS:-300}" &&
+  with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-300}" &&
     many_cases "${FUZZ_CASES:-1000000}"
 }
 

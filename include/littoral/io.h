@@ -3,6 +3,7 @@
 // are written beside their target and renamed. docs/formats.md lists the formats.
 
 #include <filesystem>
+#include <string>
 
 #include "littoral/field.h"
 #include "littoral/mesh.h"
@@ -12,6 +13,8 @@
 
 namespace littoral {
 
+/// The extensions of the files that read_mesh takes: ".obj .ply ...".
+std::string mesh_extensions();
 /// A mesh, a cloud, or the boundary of voxels.
 Mesh read_mesh(const std::filesystem::path& path);
 /// What a surface or cloud file holds, as it was written.

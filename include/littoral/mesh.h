@@ -45,6 +45,8 @@ class Mesh {
   int n_components() const;
   const MatX3& points() const { return soup().points; }
   const PolygonSoup& soup() const;
+  /// Edges x 2, by vertex, in the order in which SurfacePoint::on_edge counts them.
+  const Rows<int, 2>& edges() const;
   Vec3 position(const SurfacePoint& point) const;
 
   /// A function given at the vertices, at any point of the surface: linear on edges and triangles.

@@ -29,6 +29,15 @@ struct DistanceSamples {
   MatX3 gradients{0, 3};  // queries x 3
 };
 
+/// Where an input is nearest to some points.
+struct NearestPoints {
+  MatX3 points{0, 3};       // queries x 3
+  VecXi elements;           // queries: face of a surface, point of a cloud
+  MatX3i corners{0, 3};     // queries x 3: vertices, of polygons those of the triangle cut from it
+  MatX3 barycentric{0, 3};  // queries x 3: of these corners, in [0, 1]
+  VecX distances;           // queries [length]
+};
+
 /// Signed distance around a surface, soup or oriented cloud, negative inside [length]. Immutable;
 /// copies share it; may be asked from several threads.
 class Sdf {
@@ -42,6 +51,15 @@ class Sdf {
   /// At points (queries x 3), on all threads. Throws InputError naming a point that is not finite.
   VecX at(const MatX3& points, const Context& context = {}) const;
   DistanceSamples with_gradients(const MatX3& points, const Context& context = {}) const;
+
+  /// Where the input itself is nearest, without what a method adds to it (queries x 3). The first
+  /// call builds a tree. Throws InputError as `at`, UnsupportedError for combinations and volumes.
+  NearestPoints closest(const MatX3& points, const Context& context = {}) const;
+  /// Generalized winding number of the input: 1 inside, 0 outside of a closed surface. Likewise.
+  VecX winding_number(const MatX3& points, const Context& context = {}) const;
+  /// How sure inside and outside are at points, 0 to 1: 1 where the winding number is that of a
+  /// closed surface, 0 half way between. Likewise.
+  VecX confidence(const MatX3& points, const Context& context = {}) const;
 
   /// At the nodes of a grid. Values scale with the input and do not change when it is moved with
   /// the grid. Throws InputError for a box that misses the input, IoError where memory will not do.
@@ -82,8 +100,8 @@ Sdf subtract(const Sdf& a, const Sdf& b, double blend = 0);
 VecX winding_number(const PolygonSoup& input, const MatX3& points,
                     const Orientation& orientation = {}, const Context& context = {});
 
-/// The tori that fit a cloud best, as a cloud that signed_distance takes as it is.
-PolygonSoup fit_tori(const PolygonSoup& cloud, const Tori& options = {},
+/// The tori that fit a cloud best, as a cloud that signed_distance takes as it is; by Tori{}.
+PolygonSoup fit_tori(const PolygonSoup& cloud, const AnyMethod& tori = {},
                      const Orientation& orientation = {}, const Context& context = {});
 
 /// The surface on which a volume takes the value `level`, with larger values outside; closed unless

@@ -5,6 +5,7 @@
 
 #include "littoral/context.h"
 #include "littoral/mesh.h"
+#include "littoral/methods.h"
 #include "littoral/options.h"
 #include "littoral/report.h"
 #include "littoral/sources.h"
@@ -25,8 +26,9 @@ struct Regions {
 };
 
 /// Surface winding numbers of signed curves on a triangle mesh. Components without a curve are one
-/// region, 0. Throws InputError and UnsupportedError for bad input, SolveError, Cancelled.
-Regions winding(const Mesh& mesh, const Sources& curves, const SurfaceWinding& options = {},
+/// region, 0. The default is SurfaceWinding{}. Throws InputError and UnsupportedError for bad input,
+/// SolveError, Cancelled.
+Regions winding(const Mesh& mesh, const Sources& curves, const AnyMethod& method = {},
                 const Context& context = {});
 
 }  // namespace littoral

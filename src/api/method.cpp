@@ -6,12 +6,14 @@ namespace littoral {
 
 void check_has_option(const MethodInfo& method, const std::string& option) {
   std::string known;
+  std::vector<std::string> names;
   for (const OptionInfo& info : method.options) {
     if (info.name == option) return;
+    names.push_back(info.name);
     known += (known.empty() ? "" : ", ") + info.name;
   }
-  throw InputError("method " + method.name + " has no option '" + option +
-                   "'; it has: " + (known.empty() ? "none" : known));
+  throw InputError("method " + method.name + " has no option '" + option + "'" +
+                   meant(option, names) + "; it has: " + (known.empty() ? "none" : known));
 }
 
 void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,

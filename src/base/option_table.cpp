@@ -1,7 +1,10 @@
 #include "base/option_table.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "littoral/error.h"
 
@@ -71,10 +74,39 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text) {
   throw_bad_value(info, text);
 }
 
+std::string meant(const std::string& name, const std::vector<std::string>& known) {
+  // Levenshtein's distance, row by row.
+  const auto edits = [&](const std::string& other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = std::exchange(row[0], i);
+      for (std::size_t j = 1; j <= other.size(); ++j) {
+        const std::size_t changed = diagonal + (name[i - 1] == other[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({changed, row[j - 1] + 1, row[j] + 1});
+      }
+    }
+    return row.back();
+  };
+  std::string nearest;
+  std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& other : known)
+    if (const std::size_t n = edits(other); n < fewest) {
+      fewest = n;
+      nearest = other;
+    }
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
 void throw_unknown_option(const std::string& name, const std::vector<OptionInfo>& known) {
-  std::string names;
-  for (const auto& info : known) names += (names.empty() ? "" : ", ") + info.name;
-  throw InputError("unknown option '" + name + "'; known: " + names);
+  std::vector<std::string> names;
+  std::string all;
+  for (const auto& info : known) {
+    names.push_back(info.name);
+    all += (all.empty() ? "" : ", ") + info.name;
+  }
+  throw InputError("unknown option '" + name + "'" + meant(name, names) + "; known: " + all);
 }
 
 }  // namespace littoral

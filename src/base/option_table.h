@@ -22,6 +22,8 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
 /// Throws InputError unless the number is in [low, high].
 void check_option_range(const OptionInfo& info, double value);
+/// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.
+std::string meant(const std::string& name, const std::vector<std::string>& known);
 [[noreturn]] void throw_unknown_option(const std::string& name,
                                        const std::vector<OptionInfo>& known);
 

@@ -114,12 +114,12 @@ DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>
   return out;
 }
 
-Regions winding(const Mesh& mesh, const Sources& curves, const SurfaceWinding& options,
+Regions winding(const Mesh& mesh, const Sources& curves, const AnyMethod& method,
                 const Context& context) {
   return run(context, [&](const Task& task) -> Regions {
     Report report;
     WindingAnswer answer =
-        solve_once<WindingDomain>(options, {mesh.domain().mesh}, curves, task, report);
+        solve_once<WindingDomain>(method, {mesh.domain().mesh}, curves, task, report);
     Sources bounding = bounding_sources(answer);
     return {mesh,
             std::move(answer.region),

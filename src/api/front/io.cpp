@@ -43,6 +43,10 @@ io::Scene scene_of(const Regions& regions) {
 
 }  // namespace
 
+std::string mesh_extensions() {
+  return io::read_extensions({io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
+}
+
 Mesh read_mesh(const std::filesystem::path& path) {
   if (io::is_read_as(path, {io::Kind::surface, io::Kind::cloud}))
     return Mesh(io::read_surface(path));

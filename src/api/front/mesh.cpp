@@ -93,6 +93,7 @@ int Mesh::n_vertices() const { return domain_->mesh->n_vertices(); }
 int Mesh::n_faces() const { return domain_->mesh->n_faces(); }
 int Mesh::n_edges() const { return domain_->mesh->n_edges(); }
 int Mesh::n_components() const { return domain_->mesh->n_components(); }
+const Rows<int, 2>& Mesh::edges() const { return domain_->mesh->edges(); }
 const PolygonSoup& Mesh::soup() const { return domain_->mesh->soup(); }
 
 Vec3 Mesh::position(const SurfacePoint& point) const {

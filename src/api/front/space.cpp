@@ -4,9 +4,11 @@
 
 #include "api/front/running.h"
 #include "api/space/csg.h"
+#include "api/space/input_queries.h"
 #include "api/space/isosurfaces.h"
 #include "api/space/sampled_distance.h"
 #include "api/space/sdf.h"
+#include "base/lazy.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -17,6 +19,25 @@ struct Sdf::Impl {
   CsgShapes shapes;
   std::shared_ptr<const PointwiseDistance> function;  // null where a grid is needed
   Report report;
+  Kept<NearestOnInput> nearest;
+  Kept<WindingOfInput> winding;
+
+  /// The only input, where there is but one.
+  const Shape& input() const {
+    if (shapes.all.size() != 1 || shapes.all.front().field)
+      throw UnsupportedError("closest points and winding numbers are those of one input, not of " +
+                             std::string(shapes.all.size() == 1 ? "a volume" : "a combination"));
+    return shapes.all.front();
+  }
+  std::shared_ptr<const WindingOfInput> winding_of_input(const Task& task) const {
+    return winding.get([&] {
+      Report ignored;  // the preparation's holds the same
+      const Shape& shape = input();
+      return std::make_shared<const WindingOfInput>(
+          shape.surface, Orientation{shape.request.flip, shape.request.estimate_normals}, task,
+          ignored);
+    });
+  }
 
   const PointwiseDistance& anywhere() const {
     if (!function)
@@ -91,6 +112,29 @@ DistanceSamples Sdf::with_gradients(const MatX3& points, const Context& context)
   });
 }
 
+NearestPoints Sdf::closest(const MatX3& points, const Context& context) const {
+  check_queries(points);
+  return run(context, [&](const Task& task) {
+    const PolygonSoup& surface = impl_->input().surface;
+    const auto tree =
+        impl_->nearest.get([&] { return std::make_shared<const NearestOnInput>(surface); });
+    return tree->at(points, task);
+  });
+}
+
+VecX Sdf::winding_number(const MatX3& points, const Context& context) const {
+  check_queries(points);
+  return run(context,
+             [&](const Task& task) { return impl_->winding_of_input(task)->at(points, task); });
+}
+
+VecX Sdf::confidence(const MatX3& points, const Context& context) const {
+  check_queries(points);
+  return run(context, [&](const Task& task) {
+    return impl_->winding_of_input(task)->confidence(points, task);
+  });
+}
+
 Volume Sdf::sample(const Grid& grid, const Context& context) const {
   return run(context, [&](const Task& task) -> Volume {
     Report report;
@@ -147,11 +191,11 @@ VecX winding_number(const PolygonSoup& input, const MatX3& points, const Orienta
   });
 }
 
-PolygonSoup fit_tori(const PolygonSoup& cloud, const Tori& options, const Orientation& orientation,
-                     const Context& context) {
+PolygonSoup fit_tori(const PolygonSoup& cloud, const AnyMethod& tori,
+                     const Orientation& orientation, const Context& context) {
   return run(context, [&](const Task& task) {
     Report report;
-    return fit_tori_cloud(cloud, {options, orientation.flip, orientation.estimate_normals}, task,
+    return fit_tori_cloud(cloud, {tori, orientation.flip, orientation.estimate_normals}, task,
                           report);
   });
 }

@@ -5,14 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "api/space/input_queries.h"
 #include "api/space/tori_cloud.h"
-#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "domain/volume/grid_values.h"
 #include "littoral/error.h"
 #include "methods/tori/tori.h"
-#include "spatial/morton_order.h"
-#include "spatial/winding_number.h"
 
 namespace littoral {
 
@@ -144,25 +142,9 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
   report.method = "winding number";
   report.domain = "set of points";
   report.sizes.emplace_back("queries", static_cast<double>(queries.rows()));
-  const Frame frame(bounding_box(input));
-  const SpaceInput local_input = make_input({input, request.flip, request.estimate_normals}, frame,
-                                            std::numeric_limits<double>::infinity(), task, report);
-  const OrientedPoints& s = local_input.samples;
-  const WindingNumber winding =
-      local_input.is_cloud() ? WindingNumber(s.points, s.normals, s.areas)
-                             : WindingNumber(local_input.surface.points, local_input.triangles());
+  const WindingOfInput winding(input, {request.flip, request.estimate_normals}, task, report);
   const Stopwatch watch(report, "evaluate");
-  const Task rest = task.stage(0.9, "winding number");
-  const MatX3 local = frame.local(queries);
-  VecX values(queries.rows());
-  const std::vector<int> order = morton_order(local);
-  parallel_for(static_cast<std::size_t>(queries.rows()), 1024,
-               [&](std::size_t begin, std::size_t end) {
-                 rest.checkpoint(static_cast<double>(begin) / static_cast<double>(queries.rows()));
-                 for (std::size_t at = begin; at < end; ++at)
-                   values[order[at]] = winding(local.row(order[at]));
-               });
-  return values;
+  return winding.at(queries, task.stage(0.9, "winding number"));
 }
 
 PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,

@@ -1,0 +1,160 @@
+// The extension module: errors, settings, methods, reports; the rest is in the files beside it.
+
+#include "bindings.h"
+
+namespace littoral::python {
+
+namespace {
+
+/// Classes of littoral/_errors.py, so that they can derive from Python's own as well.
+nb::object error_class(const char* name) {
+  return nb::module_::import_("littoral._errors").attr(name);
+}
+
+void raise(const char* name, const std::exception& error) {
+  PyErr_SetString(error_class(name).ptr(), error.what());
+}
+
+void translate(const std::exception_ptr& thrown, void*) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const SolveError& error) {
+    nb::object instance = error_class("SolveError")(error.what());
+    instance.attr("residual") = error.residual();
+    PyErr_SetObject(error_class("SolveError").ptr(), instance.ptr());
+  } catch (const InputError& error) {
+    raise("InputError", error);
+  } catch (const UnsupportedError& error) {
+    raise("UnsupportedError", error);
+  } catch (const IoError& error) {
+    raise("IoError", error);
+  } catch (const Cancelled& error) {
+    raise("Cancelled", error);
+  } catch (const Error& error) {
+    raise("Error", error);
+  }
+}
+
+template <class Value>
+nb::dict as_dict(const std::vector<std::pair<std::string, Value>>& entries) {
+  nb::dict out;
+  for (const auto& [name, value] : entries) out[name.c_str()] = value;
+  return out;
+}
+
+template <class Value>
+void read_into(std::vector<std::pair<std::string, Value>>& entries, const nb::handle& data) {
+  for (const auto& [name, value] : nb::cast<nb::dict>(data))
+    entries.emplace_back(nb::cast<std::string>(name), nb::cast<Value>(value));
+}
+
+nb::dict as_dict(const OptionInfo& option) {
+  nb::dict out;
+  out["name"] = option.name;
+  out["unit"] = option.unit;
+  out["range"] = option.range();
+  out["choices"] = option.choices;
+  out["default"] = option.fallback;
+  out["help"] = option.help;
+  out["kind"] = std::vector<std::string>{"number", "integer", "toggle", "choice",
+                                         "text"}[static_cast<std::size_t>(option.kind)];
+  return out;
+}
+
+nb::list families() {
+  nb::list out;
+  for (const MethodFamily& family : method_families()) {
+    nb::list methods;
+    for (const MethodInfo& method : family.methods) {
+      nb::dict entry;
+      entry["name"] = method.name;
+      entry["summary"] = method.summary;
+      entry["domains"] = method.domains;
+      entry["reference"] = method.reference;
+      nb::list options;
+      for (const OptionInfo& option : method.options) options.append(as_dict(option));
+      entry["options"] = options;
+      methods.append(entry);
+    }
+    out.append(nb::make_tuple(family.title, methods));
+  }
+  return out;
+}
+
+}  // namespace
+
+nb::dict as_dict(const Report& report) {
+  nb::dict out;
+  out["method"] = report.method;
+  out["domain"] = report.domain;
+  out["status"] = report.status;
+  out["options"] = as_dict(report.options);
+  out["sizes"] = as_dict(report.sizes);
+  out["timings"] = as_dict(report.timings);
+  out["iterations"] = as_dict(report.iterations);
+  out["residuals"] = as_dict(report.residuals);
+  out["warnings"] = report.warnings;
+  out["unreachable_components"] = report.unreachable_components;
+  return out;
+}
+
+Report as_report(const nb::dict& data) {
+  Report report;
+  report.method = nb::cast<std::string>(data["method"]);
+  report.domain = nb::cast<std::string>(data["domain"]);
+  report.status = nb::cast<std::string>(data["status"]);
+  read_into(report.options, data["options"]);
+  read_into(report.sizes, data["sizes"]);
+  read_into(report.timings, data["timings"]);
+  read_into(report.iterations, data["iterations"]);
+  read_into(report.residuals, data["residuals"]);
+  report.warnings = nb::cast<std::vector<std::string>>(data["warnings"]);
+  report.unreachable_components = nb::cast<std::vector<int>>(data["unreachable_components"]);
+  return report;
+}
+
+nb::tuple as_tuple(PolygonSoup soup) {
+  nb::dict scalars;
+  for (auto& [name, values] : soup.scalars) scalars[name.c_str()] = nb::cast(std::move(values));
+  const auto integers = [](const std::vector<int>& values) {
+    return nb::cast(VecXi(Eigen::Map<const VecXi>(values.data(), std::ssize(values))));
+  };
+  return nb::make_tuple(nb::cast(std::move(soup.points)), integers(soup.face_offsets),
+                        integers(soup.corners), soup.lines, nb::cast(std::move(soup.normals)),
+                        scalars);
+}
+
+PolygonSoup as_soup(const nb::tuple& data) {
+  PolygonSoup soup;
+  const auto integers = [](const nb::handle& array) {
+    const auto values = nb::cast<VecXi>(array);
+    return std::vector<int>(values.begin(), values.end());
+  };
+  soup.points = nb::cast<MatX3>(data[0]);
+  soup.face_offsets = integers(data[1]);
+  soup.corners = integers(data[2]);
+  soup.lines = nb::cast<std::vector<std::vector<int>>>(data[3]);
+  soup.normals = nb::cast<MatX3>(data[4]);
+  for (const auto& [name, values] : nb::cast<nb::dict>(data[5]))
+    soup.scalars[nb::cast<std::string>(name)] = nb::cast<VecX>(values);
+  return soup;
+}
+
+}  // namespace littoral::python
+
+NB_MODULE(_core, m) {
+  using namespace littoral::python;  // NOLINT: the module's only scope
+  m.doc() = "The library itself; use the package littoral.";
+  nb::register_exception_translator(translate);
+  nb::class_<Settings>(m, "Settings")
+      .def(
+          "__init__",
+          [](Settings* self, int threads, nb::object progress, double memory_limit) {
+            new (self) Settings{threads, std::move(progress), memory_limit};
+          },
+          nb::arg("threads") = 0, nb::arg("progress") = nb::none(), nb::arg("memory_limit") = 0.0);
+  m.def("method_families", families);
+  bind_surfaces(m);
+  bind_space(m);
+  bind_tets(m);
+}

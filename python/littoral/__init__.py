@@ -1,0 +1,106 @@
+"""Distance and inside/outside for geometry that is broken.
+
+On surfaces: `distance`, `DistanceSolver`, `distance_matrix`, `winding`, `isolines`,
+`offset_curves`. In space: `SDF`, `Volume`, `offset`, `unite`, `intersect`, `subtract`, `fit_tori`.
+Through tets: `TetMesh`, `tet_distance`. Files: `read`, `read_volume`, `read_tets`. Lengths are in
+the unit of the input.
+"""
+
+from . import examples
+from ._errors import (
+    Cancelled,
+    Error,
+    IndexOutOfRange,
+    InputError,
+    IoError,
+    SolveError,
+    UnsupportedError,
+)
+from ._foreign import as_surface
+from ._methods import Method, Option, methods
+from ._settings import progress, set_memory_limit, set_threads
+from ._display import show
+from ._distance import (
+    DistanceSolver,
+    Field,
+    distance,
+    distance_matrix,
+    isolines,
+    offset_curves,
+)
+from ._files import read, read_sources, read_tets, read_volume
+from ._regions import Regions, winding
+from ._report import Report
+from ._sources import Curve, FaceChain, SurfacePoint
+from ._space import (
+    SDF,
+    Closest,
+    Volume,
+    fit_tori,
+    intersect,
+    offset,
+    sdf_of_volume,
+    signed_heat_grid,
+    subtract,
+    unite,
+    winding_number,
+)
+from ._surfaces import Mesh, PointCloud, Polygons, Surface, Voxels
+from ._tets import TetDistanceSolver, TetField, TetMesh, tet_distance
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "SDF",
+    "Cancelled",
+    "Closest",
+    "Curve",
+    "DistanceSolver",
+    "Error",
+    "FaceChain",
+    "Field",
+    "IndexOutOfRange",
+    "InputError",
+    "IoError",
+    "Mesh",
+    "Method",
+    "Option",
+    "PointCloud",
+    "Polygons",
+    "Regions",
+    "Report",
+    "SolveError",
+    "Surface",
+    "SurfacePoint",
+    "TetDistanceSolver",
+    "TetField",
+    "TetMesh",
+    "UnsupportedError",
+    "Volume",
+    "Voxels",
+    "as_surface",
+    "distance",
+    "distance_matrix",
+    "examples",
+    "fit_tori",
+    "intersect",
+    "isolines",
+    "methods",
+    "offset",
+    "offset_curves",
+    "progress",
+    "read",
+    "read_sources",
+    "read_tets",
+    "read_volume",
+    "sdf_of_volume",
+    "set_memory_limit",
+    "set_threads",
+    "show",
+    "signed_heat_grid",
+    "subtract",
+    "tet_distance",
+    "unite",
+    "winding",
+    "winding_number",
+]

@@ -1,0 +1,133 @@
+"""Arrays of any kind as the contiguous float64 and int32 arrays that the library takes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import IndexOutOfRange, InputError
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Ints: TypeAlias = npt.NDArray[np.int32]
+Array: TypeAlias = npt.NDArray[Any]
+
+
+def as_array(value: Any, name: str) -> Array:
+    """Anything with `__array__` or `__dlpack__`, or nested sequences, as a numpy array."""
+    if isinstance(value, np.ndarray):
+        return value
+    if hasattr(value, "detach") and hasattr(value, "numpy"):  # a torch tensor, perhaps with a graph
+        return as_array(value.detach().cpu().numpy(), name)
+    if not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):
+        return np.from_dlpack(value)
+    try:
+        return np.asarray(value)
+    except ValueError as error:
+        raise InputError(f"{name}: expected an array, got rows of different lengths") from error
+
+
+def _described(array: Array) -> str:
+    return f"{array.dtype} of shape {array.shape}"
+
+
+def floats(value: Any, name: str, columns: int | None = None, finite: bool = True) -> Floats:
+    """Float64 in C order: n x columns, or n without columns.
+
+    Raises TypeError for anything but real numbers, InputError (a ValueError) for a wrong shape, and
+    for the first number that is not finite unless `finite` is off.
+    """
+    array = as_array(value, name)
+    shape = "n" if columns is None else f"n x {columns}"
+    if array.dtype.kind not in "fiub":
+        if array.size:
+            raise TypeError(f"{name}: expected real numbers ({shape}), got {_described(array)}")
+        array = array.astype(np.float64)
+    if columns is not None and array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, columns)
+    if array.ndim != (1 if columns is None else 2) or (
+        columns is not None and array.shape[1] != columns
+    ):
+        raise InputError(f"{name}: expected shape {shape}, got {_described(array)}")
+    out = np.ascontiguousarray(array, dtype=np.float64)
+    if finite and not np.isfinite(out).all():
+        first = np.argwhere(~np.isfinite(out))[0]
+        at = ", ".join(str(i) for i in first)
+        raise InputError(f"{name}[{at}] is {out[tuple(first)]}: expected finite numbers")
+    return out
+
+
+def ints(value: Any, name: str, columns: int | None = None) -> Ints:
+    """Int32 in C order: n x columns, or of shape n without columns.
+
+    Raises TypeError for anything but integers, InputError for a wrong shape and IndexOutOfRange for
+    numbers beyond 32 bits.
+    """
+    array = as_array(value, name)
+    shape = "n" if columns is None else f"n x {columns}"
+    if array.dtype.kind not in "iu":
+        if array.size:
+            raise TypeError(f"{name}: expected integers ({shape}), got {_described(array)}")
+        array = array.astype(np.int32)
+    if columns is not None and array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, columns)
+    if array.ndim != (1 if columns is None else 2) or (
+        columns is not None and array.shape[1] != columns
+    ):
+        raise InputError(f"{name}: expected shape {shape}, got {_described(array)}")
+    return narrowed(array, name)
+
+
+def narrowed(array: Array, name: str) -> Ints:
+    """Integers of any kind as int32; raises IndexOutOfRange for those beyond."""
+    if array.dtype.itemsize >= 4 and array.dtype != np.int32 and array.size:
+        limits = np.iinfo(np.int32)
+        low, high = array.min(), array.max()
+        if low < limits.min or high > limits.max:
+            worst = low if low < limits.min else high
+            raise IndexOutOfRange(f"{name}: {worst} does not fit into 32 bits")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def check_range(indices: Array, count: int, name: str, of: str) -> None:
+    """Raises IndexOutOfRange naming the first index that is not one of `count` elements."""
+    if indices.size == 0 or (indices.min() >= 0 and indices.max() < count):
+        return
+    bad = np.argwhere((indices < 0) | (indices >= count))[0]
+    at = ", ".join(str(i) for i in bad)
+    raise IndexOutOfRange(
+        f"{name}[{at}] is {indices[tuple(bad)]}: there are {count} {of}"
+        + (f", 0 to {count - 1}" if count else "")
+    )
+
+
+def result_type(*inputs: Any) -> npt.DTypeLike:
+    """float32 if the first input that has a floating type is of that, otherwise float64."""
+    for value in inputs:
+        kind = str(getattr(value, "dtype", ""))
+        if kind.endswith("float32"):  # of numpy, torch and jax
+            return np.float32
+        if "float" in kind:
+            return np.float64
+    return np.float64
+
+
+def like(values: Array, dtype: npt.DTypeLike) -> Array:
+    """The values in another floating type, themselves where they are of it."""
+    return values.astype(dtype, copy=False)
+
+
+def is_vertex_list(value: Any) -> bool:
+    """One or many plain integers: vertices by number."""
+    array = value if isinstance(value, np.ndarray) else None
+    if array is None:
+        if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
+            return True
+        if isinstance(value, Sequence) and not isinstance(value, str):
+            return all(isinstance(v, (int, np.integer)) for v in value)
+        array = as_array(value, "points") if hasattr(value, "__array__") else np.empty(0)
+        if array.size == 0 and not hasattr(value, "__array__"):
+            return False
+    return array.dtype.kind in "iu" and array.ndim <= 1

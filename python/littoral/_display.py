@@ -1,0 +1,85 @@
+"""Looking at results: the page, in a notebook or a browser, and pictures."""
+
+from __future__ import annotations
+
+import base64
+import os
+import tempfile
+import webbrowser
+from pathlib import Path
+from typing import Any
+
+
+def _in_notebook() -> bool:
+    try:
+        from IPython import get_ipython  # type: ignore[attr-defined, unused-ignore]
+    except ImportError:
+        return False
+    shell = get_ipython()
+    return shell is not None and shell.__class__.__name__ == "ZMQInteractiveShell"
+
+
+class Page:
+    """A page in a notebook's output."""
+
+    def __init__(self, html: bytes) -> None:
+        self._data = base64.b64encode(html).decode()
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe src="data:text/html;base64,{self._data}" '
+            'style="width: 100%; height: 480px; border: 0"></iframe>'
+        )
+
+
+def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
+    """The self-contained page of a field or of regions, to turn and measure in.
+
+    In a notebook it becomes the cell's output; with `path` it is written there, and otherwise it is
+    opened in the browser. Raises UnsupportedError for results that have no page.
+    """
+    write = _writer(result, "write_page")
+    if path is not None:
+        write(os.fspath(path))
+        return Path(path)
+    with tempfile.TemporaryDirectory() as folder:
+        inside = Path(folder) / "page.html"
+        if _in_notebook():
+            write(os.fspath(inside))
+            return Page(inside.read_bytes())
+    file, name = tempfile.mkstemp(suffix=".html", prefix="littoral-")
+    os.close(file)
+    write(name)
+    webbrowser.open(Path(name).as_uri())
+    return Path(name)
+
+
+def _writer(result: Any, name: str) -> Any:
+    core = getattr(result, "_core", None)
+    if not hasattr(core, name):
+        raise TypeError(f"expected a littoral.Field or Regions, got {type(result).__name__}")
+    return getattr(core, name)
+
+
+def picture(result: Any) -> bytes:
+    """A PNG of a field or of regions by littoral's renderer, without a display."""
+    write = _writer(result, "write")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "picture.png"
+        write(os.fspath(path))
+        return path.read_bytes()
+
+
+def plot(result: Any, ax: Any = None) -> Any:
+    """That picture in matplotlib axes, which are returned."""
+    import io
+
+    import matplotlib.pyplot as plt
+
+    image = plt.imread(io.BytesIO(picture(result)), format="png")
+    if ax is None:
+        height, width = image.shape[:2]
+        _, ax = plt.subplots(figsize=(6, 6 * height / width))
+    ax.imshow(image)
+    ax.set_axis_off()
+    return ax

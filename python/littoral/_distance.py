@@ -1,0 +1,277 @@
+"""Distance on surfaces: once, for many sources, between many points; and what it is drawn from."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import Array, Floats, floats
+from ._errors import InputError, UnsupportedError
+from ._foreign import as_surface
+from ._methods import option_texts
+from ._settings import Progress, settings
+from ._report import Report
+from ._sources import make_sources, point_arrays, sources_from, sources_state
+from ._surfaces import Surface
+
+
+class Field:
+    """Distance at the vertices of a surface, and what the computation says about itself.
+
+    `values`: vertices [length], signed for signed curves, +inf where no source reaches.
+    `confidence`: vertices, 0 to 1, how sure each sign is; empty unless option `confidence` was on.
+    """
+
+    def __init__(self, core: _core.Field, mesh: Surface) -> None:
+        self._core = core
+        self.mesh = mesh
+        self.values: Array = mesh._values(core.values)
+        self.report = Report(**core.report())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the computation warns of; empty where nothing is doubtful."""
+        return self.report.warnings
+
+    @property
+    def confidence(self) -> Floats:
+        """vertices, 0 to 1: how sure each sign is; empty unless asked for."""
+        return self._core.confidence
+
+    @property
+    def refined(self) -> tuple[Surface, Array] | None:
+        """The surface the field lives on where that is finer or cut, and its values there."""
+        soup = self._core.refined()
+        if soup is None:
+            return None
+        surface = Surface._of(_core.Mesh.from_soup(soup), self.mesh._dtype)
+        return surface, self.mesh._values(soup[5]["distance"])
+
+    def at(self, points: Any) -> Array:
+        """Values at points of the surface, linear between the vertices [length]."""
+        at = point_arrays(points, self.mesh, "points")
+        return self.mesh._values(self.mesh._core.interpolate(self._core.values, at))
+
+    def isolines(self, level: float | Iterable[float] = 0.0) -> list[Floats]:
+        """The lines on which the field takes a value (or several): nodes x 3 each.
+
+        A closed line repeats its first node; larger values are on the left.
+        """
+        return isolines(self.mesh, self._core.values, level)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes by extension: .ply .obj .vtp .csv .npy .txt, .html a page, .png a picture."""
+        self._core.write(os.fspath(path))
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """The page to turn the field in: in a notebook, or opened in the browser."""
+        from ._display import show
+
+        return show(self, path)
+
+    def plot(self, ax: Any = None) -> Any:
+        """A picture by littoral's renderer, in matplotlib axes."""
+        from ._display import plot
+
+        return plot(self, ax)
+
+    def _repr_png_(self) -> bytes:
+        from ._display import picture
+
+        return picture(self)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        return np.array(self.values, dtype=dtype, copy=True if copy is None else copy)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = (
+            sources_state(self._core.sources),
+            np.array(self._core.values),
+            np.array(self._core.confidence),
+            self._core.refined(),
+            self._core.report(),
+        )
+        return _field_from, (self.mesh, state)
+
+    def __repr__(self) -> str:
+        finite = self.values[np.isfinite(self.values)]
+        span = f"{finite.min():.6g} to {finite.max():.6g}" if finite.size else "nowhere finite"
+        doubts = f", {len(self.warnings)} warnings" if self.warnings else ""
+        return (
+            f"<littoral.Field: {len(self.values)} vertices, {span}, by {self.report.method}, "
+            f"{self.report.status}{doubts}>"
+        )
+
+
+def _field_from(mesh: Surface, state: tuple[Any, ...]) -> Field:
+    sources, values, confidence, refined, report = state
+    core = _core.Field.of(mesh._core, sources_from(sources), values, confidence, refined, report)
+    return Field(core, mesh)
+
+
+class DistanceSolver:
+    """A method prepared for one surface: what does not depend on the sources is computed once.
+
+    mesh: a littoral surface, or what `as_surface` takes (pyvista, trimesh, open3d, meshio, (V, F)).
+    method: a name of `littoral.methods()`, None for the library's choice; options as keywords. May
+    be used from several threads at once. Raises InputError for an unknown method or option, naming
+    the nearest known one, and UnsupportedError for a method that does not run on such a surface.
+
+    >>> import littoral
+    >>> solver = DistanceSolver(littoral.examples.square(8), method="signed-heat", time_scale=1)
+    >>> near, far = (solver.solve(points=v).values.max() for v in (40, 0))
+    >>> bool(near < far)
+    True
+    """
+
+    def __init__(
+        self,
+        mesh: Any,
+        method: str | None = None,
+        *,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        **options: Any,
+    ) -> None:
+        self.mesh = as_surface(mesh)
+        self._choice = (method, options)
+        self._core = _core.DistanceSolver(
+            self.mesh._core, method or "", option_texts(options), settings(threads, progress)
+        )
+
+    @property
+    def report(self) -> Report:
+        """Of the preparation."""
+        return Report(**self._core.report())
+
+    def solve(
+        self,
+        curves: Any = None,
+        points: Any = None,
+        *,
+        signed: Any = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Field:
+        """Distance from curves and points; arguments as for `distance`."""
+        sources = make_sources(self.mesh, curves, points, signed)
+        return Field(self._core.solve(sources, settings(threads, progress)), self.mesh)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _solver_from, (self.mesh, *self._choice)
+
+    def __repr__(self) -> str:
+        return f"<littoral.DistanceSolver: {self._choice[0] or 'default method'} on {self.mesh!r}>"
+
+
+def _solver_from(mesh: Surface, method: str | None, options: dict[str, Any]) -> DistanceSolver:
+    return DistanceSolver(mesh, method, **options)
+
+
+def distance(
+    mesh: Any,
+    curves: Any = None,
+    points: Any = None,
+    *,
+    signed: Any = None,
+    method: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Field:
+    """Distance along a surface from curves and points, at its vertices [length].
+
+    curves: one or several of: vertices by number; (element, [barycentric]) pairs as potpourri3d has
+    them; points in space (n x 3 floats), which are projected; `Curve`, `FaceChain`. They may be
+    broken. signed: one truth value for all curves or one for each; signed curves (the default) have
+    positive distances to the left of travel. points: vertices, pairs or `SurfacePoint`s.
+    Raises littoral's errors as `DistanceSolver`.
+
+    >>> import littoral
+    >>> field = littoral.distance(littoral.examples.square(4), curves=[2, 7, 12, 17, 22])
+    >>> field.values[:5].tolist()
+    [0.5, 0.25, 0.0, -0.25, -0.5]
+    """
+    surface = as_surface(mesh)
+    sources = make_sources(surface, curves, points, signed)
+    core = _core.distance(
+        surface._core, sources, method or "", option_texts(options), settings(threads, progress)
+    )
+    return Field(core, surface)
+
+
+def distance_matrix(
+    mesh: Any,
+    sources: Any,
+    targets: Any = None,
+    *,
+    method: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Array:
+    """Distances between points of a surface: sources x targets, or x vertices without targets.
+
+    Both are vertices, (element, [barycentric]) pairs or `SurfacePoint`s; one solve for each source
+    on shared factors. +inf between components [length].
+
+    >>> import littoral
+    >>> littoral.distance_matrix(littoral.examples.square(4), [0, 4], [4, 20]).round(6).tolist()
+    [[1.0, 1.0], [0.0, 1.414214]]
+    """
+    surface = as_surface(mesh)
+    values, _ = _core.distance_matrix(
+        surface._core,
+        point_arrays(sources, surface, "sources"),
+        None if targets is None else point_arrays(targets, surface, "targets"),
+        method or "",
+        option_texts(options),
+        settings(threads, progress),
+    )
+    return surface._values(values)
+
+
+def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> list[Floats]:
+    """The lines on which a function given at the vertices takes a value, or several: nodes x 3 each.
+
+    A closed line repeats its first node; larger values are on the left, seen from the normals.
+    """
+    surface = as_surface(mesh)
+    if surface.n_faces == 0:
+        raise UnsupportedError("isolines need faces; a point cloud has none")
+    given = floats(values, "values", finite=False)
+    if len(given) != surface.n_vertices:
+        raise InputError(f"values: expected {surface.n_vertices}, one a vertex, got {len(given)}")
+    out: list[Floats] = []
+    for each in floats(np.atleast_1d(np.asarray(level)), "level"):
+        out.extend(_core.isolines(surface._core, given, float(each)))
+    return out
+
+
+def offset_curves(
+    mesh: Any,
+    curves: Any,
+    distances: float | Iterable[float],
+    *,
+    signed: Any = None,
+    method: str | None = None,
+    **options: Any,
+) -> list[Floats]:
+    """Curves at signed distances from curves on a surface, nodes x 3 each [length].
+
+    >>> import littoral
+    >>> (line,) = littoral.offset_curves(littoral.examples.square(4), [2, 7, 12, 17, 22], .1)
+    >>> line[:, 0].round(6).tolist()[0]
+    0.4
+    """
+    field = distance(mesh, curves, signed=signed, method=method, **options)
+    return field.isolines(distances)
+
+

@@ -1,0 +1,33 @@
+"""The errors that littoral raises; each is one of Python's own kinds as well."""
+
+from __future__ import annotations
+
+
+class Error(Exception):
+    """Root of all errors raised by littoral."""
+
+
+class InputError(Error, ValueError):
+    """Bad input: the message names the file, line or element."""
+
+
+class IndexOutOfRange(InputError, IndexError):
+    """An index that names nothing: the message gives the first such and what there is."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """A combination that is not supported: the message says what would work."""
+
+
+class SolveError(Error, ArithmeticError):
+    """A solve broke down; `residual` is what was reached, -1 where that is not known."""
+
+    residual: float = -1.0
+
+
+class IoError(Error, OSError):
+    """A file could not be read or written, or a size will not fit into memory."""
+
+
+class Cancelled(Error):
+    """The call was stopped."""

@@ -1,0 +1,77 @@
+"""Reading files: littoral's own formats, and those of meshio and trimesh where these are installed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from . import _core
+from ._errors import InputError
+from ._foreign import as_surface
+from ._space import Volume
+from ._surfaces import Mesh, PointCloud, Polygons, Surface
+from ._tets import TetMesh
+
+
+def _of_kind(core: _core.Mesh) -> Surface:
+    kinds = {"point cloud": PointCloud, "polygon mesh": Polygons}
+    if core.kind == "voxel surface":
+        return Surface._of(core)
+    return kinds.get(core.kind, Mesh)._of(core)
+
+
+def read(path: str | os.PathLike[str]) -> Surface:
+    """A mesh or cloud from a file.
+
+    Formats that littoral does not know are read by meshio or trimesh where these are installed
+    (glTF, 3MF, Gmsh, ...). Raises InputError naming file and line, IoError.
+    """
+    name = os.fspath(path)
+    try:
+        return _of_kind(_core.read_mesh(name))
+    except InputError as error:
+        if Path(name).suffix.lower() in _known_extensions() or not Path(name).is_file():
+            raise
+        other = _read_elsewhere(name)
+        if other is None:
+            raise InputError(
+                f"{error}; packages meshio and trimesh read more formats, and neither could read this"
+            ) from error
+        return other
+
+
+def _known_extensions() -> frozenset[str]:
+    return frozenset(_core.mesh_extensions().split())
+
+
+def _read_elsewhere(name: str) -> Surface | None:
+    for library in ("trimesh", "meshio"):
+        try:
+            module: Any = __import__(library)
+        except ImportError:
+            continue
+        try:
+            read_file = module.load if library == "trimesh" else module.read
+            surface = as_surface(read_file(name))
+        except (Exception, SystemExit):  # whatever these raise, the other one may read it
+            continue
+        return surface
+    return None
+
+
+def read_volume(path: str | os.PathLike[str]) -> Volume:
+    """A volume from a file (.vti .nrrd .npy ...)."""
+    return Volume._of(_core.read_volume(os.fspath(path)))
+
+
+def read_tets(path: str | os.PathLike[str]) -> TetMesh:
+    """A tet mesh from a file (.mesh .vtk .tet ...)."""
+    return TetMesh._of(_core.read_tets(os.fspath(path)))
+
+
+def read_sources(path: str | os.PathLike[str], mesh: Any) -> _core.Sources:
+    """Curves and points on a mesh from a file: `distance(mesh, curves=read_sources(path, mesh))`."""
+    return _core.read_sources(os.fspath(path), as_surface(mesh)._core)
+
+

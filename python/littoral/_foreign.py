@@ -1,0 +1,154 @@
+"""Meshes and clouds of other libraries, taken as they are. None of these is imported here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import Array, as_array
+from ._errors import InputError
+from ._surfaces import Mesh, PointCloud, Polygons, Surface
+
+
+def _library(value: Any) -> str:
+    """The package that the value's class, or one it derives from, comes from."""
+    for cls in type(value).__mro__:
+        root = cls.__module__.split(".")[0]
+        if root in ("pyvista", "trimesh", "open3d", "meshio", "pytorch3d", "vtkmodules"):
+            return root
+    return ""
+
+
+def _of_vtk(value: Any) -> Surface:
+    """pyvista.PolyData, or the surface of a grid of cells."""
+    if hasattr(value, "extract_surface") and not hasattr(value, "faces"):
+        value = value.extract_surface()
+    points = np.asarray(value.points)
+    if value.n_cells == value.n_verts or value.n_faces_strict == 0:
+        normals = value.point_data.get("Normals", None)
+        return PointCloud(points, None if normals is None else np.asarray(normals))
+    if value.is_all_triangles:
+        return Mesh(points, value.regular_faces)
+    return Polygons(points, [face for face in value.irregular_faces])
+
+
+def _of_trimesh(value: Any) -> Surface:
+    if hasattr(value, "geometry") and hasattr(value, "to_geometry"):
+        value = value.to_geometry()
+    if hasattr(value, "faces"):
+        return Mesh(np.asarray(value.vertices), np.asarray(value.faces))
+    return PointCloud(np.asarray(value.vertices))
+
+
+def _of_open3d(value: Any) -> Surface:
+    if hasattr(value, "triangles"):
+        return Mesh(np.asarray(value.vertices), np.asarray(value.triangles))
+    if hasattr(value, "triangle"):  # of open3d.t
+        return Mesh(
+            value.vertex.positions.cpu().numpy(), value.triangle.indices.cpu().numpy()
+        )
+    if hasattr(value, "points"):
+        normals = np.asarray(value.normals)
+        return PointCloud(np.asarray(value.points), normals if len(normals) else None)
+    positions = value.point.positions.cpu().numpy()
+    return PointCloud(
+        positions, value.point.normals.cpu().numpy() if "normals" in value.point else None
+    )
+
+
+def _of_meshio(value: Any) -> Surface:
+    points = np.asarray(value.points)
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    faces: list[Array] = []
+    for block in value.cells:
+        if block.type in ("triangle", "quad", "polygon"):
+            faces.extend(np.asarray(block.data))
+    if not faces:
+        return PointCloud(points)
+    if all(len(face) == 3 for face in faces):
+        return Mesh(points, np.array(faces))
+    return Polygons(points, faces)
+
+
+_READ = {
+    "pyvista": _of_vtk,
+    "trimesh": _of_trimesh,
+    "open3d": _of_open3d,
+    "meshio": _of_meshio,
+}
+
+
+def as_surface(value: Any) -> Surface:
+    """A littoral surface, or one made of what other libraries hold.
+
+    Taken: littoral's own; `pyvista.PolyData` and grids (their surface); `trimesh.Trimesh`, scenes
+    and point clouds; open3d's meshes and clouds; `meshio.Mesh`; pytorch3d's `Meshes` of one mesh;
+    and pairs (V, F), of numpy, torch, jax or lists.
+    """
+    if isinstance(value, Surface):
+        return value
+    if isinstance(value, (tuple, list)) and len(value) == 2:
+        return Mesh(value[0], value[1])
+    library = _library(value)
+    if library in _READ:
+        return _READ[library](value)
+    if library == "pytorch3d":
+        if len(value) != 1:
+            raise InputError(f"mesh: expected a batch of one mesh, got {len(value)}")
+        return Mesh(value.verts_packed(), value.faces_packed())
+    raise TypeError(
+        "mesh: expected a littoral surface, a pair (V, F) or a mesh of pyvista, trimesh, open3d or "
+        f"meshio, got {type(value).__module__}.{type(value).__name__}"
+    )
+
+
+def as_cloud_or_surface(V: Any, F: Any = None) -> Surface:
+    """V, F: a surface where F holds integers, a cloud with normals where it holds real numbers."""
+    if F is None:
+        if isinstance(V, (Surface, tuple)) or _library(V):
+            return as_surface(V)
+        return PointCloud(V)
+    second = as_array(F, "F")
+    if second.dtype.kind in "iu":
+        return Mesh(V, second)
+    return PointCloud(V, second)
+
+
+def as_kind(kind: str, surface: Surface, data: dict[str, Array] | None = None) -> Any:
+    """A surface with functions at its vertices as an object of another library: "pyvista",
+    "trimesh" or "meshio"."""
+    data = data or {}
+    faces = surface.faces
+    if kind == "pyvista":
+        import pyvista
+
+        if surface.n_faces == 0:
+            out = pyvista.PolyData(np.array(surface.points))
+        elif isinstance(faces, list):
+            out = pyvista.PolyData.from_irregular_faces(np.array(surface.points), faces)
+        else:
+            out = pyvista.PolyData.from_regular_faces(np.array(surface.points), np.array(faces))
+        for name, values in data.items():
+            out.point_data[name] = values
+        return out
+    if kind == "trimesh":
+        import trimesh
+
+        if surface.n_faces == 0 or isinstance(faces, list) or faces.shape[1] != 3:
+            raise InputError("trimesh holds triangles; this is a " + surface.kind)
+        return trimesh.Trimesh(
+            np.array(surface.points), np.array(faces), vertex_attributes=data, process=False
+        )
+    if kind == "meshio":
+        import meshio
+
+        if isinstance(faces, list):
+            cells = [("polygon", [face]) for face in faces]
+        elif surface.n_faces == 0:
+            cells = [("vertex", np.arange(surface.n_vertices)[:, None])]
+        else:
+            cells = [("triangle" if faces.shape[1] == 3 else "quad", np.array(faces))]
+        return meshio.Mesh(np.array(surface.points), cells, point_data=data)
+    raise InputError(f"as_: expected 'pyvista', 'trimesh' or 'meshio', got {kind!r}")

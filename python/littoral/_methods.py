@@ -1,0 +1,81 @@
+"""Methods and their options by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from . import _core
+
+Options: TypeAlias = list[tuple[str, str]]
+
+
+def _text(name: str, value: Any) -> str:
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, str):
+        return value.replace("_", "-") if value.isidentifier() else value
+    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
+        return _text(name, value.item())
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise TypeError(f"option {name}: expected a number, a word or a truth value, got {value!r}")
+
+
+def option_texts(options: Mapping[str, Any]) -> Options:
+    """Keyword arguments as the library reads them; None leaves an option at its default."""
+    return [
+        (name.rstrip("_").replace("_", "-"), _text(name, value))
+        for name, value in options.items()
+        if value is not None
+    ]
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option of a method."""
+
+    name: str
+    unit: str
+    range: str
+    choices: tuple[str, ...]
+    default: str
+    help: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method: its name, what it does, where it runs, its options and its paper."""
+
+    name: str
+    summary: str
+    domains: tuple[str, ...]
+    options: tuple[Option, ...]
+    reference: str
+
+
+def methods() -> dict[str, list[Method]]:
+    """All methods by purpose, the default of each first.
+
+    >>> import littoral
+    >>> [m.name for m in littoral.methods()["Distance on surfaces"]][:3]
+    ['auto', 'signed-heat', 'unsigned-heat']
+    """
+    return {
+        title: [
+            Method(
+                entry["name"],
+                entry["summary"],
+                tuple(entry["domains"]),
+                tuple(
+                    Option(**{**option, "choices": tuple(option["choices"])})
+                    for option in entry["options"]
+                ),
+                entry["reference"],
+            )
+            for entry in family
+        ]
+        for title, family in _core.method_families()
+    }

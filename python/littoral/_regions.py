@@ -1,0 +1,117 @@
+"""Inside and outside on surfaces: the regions that (broken) curves bound."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from . import _core
+from ._arrays import Array, Floats, Ints
+from ._foreign import as_surface
+from ._methods import option_texts
+from ._settings import Progress, settings
+from ._report import Report
+from ._sources import make_sources, sources_state
+from ._surfaces import Surface
+
+
+class Regions:
+    """Winding numbers on a surface, and which curves bound.
+
+    `region`: faces, integers: the winding number of the larger part of each face. `bounding`,
+    `nonbounding`, `completed`: polylines, nodes x 3 each.
+    """
+
+    def __init__(self, core: _core.Regions, mesh: Surface) -> None:
+        self._core = core
+        self.mesh = mesh
+        self.region: Ints = core.region
+        self.bounding: list[Floats] = core.bounding
+        self.nonbounding: list[Floats] = core.nonbounding
+        self.completed: list[Floats] = core.completed
+        self.report = Report(**core.report())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the computation warns of."""
+        return self.report.warnings
+
+    @property
+    def surface(self) -> tuple[Surface, dict[str, Array]]:
+        """The surface cut along the curves, split where values jump, with its functions by name.
+
+        Within a triangle the winding number function is sum(b winding weight) / sum(b weight).
+        """
+        soup = self._core.surface()
+        return Surface._of(_core.Mesh.from_soup(soup)), soup[5]
+
+    @property
+    def bounding_sources(self) -> _core.Sources:
+        """The curves that bound something, to measure distance from: `distance(mesh, curves=...)`."""
+        return self._core.bounding_sources
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt labels, .html, .png."""
+        self._core.write(os.fspath(path))
+
+    def show(self, path: str | os.PathLike[str] | None = None) -> Any:
+        """The page to turn the regions in: in a notebook, or opened in the browser."""
+        from ._display import show
+
+        return show(self, path)
+
+    def plot(self, ax: Any = None) -> Any:
+        """A picture by littoral's renderer, in matplotlib axes."""
+        from ._display import plot
+
+        return plot(self, ax)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core = self._core
+        return _regions_from, (
+            self.mesh,
+            self.region.copy(),
+            core.surface(),
+            (self.bounding, self.nonbounding, self.completed),
+            sources_state(core.bounding_sources),
+            core.report(),
+        )
+
+    def __repr__(self) -> str:
+        labels = sorted(set(self.region.tolist()))
+        shown = ", ".join(str(label) for label in labels[:8]) + (" ..." if len(labels) > 8 else "")
+        return f"<littoral.Regions: {len(self.region)} faces, winding numbers {shown}>"
+
+
+def _regions_from(mesh: Surface, *state: Any) -> Regions:
+    from ._sources import sources_from
+
+    region, surface, lines, bounding, report = state
+    core = _core.Regions.of(mesh._core, region, surface, *lines, sources_from(bounding), report)
+    return Regions(core, mesh)
+
+
+def winding(
+    mesh: Any,
+    curves: Any,
+    *,
+    method: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Regions:
+    """Winding numbers of signed curves on a triangle mesh; curves as for `distance`.
+
+    Components without a curve are one region, 0.
+
+    >>> import littoral
+    >>> square = littoral.examples.square(4)
+    >>> littoral.winding(square, [6, 8, 18, 16, 6]).region.tolist().count(1)
+    8
+    """
+    surface = as_surface(mesh)
+    sources = make_sources(surface, curves)
+    core = _core.winding(
+        surface._core, sources, method or "", option_texts(options), settings(threads, progress)
+    )
+    return Regions(core, surface)

@@ -1,0 +1,86 @@
+"""How calls run: threads, memory, and whom they tell of their progress."""
+
+from __future__ import annotations
+
+import contextlib
+import contextvars
+import sys
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+from . import _core
+
+Progress: TypeAlias = Callable[[float, str], object]
+
+_progress: contextvars.ContextVar[Progress | None] = contextvars.ContextVar(
+    "littoral_progress", default=None
+)
+_defaults = {"threads": 0, "memory_limit": 0.0}
+
+
+def settings(threads: int | None = None, callback: Progress | None = None) -> _core.Settings | None:
+    """What a call is run with; None where everything is as by default."""
+    told = callback or _progress.get()
+    used = _defaults["threads"] if threads is None else threads
+    if isinstance(used, bool) or int(used) != used or used < 0:
+        raise ValueError(f"threads: expected a number of threads or 0 for all cores, got {threads!r}")
+    if not used and told is None and not _defaults["memory_limit"]:
+        return None
+    return _core.Settings(int(used), told, float(_defaults["memory_limit"]))
+
+
+def set_threads(threads: int) -> None:
+    """Threads of every call that does not say otherwise; 0: all cores."""
+    settings(threads)  # complains
+    _defaults["threads"] = threads
+
+
+def set_memory_limit(limit: float) -> None:
+    """Work foreseen to need more [bytes] is an IoError before it is begun; 0: what the system has."""
+    if not limit >= 0:
+        raise ValueError(f"limit: expected bytes or 0, got {limit!r}")
+    _defaults["memory_limit"] = float(limit)
+
+
+class Bar:
+    """A line that shows how far a call is, in a terminal or a notebook."""
+
+    def __init__(self) -> None:
+        self._shown = ""
+
+    def __call__(self, fraction: float, stage: str) -> None:
+        filled = int(30 * fraction)
+        line = f"\r{100 * fraction:3.0f}% |{'#' * filled}{' ' * (30 - filled)}| {stage}"
+        sys.stderr.write(line.ljust(len(self._shown)))
+        sys.stderr.flush()
+        self._shown = line
+
+    def close(self) -> None:
+        """Ends the line."""
+        if self._shown:
+            sys.stderr.write("\n")
+            sys.stderr.flush()
+
+
+@contextlib.contextmanager
+def progress(callback: Progress | None = None) -> Iterator[None]:
+    """Within this context, long calls tell how far they are.
+
+    Without a callback a bar is drawn on the standard error. A callback gets the share of the work
+    that is done, 0 to 1, and what is being done; what it raises stops the call and is raised by it.
+
+    >>> import littoral
+    >>> seen = []
+    >>> with littoral.progress(lambda share, stage: seen.append(share)):
+    ...     field = littoral.distance(littoral.examples.square(4), points=0)
+    >>> seen[-1]
+    1.0
+    """
+    bar = Bar() if callback is None else None
+    token = _progress.set(callback or bar)
+    try:
+        yield
+    finally:
+        _progress.reset(token)
+        if bar is not None:
+            bar.close()

@@ -1,0 +1,239 @@
+"""What distance on a surface is measured from: points and curves, given in any of the usual ways."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import Floats, as_array, check_range, floats, is_vertex_list, narrowed
+from ._errors import InputError
+
+_VERTEX, _EDGE, _FACE = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class SurfacePoint:
+    """A point of a surface: a vertex, a point of an edge, or of a face by barycentric coordinates.
+
+    >>> SurfacePoint.vertex(3)
+    SurfacePoint.vertex(3)
+    >>> SurfacePoint.face(7, .5, .25, .25)
+    SurfacePoint.face(7, 0.5, 0.25, 0.25)
+    """
+
+    on: int
+    element: int
+    b: tuple[float, float, float]
+
+    @staticmethod
+    def vertex(v: int) -> SurfacePoint:
+        """A vertex by number."""
+        return SurfacePoint(_VERTEX, int(v), (1.0, 0.0, 0.0))
+
+    @staticmethod
+    def edge(e: int, t: float) -> SurfacePoint:
+        """(1 - t) A + t B of the edge from A to B, which is `mesh.edges[e]`."""
+        return SurfacePoint(_EDGE, int(e), (1 - float(t), float(t), 0.0))
+
+    @staticmethod
+    def face(f: int, a: float, b: float, c: float) -> SurfacePoint:
+        """a A + b B + c C of the triangle A, B, C; a + b + c = 1."""
+        return SurfacePoint(_FACE, int(f), (float(a), float(b), float(c)))
+
+    def __repr__(self) -> str:
+        if self.on == _VERTEX:
+            return f"SurfacePoint.vertex({self.element})"
+        if self.on == _EDGE:
+            return f"SurfacePoint.edge({self.element}, {self.b[1]})"
+        return f"SurfacePoint.face({self.element}, {self.b[0]}, {self.b[1]}, {self.b[2]})"
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve on a surface with what it is to its sides.
+
+    `nodes`: vertices by number, surface points, potpourri3d's (element, [barycentric]) pairs, or
+    points in space (n x 3), which are projected. Consecutive nodes need not share a face. A signed
+    curve has positive distances to the left of travel. A closed one repeats its first node.
+    """
+
+    nodes: Any
+    signed: bool = True
+
+
+@dataclass(frozen=True)
+class FaceChain:
+    """Faces, neighbours in this order, each inside one more than the last; for winding numbers."""
+
+    faces: Any
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+
+
+def _is_node(value: Any) -> bool:
+    """A SurfacePoint or a pair (element, [barycentric])."""
+    if isinstance(value, SurfacePoint):
+        return True
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        return False
+    return isinstance(value[0], (int, np.integer)) and not _is_number(value[1])
+
+
+def _node(value: Any, name: str) -> SurfacePoint:
+    if isinstance(value, SurfacePoint):
+        return value
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
+        return SurfacePoint.vertex(int(value))
+    if not _is_node(value):
+        raise TypeError(
+            f"{name}: expected a vertex, a SurfacePoint or (element, [barycentric]), got {value!r}"
+        )
+    element, b = value
+    b = floats(b, f"{name}'s barycentric coordinates")
+    if len(b) == 0:
+        return SurfacePoint.vertex(element)
+    if len(b) == 1:
+        return SurfacePoint.edge(element, b[0])
+    if len(b) == 3:
+        return SurfacePoint.face(element, b[0], b[1], b[2])
+    raise InputError(
+        f"{name}: expected no barycentric coordinate (a vertex), one (an edge) or three (a face), "
+        f"got {len(b)}"
+    )
+
+
+def point_arrays(value: Any, mesh: Any, name: str) -> _core.Points:
+    """Points of a surface in any of the ways, checked against it.
+
+    Raises IndexOutOfRange for elements that do not exist.
+    """
+    if is_vertex_list(value):
+        vertices = np.atleast_1d(as_array(value, name))
+        vertices = vertices.reshape(-1)
+        if vertices.size == 0:
+            vertices = vertices.astype(np.int32)
+        check_range(vertices, mesh.n_vertices, name, "vertices")
+        b = np.zeros((len(vertices), 3))
+        b[:, 0] = 1
+        return _core.Points(np.zeros(len(vertices), np.int32), narrowed(vertices, name), b)
+    if _is_node(value):
+        value = [value]
+    if not isinstance(value, Iterable) or isinstance(value, str):
+        raise TypeError(f"{name}: expected vertices or surface points, got {value!r}")
+    nodes = [_node(v, f"{name}[{i}]") for i, v in enumerate(value)]
+    on = np.array([p.on for p in nodes], np.int32)
+    element = np.array([p.element for p in nodes], np.int64)
+    b = np.array([p.b for p in nodes], np.float64).reshape(-1, 3)
+    for kind, count, of in (
+        (_VERTEX, mesh.n_vertices, "vertices"),
+        (_EDGE, mesh.n_edges, "edges"),
+        (_FACE, mesh.n_faces, "faces"),
+    ):
+        for i in np.flatnonzero(on == kind):
+            check_range(element[i : i + 1], count, f"{name}[{i}]", of)
+    floats(b, f"{name}'s barycentric coordinates", 3)
+    return _core.Points(on, element.astype(np.int32), b)
+
+
+def _space_points(value: Any) -> Floats | None:
+    """n x 3 real numbers, or None where the value is something else."""
+    if isinstance(value, (list, tuple)) and value and (_is_node(value[0]) or _is_number(value[0])):
+        return None
+    try:
+        array = as_array(value, "curve")
+    except (InputError, TypeError):
+        return None
+    if array.dtype.kind == "f" and array.ndim == 2:
+        return floats(array, "a curve in space", 3)
+    return None
+
+
+def _is_one_curve(value: Any) -> bool:
+    if isinstance(value, (Curve, FaceChain)) or is_vertex_list(value):
+        return True
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return len(value) > 0 and (_is_node(value[0]) or _is_mixed(value))
+    return not isinstance(value, np.ndarray) or (value.dtype.kind == "f" and value.ndim == 2)
+
+
+def _is_mixed(value: Sequence[Any]) -> bool:
+    """Vertices and other nodes together."""
+    return any(isinstance(v, (int, np.integer)) for v in value)
+
+
+def _curves(value: Any) -> list[Any]:
+    """One or several curves as a list of them."""
+    if value is None:
+        return []
+    if hasattr(value, "__array__") and not isinstance(value, np.ndarray):
+        value = as_array(value, "curves")
+    if isinstance(value, (list, tuple)) and _space_points(value) is not None:
+        return [np.asarray(value, np.float64)]
+    return [value] if _is_one_curve(value) else list(value)
+
+
+def make_sources(
+    mesh: Any, curves: Any = None, points: Any = None, signed: Any = None
+) -> _core.Sources:
+    """The sources on a mesh; `signed` is one truth value for all curves or one for each."""
+    if isinstance(curves, _core.Sources):
+        return curves
+    out = _core.Sources()
+    given = _curves(curves)
+    if signed is None or isinstance(signed, (bool, np.bool_)):
+        signs = [signed] * len(given)
+    else:
+        signs = list(signed)
+        if len(signs) != len(given):
+            raise InputError(f"signed: there are {len(signs)} truth values for {len(given)} curves")
+    for i, (curve, sign) in enumerate(zip(given, signs, strict=True)):
+        name = f"curves[{i}]"
+        if isinstance(curve, FaceChain):
+            faces = np.atleast_1d(as_array(curve.faces, name))
+            check_range(faces, mesh.n_faces, name, "faces")
+            out.add_chain(narrowed(faces, name))
+            continue
+        is_signed = True if sign is None else bool(sign)
+        if isinstance(curve, Curve):
+            is_signed = curve.signed if sign is None else bool(sign)
+            curve = curve.nodes
+        in_space = _space_points(curve)
+        if in_space is not None:
+            out.add_space_curve(in_space, is_signed)
+        else:
+            out.add_curve(point_arrays(curve, mesh, name), is_signed)
+    if points is not None:
+        out.add_points(point_arrays(points, mesh, "points"))
+    return out
+
+
+def sources_state(sources: _core.Sources) -> tuple[Any, ...]:
+    """Sources as plain data."""
+    n_curves, _, n_space, n_chains = sources.sizes()
+    curves = [sources.curve(i) for i in range(n_curves)]
+    return (
+        [(points.arrays(), signed) for points, signed in curves],
+        sources.points().arrays(),
+        [sources.space_curve(i) for i in range(n_space)],
+        [sources.chain(i) for i in range(n_chains)],
+    )
+
+
+def sources_from(state: tuple[Any, ...]) -> _core.Sources:
+    """The sources of such data."""
+    out = _core.Sources()
+    curves, points, space, chains = state
+    for arrays, signed in curves:
+        out.add_curve(_core.Points(*arrays), signed)
+    out.add_points(_core.Points(*points))
+    for nodes, signed in space:
+        out.add_space_curve(nodes, signed)
+    for faces in chains:
+        out.add_chain(np.asarray(faces, np.int32))
+    return out

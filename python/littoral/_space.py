@@ -1,0 +1,363 @@
+"""Signed distance and winding numbers in space, around surfaces and clouds that may be broken."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._arrays import Array, Floats, Ints, as_array, floats, like, result_type
+from ._errors import InputError
+from ._foreign import as_cloud_or_surface
+from ._methods import option_texts
+from ._settings import Progress, settings
+from ._report import Report
+from ._surfaces import Mesh, PointCloud, Surface, triple
+
+
+class Closest(NamedTuple):
+    """Where an input is nearest to n points."""
+
+    point: Array  #: n x 3, on the input
+    face: Ints  #: n: face of a surface, point of a cloud
+    barycentric: Array  #: n x 3: of `corners`, in [0, 1]
+    corners: Ints  #: n x 3: vertices; of a polygon those of the triangle cut from it
+    distance: Array  #: n [length], >= 0
+
+
+def _queries(points: Any) -> tuple[Floats, Any, bool]:
+    """Points as n x 3, the type results have, and whether one point alone was given."""
+    array = as_array(points, "points")
+    if array.ndim == 1 and array.shape == (3,):
+        return floats(array.reshape(1, 3), "points", 3), result_type(points), True
+    return floats(array, "points", 3), result_type(points), False
+
+
+class SDF:
+    """Signed distance around a surface, soup or oriented cloud: negative inside [length].
+
+    `SDF(V, F)`: vertices x 3 and faces; `SDF(P, N)`: points x 3 and normals x 3; `SDF(mesh)`: a
+    littoral surface or what `as_surface` takes. method: a name of `littoral.methods()`; without
+    one, tori for clouds, and surfaces are completed over their holes and then measured. flip
+    reverses all normals; estimate_normals computes those of a cloud. Callable at points, from
+    several threads.
+
+    >>> import numpy as np, littoral
+    >>> cube = littoral.examples.cube()
+    >>> sdf = SDF(cube)
+    >>> sdf([[.5, .5, .5], [.5, .5, 2]]).tolist()
+    [-0.5, 1.0]
+    >>> float(sdf([0, 0, 2]))
+    1.0
+    """
+
+    def __init__(
+        self,
+        V: Any,
+        F: Any = None,
+        *,
+        method: str | None = None,
+        flip: bool = False,
+        estimate_normals: bool = False,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        **options: Any,
+    ) -> None:
+        self.input = as_cloud_or_surface(V, F)
+        self._made = (method, flip, estimate_normals, options)
+        self._core = _core.Sdf.of(
+            self.input._core,
+            method or "",
+            option_texts(options),
+            bool(flip),
+            bool(estimate_normals),
+            settings(threads, progress),
+        )
+
+    @classmethod
+    def _of(cls, core: _core.Sdf, made: tuple[Any, ...]) -> SDF:
+        self = cls.__new__(cls)
+        self._core = core
+        self._made = made
+        return self
+
+    def __call__(self, points: Any, *, threads: int | None = None) -> Array:
+        """Distance at points (n x 3, or one of 3) [length]; methods on grids raise UnsupportedError."""
+        x, dtype, single = _queries(points)
+        values = like(self._core.at(x, settings(threads)), dtype)
+        return values[0] if single else values
+
+    def gradient(self, points: Any, *, threads: int | None = None) -> Array:
+        """Gradient at points: n x 3; zero where there is none."""
+        return self.with_gradient(points, threads=threads)[1]
+
+    def with_gradient(self, points: Any, *, threads: int | None = None) -> tuple[Array, Array]:
+        """Distance and gradient at once."""
+        x, dtype, single = _queries(points)
+        values, gradients = self._core.with_gradients(x, settings(threads))
+        values, gradients = like(values, dtype), like(gradients, dtype)
+        return (values[0], gradients[0]) if single else (values, gradients)
+
+    def closest(self, points: Any, *, threads: int | None = None) -> Closest:
+        """Where the input itself is nearest, without what a method adds to it."""
+        x, dtype, single = _queries(points)
+        point, face, corners, barycentric, distance = self._core.closest(x, settings(threads))
+        out = (like(point, dtype), face, like(barycentric, dtype), corners, like(distance, dtype))
+        return Closest(*(each[0] for each in out)) if single else Closest(*out)
+
+    def winding_number(self, points: Any, *, threads: int | None = None) -> Array:
+        """Generalized winding number of the input: 1 inside, 0 outside of a closed surface."""
+        x, dtype, single = _queries(points)
+        values = like(self._core.winding_number(x, settings(threads)), dtype)
+        return values[0] if single else values
+
+    def confidence(self, points: Any, *, threads: int | None = None) -> Array:
+        """How sure inside and outside are, 0 to 1: 1 as for a closed surface, 0 half way between."""
+        x, dtype, single = _queries(points)
+        values = like(self._core.confidence(x, settings(threads)), dtype)
+        return values[0] if single else values
+
+    def sample(
+        self,
+        resolution: int | None = None,
+        *,
+        spacing: float | None = None,
+        bounds: Sequence[float] | None = None,
+        padding: float = 0.25,
+        grid: Volume | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Volume:
+        """Distance at the nodes of a grid around the input.
+
+        resolution: nodes along the longest side (64), or spacing [length]. bounds: x0 y0 z0 x1 y1
+        z1; without, a margin of `padding` longest sides. grid: a volume whose nodes to use instead.
+        """
+        nodes = grid._core.grid if grid is not None else None
+        if nodes is None:
+            box = None if bounds is None else list(floats(bounds, "bounds"))
+            if box is not None and len(box) != 6:
+                raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
+            nodes = _core.Grid.around(self._core, resolution, spacing, box, float(padding))
+        return Volume._of(self._core.sample(nodes, settings(threads, progress)))
+
+    @property
+    def bounds(self) -> Floats:
+        """The corners of the box around the input: 2 x 3 [length]."""
+        return self._core.bounds()
+
+    @property
+    def report(self) -> Report:
+        """Of the preparation."""
+        return Report(**self._core.report())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the preparation warns of."""
+        return self.report.warnings
+
+    def __or__(self, other: SDF) -> SDF:
+        return unite(self, other)
+
+    def __and__(self, other: SDF) -> SDF:
+        return intersect(self, other)
+
+    def __sub__(self, other: SDF) -> SDF:
+        return subtract(self, other)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if isinstance(self._made[0], str) and self._made[0] in _COMBINE:
+            return _combined_from, self._made
+        if isinstance(self._made[0], Volume):
+            return sdf_of_volume, self._made
+        return _sdf_from, (self.input, *self._made)
+
+    def __repr__(self) -> str:
+        what = repr(self.input) if hasattr(self, "input") else str(self._made[0])
+        return f"<littoral.SDF: {self.report.method or 'volume'} around {what}>"
+
+
+def _sdf_from(
+    surface: Surface, method: str | None, flip: bool, estimate: bool, options: dict[str, Any]
+) -> SDF:
+    return SDF(surface, method=method, flip=flip, estimate_normals=estimate, **options)
+
+
+_COMBINE = {"unite": _core.unite, "intersect": _core.intersect, "subtract": _core.subtract}
+
+
+def _combined_from(how: str, a: SDF, b: SDF, blend: float) -> SDF:
+    if not (isinstance(a, SDF) and isinstance(b, SDF)):
+        raise TypeError(f"{how}: expected two SDFs, got {type(a).__name__}, {type(b).__name__}")
+    return SDF._of(_COMBINE[how](a._core, b._core, float(blend)), (how, a, b, blend))
+
+
+def unite(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
+    """What is in either shape; corners where they meet are rounded `blend` from them [length].
+
+    Signs and zero set are right; the magnitude is a bound. Also `a | b`.
+    """
+    return _combined_from("unite", a, b, blend)
+
+
+def intersect(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
+    """What is in both shapes, as `unite`. Also `a & b`."""
+    return _combined_from("intersect", a, b, blend)
+
+
+def subtract(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
+    """The first shape without the second, as `unite`. Also `a - b`."""
+    return _combined_from("subtract", a, b, blend)
+
+
+class Volume:
+    """Values at the nodes of a grid, linear along each axis between them.
+
+    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length].
+    """
+
+    _core: _core.Volume
+
+    def __init__(
+        self,
+        values: Any,
+        spacing: float | Sequence[float] = 1.0,
+        origin: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        array = as_array(values, "values")
+        if array.ndim != 3 or array.dtype.kind not in "fiub":
+            raise InputError(
+                f"values: expected nx x ny x nz numbers, got {array.dtype} {array.shape}"
+            )
+        grid = _core.Grid(array.shape, triple(origin, "origin"), triple(spacing, "spacing"))
+        self._core = _core.Volume(grid, np.ascontiguousarray(array.ravel(order="F"), np.float64))
+
+    @classmethod
+    def _of(cls, core: _core.Volume) -> Volume:
+        self = cls.__new__(cls)
+        self._core = core
+        return self
+
+    @property
+    def values(self) -> Floats:
+        """nx x ny x nz, read-only, not copied."""
+        return self._core.values.reshape(tuple(self._core.grid.n), order="F")
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Nodes along x, y and z."""
+        nx, ny, nz = self._core.grid.n
+        return nx, ny, nz
+
+    @property
+    def spacing(self) -> Floats:
+        """Between nodes, by axis [length]."""
+        return self._core.grid.spacing
+
+    @property
+    def origin(self) -> Floats:
+        """Where node 0, 0, 0 lies."""
+        return self._core.grid.origin
+
+    def nodes(self) -> Floats:
+        """Where the nodes lie: nx x ny x nz x 3."""
+        axes = [o + s * np.arange(n) for o, s, n in zip(self.origin, self.spacing, self.shape, strict=True)]
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+
+    def isosurface(
+        self, level: float = 0.0, *, close_at_box: bool = False, threads: int | None = None
+    ) -> Surface:
+        """The surface on which the volume takes the level, larger values outside.
+
+        Closed unless it meets the box, or everywhere with close_at_box. Raises InputError where the
+        level is met nowhere.
+        """
+        core = _core.isosurface(self._core, float(level), bool(close_at_box), settings(threads))
+        return Mesh._of(core)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes by extension: .vti .vdb .nrrd .npy .csv ..."""
+        self._core.write(os.fspath(path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Volume, (np.array(self.values), tuple(self.spacing), tuple(self.origin))
+
+    def __repr__(self) -> str:
+        return f"<littoral.Volume: {' x '.join(str(n) for n in self.shape)} nodes>"
+
+
+def sdf_of_volume(volume: Volume) -> SDF:
+    """A volume of signed distance as an SDF, linear between its nodes; outside its box a bound."""
+    return SDF._of(_core.Sdf.of_volume(volume._core), (volume,))
+
+
+def signed_heat_grid(
+    V: Any, F: Any = None, resolution: int | None = None, *, spacing: float | None = None,
+    bounds: Sequence[float] | None = None, padding: float = 0.25, **options: Any
+) -> Volume:  # fmt: skip
+    """Signed distance on a grid by the signed heat method; V, F as for `SDF`, options of the method."""
+    sdf = SDF(V, F, method="signed-heat", **options)
+    return sdf.sample(resolution, spacing=spacing, bounds=bounds, padding=padding)
+
+
+def offset(
+    shape: Any,
+    distances: float | Iterable[float],
+    *,
+    open: float = 0.0,
+    close: float = 0.0,
+    resolution: int | None = None,
+    spacing: float | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> list[Surface]:
+    """The surfaces at signed distances from a shape, one for each [length].
+
+    shape: a volume of distance, an SDF, or what `SDF` takes; the latter are sampled (resolution,
+    spacing). open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps fill.
+
+    >>> import littoral
+    >>> (shell,) = offset(littoral.examples.cube(), .1, resolution=24)
+    >>> bool(abs(shell.points[:, 0].max() - 1.1) < .02)
+    True
+    """
+    wanted = list(floats(np.atleast_1d(np.asarray(distances)), "distances"))
+    if not isinstance(shape, Volume):
+        sdf = shape if isinstance(shape, SDF) else SDF(shape)
+        side = float(np.ptp(sdf.bounds, axis=0).max())
+        reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
+        shape = sdf.sample(resolution, spacing=spacing, padding=max(0.25, 1.5 * reach))
+    cores = _core.offset(
+        shape._core, wanted, float(open), float(close), settings(threads, progress)
+    )
+    return [Mesh._of(core) for core in cores]
+
+
+def winding_number(V: Any, F: Any, points: Any, *, threads: int | None = None) -> Array:
+    """Generalized winding number of a surface (V, F) or cloud (P, N) at points."""
+    return SDF(V, F, method="winding").winding_number(points, threads=threads)
+
+
+def fit_tori(
+    P: Any,
+    N: Any = None,
+    *,
+    flip: bool = False,
+    estimate_normals: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> PointCloud:
+    """The tori that fit a cloud best, as a cloud that `SDF` takes as it is and that can be saved."""
+    cloud = as_cloud_or_surface(P, N)
+    soup = _core.fit_tori(
+        cloud._core,
+        option_texts(options),
+        bool(flip),
+        bool(estimate_normals),
+        settings(threads, progress),
+    )
+    return PointCloud._of(_core.Mesh.from_soup(soup))

@@ -1,0 +1,256 @@
+"""Surfaces: triangle and polygon meshes, point clouds, boundaries of voxels."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+
+from . import _core
+from ._arrays import (
+    Array,
+    Floats,
+    Ints,
+    as_array,
+    check_range,
+    floats,
+    ints,
+    like,
+    narrowed,
+    result_type,
+)
+from ._errors import InputError
+from ._sources import point_arrays
+
+S = TypeVar("S", bound="Surface")
+
+
+class Surface:
+    """What all surfaces have; make one of `Mesh`, `Polygons`, `PointCloud` or `Voxels`.
+
+    Immutable. Nothing is merged, dropped or repaired: nonmanifold edges, boundaries, several
+    components, inconsistent orientation and degenerate faces are all allowed. The library keeps one
+    copy of the coordinates (float64) and indices (int32).
+    """
+
+    _core: _core.Mesh
+    _dtype: Any = np.float64
+
+    @classmethod
+    def _of(cls: type[S], core: _core.Mesh, dtype: Any = np.float64) -> S:
+        self = cls.__new__(cls)
+        self._core = core
+        self._dtype = dtype
+        return self
+
+    @property
+    def kind(self) -> str:
+        """ "triangle mesh", "polygon mesh", "point cloud" or "voxel surface"."""
+        return self._core.kind
+
+    @property
+    def n_vertices(self) -> int:
+        """Vertices, or points of a cloud."""
+        return self._core.n_vertices
+
+    @property
+    def n_faces(self) -> int:
+        """Faces; 0 of a cloud."""
+        return self._core.n_faces
+
+    @property
+    def n_edges(self) -> int:
+        """Edges between vertices, however many faces share them."""
+        return self._core.n_edges
+
+    @property
+    def n_components(self) -> int:
+        """Connected components; vertices without a face are none."""
+        return self._core.n_components
+
+    @property
+    def points(self) -> Floats:
+        """vertices x 3, read-only, not copied [length]."""
+        return self._core.points
+
+    @property
+    def edges(self) -> Ints:
+        """edges x 2, by vertex, in the order in which `SurfacePoint.edge` counts them."""
+        return self._core.edges()
+
+    @property
+    def corners(self) -> Ints:
+        """The vertices of all faces one after the other, read-only, not copied."""
+        return self._core.corners
+
+    @property
+    def face_offsets(self) -> Ints:
+        """faces + 1: where each face begins among the corners, read-only, not copied."""
+        return self._core.face_offsets
+
+    @property
+    def faces(self) -> Ints | list[Ints]:
+        """faces x 3 or x 4 (read-only, not copied) where all have as many corners, or a list."""
+        offsets, corners = self.face_offsets, self.corners
+        sizes = np.diff(offsets)
+        if len(sizes) == 0:
+            return np.empty((0, 3), np.int32)
+        if (sizes == sizes[0]).all():
+            return corners.reshape(-1, int(sizes[0]))
+        return [corners[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
+
+    @property
+    def normals(self) -> Floats:
+        """vertices x 3 as they were given, or empty."""
+        return self._core.normals
+
+    def positions(self, points: Any) -> Floats:
+        """Where points of the surface lie: n x 3 [length]."""
+        return self._core.positions(point_arrays(points, self, "points"))
+
+    def interpolate(self, values: Any, points: Any) -> Floats:
+        """A function given at the vertices, at points of the surface: linear on edges and triangles."""
+        given = floats(values, "values", finite=False)
+        if len(given) != self.n_vertices:
+            raise InputError(f"values: expected {self.n_vertices}, one a vertex, got {len(given)}")
+        return self._core.interpolate(given, point_arrays(points, self, "points"))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the surface by extension (.obj .ply .off .stl ...)."""
+        self._core.write(os.fspath(path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _surface_from, (type(self), self._core.soup(), np.dtype(self._dtype).str)
+
+    def __repr__(self) -> str:
+        name = type(self).__name__
+        if self.n_faces == 0:
+            return f"<littoral.{name}: {self.n_vertices} points>"
+        return f"<littoral.{name}: {self.n_vertices} vertices, {self.n_faces} faces>"
+
+    def _values(self, values: Array) -> Array:
+        return like(values, self._dtype)
+
+
+def _surface_from(cls: type[Surface], soup: tuple[Any, ...], dtype: str) -> Surface:
+    return cls._of(_core.Mesh.from_soup(soup), np.dtype(dtype).type)
+
+
+class Mesh(Surface):
+    """A mesh of triangles or polygons.
+
+    V: vertices x 3, real numbers [length]. F: faces x corners, integers, by vertex from 0; faces of
+    fewer corners than columns end in -1. Raises TypeError, InputError (a ValueError) and
+    IndexOutOfRange (an IndexError) naming the first entry that is wrong.
+
+    >>> Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    <littoral.Mesh: 3 vertices, 1 faces>
+    """
+
+    def __init__(self, V: Any, F: Any) -> None:
+        points = floats(V, "V", 3, finite=False)
+        faces = as_array(F, "F")
+        if faces.dtype.kind not in "iu" and faces.size:
+            raise TypeError(f"F: expected integers (faces x corners), got {faces.dtype}")
+        if faces.size == 0:
+            raise InputError("F: there are no faces; PointCloud takes points alone")
+        if faces.ndim != 2 or faces.shape[1] < 3:
+            raise InputError(f"F: expected shape faces x 3 (or more), got {faces.shape}")
+        self._dtype = result_type(V)
+        if faces.shape[1] > 3 and faces.min() < 0:
+            kept = faces >= 0
+            ends_first = np.diff(kept.astype(np.int8), axis=1).max(axis=1, initial=0) > 0
+            if (faces < -1).any() or ends_first.any():
+                bad = int(np.flatnonzero((faces < -1).any(axis=1) | ends_first)[0])
+                raise InputError(f"F[{bad}] is {faces[bad]}: only -1 may follow a face's corners")
+            check_range(faces[kept], len(points), "the corners of F", "vertices")
+            offsets = np.concatenate([[0], np.cumsum(kept.sum(axis=1))])
+            self._core = _core.Mesh.polygons(
+                points, narrowed(faces[kept], "F"), offsets.astype(np.int32)
+            )
+            return
+        check_range(faces, len(points), "F", "vertices")
+        self._core = _core.Mesh.of(points, narrowed(faces, "F"))
+
+
+class Polygons(Surface):
+    """A mesh of polygons: V vertices x 3, and a list of faces, each a sequence of vertices.
+
+    >>> Polygons([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, .5, 0]], [[0, 1, 2, 3], [1, 4, 2]])
+    <littoral.Polygons: 5 vertices, 2 faces>
+    """
+
+    def __init__(self, V: Any, faces: Sequence[Any]) -> None:
+        points = floats(V, "V", 3, finite=False)
+        if len(faces) == 0:
+            raise InputError("faces: there are none; PointCloud takes points alone")
+        rows = [ints(face, f"faces[{f}]") for f, face in enumerate(faces)]
+        offsets = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.int32)
+        corners = np.concatenate(rows)
+        check_range(corners, len(points), "the corners of faces", "vertices")
+        self._core = _core.Mesh.polygons(points, corners, offsets)
+        self._dtype = result_type(V)
+
+
+class PointCloud(Surface):
+    """A point cloud: P points x 3 and, optionally, N normals x 3 (need not be of unit length).
+
+    Normals are estimated where they are needed and not given.
+
+    >>> PointCloud([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    <littoral.PointCloud: 3 points>
+    """
+
+    def __init__(self, P: Any, N: Any = None) -> None:
+        points = floats(P, "P", 3)
+        normals = np.empty((0, 3)) if N is None else floats(N, "N", 3)
+        if N is not None and len(normals) != len(points):
+            raise InputError(f"N: expected one normal a point ({len(points)}), got {len(normals)}")
+        if len(points) == 0:
+            raise InputError("P: there are no points")
+        self._core = _core.Mesh.cloud(points, normals)
+        self._dtype = result_type(P)
+
+
+class Voxels(Surface):
+    """The boundary of the voxels that are not 0, with normals that do not know about the grid.
+
+    inside: nx x ny x nz. The centre of voxel i, j, k lies at origin + (i, j, k) * spacing.
+
+    >>> import numpy as np
+    >>> Voxels(np.pad(np.ones((2, 2, 2), bool), 1)).n_faces
+    24
+    """
+
+    def __init__(
+        self,
+        inside: Any,
+        spacing: float | Sequence[float] = 1.0,
+        origin: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        values = as_array(inside, "inside")
+        if values.ndim != 3 or values.dtype.kind not in "biuf":
+            raise InputError(
+                f"inside: expected nx x ny x nz numbers, got {values.dtype} {values.shape}"
+            )
+        self._inside = np.asarray(values != 0)
+        self._spacing = triple(spacing, "spacing")
+        self._origin = triple(origin, "origin")
+        grid = _core.Grid(self._inside.shape, self._origin, self._spacing)
+        x_first = self._inside.ravel(order="F").astype(np.uint8)
+        self._core = _core.Mesh.voxels(grid, x_first)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Voxels, (self._inside, self._spacing, self._origin)
+
+
+def triple(value: Any, name: str) -> tuple[float, float, float]:
+    """One number for all axes, or one for each."""
+    numbers = np.atleast_1d(floats(np.atleast_1d(as_array(value, name)), name))
+    if numbers.size == 1:
+        numbers = np.repeat(numbers, 3)
+    if numbers.shape != (3,):
+        raise InputError(f"{name}: expected one number or three, got {numbers.size}")
+    return float(numbers[0]), float(numbers[1]), float(numbers[2])

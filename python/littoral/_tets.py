@@ -1,0 +1,194 @@
+"""Distance through tet meshes."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import (
+    Array,
+    Floats,
+    Ints,
+    as_array,
+    check_range,
+    floats,
+    ints,
+    like,
+    narrowed,
+    result_type,
+)
+from ._errors import InputError
+from ._foreign import as_cloud_or_surface
+from ._methods import option_texts
+from ._settings import Progress, settings
+from ._report import Report
+
+
+class TetMesh:
+    """Tetrahedra: V vertices x 3 [length], T tets x 4 by vertex.
+
+    >>> TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    <littoral.TetMesh: 4 vertices, 1 tets>
+    """
+
+    def __init__(self, V: Any, T: Any) -> None:
+        points = floats(V, "V", 3)
+        tets = ints(T, "T", 4)
+        if len(tets) == 0:
+            raise InputError("T: there are no tets")
+        check_range(tets, len(points), "T", "vertices")
+        self._core = _core.TetMesh(points, tets)
+        self._dtype: Any = result_type(V)
+
+    @classmethod
+    def _of(cls, core: _core.TetMesh) -> TetMesh:
+        self = cls.__new__(cls)
+        self._core = core
+        self._dtype = np.float64
+        return self
+
+    @property
+    def points(self) -> Floats:
+        """vertices x 3, read-only, not copied [length]."""
+        return self._core.points
+
+    @property
+    def tets(self) -> Ints:
+        """tets x 4, by vertex, read-only, not copied."""
+        return self._core.tets
+
+    @property
+    def n_vertices(self) -> int:
+        """Vertices."""
+        return len(self.points)
+
+    @property
+    def n_tets(self) -> int:
+        """Tets."""
+        return len(self.tets)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return TetMesh, (like(np.array(self.points), self._dtype), np.array(self.tets))
+
+    def __repr__(self) -> str:
+        return f"<littoral.TetMesh: {self.n_vertices} vertices, {self.n_tets} tets>"
+
+
+class TetField:
+    """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches."""
+
+    def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
+        self._core = core
+        self.mesh = mesh
+        self.values: Array = like(core.values, mesh._dtype)
+        self.report = Report(**core.report())
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the computation warns of."""
+        return self.report.warnings
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes by extension: .vtk .vtu .csv .npy ..."""
+        self._core.write(os.fspath(path))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        return np.array(self.values, dtype=dtype, copy=True if copy is None else copy)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _tet_field_from, (self.mesh, np.array(self._core.values), self._core.report())
+
+    def __repr__(self) -> str:
+        return (
+            f"<littoral.TetField: {len(self.values)} vertices, by {self.report.method}, "
+            f"{self.report.status}>"
+        )
+
+
+def _tet_field_from(mesh: TetMesh, values: Floats, report: dict[str, Any]) -> TetField:
+    return TetField(_core.TetField.of(mesh._core, values, report), mesh)
+
+
+class TetDistanceSolver:
+    """A method prepared for one tet mesh; may be used from several threads.
+
+    method: a name of `littoral.methods()["Distance through tets"]`; without one signed heat: signed
+    from surfaces, unsigned from vertices.
+    """
+
+    def __init__(
+        self,
+        mesh: TetMesh,
+        method: str | None = None,
+        *,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        **options: Any,
+    ) -> None:
+        if not isinstance(mesh, TetMesh):
+            raise TypeError(f"mesh: expected a littoral.TetMesh, got {type(mesh).__name__}")
+        self.mesh = mesh
+        self._choice = (method, options)
+        self._core = _core.TetDistanceSolver(
+            mesh._core, method or "", option_texts(options), settings(threads, progress)
+        )
+
+    def solve(
+        self,
+        surface: Any = None,
+        vertices: Any = None,
+        *,
+        boundary: bool = False,
+        flip: bool = False,
+        estimate_normals: bool = False,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> TetField:
+        """Distance from a surface or cloud (signed), from vertices, or from the boundary's vertices.
+
+        Raises InputError where no source lies in a tet.
+        """
+        given = np.empty(0, np.int32)
+        if vertices is not None:
+            array = np.atleast_1d(as_array(vertices, "vertices"))
+            if array.dtype.kind not in "iu" and array.size:
+                raise TypeError(f"vertices: expected integers, got {array.dtype}")
+            check_range(array, self.mesh.n_vertices, "vertices", "vertices")
+            given = narrowed(array.ravel().astype(np.int64), "vertices")
+        shape = None if surface is None else as_cloud_or_surface(surface)._core
+        sources = _core.TetSources(
+            shape, given.tolist(), bool(boundary), bool(flip), bool(estimate_normals)
+        )
+        return TetField(self._core.solve(sources, settings(threads, progress)), self.mesh)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _tet_solver_from, (self.mesh, *self._choice)
+
+    def __repr__(self) -> str:
+        name = self._choice[0] or "default method"
+        return f"<littoral.TetDistanceSolver: {name} on {self.mesh!r}>"
+
+
+def _tet_solver_from(
+    mesh: TetMesh, method: str | None, options: dict[str, Any]
+) -> TetDistanceSolver:
+    return TetDistanceSolver(mesh, method, **options)
+
+
+def tet_distance(
+    mesh: TetMesh,
+    surface: Any = None,
+    vertices: Any = None,
+    *,
+    boundary: bool = False,
+    method: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> TetField:
+    """Distance through tets, once: `TetDistanceSolver` and its `solve` in one call."""
+    solver = TetDistanceSolver(mesh, method, threads=threads, **options)
+    return solver.solve(surface, vertices, boundary=boundary, threads=threads, progress=progress)

@@ -1,0 +1,44 @@
+"""Shapes for the tests of the Python package."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import littoral
+
+
+@pytest.fixture(scope="session")
+def square() -> littoral.Mesh:
+    return littoral.examples.square(8)
+
+
+@pytest.fixture(scope="session")
+def sphere() -> littoral.Mesh:
+    return littoral.examples.sphere(3)
+
+
+@pytest.fixture(scope="session")
+def line() -> list[int]:
+    """Up the middle of the square: positive to the left."""
+    return [9 * j + 4 for j in range(9)]
+
+
+@pytest.fixture(scope="session")
+def spot() -> tuple[np.ndarray, np.ndarray]:
+    """The shipped cow as arrays."""
+    mesh = littoral.read(Path(__file__).parents[2] / "examples/data/spot.obj")
+    return np.array(mesh.points), np.array(mesh.faces)
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """A larger collection of data, where there is one."""
+    root = Path(__file__).parents[2]
+    folder = Path(os.environ.get("LITTORAL_SHARED", root.parent / "shared"))
+    if not (folder / "data").is_dir():
+        pytest.skip(f"{folder} holds no data")
+    return folder

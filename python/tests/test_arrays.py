@@ -1,0 +1,130 @@
+"""Arrays of any kind go in; what is wrong is named."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import littoral
+
+V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
+F = np.array([[0, 1, 2], [1, 3, 2]])
+
+
+@given(
+    dtype=st.sampled_from([np.float16, np.float32, np.float64, np.int8, np.int64, np.uint16]),
+    index=st.sampled_from([np.int8, np.int16, np.int32, np.int64, np.uint8, np.uint32, np.uint64]),
+    order=st.sampled_from("CF"),
+    stride=st.sampled_from([1, 2, -1]),
+    writable=st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_dtypes_orders_and_strides_give_the_same_answer(dtype, index, order, stride, writable):
+    points = np.repeat(V, abs(stride), axis=0).astype(dtype, order=order)[::stride]
+    faces = np.repeat(F, abs(stride), axis=0).astype(index, order=order)[::stride]
+    if stride < 0:
+        points, faces = points[::-1].copy()[::1], faces
+    points.flags.writeable = writable
+    field = littoral.distance((points, faces), points=0)
+    expected = littoral.distance((points.astype(float), faces.astype(np.int64)), points=0).values
+    np.testing.assert_array_equal(field.values, expected.astype(field.values.dtype))
+    assert field.values.dtype == (np.float32 if dtype == np.float32 else np.float64)
+
+
+def test_lists_and_dlpack_are_taken():
+    class OnlyDlpack:
+        def __init__(self, array):
+            self.array = array
+
+        def __dlpack__(self, **options):
+            return self.array.__dlpack__(**options)
+
+        def __dlpack_device__(self):
+            return self.array.__dlpack_device__()
+
+    expected = littoral.distance((V, F), points=0).values
+    np.testing.assert_array_equal(littoral.distance((V.tolist(), F.tolist()), points=0), expected)
+    np.testing.assert_array_equal(
+        littoral.distance((OnlyDlpack(V), OnlyDlpack(F)), points=0), expected
+    )
+
+
+@pytest.mark.parametrize(
+    ("points", "faces", "error", "says"),
+    [
+        (V[:, :2], F, ValueError, "V: expected shape n x 3"),
+        (V.astype(complex), F, TypeError, "V: expected real numbers"),
+        (np.array([["a"] * 3]), F, TypeError, "V: expected real numbers"),
+        (V, F.astype(float), TypeError, "F: expected integers"),
+        (V, F[:, :2], ValueError, "F: expected shape faces x 3"),
+        (V, F.ravel(), ValueError, "F: expected shape faces x 3"),
+        (V, F + 2, IndexError, r"F\[0, 2\] is 4: there are 4 vertices, 0 to 3"),
+        (V, F - 1, IndexError, r"F\[0, 0\] is -1"),
+        (V, np.array([[0, 1, 2**40]]), IndexError, "1099511627776"),
+        (V, np.array([[0, -1, 1, 2]]), ValueError, r"F\[0\]"),
+        (np.where(V == 1, np.nan, V), F, ValueError, "1"),
+        ([[0, 0, 0], [1, 0]], F, ValueError, "rows of different lengths"),
+    ],
+)
+def test_what_is_wrong_is_named(points, faces, error, says):
+    with pytest.raises(error, match=says) as raised:
+        littoral.Mesh(points, faces)
+    assert isinstance(raised.value, TypeError) or isinstance(raised.value, littoral.Error)
+
+
+def test_mixed_faces_end_in_minus_one():
+    mesh = littoral.Mesh(
+        [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0.5, 0]], [[0, 1, 2, 3], [1, 4, 2, -1]]
+    )
+    assert mesh.kind == "polygon mesh"
+    assert [face.tolist() for face in mesh.faces] == [[0, 1, 2, 3], [1, 4, 2]]
+
+
+def test_points_and_faces_are_views_that_keep_their_mesh():
+    mesh = littoral.Mesh(V, F)
+    points, faces = mesh.points, mesh.faces
+    del mesh
+    assert not points.flags.writeable and not faces.flags.writeable
+    np.testing.assert_array_equal(points, V)
+    np.testing.assert_array_equal(faces, F)
+
+
+@given(data=st.data())
+@settings(max_examples=150, deadline=None)
+def test_random_arrays_give_an_answer_or_an_error_of_ours(data):
+    n = data.draw(st.integers(0, 12))
+    numbers = st.one_of(
+        st.floats(-2, 2), st.sampled_from([0.0, 1e-300, 1e300, np.inf, -np.inf, np.nan])
+    )
+    points = np.array(
+        data.draw(st.lists(st.tuples(numbers, numbers, numbers), min_size=n, max_size=n)), float
+    ).reshape(-1, 3)
+    faces = np.array(
+        data.draw(
+            st.lists(
+                st.tuples(*[st.integers(-1, max(n, 1))] * data.draw(st.integers(3, 5))), max_size=12
+            )
+        )
+        or np.empty((0, 3)),
+        np.int64,
+    )
+    source = data.draw(st.integers(-1, n))
+    method = data.draw(
+        st.sampled_from(["auto", "exact", "signed-heat", "unsigned-heat", "fast-marching"])
+    )
+    try:
+        field = littoral.distance((points, faces), points=source, method=method)
+    except littoral.Error:
+        return
+    assert field.values.shape == (n,)
+    assert not np.isnan(field.values).any()
+    if n and np.isfinite(points[source]).all():
+        assert field.values.min() >= -1e-9 * max(1, np.abs(points[np.isfinite(points)]).max())
+    try:
+        sdf = littoral.SDF(points, faces)
+    except littoral.Error:
+        return
+    values = sdf(np.zeros((2, 3)))
+    assert np.isfinite(values).all()

@@ -1,0 +1,167 @@
+"""Signed distance, volumes, offsets, tori; tets."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import littoral
+
+
+@pytest.fixture(scope="module")
+def cube() -> littoral.Mesh:
+    return littoral.examples.cube()
+
+
+def box_distance(x: np.ndarray) -> np.ndarray:
+    """To the unit cube, negative inside."""
+    q = np.abs(x - 0.5) - 0.5
+    return np.linalg.norm(np.maximum(q, 0), axis=1) + np.minimum(q.max(axis=1), 0)
+
+
+def test_a_cube_is_exact(cube):
+    rng = np.random.default_rng(1)
+    x = rng.uniform(-0.5, 1.5, (500, 3))
+    for sdf in (
+        littoral.SDF(cube),
+        littoral.SDF(cube.points, cube.faces),
+        littoral.SDF((cube.points, cube.faces), method="closest-point"),
+        littoral.SDF(cube, method="winding", flip=False),
+    ):
+        np.testing.assert_allclose(sdf(x), box_distance(x), atol=1e-12)
+        closest = sdf.closest(x)
+        np.testing.assert_allclose(closest.distance, np.abs(box_distance(x)), atol=1e-12)
+        corners = cube.points[closest.corners]
+        np.testing.assert_allclose(
+            (corners * closest.barycentric[:, :, None]).sum(axis=1), closest.point, atol=1e-12
+        )
+        np.testing.assert_array_equal(closest.corners, cube.faces[closest.face])
+        np.testing.assert_allclose(
+            sdf.winding_number(x), (box_distance(x) < 0).astype(float), atol=1e-6
+        )
+        assert sdf.confidence(x).min() > 1 - 1e-5
+    step = 1e-6
+    sdf = littoral.SDF(cube)
+    gradient = sdf.gradient(x)
+    numeric = np.stack(
+        [(sdf(x + step * e) - sdf(x - step * e)) / (2 * step) for e in np.eye(3)], axis=1
+    )
+    smooth = np.abs(np.linalg.norm(numeric, axis=1) - 1) < 1e-6
+    assert smooth.mean() > 0.9
+    np.testing.assert_allclose(gradient[smooth], numeric[smooth], atol=1e-6)
+
+
+def test_shapes_of_queries_and_results(cube):
+    sdf = littoral.SDF(cube)
+    assert sdf([0.5, 0.5, 0.5]).shape == ()
+    assert sdf(np.zeros((0, 3))).shape == (0,)
+    assert sdf(np.zeros((2, 3), np.float32)).dtype == np.float32
+    assert sdf.closest([2, 0.5, 0.5]).point.tolist() == [1, 0.5, 0.5]
+    with pytest.raises(ValueError, match="n x 3"):
+        sdf(np.zeros((2, 2)))
+    with pytest.raises(ValueError, match=r"points\[1, 0\] is nan"):
+        sdf([[0, 0, 0], [np.nan, 0, 0]])
+    with pytest.raises(TypeError):
+        sdf("inside")
+
+
+def test_confidence_is_low_at_a_hole(cube):
+    open_box = littoral.Mesh(cube.points, cube.faces[2:])
+    sdf = littoral.SDF(open_box)
+    assert sdf.confidence([0.5, 0.5, 1e-9]) < sdf.confidence([0.5, 0.5, 0.9])
+    assert sdf.confidence([5, 5, 5]) > 0.95
+
+
+def test_closest_on_polygons_and_clouds():
+    quads = littoral.examples.quads(2)
+    found = littoral.SDF(quads, method="winding").closest([[0.9, 0.1, 1]])
+    assert found.face.tolist() == [1]
+    np.testing.assert_allclose(found.point, [[0.9, 0.1, 0]], atol=1e-12)
+    P = np.eye(3)
+    cloud = littoral.SDF(P, P, method="closest-point")
+    assert cloud.closest([[0, 2, 0]]).face.tolist() == [1]
+
+
+def test_sampling_isosurfaces_and_offsets(cube):
+    sdf = littoral.SDF(cube)
+    volume = sdf.sample(24)
+    np.testing.assert_allclose(
+        volume.values.ravel(), box_distance(volume.nodes().reshape(-1, 3)), atol=1e-12
+    )
+    shell = volume.isosurface(0.1)
+    assert np.abs(box_distance(shell.points) - 0.1).max() < 0.02
+    inner, outer = littoral.offset(cube, [-0.1, 0.2], resolution=32)
+    assert np.abs(box_distance(inner.points) + 0.1).max() < 0.03
+    assert np.abs(box_distance(outer.points) - 0.2).max() < 0.03
+    with pytest.raises(littoral.InputError):
+        volume.isosurface(100)
+    other = littoral.Volume(volume.values, volume.spacing, volume.origin)
+    np.testing.assert_array_equal(other.values, volume.values)
+    np.testing.assert_array_equal(sdf.sample(grid=other).values, volume.values)
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(volume)).values, volume.values)
+
+
+def test_signed_heat_on_grids(cube):
+    volume = littoral.signed_heat_grid(cube, resolution=24)
+    exact = box_distance(volume.nodes().reshape(-1, 3))
+    assert np.abs(volume.values.ravel() - exact).mean() < 0.05
+    with pytest.raises(littoral.UnsupportedError, match="grid"):
+        littoral.SDF(cube, method="signed-heat")([0, 0, 0])
+
+
+def test_combinations(cube):
+    other = littoral.Mesh(cube.points + [0.5, 0, 0], cube.faces)
+    a, b = littoral.SDF(cube), littoral.SDF(other)
+    x = np.array([[0.25, 0.5, 0.5], [0.75, 0.5, 0.5], [1.25, 0.5, 0.5], [3, 0.5, 0.5]])
+    assert ((a | b)(x) < 0).tolist() == [True, True, True, False]
+    assert ((a & b)(x) < 0).tolist() == [False, True, False, False]
+    assert ((a - b)(x) < 0).tolist() == [True, False, False, False]
+    joined = pickle.loads(pickle.dumps(littoral.unite(a, b, blend=0.1)))
+    np.testing.assert_array_equal(joined(x), littoral.unite(a, b, blend=0.1)(x))
+    with pytest.raises(littoral.UnsupportedError, match="combination"):
+        (a | b).closest(x)
+    with pytest.raises(TypeError):
+        a | 3
+
+
+def test_clouds_become_tori(sphere):
+    sdf = littoral.SDF(sphere.points, sphere.points)
+    assert sdf.report.method == "tori"
+    x = np.array([[0, 0, 0.5], [0, 0, 1.5]])
+    np.testing.assert_allclose(sdf(x), [-0.5, 0.5], atol=0.02)
+    tori = littoral.fit_tori(sphere.points, sphere.points)
+    np.testing.assert_allclose(littoral.SDF(tori)(x), sdf(x), atol=1e-6)
+    with pytest.raises(ValueError, match="estimate-normals"):
+        littoral.SDF(sphere.points)
+    assert littoral.SDF(sphere.points, estimate_normals=True)(x)[1] > 0
+
+
+def test_volumes_as_shapes(cube):
+    volume = littoral.SDF(cube).sample(24)
+    again = littoral.sdf_of_volume(volume)
+    assert abs(float(again([0.5, 0.5, 0.5])) + 0.5) < 0.05
+
+
+def test_tets():
+    side = 5
+    V = np.stack(np.meshgrid(*[np.arange(side) / (side - 1)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    corner = np.arange(side**3).reshape(side, side, side)[:-1, :-1, :-1].ravel()
+    steps = [(1, side, side**2), (1, side**2, side), (side, 1, side**2)]
+    steps += [(side, side**2, 1), (side**2, 1, side), (side**2, side, 1)]
+    T = np.concatenate(
+        [np.stack([corner, corner + a, corner + a + b, corner + a + b + c], 1) for a, b, c in steps]
+    )
+    mesh = littoral.TetMesh(V, T)
+    field = littoral.tet_distance(mesh, vertices=[0])
+    exact = np.linalg.norm(V, axis=1)
+    assert np.abs(field.values - exact).max() < 0.35
+    precise = littoral.tet_distance(mesh, vertices=0, method="quadratic")
+    np.testing.assert_allclose(precise.values, exact, atol=1e-3)
+    copy = pickle.loads(pickle.dumps(field))
+    np.testing.assert_array_equal(copy.values, field.values)
+    with pytest.raises(IndexError, match="vertices"):
+        littoral.tet_distance(mesh, vertices=[999])
+    with pytest.raises(ValueError, match="n x 4"):
+        littoral.TetMesh(V, T[:, :3])

@@ -1,0 +1,117 @@
+#include "api/space/input_queries.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "api/space/space_input.h"
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "domain/mesh/triangulate.h"
+#include "spatial/morton_order.h"
+
+namespace littoral {
+
+namespace {
+
+/// visit(i) for all queries on all threads, neighbours in space after one another.
+template <class Visit>
+void visit_queries(const MatX3& queries, const Task& task, const Visit& visit) {
+  const std::vector<int> order = morton_order(queries);
+  parallel_for(order.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint(double(begin) / double(order.size()));
+    for (std::size_t at = begin; at < end; ++at) visit(order[at]);
+  });
+}
+
+}  // namespace
+
+NearestOnInput::NearestOnInput(const PolygonSoup& input) {
+  bounding_box(input);  // complains
+  if (input.n_faces() == 0) {
+    points_ = input.points;
+    cloud_ = std::make_unique<const PointTree>(points_);
+    return;
+  }
+  // Face by face, so that each triangle knows its own.
+  std::vector<int> corners;
+  for (int f = 0; f < input.n_faces(); ++f) {
+    PolygonSoup face;
+    const auto cycle = input.face(f);
+    if (cycle.size() == 3) {
+      corners.insert(corners.end(), cycle.begin(), cycle.end());
+      face_of_.push_back(f);
+      continue;
+    }
+    face.points.resize(static_cast<Eigen::Index>(cycle.size()), 3);
+    std::vector<int> local(cycle.size());
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+      face.points.row(static_cast<Eigen::Index>(k)) = input.points.row(cycle[k]);
+      local[k] = static_cast<int>(k);
+    }
+    face.add_face(local);
+    for (const int k : triangulate(face).corners) {
+      if (corners.size() == 3 * face_of_.size()) face_of_.push_back(f);
+      corners.push_back(cycle[static_cast<std::size_t>(k)]);
+    }
+  }
+  corners_ =
+      Eigen::Map<const MatX3i>(corners.data(), static_cast<Eigen::Index>(face_of_.size()), 3);
+  triangles_ = std::make_unique<const TriangleBvh>(input.points, corners_);
+}
+
+NearestPoints NearestOnInput::at(const MatX3& queries, const Task& task) const {
+  const Eigen::Index n = queries.rows();
+  NearestPoints out{MatX3(n, 3), VecXi(n), MatX3i(n, 3), MatX3(n, 3), VecX(n)};
+  visit_queries(queries, task, [&](int i) {
+    const Vec3 x = queries.row(i);
+    if (cloud_) {
+      const int p = cloud_->nearest(x).point;
+      out.points.row(i) = points_.row(p);
+      out.elements[i] = p;
+      out.corners.row(i).setConstant(p);
+      out.barycentric.row(i) << 1, 0, 0;
+      out.distances[i] = (points_.row(p).transpose() - x).norm();
+      return;
+    }
+    const NearestPoint nearest = triangles_->closest_point(x);
+    out.points.row(i) = nearest.point;
+    out.elements[i] = face_of_[static_cast<std::size_t>(nearest.face)];
+    out.corners.row(i) = corners_.row(nearest.face);
+    for (int k = 0; k < 3; ++k)
+      out.barycentric(i, k) = nearest.barycentric[static_cast<std::size_t>(k)];
+    out.distances[i] = nearest.distance;
+  });
+  return out;
+}
+
+WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orientation, Task task,
+                               Report& report)
+    : frame_(bounding_box(input)) {
+  const SpaceInput local =
+      make_input({input, orientation.flip, orientation.estimate_normals}, frame_,
+                 std::numeric_limits<double>::infinity(), task, report);
+  const OrientedPoints& s = local.samples;
+  if (local.is_cloud()) {
+    winding_ = std::make_unique<const WindingNumber>(s.points, s.normals, s.areas);
+    return;
+  }
+  const MatX3i triangles = local.triangles();
+  winding_ = std::make_unique<const WindingNumber>(local.surface.points, triangles);
+  sides_ = choose_sides(side_census(local.surface.points, triangles, *winding_), orientation.flip);
+}
+
+VecX WindingOfInput::at(const MatX3& queries, const Task& task) const {
+  const MatX3 local = frame_.local(queries);
+  VecX values(queries.rows());
+  visit_queries(local, task, [&](int i) { values[i] = (*winding_)(local.row(i)); });
+  return values;
+}
+
+VecX WindingOfInput::confidence(const MatX3& queries, const Task& task) const {
+  return at(queries, task).unaryExpr([&](double winding) {
+    return std::min(1.0, 2 * std::abs(sides_.inside(winding)));
+  });
+}
+
+}  // namespace littoral

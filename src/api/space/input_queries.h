@@ -1,0 +1,54 @@
+#pragma once
+// What an input itself says at points in space: where it is nearest, how often it winds around, and
+// how sure inside and outside are.
+
+#include <memory>
+#include <vector>
+
+#include "api/space/frame.h"
+#include "base/task.h"
+#include "littoral/polygon_soup.h"
+#include "littoral/report.h"
+#include "littoral/space.h"
+#include "methods/implicit/side_census.h"
+#include "spatial/point_tree.h"
+#include "spatial/triangle_bvh.h"
+#include "spatial/winding_number.h"
+
+namespace littoral {
+
+/// The nearest points of a surface, or of a cloud where the soup has no faces; immutable.
+class NearestOnInput {
+ public:
+  /// Throws InputError where there is nothing, or for coordinates that are not finite.
+  explicit NearestOnInput(const PolygonSoup& input);
+  /// Of points (queries x 3), finite.
+  NearestPoints at(const MatX3& queries, const Task& task) const;
+
+ private:
+  MatX3 points_;              // of a cloud
+  MatX3i corners_;            // triangles x 3: vertices of the input
+  std::vector<int> face_of_;  // triangles: faces of the input
+  std::unique_ptr<const TriangleBvh> triangles_;
+  std::unique_ptr<const PointTree> cloud_;
+};
+
+/// Generalized winding numbers around a surface or oriented cloud; immutable.
+class WindingOfInput {
+ public:
+  /// Throws as make_input (api/space/space_input.h).
+  WindingOfInput(const PolygonSoup& input, const Orientation& orientation, Task task,
+                 Report& report);
+  /// At points (queries x 3), finite.
+  VecX at(const MatX3& queries, const Task& task) const;
+  /// At points (queries x 3), finite: 1 where the winding number is that of the inside or of the
+  /// outside of a closed surface, 0 where it is half way between them.
+  VecX confidence(const MatX3& queries, const Task& task) const;
+
+ private:
+  Frame frame_;
+  std::unique_ptr<const WindingNumber> winding_;
+  SideRule sides_;
+};
+
+}  // namespace littoral

@@ -1,6 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build check test test-long format tidy docs bench peers domains clean
+.PHONY: help demo build check test test-long format tidy wheel docs bench peers domains clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -34,6 +34,11 @@ tidy:  ## clang-tidy over the library and the program
 	scripts/setup.sh tidy
 	cmake --preset tidy
 	cd build/tidy && run-clang-tidy-14 -quiet -p . '/src/'
+
+wheel:  ## the Python package as a wheel, in build/dist
+	scripts/setup.sh build
+	scripts/setup.sh python
+	build/venv/bin/pip wheel . --no-deps --no-build-isolation -w build/dist
 
 docs:  ## the documentation, in build/site
 	scripts/setup.sh python

@@ -15,10 +15,10 @@ export LITTORAL_SHARED="${LITTORAL_SHARED:-$(dirname "$PWD")/shared}"
 jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
-check_stages=(files format tools docs quick)
-test_stages=(files format tools docs release cli install permissive sanitize threads fuzz viewer)
+check_stages=(files format tools docs quick package)
+test_stages=(files format tools docs release cli install wheel permissive sanitize threads fuzz viewer)
 long_stages=(slow sanitize_slow fuzz_long studies single aarch64)
-all_stages=("${test_stages[@]}" quick "${long_stages[@]}")
+all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
 slow='Slow|^Cases/|^Domains/OnEveryDomain|^(Multigrid|Regularized[A-Za-z]*|AllPairs|HeatPoints|Sharpen|SignedHeatTets|Picture|Quadratic[A-Za-z]*|SignedQuadratic)\.'
@@ -31,6 +31,10 @@ build() {  # preset, further arguments of cmake --build
   cmake --preset "$preset" ${compilers[@]+"${compilers[@]}"} >/dev/null && cmake --build "build/$preset" -j "$jobs" "$@"
 }
 compilers=()
+build_release() {  # the same, with the module of the Python package
+  local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
+  build release "$@"
+}
 # The presets name Clang 14, Debian 12's; newer releases have theirs under the plain name.
 with_clang() {
   command -v clang++-14 >/dev/null || local compilers=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
@@ -56,19 +60,30 @@ stage_tools() { "$venv/python" -m pytest -q tests/tools; }  # tests of the check
 
 stage_docs() { "$venv/mkdocs" build --strict --quiet --site-dir build/site; }
 
-stage_quick() { build release && run_tests release/tests/littoral_tests --without "$slow"; }
+stage_quick() { build_release && run_tests release/tests/littoral_tests --without "$slow"; }
 
-stage_release() { build release && run_tests release/tests/littoral_tests; }
+stage_release() { build_release && run_tests release/tests/littoral_tests; }
 
 stage_cli() {
-  build release && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
+  build_release && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
 }
 
-stage_install() { build release && scripts/test_install.sh build/release; }
+# The Python package as it lies in the build: its stubs, and its tests.
+stage_package() {
+  local package="$PWD/build/release/python"
+  build_release &&
+    PYTHONPATH="$package" "$venv/python" -m nanobind.stubgen -q -m littoral._core -o build/_core.pyi &&
+    "$venv/ruff" format -q --config 'extend-exclude = []' build/_core.pyi && diff build/_core.pyi python/littoral/_core.pyi &&
+    PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests
+}
+
+stage_wheel() { stage_package && scripts/test_wheel.sh build/release; }
+
+stage_install() { build_release && scripts/test_install.sh build/release; }
 
 # Without BLAS and METIS: two files are compiled again, everything else is the release's.
 stage_permissive() {
-  build release --target littoral_tests_permissive &&
+  build_release --target littoral_tests_permissive &&
     ! ldd build/release/tests/littoral_tests_permissive | grep -iE 'blas|metis' &&
     run_tests release/tests/littoral_tests_permissive
 }
@@ -89,13 +104,13 @@ stage_fuzz() {
 
 stage_viewer() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
-  build release &&
+  build_release &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
     (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
 }
 
 # What follows makes up the long tier.
-stage_slow() { build release && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
+stage_slow() { build_release && run_tests release/tests/littoral_tests --only Slow --limit 3600; }
 
 stage_sanitize_slow() {
   with_clang asan --target littoral_tests &&
@@ -109,7 +124,7 @@ stage_fuzz_long() {
 
 # Methods on random domains, by seeds; each process takes its share.
 many_cases() {
-  build release --target littoral_tests &&
+  build_release --target littoral_tests &&
     seq 0 $((jobs - 1)) | xargs -P "$jobs" -I{} sh -c '
       share=$(($1 / $2))
       LITTORAL_CASES=$(({} * share)):$share exec build/release/tests/littoral_tests --gtest_brief=1 \

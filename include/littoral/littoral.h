@@ -4,6 +4,7 @@
 //   surfaces   Mesh, Sources, distance, DistanceSolver, distance_matrix, winding
 //   space      Sdf, signed_distance, winding_number, Grid, Volume, isosurface, offset
 //   tets       TetMesh, TetDistanceSolver
+//   matrices   surface_operators, Factorization
 //   files      read_mesh, read_soup, read_sources, read_volume, read_tets, write, write_page
 //   methods    options.h has a struct for each; method_families() lists them
 //
@@ -16,6 +17,7 @@
 #include "littoral/io.h"
 #include "littoral/mesh.h"
 #include "littoral/methods.h"
+#include "littoral/operators.h"
 #include "littoral/options.h"
 #include "littoral/report.h"
 #include "littoral/sources.h"

@@ -26,8 +26,8 @@ struct Regions {
 };
 
 /// Surface winding numbers of signed curves on a triangle mesh. Components without a curve are one
-/// region, 0. The default is SurfaceWinding{}. Throws InputError and UnsupportedError for bad input,
-/// SolveError, Cancelled.
+/// region, 0. The default is SurfaceWinding{}. Throws InputError and UnsupportedError for bad
+/// input, SolveError, Cancelled.
 Regions winding(const Mesh& mesh, const Sources& curves, const AnyMethod& method = {},
                 const Context& context = {});
 

@@ -157,4 +157,5 @@ NB_MODULE(_core, m) {
   bind_surfaces(m);
   bind_space(m);
   bind_tets(m);
+  bind_operators(m);
 }

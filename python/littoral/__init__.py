@@ -7,18 +7,6 @@ the unit of the input.
 """
 
 from . import examples
-from ._errors import (
-    Cancelled,
-    Error,
-    IndexOutOfRange,
-    InputError,
-    IoError,
-    SolveError,
-    UnsupportedError,
-)
-from ._foreign import as_surface
-from ._methods import Method, Option, methods
-from ._settings import progress, set_memory_limit, set_threads
 from ._display import show
 from ._distance import (
     DistanceSolver,
@@ -28,9 +16,22 @@ from ._distance import (
     isolines,
     offset_curves,
 )
+from ._errors import (
+    Cancelled,
+    Error,
+    IndexOutOfRange,
+    InputError,
+    IoError,
+    SolveError,
+    UnsupportedError,
+)
 from ._files import read, read_sources, read_tets, read_volume
+from ._foreign import as_surface
+from ._methods import Method, Option, methods
+from ._operators import Factorization, Operators, operators
 from ._regions import Regions, winding
 from ._report import Report
+from ._settings import progress, set_memory_limit, set_threads
 from ._sources import Curve, FaceChain, SurfacePoint
 from ._space import (
     SDF,
@@ -58,12 +59,14 @@ __all__ = [
     "DistanceSolver",
     "Error",
     "FaceChain",
+    "Factorization",
     "Field",
     "IndexOutOfRange",
     "InputError",
     "IoError",
     "Mesh",
     "Method",
+    "Operators",
     "Option",
     "PointCloud",
     "Polygons",
@@ -88,6 +91,7 @@ __all__ = [
     "methods",
     "offset",
     "offset_curves",
+    "operators",
     "progress",
     "read",
     "read_sources",

@@ -40,6 +40,14 @@ def floats(value: Any, name: str, columns: int | None = None, finite: bool = Tru
     for the first number that is not finite unless `finite` is off.
     """
     array = as_array(value, name)
+    if (  # what needs nothing done to it, quickly
+        not finite
+        and array.dtype == np.float64
+        and array.flags.c_contiguous
+        and array.ndim == (1 if columns is None else 2)
+        and (columns is None or array.shape[1] == columns)
+    ):
+        return array
     shape = "n" if columns is None else f"n x {columns}"
     if array.dtype.kind not in "fiub":
         if array.size:
@@ -106,6 +114,10 @@ def check_range(indices: Array, count: int, name: str, of: str) -> None:
 def result_type(*inputs: Any) -> npt.DTypeLike:
     """float32 if the first input that has a floating type is of that, otherwise float64."""
     for value in inputs:
+        if type(value) is np.ndarray:
+            if value.dtype.kind == "f":
+                return np.float32 if value.dtype == np.float32 else np.float64
+            continue
         kind = str(getattr(value, "dtype", ""))
         if kind.endswith("float32"):  # of numpy, torch and jax
             return np.float32

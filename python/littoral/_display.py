@@ -55,7 +55,7 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
 
 
 def _writer(result: Any, name: str) -> Any:
-    core = getattr(result, "_core", None)
+    core = getattr(result, "_handle", None)
     if not hasattr(core, name):
         raise TypeError(f"expected a littoral.Field or Regions, got {type(result).__name__}")
     return getattr(core, name)

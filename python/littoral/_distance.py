@@ -13,8 +13,8 @@ from ._arrays import Array, Floats, floats
 from ._errors import InputError, UnsupportedError
 from ._foreign import as_surface
 from ._methods import option_texts
-from ._settings import Progress, settings
 from ._report import Report
+from ._settings import Progress, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
 
@@ -27,7 +27,7 @@ class Field:
     """
 
     def __init__(self, core: _core.Field, mesh: Surface) -> None:
-        self._core = core
+        self._handle = core
         self.mesh = mesh
         self.values: Array = mesh._values(core.values)
         self.report = Report(**core.report())
@@ -40,12 +40,12 @@ class Field:
     @property
     def confidence(self) -> Floats:
         """vertices, 0 to 1: how sure each sign is; empty unless asked for."""
-        return self._core.confidence
+        return self._handle.confidence
 
     @property
     def refined(self) -> tuple[Surface, Array] | None:
         """The surface the field lives on where that is finer or cut, and its values there."""
-        soup = self._core.refined()
+        soup = self._handle.refined()
         if soup is None:
             return None
         surface = Surface._of(_core.Mesh.from_soup(soup), self.mesh._dtype)
@@ -54,18 +54,18 @@ class Field:
     def at(self, points: Any) -> Array:
         """Values at points of the surface, linear between the vertices [length]."""
         at = point_arrays(points, self.mesh, "points")
-        return self.mesh._values(self.mesh._core.interpolate(self._core.values, at))
+        return self.mesh._values(self.mesh._handle.interpolate(self._handle.values, at))
 
     def isolines(self, level: float | Iterable[float] = 0.0) -> list[Floats]:
         """The lines on which the field takes a value (or several): nodes x 3 each.
 
         A closed line repeats its first node; larger values are on the left.
         """
-        return isolines(self.mesh, self._core.values, level)
+        return isolines(self.mesh, self._handle.values, level)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension: .ply .obj .vtp .csv .npy .txt, .html a page, .png a picture."""
-        self._core.write(os.fspath(path))
+        self._handle.write(os.fspath(path))
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
         """The page to turn the field in: in a notebook, or opened in the browser."""
@@ -92,11 +92,11 @@ class Field:
 
     def __reduce__(self) -> tuple[Any, ...]:
         state = (
-            sources_state(self._core.sources),
-            np.array(self._core.values),
-            np.array(self._core.confidence),
-            self._core.refined(),
-            self._core.report(),
+            sources_state(self._handle.sources),
+            np.array(self._handle.values),
+            np.array(self._handle.confidence),
+            self._handle.refined(),
+            self._handle.report(),
         )
         return _field_from, (self.mesh, state)
 
@@ -112,7 +112,7 @@ class Field:
 
 def _field_from(mesh: Surface, state: tuple[Any, ...]) -> Field:
     sources, values, confidence, refined, report = state
-    core = _core.Field.of(mesh._core, sources_from(sources), values, confidence, refined, report)
+    core = _core.Field.of(mesh._handle, sources_from(sources), values, confidence, refined, report)
     return Field(core, mesh)
 
 
@@ -142,14 +142,14 @@ class DistanceSolver:
     ) -> None:
         self.mesh = as_surface(mesh)
         self._choice = (method, options)
-        self._core = _core.DistanceSolver(
-            self.mesh._core, method or "", option_texts(options), settings(threads, progress)
+        self._handle = _core.DistanceSolver(
+            self.mesh._handle, method or "", option_texts(options), settings(threads, progress)
         )
 
     @property
     def report(self) -> Report:
         """Of the preparation."""
-        return Report(**self._core.report())
+        return Report(**self._handle.report())
 
     def solve(
         self,
@@ -162,7 +162,7 @@ class DistanceSolver:
     ) -> Field:
         """Distance from curves and points; arguments as for `distance`."""
         sources = make_sources(self.mesh, curves, points, signed)
-        return Field(self._core.solve(sources, settings(threads, progress)), self.mesh)
+        return Field(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _solver_from, (self.mesh, *self._choice)
@@ -202,7 +202,7 @@ def distance(
     surface = as_surface(mesh)
     sources = make_sources(surface, curves, points, signed)
     core = _core.distance(
-        surface._core, sources, method or "", option_texts(options), settings(threads, progress)
+        surface._handle, sources, method or "", option_texts(options), settings(threads, progress)
     )
     return Field(core, surface)
 
@@ -228,7 +228,7 @@ def distance_matrix(
     """
     surface = as_surface(mesh)
     values, _ = _core.distance_matrix(
-        surface._core,
+        surface._handle,
         point_arrays(sources, surface, "sources"),
         None if targets is None else point_arrays(targets, surface, "targets"),
         method or "",
@@ -239,7 +239,7 @@ def distance_matrix(
 
 
 def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> list[Floats]:
-    """The lines on which a function given at the vertices takes a value, or several: nodes x 3 each.
+    """Where a function given at the vertices takes a value, or several: lines, nodes x 3 each.
 
     A closed line repeats its first node; larger values are on the left, seen from the normals.
     """
@@ -251,7 +251,7 @@ def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> li
         raise InputError(f"values: expected {surface.n_vertices}, one a vertex, got {len(given)}")
     out: list[Floats] = []
     for each in floats(np.atleast_1d(np.asarray(level)), "level"):
-        out.extend(_core.isolines(surface._core, given, float(each)))
+        out.extend(_core.isolines(surface._handle, given, float(each)))
     return out
 
 
@@ -273,5 +273,3 @@ def offset_curves(
     """
     field = distance(mesh, curves, signed=signed, method=method, **options)
     return field.isolines(distances)
-
-

@@ -1,4 +1,4 @@
-"""Reading files: littoral's own formats, and those of meshio and trimesh where these are installed."""
+"""Reading files: littoral's own formats, and those of meshio and trimesh where installed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._tets import TetMesh
 
 
 def _of_kind(core: _core.Mesh) -> Surface:
-    kinds = {"point cloud": PointCloud, "polygon mesh": Polygons}
+    kinds: dict[str, type[Surface]] = {"point cloud": PointCloud, "polygon mesh": Polygons}
     if core.kind == "voxel surface":
         return Surface._of(core)
     return kinds.get(core.kind, Mesh)._of(core)
@@ -36,7 +36,7 @@ def read(path: str | os.PathLike[str]) -> Surface:
         other = _read_elsewhere(name)
         if other is None:
             raise InputError(
-                f"{error}; packages meshio and trimesh read more formats, and neither could read this"
+                f"{error}; meshio and trimesh read more formats, and neither could read this"
             ) from error
         return other
 
@@ -71,7 +71,5 @@ def read_tets(path: str | os.PathLike[str]) -> TetMesh:
 
 
 def read_sources(path: str | os.PathLike[str], mesh: Any) -> _core.Sources:
-    """Curves and points on a mesh from a file: `distance(mesh, curves=read_sources(path, mesh))`."""
-    return _core.read_sources(os.fspath(path), as_surface(mesh)._core)
-
-
+    """Curves and points on a mesh from a file, for `distance(mesh, curves=...)`."""
+    return _core.read_sources(os.fspath(path), as_surface(mesh)._handle)

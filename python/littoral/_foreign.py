@@ -45,9 +45,7 @@ def _of_open3d(value: Any) -> Surface:
     if hasattr(value, "triangles"):
         return Mesh(np.asarray(value.vertices), np.asarray(value.triangles))
     if hasattr(value, "triangle"):  # of open3d.t
-        return Mesh(
-            value.vertex.positions.cpu().numpy(), value.triangle.indices.cpu().numpy()
-        )
+        return Mesh(value.vertex.positions.cpu().numpy(), value.triangle.indices.cpu().numpy())
     if hasattr(value, "points"):
         normals = np.asarray(value.normals)
         return PointCloud(np.asarray(value.points), normals if len(normals) else None)
@@ -145,7 +143,7 @@ def as_kind(kind: str, surface: Surface, data: dict[str, Array] | None = None) -
         import meshio
 
         if isinstance(faces, list):
-            cells = [("polygon", [face]) for face in faces]
+            cells: list[tuple[str, Any]] = [("polygon", [face]) for face in faces]
         elif surface.n_faces == 0:
             cells = [("vertex", np.arange(surface.n_vertices)[:, None])]
         else:

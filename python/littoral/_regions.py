@@ -9,8 +9,8 @@ from . import _core
 from ._arrays import Array, Floats, Ints
 from ._foreign import as_surface
 from ._methods import option_texts
-from ._settings import Progress, settings
 from ._report import Report
+from ._settings import Progress, settings
 from ._sources import make_sources, sources_state
 from ._surfaces import Surface
 
@@ -23,7 +23,7 @@ class Regions:
     """
 
     def __init__(self, core: _core.Regions, mesh: Surface) -> None:
-        self._core = core
+        self._handle = core
         self.mesh = mesh
         self.region: Ints = core.region
         self.bounding: list[Floats] = core.bounding
@@ -42,17 +42,17 @@ class Regions:
 
         Within a triangle the winding number function is sum(b winding weight) / sum(b weight).
         """
-        soup = self._core.surface()
+        soup = self._handle.surface()
         return Surface._of(_core.Mesh.from_soup(soup)), soup[5]
 
     @property
     def bounding_sources(self) -> _core.Sources:
-        """The curves that bound something, to measure distance from: `distance(mesh, curves=...)`."""
-        return self._core.bounding_sources
+        """The curves that bound something, for `distance(mesh, curves=...)`."""
+        return self._handle.bounding_sources
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt labels, .html, .png."""
-        self._core.write(os.fspath(path))
+        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt, .html .png."""
+        self._handle.write(os.fspath(path))
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
         """The page to turn the regions in: in a notebook, or opened in the browser."""
@@ -67,7 +67,7 @@ class Regions:
         return plot(self, ax)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        core = self._core
+        core = self._handle
         return _regions_from, (
             self.mesh,
             self.region.copy(),
@@ -86,8 +86,18 @@ class Regions:
 def _regions_from(mesh: Surface, *state: Any) -> Regions:
     from ._sources import sources_from
 
-    region, surface, lines, bounding, report = state
-    core = _core.Regions.of(mesh._core, region, surface, *lines, sources_from(bounding), report)
+    region, surface, (bounding, nonbounding, completed), curves, report = state
+    sources = sources_from(curves)
+    core = _core.Regions.of(
+        mesh._handle,
+        region,
+        surface,
+        bounding,
+        nonbounding,
+        completed,
+        sources,
+        report,
+    )
     return Regions(core, mesh)
 
 
@@ -112,6 +122,6 @@ def winding(
     surface = as_surface(mesh)
     sources = make_sources(surface, curves)
     core = _core.winding(
-        surface._core, sources, method or "", option_texts(options), settings(threads, progress)
+        surface._handle, sources, method or "", option_texts(options), settings(threads, progress)
     )
     return Regions(core, surface)

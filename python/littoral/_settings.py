@@ -21,11 +21,13 @@ _defaults = {"threads": 0, "memory_limit": 0.0}
 def settings(threads: int | None = None, callback: Progress | None = None) -> _core.Settings | None:
     """What a call is run with; None where everything is as by default."""
     told = callback or _progress.get()
+    if threads is None and told is None and not (_defaults["threads"] or _defaults["memory_limit"]):
+        return None
     used = _defaults["threads"] if threads is None else threads
     if isinstance(used, bool) or int(used) != used or used < 0:
-        raise ValueError(f"threads: expected a number of threads or 0 for all cores, got {threads!r}")
-    if not used and told is None and not _defaults["memory_limit"]:
-        return None
+        raise ValueError(
+            f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
+        )
     return _core.Settings(int(used), told, float(_defaults["memory_limit"]))
 
 
@@ -36,7 +38,7 @@ def set_threads(threads: int) -> None:
 
 
 def set_memory_limit(limit: float) -> None:
-    """Work foreseen to need more [bytes] is an IoError before it is begun; 0: what the system has."""
+    """Work foreseen to need more [bytes] raises IoError before it is begun; 0: what there is."""
     if not limit >= 0:
         raise ValueError(f"limit: expected bytes or 0, got {limit!r}")
     _defaults["memory_limit"] = float(limit)

@@ -1,4 +1,4 @@
-"""What distance on a surface is measured from: points and curves, given in any of the usual ways."""
+"""What distance on a surface is measured from: points and curves in any of the usual forms."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ from ._arrays import Array, Floats, Ints, as_array, floats, like, result_type
 from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
-from ._settings import Progress, settings
 from ._report import Report
+from ._settings import Progress, settings
 from ._surfaces import Mesh, PointCloud, Surface, triple
 
 
@@ -29,11 +29,14 @@ class Closest(NamedTuple):
 
 
 def _queries(points: Any) -> tuple[Floats, Any, bool]:
-    """Points as n x 3, the type results have, and whether one point alone was given."""
+    """Points as n x 3, the type results have, and whether one point alone was given.
+
+    The library complains about those that are not finite.
+    """
     array = as_array(points, "points")
-    if array.ndim == 1 and array.shape == (3,):
-        return floats(array.reshape(1, 3), "points", 3), result_type(points), True
-    return floats(array, "points", 3), result_type(points), False
+    if array.shape == (3,):
+        return floats(array.reshape(1, 3), "points", 3, finite=False), result_type(points), True
+    return floats(array, "points", 3, finite=False), result_type(points), False
 
 
 class SDF:
@@ -68,8 +71,8 @@ class SDF:
     ) -> None:
         self.input = as_cloud_or_surface(V, F)
         self._made = (method, flip, estimate_normals, options)
-        self._core = _core.Sdf.of(
-            self.input._core,
+        self._handle = _core.Sdf.of(
+            self.input._handle,
             method or "",
             option_texts(options),
             bool(flip),
@@ -80,14 +83,14 @@ class SDF:
     @classmethod
     def _of(cls, core: _core.Sdf, made: tuple[Any, ...]) -> SDF:
         self = cls.__new__(cls)
-        self._core = core
+        self._handle = core
         self._made = made
         return self
 
     def __call__(self, points: Any, *, threads: int | None = None) -> Array:
-        """Distance at points (n x 3, or one of 3) [length]; methods on grids raise UnsupportedError."""
+        """Distance at points (n x 3, or one) [length]; UnsupportedError by methods for grids."""
         x, dtype, single = _queries(points)
-        values = like(self._core.at(x, settings(threads)), dtype)
+        values = like(self._handle.at(x, settings(threads)), dtype)
         return values[0] if single else values
 
     def gradient(self, points: Any, *, threads: int | None = None) -> Array:
@@ -97,27 +100,27 @@ class SDF:
     def with_gradient(self, points: Any, *, threads: int | None = None) -> tuple[Array, Array]:
         """Distance and gradient at once."""
         x, dtype, single = _queries(points)
-        values, gradients = self._core.with_gradients(x, settings(threads))
+        values, gradients = self._handle.with_gradients(x, settings(threads))
         values, gradients = like(values, dtype), like(gradients, dtype)
         return (values[0], gradients[0]) if single else (values, gradients)
 
     def closest(self, points: Any, *, threads: int | None = None) -> Closest:
         """Where the input itself is nearest, without what a method adds to it."""
         x, dtype, single = _queries(points)
-        point, face, corners, barycentric, distance = self._core.closest(x, settings(threads))
+        point, face, corners, barycentric, distance = self._handle.closest(x, settings(threads))
         out = (like(point, dtype), face, like(barycentric, dtype), corners, like(distance, dtype))
         return Closest(*(each[0] for each in out)) if single else Closest(*out)
 
     def winding_number(self, points: Any, *, threads: int | None = None) -> Array:
         """Generalized winding number of the input: 1 inside, 0 outside of a closed surface."""
         x, dtype, single = _queries(points)
-        values = like(self._core.winding_number(x, settings(threads)), dtype)
+        values = like(self._handle.winding_number(x, settings(threads)), dtype)
         return values[0] if single else values
 
     def confidence(self, points: Any, *, threads: int | None = None) -> Array:
-        """How sure inside and outside are, 0 to 1: 1 as for a closed surface, 0 half way between."""
+        """How sure inside and outside are: 1 as for a closed surface, 0 half way between."""
         x, dtype, single = _queries(points)
-        values = like(self._core.confidence(x, settings(threads)), dtype)
+        values = like(self._handle.confidence(x, settings(threads)), dtype)
         return values[0] if single else values
 
     def sample(
@@ -136,23 +139,23 @@ class SDF:
         resolution: nodes along the longest side (64), or spacing [length]. bounds: x0 y0 z0 x1 y1
         z1; without, a margin of `padding` longest sides. grid: a volume whose nodes to use instead.
         """
-        nodes = grid._core.grid if grid is not None else None
+        nodes = grid._handle.grid if grid is not None else None
         if nodes is None:
             box = None if bounds is None else list(floats(bounds, "bounds"))
             if box is not None and len(box) != 6:
                 raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
-            nodes = _core.Grid.around(self._core, resolution, spacing, box, float(padding))
-        return Volume._of(self._core.sample(nodes, settings(threads, progress)))
+            nodes = _core.Grid.around(self._handle, resolution, spacing, box, float(padding))
+        return Volume._of(self._handle.sample(nodes, settings(threads, progress)))
 
     @property
     def bounds(self) -> Floats:
         """The corners of the box around the input: 2 x 3 [length]."""
-        return self._core.bounds()
+        return self._handle.bounds()
 
     @property
     def report(self) -> Report:
         """Of the preparation."""
-        return Report(**self._core.report())
+        return Report(**self._handle.report())
 
     @property
     def warnings(self) -> list[str]:
@@ -192,7 +195,7 @@ _COMBINE = {"unite": _core.unite, "intersect": _core.intersect, "subtract": _cor
 def _combined_from(how: str, a: SDF, b: SDF, blend: float) -> SDF:
     if not (isinstance(a, SDF) and isinstance(b, SDF)):
         raise TypeError(f"{how}: expected two SDFs, got {type(a).__name__}, {type(b).__name__}")
-    return SDF._of(_COMBINE[how](a._core, b._core, float(blend)), (how, a, b, blend))
+    return SDF._of(_COMBINE[how](a._handle, b._handle, float(blend)), (how, a, b, blend))
 
 
 def unite(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
@@ -219,7 +222,7 @@ class Volume:
     values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length].
     """
 
-    _core: _core.Volume
+    _handle: _core.Volume
 
     def __init__(
         self,
@@ -233,38 +236,41 @@ class Volume:
                 f"values: expected nx x ny x nz numbers, got {array.dtype} {array.shape}"
             )
         grid = _core.Grid(array.shape, triple(origin, "origin"), triple(spacing, "spacing"))
-        self._core = _core.Volume(grid, np.ascontiguousarray(array.ravel(order="F"), np.float64))
+        self._handle = _core.Volume(grid, np.ascontiguousarray(array.ravel(order="F"), np.float64))
 
     @classmethod
     def _of(cls, core: _core.Volume) -> Volume:
         self = cls.__new__(cls)
-        self._core = core
+        self._handle = core
         return self
 
     @property
     def values(self) -> Floats:
         """nx x ny x nz, read-only, not copied."""
-        return self._core.values.reshape(tuple(self._core.grid.n), order="F")
+        return self._handle.values.reshape(tuple(self._handle.grid.n), order="F")
 
     @property
     def shape(self) -> tuple[int, int, int]:
         """Nodes along x, y and z."""
-        nx, ny, nz = self._core.grid.n
+        nx, ny, nz = self._handle.grid.n
         return nx, ny, nz
 
     @property
     def spacing(self) -> Floats:
         """Between nodes, by axis [length]."""
-        return self._core.grid.spacing
+        return self._handle.grid.spacing
 
     @property
     def origin(self) -> Floats:
         """Where node 0, 0, 0 lies."""
-        return self._core.grid.origin
+        return self._handle.grid.origin
 
     def nodes(self) -> Floats:
         """Where the nodes lie: nx x ny x nz x 3."""
-        axes = [o + s * np.arange(n) for o, s, n in zip(self.origin, self.spacing, self.shape, strict=True)]
+        axes = [
+            o + s * np.arange(n)
+            for o, s, n in zip(self.origin, self.spacing, self.shape, strict=True)
+        ]
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
     def isosurface(
@@ -275,12 +281,12 @@ class Volume:
         Closed unless it meets the box, or everywhere with close_at_box. Raises InputError where the
         level is met nowhere.
         """
-        core = _core.isosurface(self._core, float(level), bool(close_at_box), settings(threads))
+        core = _core.isosurface(self._handle, float(level), bool(close_at_box), settings(threads))
         return Mesh._of(core)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension: .vti .vdb .nrrd .npy .csv ..."""
-        self._core.write(os.fspath(path))
+        self._handle.write(os.fspath(path))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Volume, (np.array(self.values), tuple(self.spacing), tuple(self.origin))
@@ -291,14 +297,14 @@ class Volume:
 
 def sdf_of_volume(volume: Volume) -> SDF:
     """A volume of signed distance as an SDF, linear between its nodes; outside its box a bound."""
-    return SDF._of(_core.Sdf.of_volume(volume._core), (volume,))
+    return SDF._of(_core.Sdf.of_volume(volume._handle), (volume,))
 
 
 def signed_heat_grid(
     V: Any, F: Any = None, resolution: int | None = None, *, spacing: float | None = None,
     bounds: Sequence[float] | None = None, padding: float = 0.25, **options: Any
 ) -> Volume:  # fmt: skip
-    """Signed distance on a grid by the signed heat method; V, F as for `SDF`, options of the method."""
+    """Signed distance on a grid by the signed heat method; V, F, options as for `SDF`."""
     sdf = SDF(V, F, method="signed-heat", **options)
     return sdf.sample(resolution, spacing=spacing, bounds=bounds, padding=padding)
 
@@ -331,7 +337,7 @@ def offset(
         reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
         shape = sdf.sample(resolution, spacing=spacing, padding=max(0.25, 1.5 * reach))
     cores = _core.offset(
-        shape._core, wanted, float(open), float(close), settings(threads, progress)
+        shape._handle, wanted, float(open), float(close), settings(threads, progress)
     )
     return [Mesh._of(core) for core in cores]
 
@@ -351,10 +357,10 @@ def fit_tori(
     progress: Progress | None = None,
     **options: Any,
 ) -> PointCloud:
-    """The tori that fit a cloud best, as a cloud that `SDF` takes as it is and that can be saved."""
+    """The tori that fit a cloud best, as a cloud that `SDF` takes and that can be saved."""
     cloud = as_cloud_or_surface(P, N)
     soup = _core.fit_tori(
-        cloud._core,
+        cloud._handle,
         option_texts(options),
         bool(flip),
         bool(estimate_normals),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Sequence
 from typing import Any, TypeVar
@@ -35,60 +36,60 @@ class Surface:
     copy of the coordinates (float64) and indices (int32).
     """
 
-    _core: _core.Mesh
+    _handle: _core.Mesh
     _dtype: Any = np.float64
 
     @classmethod
     def _of(cls: type[S], core: _core.Mesh, dtype: Any = np.float64) -> S:
         self = cls.__new__(cls)
-        self._core = core
+        self._handle = core
         self._dtype = dtype
         return self
 
     @property
     def kind(self) -> str:
         """ "triangle mesh", "polygon mesh", "point cloud" or "voxel surface"."""
-        return self._core.kind
+        return self._handle.kind
 
     @property
     def n_vertices(self) -> int:
         """Vertices, or points of a cloud."""
-        return self._core.n_vertices
+        return self._handle.n_vertices
 
     @property
     def n_faces(self) -> int:
         """Faces; 0 of a cloud."""
-        return self._core.n_faces
+        return self._handle.n_faces
 
     @property
     def n_edges(self) -> int:
         """Edges between vertices, however many faces share them."""
-        return self._core.n_edges
+        return self._handle.n_edges
 
     @property
     def n_components(self) -> int:
         """Connected components; vertices without a face are none."""
-        return self._core.n_components
+        return self._handle.n_components
 
     @property
     def points(self) -> Floats:
         """vertices x 3, read-only, not copied [length]."""
-        return self._core.points
+        return self._handle.points
 
     @property
     def edges(self) -> Ints:
         """edges x 2, by vertex, in the order in which `SurfacePoint.edge` counts them."""
-        return self._core.edges()
+        return self._handle.edges()
 
     @property
     def corners(self) -> Ints:
         """The vertices of all faces one after the other, read-only, not copied."""
-        return self._core.corners
+        return self._handle.corners
 
     @property
     def face_offsets(self) -> Ints:
         """faces + 1: where each face begins among the corners, read-only, not copied."""
-        return self._core.face_offsets
+        return self._handle.face_offsets
 
     @property
     def faces(self) -> Ints | list[Ints]:
@@ -99,30 +100,30 @@ class Surface:
             return np.empty((0, 3), np.int32)
         if (sizes == sizes[0]).all():
             return corners.reshape(-1, int(sizes[0]))
-        return [corners[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
+        return [corners[a:b] for a, b in itertools.pairwise(offsets)]
 
     @property
     def normals(self) -> Floats:
         """vertices x 3 as they were given, or empty."""
-        return self._core.normals
+        return self._handle.normals
 
     def positions(self, points: Any) -> Floats:
         """Where points of the surface lie: n x 3 [length]."""
-        return self._core.positions(point_arrays(points, self, "points"))
+        return self._handle.positions(point_arrays(points, self, "points"))
 
     def interpolate(self, values: Any, points: Any) -> Floats:
-        """A function given at the vertices, at points of the surface: linear on edges and triangles."""
+        """A function given at the vertices, at points of the surface; linear in triangles."""
         given = floats(values, "values", finite=False)
         if len(given) != self.n_vertices:
             raise InputError(f"values: expected {self.n_vertices}, one a vertex, got {len(given)}")
-        return self._core.interpolate(given, point_arrays(points, self, "points"))
+        return self._handle.interpolate(given, point_arrays(points, self, "points"))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the surface by extension (.obj .ply .off .stl ...)."""
-        self._core.write(os.fspath(path))
+        self._handle.write(os.fspath(path))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _surface_from, (type(self), self._core.soup(), np.dtype(self._dtype).str)
+        return _surface_from, (type(self), self._handle.soup(), np.dtype(self._dtype).str)
 
     def __repr__(self) -> str:
         name = type(self).__name__
@@ -167,18 +168,19 @@ class Mesh(Surface):
                 raise InputError(f"F[{bad}] is {faces[bad]}: only -1 may follow a face's corners")
             check_range(faces[kept], len(points), "the corners of F", "vertices")
             offsets = np.concatenate([[0], np.cumsum(kept.sum(axis=1))])
-            self._core = _core.Mesh.polygons(
+            self._handle = _core.Mesh.polygons(
                 points, narrowed(faces[kept], "F"), offsets.astype(np.int32)
             )
             return
         check_range(faces, len(points), "F", "vertices")
-        self._core = _core.Mesh.of(points, narrowed(faces, "F"))
+        self._handle = _core.Mesh.of(points, narrowed(faces, "F"))
 
 
 class Polygons(Surface):
     """A mesh of polygons: V vertices x 3, and a list of faces, each a sequence of vertices.
 
-    >>> Polygons([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, .5, 0]], [[0, 1, 2, 3], [1, 4, 2]])
+    >>> V = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, .5, 0]]
+    >>> Polygons(V, [[0, 1, 2, 3], [1, 4, 2]])
     <littoral.Polygons: 5 vertices, 2 faces>
     """
 
@@ -190,7 +192,7 @@ class Polygons(Surface):
         offsets = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.int32)
         corners = np.concatenate(rows)
         check_range(corners, len(points), "the corners of faces", "vertices")
-        self._core = _core.Mesh.polygons(points, corners, offsets)
+        self._handle = _core.Mesh.polygons(points, corners, offsets)
         self._dtype = result_type(V)
 
 
@@ -210,7 +212,7 @@ class PointCloud(Surface):
             raise InputError(f"N: expected one normal a point ({len(points)}), got {len(normals)}")
         if len(points) == 0:
             raise InputError("P: there are no points")
-        self._core = _core.Mesh.cloud(points, normals)
+        self._handle = _core.Mesh.cloud(points, normals)
         self._dtype = result_type(P)
 
 
@@ -240,7 +242,7 @@ class Voxels(Surface):
         self._origin = triple(origin, "origin")
         grid = _core.Grid(self._inside.shape, self._origin, self._spacing)
         x_first = self._inside.ravel(order="F").astype(np.uint8)
-        self._core = _core.Mesh.voxels(grid, x_first)
+        self._handle = _core.Mesh.voxels(grid, x_first)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Voxels, (self._inside, self._spacing, self._origin)

@@ -23,8 +23,8 @@ from ._arrays import (
 from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
-from ._settings import Progress, settings
 from ._report import Report
+from ._settings import Progress, settings
 
 
 class TetMesh:
@@ -40,25 +40,25 @@ class TetMesh:
         if len(tets) == 0:
             raise InputError("T: there are no tets")
         check_range(tets, len(points), "T", "vertices")
-        self._core = _core.TetMesh(points, tets)
+        self._handle = _core.TetMesh(points, tets)
         self._dtype: Any = result_type(V)
 
     @classmethod
     def _of(cls, core: _core.TetMesh) -> TetMesh:
         self = cls.__new__(cls)
-        self._core = core
+        self._handle = core
         self._dtype = np.float64
         return self
 
     @property
     def points(self) -> Floats:
         """vertices x 3, read-only, not copied [length]."""
-        return self._core.points
+        return self._handle.points
 
     @property
     def tets(self) -> Ints:
         """tets x 4, by vertex, read-only, not copied."""
-        return self._core.tets
+        return self._handle.tets
 
     @property
     def n_vertices(self) -> int:
@@ -81,7 +81,7 @@ class TetField:
     """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches."""
 
     def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
-        self._core = core
+        self._handle = core
         self.mesh = mesh
         self.values: Array = like(core.values, mesh._dtype)
         self.report = Report(**core.report())
@@ -93,13 +93,13 @@ class TetField:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension: .vtk .vtu .csv .npy ..."""
-        self._core.write(os.fspath(path))
+        self._handle.write(os.fspath(path))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         return np.array(self.values, dtype=dtype, copy=True if copy is None else copy)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _tet_field_from, (self.mesh, np.array(self._core.values), self._core.report())
+        return _tet_field_from, (self.mesh, np.array(self._handle.values), self._handle.report())
 
     def __repr__(self) -> str:
         return (
@@ -109,7 +109,7 @@ class TetField:
 
 
 def _tet_field_from(mesh: TetMesh, values: Floats, report: dict[str, Any]) -> TetField:
-    return TetField(_core.TetField.of(mesh._core, values, report), mesh)
+    return TetField(_core.TetField.of(mesh._handle, values, report), mesh)
 
 
 class TetDistanceSolver:
@@ -132,8 +132,8 @@ class TetDistanceSolver:
             raise TypeError(f"mesh: expected a littoral.TetMesh, got {type(mesh).__name__}")
         self.mesh = mesh
         self._choice = (method, options)
-        self._core = _core.TetDistanceSolver(
-            mesh._core, method or "", option_texts(options), settings(threads, progress)
+        self._handle = _core.TetDistanceSolver(
+            mesh._handle, method or "", option_texts(options), settings(threads, progress)
         )
 
     def solve(
@@ -147,22 +147,22 @@ class TetDistanceSolver:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> TetField:
-        """Distance from a surface or cloud (signed), from vertices, or from the boundary's vertices.
+        """Distance from a surface or cloud (signed), from vertices, or from the boundary.
 
         Raises InputError where no source lies in a tet.
         """
-        given = np.empty(0, np.int32)
+        given: Ints = np.empty(0, np.int32)
         if vertices is not None:
             array = np.atleast_1d(as_array(vertices, "vertices"))
             if array.dtype.kind not in "iu" and array.size:
                 raise TypeError(f"vertices: expected integers, got {array.dtype}")
             check_range(array, self.mesh.n_vertices, "vertices", "vertices")
             given = narrowed(array.ravel().astype(np.int64), "vertices")
-        shape = None if surface is None else as_cloud_or_surface(surface)._core
+        shape = None if surface is None else as_cloud_or_surface(surface)._handle
         sources = _core.TetSources(
             shape, given.tolist(), bool(boundary), bool(flip), bool(estimate_normals)
         )
-        return TetField(self._core.solve(sources, settings(threads, progress)), self.mesh)
+        return TetField(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _tet_solver_from, (self.mesh, *self._choice)

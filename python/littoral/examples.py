@@ -8,7 +8,7 @@ from ._surfaces import Mesh, Polygons
 
 
 def square(n: int) -> Mesh:
-    """The unit square of n x n cells, two triangles each; vertex i + (n + 1) j lies at (i, j) / n."""
+    """The unit square, n x n cells of two triangles; vertex i + (n + 1) j lies at (i, j) / n."""
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
     V = np.column_stack([i.ravel() / n, j.ravel() / n, np.zeros((n + 1) ** 2)])
     a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
@@ -48,7 +48,9 @@ def sphere(subdivisions: int = 3) -> Mesh:
         ab, bc, ca = (number.ravel() + len(V)).reshape(3, -1)
         V = np.concatenate([V, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
         a, b, c = F.T
-        F = np.concatenate([np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+        F = np.concatenate(
+            [np.stack(t, 1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+        )
     return Mesh(V, F)
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+import littoral
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-import littoral
 
 V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
 F = np.array([[0, 1, 2], [1, 3, 2]])
@@ -71,7 +70,7 @@ def test_lists_and_dlpack_are_taken():
 def test_what_is_wrong_is_named(points, faces, error, says):
     with pytest.raises(error, match=says) as raised:
         littoral.Mesh(points, faces)
-    assert isinstance(raised.value, TypeError) or isinstance(raised.value, littoral.Error)
+    assert isinstance(raised.value, (TypeError, littoral.Error))
 
 
 def test_mixed_faces_end_in_minus_one():

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pickle
 
+import littoral
 import numpy as np
 import pytest
-
-import littoral
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +60,7 @@ def test_shapes_of_queries_and_results(cube):
     assert sdf.closest([2, 0.5, 0.5]).point.tolist() == [1, 0.5, 0.5]
     with pytest.raises(ValueError, match="n x 3"):
         sdf(np.zeros((2, 2)))
-    with pytest.raises(ValueError, match=r"points\[1, 0\] is nan"):
+    with pytest.raises(ValueError, match="query point 1 "):
         sdf([[0, 0, 0], [np.nan, 0, 0]])
     with pytest.raises(TypeError):
         sdf("inside")
@@ -112,7 +111,7 @@ def test_signed_heat_on_grids(cube):
 
 
 def test_combinations(cube):
-    other = littoral.Mesh(cube.points + [0.5, 0, 0], cube.faces)
+    other = littoral.Mesh(cube.points + np.array([0.5, 0, 0]), cube.faces)
     a, b = littoral.SDF(cube), littoral.SDF(other)
     x = np.array([[0.25, 0.5, 0.5], [0.75, 0.5, 0.5], [1.25, 0.5, 0.5], [3, 0.5, 0.5]])
     assert ((a | b)(x) < 0).tolist() == [True, True, True, False]

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import pickle
 import resource
 import signal
 import threading
 import time
 
+import littoral
 import numpy as np
 import pytest
-
-import littoral
 from littoral import Curve, SurfacePoint
 
 
@@ -33,7 +33,7 @@ def test_curves_in_every_form_are_the_same(square, line):
         [x],
         x.tolist(),
         x.astype(np.float32),
-        np.array([[a, b] for a, b in zip(line[:-1], line[1:], strict=True)]),
+        np.array(list(itertools.pairwise(line))),
     ):
         values = littoral.distance(square, curves).values
         np.testing.assert_allclose(values, expected, atol=1e-7)

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Makes the wheel of a build, installs it into an empty environment and runs the tests of the package
+# there, with no compiler in sight.
+# usage: scripts/test_wheel.sh BUILD [PYTHON...]    interpreters to try it with (python3)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+shift
+[ $# -gt 0 ] || set -- build/venv/bin/python
+out="$PWD/build/wheel-test"
+rm -rf "$out"
+mkdir -p "$out"
+
+# What the build was configured with stays as it is: its objects are linked, nothing is compiled twice.
+kept=()
+for name in BLAS METIS OPENVDB TESTS; do
+  value=$(sed -n "s/^LITTORAL_$name:[A-Z]*=//p" "$build/CMakeCache.txt")
+  kept+=("-Ccmake.define.LITTORAL_$name=$value")
+done
+build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$out" \
+  -Cbuild-dir="$build" "${kept[@]}"
+wheel=$(ls "$out"/littoral-*.whl)
+case "$wheel" in *-cp310-abi3-*) ;; *) echo "$wheel is not for the stable ABI" >&2; exit 1 ;; esac
+if python3 -m zipfile -l "$wheel" | grep -E '\.(a|h|cmake)  |lib64|/bin/'; then
+  echo "the wheel holds the files above, which belong to C++" >&2
+  exit 1
+fi
+
+for python in "$@"; do
+  venv="$out/venv"
+  rm -rf "$venv"
+  "$python" -m venv "$venv"
+  "$venv/bin/pip" install --disable-pip-version-check -q "$wheel" \
+    $(grep -E '^(hypothesis|pytest)==' requirements-dev.txt) scipy
+  env -i HOME="$out" PATH="$venv/bin" LITTORAL_SHARED="${LITTORAL_SHARED:-}" \
+    python -m pytest -q -rs -p no:cacheprovider --rootdir python/tests python/tests
+  env -i HOME="$out" PATH="$venv/bin" \
+    python -m pytest -q -p no:cacheprovider --doctest-modules --pyargs littoral \
+    --ignore-glob='*/littoral/torch.py' --ignore-glob='*/littoral/pyvista.py'
+done
+echo "wheel: $(stat -c %s "$wheel") bytes, installed and tested with $*"

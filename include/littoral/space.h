@@ -29,6 +29,9 @@ struct DistanceSamples {
   MatX3 gradients{0, 3};  // queries x 3
 };
 
+/// Points to ask at: queries x 3, row by row; other matrices are copied into one.
+using Queries = Eigen::Ref<const MatX3>;
+
 /// Where an input is nearest to some points.
 struct NearestPoints {
   MatX3 points{0, 3};       // queries x 3
@@ -49,17 +52,17 @@ class Sdf {
   Vec3 gradient(const Vec3& x) const;
 
   /// At points (queries x 3), on all threads. Throws InputError naming a point that is not finite.
-  VecX at(const MatX3& points, const Context& context = {}) const;
-  DistanceSamples with_gradients(const MatX3& points, const Context& context = {}) const;
+  VecX at(const Queries& points, const Context& context = {}) const;
+  DistanceSamples with_gradients(const Queries& points, const Context& context = {}) const;
 
   /// Where the input itself is nearest, without what a method adds to it (queries x 3). The first
   /// call builds a tree. Throws InputError as `at`, UnsupportedError for combinations and volumes.
-  NearestPoints closest(const MatX3& points, const Context& context = {}) const;
+  NearestPoints closest(const Queries& points, const Context& context = {}) const;
   /// Generalized winding number of the input: 1 inside, 0 outside of a closed surface. Likewise.
-  VecX winding_number(const MatX3& points, const Context& context = {}) const;
+  VecX winding_number(const Queries& points, const Context& context = {}) const;
   /// How sure inside and outside are at points, 0 to 1: 1 where the winding number is that of a
   /// closed surface, 0 half way between. Likewise.
-  VecX confidence(const MatX3& points, const Context& context = {}) const;
+  VecX confidence(const Queries& points, const Context& context = {}) const;
 
   /// At the nodes of a grid. Values scale with the input and do not change when it is moved with
   /// the grid. Throws InputError for a box that misses the input, IoError where memory will not do.

@@ -15,29 +15,45 @@ def _library(value: Any) -> str:
     """The package that the value's class, or one it derives from, comes from."""
     for cls in type(value).__mro__:
         root = cls.__module__.split(".")[0]
-        if root in ("pyvista", "trimesh", "open3d", "meshio", "pytorch3d", "vtkmodules"):
+        if root in ("pyvista", "trimesh", "open3d", "meshio", "pytorch3d"):
             return root
     return ""
 
 
+def _refused(value: Any, why: str) -> InputError:
+    return InputError(f"mesh: a {type(value).__module__}.{type(value).__name__} {why}")
+
+
 def _of_vtk(value: Any) -> Surface:
     """pyvista.PolyData, or the surface of a grid of cells."""
-    if hasattr(value, "extract_surface") and not hasattr(value, "faces"):
-        value = value.extract_surface()
+    if not hasattr(value, "GetNumberOfPolys"):
+        for merged in ("combine", "cast_to_unstructured_grid"):  # of blocks; of images
+            value = getattr(value, merged, lambda same=value: same)()
+        try:
+            value = value.extract_surface(algorithm="dataset_surface")
+        except TypeError:  # before there was a choice
+            value = value.extract_surface()
+    if value.GetNumberOfStrips() > 0:
+        value = value.triangulate()
     points = np.asarray(value.points)
-    if value.n_cells == value.n_verts or value.n_faces_strict == 0:
+    if value.GetNumberOfPolys() == 0:
+        if value.GetNumberOfLines() > 0:
+            raise _refused(value, "of lines has no faces; curves belong to a surface")
         normals = value.point_data.get("Normals", None)
         return PointCloud(points, None if normals is None else np.asarray(normals))
-    if value.is_all_triangles:
-        return Mesh(points, value.regular_faces)
-    return Polygons(points, [face for face in value.irregular_faces])
+    padded = np.asarray(value.faces)  # of each face its size and its vertices
+    if len(padded) == 4 * value.GetNumberOfPolys() and (padded[::4] == 3).all():
+        return Mesh(points, padded.reshape(-1, 4)[:, 1:])
+    return Polygons(points, [np.asarray(face) for face in value.irregular_faces])
 
 
 def _of_trimesh(value: Any) -> Surface:
-    if hasattr(value, "geometry") and hasattr(value, "to_geometry"):
-        value = value.to_geometry()
+    if hasattr(value, "geometry") and hasattr(value, "dump"):  # a scene
+        value = value.to_geometry() if hasattr(value, "to_geometry") else value.dump(True)
     if hasattr(value, "faces"):
         return Mesh(np.asarray(value.vertices), np.asarray(value.faces))
+    if hasattr(value, "entities"):
+        raise _refused(value, "has no faces; curves belong to a surface")
     return PointCloud(np.asarray(value.vertices))
 
 
@@ -46,9 +62,11 @@ def _of_open3d(value: Any) -> Surface:
         return Mesh(np.asarray(value.vertices), np.asarray(value.triangles))
     if hasattr(value, "triangle"):  # of open3d.t
         return Mesh(value.vertex.positions.cpu().numpy(), value.triangle.indices.cpu().numpy())
-    if hasattr(value, "points"):
+    if hasattr(value, "points") and hasattr(value, "normals"):
         normals = np.asarray(value.normals)
         return PointCloud(np.asarray(value.points), normals if len(normals) else None)
+    if not hasattr(value, "point") or hasattr(value, "line"):
+        raise _refused(value, "is neither triangles nor a point cloud")
     positions = value.point.positions.cpu().numpy()
     return PointCloud(
         positions, value.point.normals.cpu().numpy() if "normals" in value.point else None
@@ -61,8 +79,11 @@ def _of_meshio(value: Any) -> Surface:
         points = np.column_stack([points, np.zeros(len(points))])
     faces: list[Array] = []
     for block in value.cells:
-        if block.type in ("triangle", "quad", "polygon"):
-            faces.extend(np.asarray(block.data))
+        if block.type in ("triangle", "quad") or block.type.startswith("polygon"):
+            faces.extend(np.asarray(face) for face in block.data)
+    others = sorted({block.type for block in value.cells} - {"vertex"})
+    if not faces and others:
+        raise _refused(value, f"of {', '.join(others)} has no triangles, quads or polygons")
     if not faces:
         return PointCloud(points)
     if all(len(face) == 3 for face in faces):
@@ -114,10 +135,28 @@ def as_cloud_or_surface(V: Any, F: Any = None) -> Surface:
     return PointCloud(V, second)
 
 
+def _meshio_cells(surface: Surface) -> list[tuple[str, Any]]:
+    """Blocks of faces of as many corners, in the order of the faces."""
+    if surface.n_faces == 0:
+        return [("vertex", np.arange(surface.n_vertices)[:, None])]
+    sizes = np.diff(surface.face_offsets)
+    starts = np.flatnonzero(np.diff(sizes, prepend=0))
+    names = {3: "triangle", 4: "quad"}
+    return [
+        (
+            names.get(int(sizes[a]), "polygon"),
+            np.array(surface.corners[surface.face_offsets[a] : surface.face_offsets[b]]).reshape(
+                b - a, -1
+            ),
+        )
+        for a, b in zip(starts, [*starts[1:], len(sizes)], strict=True)
+    ]
+
+
 def as_kind(kind: str, surface: Surface, data: dict[str, Array] | None = None) -> Any:
     """A surface with functions at its vertices as an object of another library: "pyvista",
     "trimesh" or "meshio"."""
-    data = data or {}
+    data = {name: np.array(values) for name, values in (data or {}).items()}
     faces = surface.faces
     if kind == "pyvista":
         import pyvista
@@ -142,11 +181,5 @@ def as_kind(kind: str, surface: Surface, data: dict[str, Array] | None = None) -
     if kind == "meshio":
         import meshio
 
-        if isinstance(faces, list):
-            cells: list[tuple[str, Any]] = [("polygon", [face]) for face in faces]
-        elif surface.n_faces == 0:
-            cells = [("vertex", np.arange(surface.n_vertices)[:, None])]
-        else:
-            cells = [("triangle" if faces.shape[1] == 3 else "quad", np.array(faces))]
-        return meshio.Mesh(np.array(surface.points), cells, point_data=data)
+        return meshio.Mesh(np.array(surface.points), _meshio_cells(surface), point_data=data)
     raise InputError(f"as_: expected 'pyvista', 'trimesh' or 'meshio', got {kind!r}")

@@ -82,7 +82,12 @@ def _is_node(value: Any) -> bool:
         return True
     if not isinstance(value, (tuple, list)) or len(value) != 2:
         return False
-    return isinstance(value[0], (int, np.integer)) and not _is_number(value[1])
+    element, b = value
+    if not isinstance(element, (int, np.integer)) or isinstance(element, bool):
+        return False
+    if isinstance(b, (tuple, list)):
+        return all(_is_number(each) for each in b)
+    return getattr(b, "ndim", None) == 1
 
 
 def _node(value: Any, name: str) -> SurfacePoint:

@@ -164,3 +164,15 @@ def test_tets():
         littoral.tet_distance(mesh, vertices=[999])
     with pytest.raises(ValueError, match="n x 4"):
         littoral.TetMesh(V, T[:, :3])
+
+
+def test_many_queries_are_answered_block_by_block(cube):
+    sdf = littoral.SDF(cube)
+    x = np.random.default_rng(2).uniform(-1, 2, (300_000, 3))
+    values = sdf(x)
+    for i in (0, 262_143, 262_144, 299_999):
+        assert values[i] == sdf(x[i])
+    assert sdf.closest(x).face[-1] == sdf.closest(x[-1]).face
+    x[270_000, 1] = np.inf
+    with pytest.raises(ValueError, match="query point 270000 "):
+        sdf(x)

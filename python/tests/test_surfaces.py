@@ -60,6 +60,8 @@ def test_points_in_every_form_are_the_same(square):
             np.linalg.norm(square.points - centre, axis=1),
             atol=1e-12,
         )
+    mixed = [40, (7, [1 / 3] * 3)]
+    np.testing.assert_allclose(square.positions(mixed), [square.points[40], centre], atol=1e-12)
     tail, head = square.edges[11]
     np.testing.assert_allclose(
         square.positions([(11, [0.25])])[0],

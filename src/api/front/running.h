@@ -1,6 +1,8 @@
 #pragma once
 // A call of the public interface while it runs: its context is the thread's until it ends.
 
+#include <type_traits>
+
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "base/task.h"
@@ -22,9 +24,18 @@ auto run(const Context& context, const Body& body) {
   } const before;
   if (context.threads > 0) set_thread_count(context.threads);
   if (context.memory_limit > 0) set_memory_limit(context.memory_limit);
-  auto out = body(Task(context.cancel, context.progress));
-  if (context.progress) context.progress(1, "done");
-  return out;
+  const auto done = [&] {
+    if (context.progress) context.progress(1, "done");
+  };
+  const Task task(context.cancel, context.progress);
+  if constexpr (std::is_void_v<decltype(body(task))>) {
+    body(task);
+    done();
+  } else {
+    auto out = body(task);
+    done();
+    return out;
+  }
 }
 
 }  // namespace littoral

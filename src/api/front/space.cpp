@@ -1,5 +1,6 @@
 #include "littoral/space.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "api/front/running.h"
@@ -97,42 +98,85 @@ Sdf combined(const Sdf& a, const Sdf& b, Boolean how, double blend) {
 double Sdf::operator()(const Vec3& x) const { return impl_->anywhere().value(x); }
 Vec3 Sdf::gradient(const Vec3& x) const { return impl_->anywhere().at(x).gradient; }
 
-VecX Sdf::at(const MatX3& points, const Context& context) const {
-  check_queries(points);
-  return run(context,
-             [&](const Task& task) { return evaluate(impl_->anywhere(), points, nullptr, task); });
+namespace {
+
+/// body(first, queries, task) for blocks of the queries: none is copied, sorted or checked as a
+/// whole, so that many take little memory and can be stopped.
+template <class Body>
+void in_blocks(const Queries& points, Task task, const Body& body) {
+  constexpr Eigen::Index most = 1 << 18;
+  for (Eigen::Index first = 0; first < points.rows(); first += most) {
+    const MatX3 block = points.middleRows(first, std::min(most, points.rows() - first));
+    check_queries(block, first);
+    body(first, block, task.stage(double(block.rows()) / double(points.rows()), "queries"));
+  }
 }
 
-DistanceSamples Sdf::with_gradients(const MatX3& points, const Context& context) const {
-  check_queries(points);
-  return run(context, [&](const Task& task) {
-    DistanceSamples out;
-    out.values = evaluate(impl_->anywhere(), points, &out.gradients, task);
-    return out;
+}  // namespace
+
+VecX Sdf::at(const Queries& points, const Context& context) const {
+  VecX out(points.rows());
+  run(context, [&](const Task& task) {
+    const PointwiseDistance& function = impl_->anywhere();
+    in_blocks(points, task, [&](Eigen::Index first, const MatX3& block, const Task& part) {
+      out.segment(first, block.rows()) = evaluate(function, block, nullptr, part);
+    });
   });
+  return out;
 }
 
-NearestPoints Sdf::closest(const MatX3& points, const Context& context) const {
-  check_queries(points);
-  return run(context, [&](const Task& task) {
+DistanceSamples Sdf::with_gradients(const Queries& points, const Context& context) const {
+  DistanceSamples out{VecX(points.rows()), MatX3(points.rows(), 3)};
+  run(context, [&](const Task& task) {
+    const PointwiseDistance& function = impl_->anywhere();
+    in_blocks(points, task, [&](Eigen::Index first, const MatX3& block, const Task& part) {
+      MatX3 gradients;
+      out.values.segment(first, block.rows()) = evaluate(function, block, &gradients, part);
+      out.gradients.middleRows(first, block.rows()) = gradients;
+    });
+  });
+  return out;
+}
+
+NearestPoints Sdf::closest(const Queries& points, const Context& context) const {
+  const Eigen::Index n = points.rows();
+  NearestPoints out{MatX3(n, 3), VecXi(n), MatX3i(n, 3), MatX3(n, 3), VecX(n)};
+  run(context, [&](const Task& task) {
     const PolygonSoup& surface = impl_->input().surface;
     const auto tree =
         impl_->nearest.get([&] { return std::make_shared<const NearestOnInput>(surface); });
-    return tree->at(points, task);
+    in_blocks(points, task, [&](Eigen::Index first, const MatX3& block, const Task& part) {
+      const NearestPoints found = tree->at(block, part);
+      out.points.middleRows(first, block.rows()) = found.points;
+      out.elements.segment(first, block.rows()) = found.elements;
+      out.corners.middleRows(first, block.rows()) = found.corners;
+      out.barycentric.middleRows(first, block.rows()) = found.barycentric;
+      out.distances.segment(first, block.rows()) = found.distances;
+    });
   });
+  return out;
 }
 
-VecX Sdf::winding_number(const MatX3& points, const Context& context) const {
-  check_queries(points);
-  return run(context,
-             [&](const Task& task) { return impl_->winding_of_input(task)->at(points, task); });
+VecX Sdf::winding_number(const Queries& points, const Context& context) const {
+  VecX out(points.rows());
+  run(context, [&](const Task& task) {
+    const auto winding = impl_->winding_of_input(task);
+    in_blocks(points, task, [&](Eigen::Index first, const MatX3& block, const Task& part) {
+      out.segment(first, block.rows()) = winding->at(block, part);
+    });
+  });
+  return out;
 }
 
-VecX Sdf::confidence(const MatX3& points, const Context& context) const {
-  check_queries(points);
-  return run(context, [&](const Task& task) {
-    return impl_->winding_of_input(task)->confidence(points, task);
+VecX Sdf::confidence(const Queries& points, const Context& context) const {
+  VecX out(points.rows());
+  run(context, [&](const Task& task) {
+    const auto winding = impl_->winding_of_input(task);
+    in_blocks(points, task, [&](Eigen::Index first, const MatX3& block, const Task& part) {
+      out.segment(first, block.rows()) = winding->confidence(block, part);
+    });
   });
+  return out;
 }
 
 Volume Sdf::sample(const Grid& grid, const Context& context) const {

@@ -70,8 +70,9 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& i
                                                             const SpaceRequest& request, Task task,
                                                             Report& report);
 
-/// Throws InputError naming the first query (queries x 3) that is not finite.
-void check_queries(const MatX3& queries);
+/// Throws InputError naming the first query (queries x 3) that is not finite; they are counted from
+/// `first`.
+void check_queries(const MatX3& queries, Eigen::Index first = 0);
 
 /// Generalized winding number (queries) at points (queries x 3): 1 inside, 0 outside of a closed
 /// surface. Of the request, only flip and estimate_normals count. Throws as query_distance.

@@ -17,6 +17,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from scipy.spatial import cKDTree
+
 from train_shapes import Cloud, make_cloud
 
 NEIGHBOURS, CLOSED = 16, 8  # seen by the network; of the closed form

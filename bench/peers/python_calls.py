@@ -17,8 +17,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import littoral
 import numpy as np
+
+import littoral
 
 Answer = Callable[[], Any]
 Prepared = Callable[[], Answer]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-import littoral
 import numpy as np
 import pytest
+
+import littoral
 
 
 @pytest.fixture(scope="session")

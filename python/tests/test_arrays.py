@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import littoral
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+import littoral
 
 V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
 F = np.array([[0, 1, 2], [1, 3, 2]])

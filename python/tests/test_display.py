@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import littoral
 import pytest
+
+import littoral
 
 
 def test_pages_and_pictures(square, line, tmp_path, monkeypatch):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import littoral
 import numpy as np
 import pytest
+
+import littoral
 
 sparse = pytest.importorskip("scipy.sparse")
 

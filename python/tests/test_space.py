@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pickle
 
-import littoral
 import numpy as np
 import pytest
+
+import littoral
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,10 @@ import signal
 import threading
 import time
 
-import littoral
 import numpy as np
 import pytest
+
+import littoral
 from littoral import Curve, SurfacePoint
 
 

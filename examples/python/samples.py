@@ -22,9 +22,8 @@ def main() -> None:
     x = np.concatenate([near, anywhere]).astype(np.float32)
     values, sure = sdf(x), sdf.confidence(x)
     np.savez(sys.argv[3], points=x, sdf=values, confidence=sure)
-    print(
-        f"{count} samples, {100 * (values < 0).mean():.0f} % inside, sure of {100 * sure.mean():.0f} %"
-    )
+    inside = 100 * (values < 0).mean()
+    print(f"{count} samples, {inside:.0f} % inside, sure of {100 * sure.mean():.0f} %")
 
 
 if __name__ == "__main__":

@@ -126,7 +126,7 @@ TEST(Completed, HolesAreClosedByTheLevelOfTheWindingNumber) {
   EXPECT_EQ(report.status, "converged");
 }
 
-TEST(Completed, DistanceIsSmoothAcrossHolesAndExactAwayFromThem) {
+TEST(CompletedSlow, DistanceIsSmoothAcrossHolesAndExactAwayFromThem) {
   const PolygonSoup whole = test::octasphere_soup(4);
   const PolygonSoup open = part_of(whole, [](int, const Vec3& c) {
     return c[0] + 0.4 * std::sin(5 * c[1]) < 0.6;  // a rim that is not flat
@@ -252,7 +252,7 @@ TEST(Completed, RefusesInputsWithoutExtent) {
   EXPECT_THAT(said(flat), HasSubstr("finite"));
 }
 
-TEST(Completed, DoesNotDependOnThreadsPlaceOrScale) {
+TEST(CompletedSlow, DoesNotDependOnThreadsPlaceOrScale) {
   const PolygonSoup open =
       part_of(test::off_centre_torus(), [](int f, const Vec3&) { return f % 37 > 3; });
   const Grid grid = test::cube_grid(17, 1.2);

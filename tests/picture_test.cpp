@@ -146,7 +146,7 @@ TEST(Picture, InfiniteValuesAreGrey) {
   EXPECT_LE(difference(pixel(io::draw_picture(scene, small()), 0.8, 0.5), io::plain_colour), 2);
 }
 
-TEST(Picture, SameBytesForAnyThreadCount) {
+TEST(PictureSlow, SameBytesForAnyThreadCount) {
   io::Scene scene = io::make_scene(test::torus_soup(60, 40));
   scene.values = scene.points.col(0);
   scene.source_points = scene.points.topRows(3);

@@ -113,7 +113,7 @@ TEST(SpaceDistanceSlow, FarAwayNothingUnderflows) {
     EXPECT_NEAR(ask(test::octasphere_soup(3), far, method)[0], 1e4, 200) << method;
 }
 
-TEST(SpaceDistance, MovesAndScalesWithTheInput) {
+TEST(SpaceDistanceSlow, MovesAndScalesWithTheInput) {
   const PolygonSoup torus = test::off_centre_torus();
   const Grid grid = test::cube_grid(17, 1.2);
   for (const char* method : {"completed", "signed-heat", "winding", "planar"}) {

@@ -49,7 +49,7 @@ TEST(ThinTriangles, EveryMethodAnswers) {
   }
 }
 
-TEST(ThinTriangles, SourcesAreHeldBesideNeedles) {
+TEST(ThinTrianglesSlow, SourcesAreHeldBesideNeedles) {
   const SurfaceMesh mesh = with_needles();
   Sources all;
   for (int v = 0; v < mesh.n_vertices(); ++v) all.points.push_back(SurfacePoint::at_vertex(v));

@@ -128,6 +128,9 @@ TEST_F(IoWrite, RefusesWhatAFormatCannotHold) {
   EXPECT_THAT(error("a.stl", soup), HasSubstr("face 1 has 4 corners, STL holds triangles only"));
   EXPECT_THAT(error("a.xyz", soup), HasSubstr("as a surface: the extension is '.xyz'"));
   soup.face_offsets.resize(2);
+  PolygonSoup cloud;
+  cloud.points = MatX3::Ones(2, 3);
+  EXPECT_THAT(error("a.stl", cloud), HasSubstr("there are points and no faces"));
   EXPECT_THAT(error("a.stl", soup), HasSubstr("vertex 0 is beyond STL's single precision"));
   soup.scalars["nx"] = soup.scalars["distance"];
   EXPECT_THAT(error("a.ply", soup), HasSubstr("the scalar 'nx' cannot be the name"));

@@ -118,8 +118,8 @@ def result_type(*inputs: Any) -> npt.DTypeLike:
             if value.dtype.kind == "f":
                 return np.float32 if value.dtype == np.float32 else np.float64
             continue
-        kind = str(getattr(value, "dtype", ""))
-        if kind.endswith("float32"):  # of numpy, torch and jax
+        kind = str(getattr(value, "dtype", "")).lower()
+        if kind.endswith("float32"):  # of torch, jax and open3d
             return np.float32
         if "float" in kind:
             return np.float64

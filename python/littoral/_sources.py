@@ -174,7 +174,7 @@ def _is_mixed(value: Sequence[Any]) -> bool:
 
 def _curves(value: Any) -> list[Any]:
     """One or several curves as a list of them."""
-    if value is None:
+    if value is None or (isinstance(value, (list, tuple)) and not value):
         return []
     if hasattr(value, "__array__") and not isinstance(value, np.ndarray):
         value = as_array(value, "curves")

@@ -47,6 +47,14 @@ def test_curves_in_every_form_are_the_same(square, line):
         np.testing.assert_allclose(unsigned.values, np.abs(expected), atol=1e-12)
 
 
+def test_no_curves_are_none(square):
+    expected = littoral.distance(square, points=7).values
+    for curves in ([], (), None):
+        field = littoral.distance(square, curves=curves, points=7, signed=[])
+        np.testing.assert_array_equal(field.values, expected)
+    np.testing.assert_array_equal(littoral.distance(square, points=(7,)).values, expected)
+
+
 def test_points_in_every_form_are_the_same(square):
     a = littoral.distance(square, points=40).values
     for points in ([40], np.array([40]), [(40, [])], (40, []), SurfacePoint.vertex(40)):

@@ -38,7 +38,7 @@ tidy:  ## clang-tidy over the library and the program
 wheel:  ## the Python package as a wheel, in build/dist
 	scripts/setup.sh build
 	scripts/setup.sh python
-	build/venv/bin/pip wheel . --no-deps --no-build-isolation -w build/dist
+	scripts/make_wheel.sh build/dist
 
 docs:  ## the documentation, in build/site
 	scripts/setup.sh python

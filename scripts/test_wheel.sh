@@ -13,12 +13,11 @@ mkdir -p "$out"
 
 # What the build was configured with stays as it is: its objects are linked, nothing is compiled twice.
 kept=()
-for name in BLAS METIS OPENVDB TESTS; do
+for name in BLAS OPENVDB TESTS; do
   value=$(sed -n "s/^LITTORAL_$name:[A-Z]*=//p" "$build/CMakeCache.txt")
   kept+=("-Ccmake.define.LITTORAL_$name=$value")
 done
-build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$out" \
-  -Cbuild-dir="$build" "${kept[@]}"
+scripts/make_wheel.sh "$out" -Cbuild-dir="$build" "${kept[@]}"
 wheel=$(ls "$out"/littoral-*.whl)
 case "$wheel" in *-cp310-abi3-*) ;; *) echo "$wheel is not for the stable ABI" >&2; exit 1 ;; esac
 if python3 -m zipfile -l "$wheel" | grep -E '\.(a|h|cmake)  |lib64|/bin/'; then

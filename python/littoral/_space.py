@@ -29,10 +29,7 @@ class Closest(NamedTuple):
 
 
 def _queries(points: Any) -> tuple[Floats, Any, bool]:
-    """Points as n x 3, the type results have, and whether one point alone was given.
-
-    The library complains about those that are not finite.
-    """
+    """Points as n x 3, finite or not, the type that results have, and whether one was given."""
     array = as_array(points, "points")
     if array.shape == (3,):
         return floats(array.reshape(1, 3), "points", 3, finite=False), result_type(points), True
@@ -43,18 +40,15 @@ class SDF:
     """Signed distance around a surface, soup or oriented cloud: negative inside [length].
 
     `SDF(V, F)`: vertices x 3 and faces; `SDF(P, N)`: points x 3 and normals x 3; `SDF(mesh)`: a
-    littoral surface or what `as_surface` takes. method: a name of `littoral.methods()`; without
-    one, tori for clouds, and surfaces are completed over their holes and then measured. flip
-    reverses all normals; estimate_normals computes those of a cloud. Callable at points, from
-    several threads.
+    littoral surface or what `as_surface` takes. method: a name of `littoral.methods()["Distance in
+    space"]`; without one, tori for clouds, and surfaces are completed over their holes and then
+    measured. flip reverses all normals; estimate_normals computes those of a cloud. Callable at
+    points, from several threads. Raises InputError for a cloud without normals and unknown methods.
 
-    >>> import numpy as np, littoral
-    >>> cube = littoral.examples.cube()
-    >>> sdf = SDF(cube)
+    >>> import littoral
+    >>> sdf = littoral.SDF(littoral.examples.cube())
     >>> sdf([[.5, .5, .5], [.5, .5, 2]]).tolist()
     [-0.5, 1.0]
-    >>> float(sdf([0, 0, 2]))
-    1.0
     """
 
     def __init__(
@@ -88,7 +82,7 @@ class SDF:
         return self
 
     def __call__(self, points: Any, *, threads: int | None = None) -> Array:
-        """Distance at points (n x 3, or one) [length]; UnsupportedError by methods for grids."""
+        """n: distance at points (n x 3, or one) [length]; UnsupportedError by methods for grids."""
         x, dtype, single = _queries(points)
         values = like(self._handle.at(x, settings(threads)), dtype)
         return values[0] if single else values
@@ -98,27 +92,27 @@ class SDF:
         return self.with_gradient(points, threads=threads)[1]
 
     def with_gradient(self, points: Any, *, threads: int | None = None) -> tuple[Array, Array]:
-        """Distance and gradient at once."""
+        """Distance (n) and gradient (n x 3) at once [length, and without a unit]."""
         x, dtype, single = _queries(points)
         values, gradients = self._handle.with_gradients(x, settings(threads))
         values, gradients = like(values, dtype), like(gradients, dtype)
         return (values[0], gradients[0]) if single else (values, gradients)
 
     def closest(self, points: Any, *, threads: int | None = None) -> Closest:
-        """Where the input itself is nearest, without what a method adds to it."""
+        """Where the input itself is nearest to points (n x 3), without what a method adds to it."""
         x, dtype, single = _queries(points)
         point, face, corners, barycentric, distance = self._handle.closest(x, settings(threads))
         out = (like(point, dtype), face, like(barycentric, dtype), corners, like(distance, dtype))
         return Closest(*(each[0] for each in out)) if single else Closest(*out)
 
     def winding_number(self, points: Any, *, threads: int | None = None) -> Array:
-        """Generalized winding number of the input: 1 inside, 0 outside of a closed surface."""
+        """n: generalized winding number of the input, 1 inside and 0 outside if it is closed."""
         x, dtype, single = _queries(points)
         values = like(self._handle.winding_number(x, settings(threads)), dtype)
         return values[0] if single else values
 
     def confidence(self, points: Any, *, threads: int | None = None) -> Array:
-        """How sure inside and outside are: 1 as for a closed surface, 0 half way between."""
+        """n, 0 to 1: how sure the side is; 1 as by a closed surface, 0 half way between."""
         x, dtype, single = _queries(points)
         values = like(self._handle.confidence(x, settings(threads)), dtype)
         return values[0] if single else values
@@ -201,25 +195,43 @@ def _combined_from(how: str, a: SDF, b: SDF, blend: float) -> SDF:
 def unite(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
     """What is in either shape; corners where they meet are rounded `blend` from them [length].
 
-    Signs and zero set are right; the magnitude is a bound. Also `a | b`.
+    Signs and zero set are right; the magnitude is a bound. Also `a | b`. TypeError if not of SDFs.
+
+    >>> from littoral.examples import cube, sphere
+    >>> unite(SDF(cube()), SDF(sphere()))([[-2, 0, 0], [2, .5, .5]]).tolist()
+    [1.0, 1.0]
     """
     return _combined_from("unite", a, b, blend)
 
 
 def intersect(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
-    """What is in both shapes, as `unite`. Also `a & b`."""
+    """What is in both shapes, as `unite`. Also `a & b`.
+
+    >>> from littoral.examples import cube, sphere
+    >>> (intersect(SDF(cube()), SDF(sphere()))([[.5, .5, .5], [-.5, 0, 0]]) < 0).tolist()
+    [True, False]
+    """
     return _combined_from("intersect", a, b, blend)
 
 
 def subtract(a: SDF, b: SDF, blend: float = 0.0) -> SDF:
-    """The first shape without the second, as `unite`. Also `a - b`."""
+    """The first shape without the second, as `unite`. Also `a - b`.
+
+    >>> from littoral.examples import cube, sphere
+    >>> (subtract(SDF(sphere()), SDF(cube()))([[.5, .5, .5], [-.5, 0, 0]]) < 0).tolist()
+    [False, True]
+    """
     return _combined_from("subtract", a, b, blend)
 
 
 class Volume:
     """Values at the nodes of a grid, linear along each axis between them.
 
-    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length].
+    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length]. Raises
+    InputError for values of another shape.
+
+    >>> Volume(np.zeros((2, 3, 4)), spacing=.5).nodes()[1, 2, 3].tolist()
+    [0.5, 1.0, 1.5]
     """
 
     _handle: _core.Volume
@@ -266,7 +278,7 @@ class Volume:
         return self._handle.grid.origin
 
     def nodes(self) -> Floats:
-        """Where the nodes lie: nx x ny x nz x 3."""
+        """Where the nodes lie: nx x ny x nz x 3 [length]."""
         axes = [
             o + s * np.arange(n)
             for o, s, n in zip(self.origin, self.spacing, self.shape, strict=True)
@@ -278,8 +290,7 @@ class Volume:
     ) -> Surface:
         """The surface on which the volume takes the level, larger values outside.
 
-        Closed unless it meets the box, or everywhere with close_at_box. Raises InputError where the
-        level is met nowhere.
+        Closed unless it meets the box, or with close_at_box. InputError where it is met nowhere.
         """
         core = _core.isosurface(self._handle, float(level), bool(close_at_box), settings(threads))
         return Mesh._of(core)
@@ -296,7 +307,11 @@ class Volume:
 
 
 def sdf_of_volume(volume: Volume) -> SDF:
-    """A volume of signed distance as an SDF, linear between its nodes; outside its box a bound."""
+    """A volume of signed distance as an SDF, linear between its nodes; outside its box a bound.
+
+    >>> float(sdf_of_volume(Volume([[[0, 0], [0, 0]], [[1, 1], [1, 1]]]))([.25, .5, .5]))
+    0.25
+    """
     return SDF._of(_core.Sdf.of_volume(volume._handle), (volume,))
 
 
@@ -304,7 +319,14 @@ def signed_heat_grid(
     V: Any, F: Any = None, resolution: int | None = None, *, spacing: float | None = None,
     bounds: Sequence[float] | None = None, padding: float = 0.25, **options: Any
 ) -> Volume:  # fmt: skip
-    """Signed distance on a grid by the signed heat method; V, F, options as for `SDF`."""
+    """Signed distance on a grid by the signed heat method; V, F, options as for `SDF` [length].
+
+    Source: Feng, Crane, A Heat Method for Generalized Signed Distance (2024), section 8.2.
+
+    >>> import littoral
+    >>> littoral.signed_heat_grid(littoral.examples.cube(), resolution=9).shape
+    (9, 9, 9)
+    """
     sdf = SDF(V, F, method="signed-heat", **options)
     return sdf.sample(resolution, spacing=spacing, bounds=bounds, padding=padding)
 
@@ -324,6 +346,7 @@ def offset(
 
     shape: a volume of distance, an SDF, or what `SDF` takes; the latter are sampled (resolution,
     spacing). open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps fill.
+    Raises InputError where nothing is at a distance.
 
     >>> import littoral
     >>> (shell,) = offset(littoral.examples.cube(), .1, resolution=24)
@@ -343,7 +366,12 @@ def offset(
 
 
 def winding_number(V: Any, F: Any, points: Any, *, threads: int | None = None) -> Array:
-    """Generalized winding number of a surface (V, F) or cloud (P, N) at points."""
+    """n: generalized winding number of a surface (V, F) or cloud (P, N) at points (n x 3).
+
+    >>> from littoral.examples import cube
+    >>> abs(winding_number(cube(), None, [[.5, .5, .5], [3, 3, 3]])).round(2).tolist()
+    [1.0, 0.0]
+    """
     return SDF(V, F, method="winding").winding_number(points, threads=threads)
 
 
@@ -357,7 +385,14 @@ def fit_tori(
     progress: Progress | None = None,
     **options: Any,
 ) -> PointCloud:
-    """The tori that fit a cloud best, as a cloud that `SDF` takes and that can be saved."""
+    """The tori that fit a cloud (P, N: n x 3) best, as a cloud that `SDF` takes; it can be saved.
+
+    N may be estimated. Source: Feng, Generalized Distance and Winding (2026), chapter 5.
+
+    >>> from littoral.examples import sphere
+    >>> SDF(fit_tori(sphere().points, sphere().points))([[0, 0, 0], [2, 0, 0]]).round(3).tolist()
+    [-1.0, 1.0]
+    """
     cloud = as_cloud_or_surface(P, N)
     soup = _core.fit_tori(
         cloud._handle,

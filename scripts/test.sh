@@ -17,7 +17,7 @@ venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package)
 test_stages=(files format tools docs release cli install wheel permissive sanitize threads fuzz viewer)
-long_stages=(slow sanitize_slow fuzz_long studies single aarch64)
+long_stages=(slow sanitize_slow sanitize_package fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
@@ -115,6 +115,16 @@ stage_slow() { build_release && run_tests release/tests/littoral_tests --only Sl
 stage_sanitize_slow() {
   with_clang asan --target littoral_tests &&
     run_tests asan/tests/littoral_tests --only Slow --limit 7200
+}
+
+# Arrays of all kinds through the module of the Python package.
+stage_sanitize_package() {
+  local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
+  with_clang asan --target littoral_package &&
+    LD_PRELOAD=$(clang++-14 -print-file-name=libclang_rt.asan-x86_64.so) ASAN_OPTIONS=detect_leaks=0 \
+      PYTHONPATH="$PWD/build/asan/python" "$venv/python" -m pytest -q -p no:cacheprovider \
+      python/tests/test_arrays.py python/tests/test_surfaces.py python/tests/test_space.py \
+      python/tests/test_operators.py --deselect python/tests/test_surfaces.py::test_many_calls_do_not_grow
 }
 
 stage_fuzz_long() {

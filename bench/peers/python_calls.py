@@ -60,9 +60,9 @@ def tasks(V: Any, F: Any, rng: Any, threads: int) -> dict[str, dict[str, Prepare
 
         return prepare
 
-    def sdf(points: Any, call: str = "__call__") -> Prepared:
+    def sdf(points: Any, call: str = "__call__", method: str | None = None) -> Prepared:
         def prepare() -> Answer:
-            made = littoral.SDF(V, F, threads=threads)
+            made = littoral.SDF(V, F, method=method, threads=threads)
             return lambda: getattr(made, call)(points, threads=threads)
 
         return prepare
@@ -75,7 +75,7 @@ def tasks(V: Any, F: Any, rng: Any, threads: int) -> dict[str, dict[str, Prepare
         "signed, a curve": {"littoral": solver({"curves": curve}, "signed-heat")},
         "signed, 100k points": {"littoral": sdf(X)},
         "signed, 1000 points": {"littoral": sdf(few)},
-        "winding, 100k points": {"littoral": sdf(X, "winding_number")},
+        "winding, 100k points": {"littoral": sdf(X, "winding_number", "winding")},
     }
 
     def add(task: str, name: str, module: str, make: Callable[[Any], Prepared]) -> None:
@@ -95,7 +95,7 @@ def tasks(V: Any, F: Any, rng: Any, threads: int) -> dict[str, dict[str, Prepare
         def prepare() -> Answer:
             made = pp3d.MeshSignedHeatSolver(V, F)
             nodes = [(v, []) for v in curve]
-            return lambda: -np.asarray(made.compute_distance([nodes], [True]))
+            return lambda: np.asarray(made.compute_distance([nodes], [True]))
 
         return prepare
 

@@ -73,45 +73,50 @@ int vertex_of(const SurfacePoint& point, const std::string& method) {
   return point.element;
 }
 
-/// Rows of distances to all vertices.
-MatX rows_of(const Mesh& mesh, const std::vector<SurfacePoint>& from, const AnyMethod& method,
-             Task task, Report& report) {
-  if (Registry<PairsDomain>::instance().has(method.name())) {
-    if (from.empty()) return MatX(0, mesh.n_vertices());
+/// Rows of distances, and what is kept of each.
+DistanceMatrix rows_of(const Mesh& mesh, const std::vector<SurfacePoint>& from,
+                       const AnyMethod& method, const Context& context, const KeptOfRow& kept) {
+  for (const SurfacePoint& p : from) mesh.position(p);  // complains before anything is solved
+  return run(context, [&](Task task) -> DistanceMatrix {
+    Report report;
+    if (!Registry<PairsDomain>::instance().has(method.name())) {
+      const auto solver =
+          prepare(method, mesh.domain(), SolveHint::many_rhs, task.stage(0.1, "preparing"), report);
+      MatX values =
+          distance_rows(*solver, mesh.domain(), from, task.stage(0.9, "distance"), report, kept);
+      return {std::move(values), std::move(report)};
+    }
     std::vector<int> vertices;
     for (const SurfacePoint& p : from) vertices.push_back(vertex_of(p, method.name()));
-    return pair_distances(mesh.domain(), vertices, method, std::move(task), report).distances;
-  }
-  const auto solver =
-      prepare(method, mesh.domain(), SolveHint::many_rhs, task.stage(0.1, "preparing"), report);
-  return distance_rows(*solver, mesh.domain(), from, task.stage(0.9, "distance"), report);
+    MatX all(0, mesh.n_vertices());
+    if (!from.empty())
+      all = pair_distances(mesh.domain(), vertices, method, task, report).distances;
+    if (!kept.of) return {std::move(all), std::move(report)};
+    MatX values(all.rows(), kept.size);
+    for (Eigen::Index i = 0; i < all.rows(); ++i) values.row(i) = kept.of(all.row(i));
+    return {std::move(values), std::move(report)};
+  });
 }
 
 }  // namespace
 
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
                                const AnyMethod& method, const Context& context) {
-  for (const SurfacePoint& p : from) mesh.position(p);  // complains before anything is solved
-  return run(context, [&](const Task& task) {
-    DistanceMatrix out;
-    out.values = rows_of(mesh, from, method, task, out.report);
-    return out;
-  });
+  return rows_of(mesh, from, method, context, {});
 }
 
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
                                const std::vector<SurfacePoint>& to, const AnyMethod& method,
                                const Context& context) {
   for (const SurfacePoint& p : to) mesh.position(p);  // complains before anything is solved
-  DistanceMatrix rows = distance_matrix(mesh, from, method, context);
-  DistanceMatrix out{MatX(rows.values.rows(), static_cast<Eigen::Index>(to.size())),
-                     std::move(rows.report)};
-  for (Eigen::Index i = 0; i < out.values.rows(); ++i) {
-    const VecX row = rows.values.row(i);
-    for (std::size_t j = 0; j < to.size(); ++j)
-      out.values(i, static_cast<Eigen::Index>(j)) = mesh.interpolate(row, to[j]);
-  }
-  return out;
+  const auto size = static_cast<Eigen::Index>(to.size());
+  return rows_of(mesh, from, method, context, {size, [&](const VecX& row) {
+                                                 VecX out(size);
+                                                 for (Eigen::Index j = 0; j < size; ++j)
+                                                   out[j] = mesh.interpolate(
+                                                       row, to[static_cast<std::size_t>(j)]);
+                                                 return out;
+                                               }});
 }
 
 Regions winding(const Mesh& mesh, const Sources& curves, const AnyMethod& method,

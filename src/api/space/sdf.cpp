@@ -49,7 +49,8 @@ AnyMethod method_on_grid(const PolygonSoup& input, const SpaceDomain& domain) {
 void check_queries(const MatX3& queries, Eigen::Index first) {
   for (Eigen::Index i = 0; i < queries.rows(); ++i)
     if (!queries.row(i).allFinite())
-      throw InputError("query point " + std::to_string(first + i) + " has coordinates that are not finite");
+      throw InputError("query point " + std::to_string(first + i) +
+                       " has coordinates that are not finite");
 }
 
 Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {

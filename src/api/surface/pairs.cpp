@@ -125,11 +125,10 @@ double area_of(const SurfaceMesh& mesh) {
 
 /// Throws IoError unless `rows` rows of distances to all vertices fit into memory, for a matrix
 /// that has n of them.
-void check_matrix(std::size_t n, const SurfaceMesh& mesh, double rows) {
-  check_memory(
-      8 * rows * mesh.n_vertices(),
-      "a matrix of " + std::to_string(n) + " x " + std::to_string(mesh.n_vertices()) + " distances",
-      "simplify the mesh or measure from fewer vertices");
+void check_matrix(std::size_t n, Eigen::Index columns, double rows) {
+  check_memory(8 * rows * static_cast<double>(columns),
+               "a matrix of " + std::to_string(n) + " x " + std::to_string(columns) + " distances",
+               "simplify the mesh or measure from fewer vertices");
 }
 
 void add_statistics(const SurfaceMesh& mesh, PairsAnswer& answer, const Task& task,
@@ -183,22 +182,26 @@ void check_pairs_method(const AnyMethod& method) {
 }
 
 MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& domain,
-                   const std::vector<SurfacePoint>& points, Task task, Report& report) {
+                   const std::vector<SurfacePoint>& points, Task task, Report& report,
+                   const KeptOfRow& kept) {
   const SurfaceMesh& mesh = *domain.mesh;
   const auto n = points.size();
-  check_matrix(n, mesh, static_cast<double>(n));
-  MatX D(static_cast<Eigen::Index>(n), mesh.n_vertices());
+  const Eigen::Index columns = kept.of ? kept.size : mesh.n_vertices();
+  check_matrix(n, columns, static_cast<double>(n));
+  MatX D(static_cast<Eigen::Index>(n), columns);
   std::mutex mutex;
   int unconverged = 0;
   const auto solve = [&](std::size_t i, const Task& stage, Report& one) {
     const auto row = static_cast<Eigen::Index>(i);
     const SurfacePoint& p = points[i];
     const bool at_vertex = p.on == SurfacePoint::On::vertex;
+    VecX values;
     if (at_vertex && mesh.n_faces() > 0 && mesh.vertex_component()[p.element] < 0)
-      D.row(row).setConstant(unreached);  // in no face
+      values.setConstant(mesh.n_vertices(), unreached);  // in no face
     else
-      D.row(row) = solver.solve(Sources(p), stage, one).values;
-    if (at_vertex) D(row, p.element) = 0;
+      values = solver.solve(Sources(p), stage, one).values;
+    if (at_vertex) values[p.element] = 0;
+    D.row(row) = kept.of ? kept.of(values) : values;
     const std::lock_guard lock(mutex);
     unconverged += one.status != "converged";
   };
@@ -243,7 +246,7 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
   report.sizes.emplace_back("vertices", n);
   report.sizes.emplace_back("faces", mesh.n_faces());
   report.sizes.emplace_back("source_points", static_cast<double>(rows.size()));
-  check_matrix(rows.size(), mesh, static_cast<double>(rows.size()) + (all ? n : 0));
+  check_matrix(rows.size(), mesh.n_vertices(), static_cast<double>(rows.size()) + (all ? n : 0));
   PairsAnswer answer;
   if (method.name().empty() || Registry<PairsDomain>::instance().has(method.name())) {
     answer.distances =

@@ -1,6 +1,7 @@
 #pragma once
 // Distance between many pairs of points of one surface: all at once, or one solve for each source.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,9 +47,17 @@ struct PairsAnswer {
 PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& vertices,
                            const AnyMethod& method, Task task, Report& report);
 
-/// Row i holds the distances at the vertices from points[i], by solves of one solver side by side;
-/// 0 at the vertex that a point is. Rows of points that belong to no face are +inf.
+/// What is kept of the values at the vertices: `size` numbers; all of them where there is no `of`.
+struct KeptOfRow {
+  Eigen::Index size = 0;
+  std::function<VecX(const VecX& values)> of{};
+};
+
+/// Row i holds the distances at the vertices from points[i], or what is kept of them, by solves of
+/// one solver side by side; 0 at the vertex that a point is. Rows of points that belong to no face
+/// are +inf.
 MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& domain,
-                   const std::vector<SurfacePoint>& points, Task task, Report& report);
+                   const std::vector<SurfacePoint>& points, Task task, Report& report,
+                   const KeptOfRow& kept = {});
 
 }  // namespace littoral

@@ -36,7 +36,6 @@ from ._sources import Curve, FaceChain, SurfacePoint
 from ._space import (
     SDF,
     Closest,
-    Volume,
     fit_tori,
     intersect,
     offset,
@@ -48,6 +47,7 @@ from ._space import (
 )
 from ._surfaces import Mesh, PointCloud, Polygons, Surface, Voxels
 from ._tets import TetDistanceSolver, TetField, TetMesh, tet_distance
+from ._volumes import Volume
 
 __version__ = "0.1.0"
 

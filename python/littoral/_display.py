@@ -36,7 +36,13 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
     """The self-contained page of a field or of regions, to turn and measure in.
 
     In a notebook it becomes the cell's output; with `path` it is written there, and otherwise it is
-    opened in the browser. Raises UnsupportedError for results that have no page.
+    opened in the browser. Raises TypeError for anything else, UnsupportedError where littoral was
+    built without pages.
+
+    >>> import littoral
+    >>> littoral.show("a text")
+    Traceback (most recent call last):
+    TypeError: expected a littoral.Field or Regions, got str
     """
     write = _writer(result, "write_page")
     if path is not None:

@@ -24,6 +24,12 @@ class Field:
 
     `values`: vertices [length], signed for signed curves, +inf where no source reaches.
     `confidence`: vertices, 0 to 1, how sure each sign is; empty unless option `confidence` was on.
+    `report`: the method's `Report`. numpy takes a field for its values.
+
+    >>> import numpy as np, littoral
+    >>> field = littoral.distance(littoral.examples.square(4), points=0)
+    >>> len(field), float(np.max(field).round(6)), field.warnings
+    (25, 1.414214, [])
     """
 
     def __init__(self, core: _core.Field, mesh: Surface) -> None:
@@ -52,7 +58,14 @@ class Field:
         return surface, self.mesh._values(soup[5]["distance"])
 
     def at(self, points: Any) -> Array:
-        """Values at points of the surface, linear between the vertices [length]."""
+        """n: values at points of the surface, linear between the vertices [length].
+
+        points: vertices, (element, [barycentric]) pairs or `SurfacePoint`s; IndexOutOfRange else.
+
+        >>> import littoral
+        >>> littoral.distance(littoral.examples.square(4), points=0).at([(0, [.5])]).tolist()
+        [0.125]
+        """
         at = point_arrays(points, self.mesh, "points")
         return self.mesh._values(self.mesh._handle.interpolate(self._handle.values, at))
 
@@ -64,17 +77,20 @@ class Field:
         return isolines(self.mesh, self._handle.values, level)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .ply .obj .vtp .csv .npy .txt, .html a page, .png a picture."""
+        """Writes by extension: .ply .obj .vtp .csv .npy .txt, .html a page, .png a picture.
+
+        Raises UnsupportedError for other extensions, IoError where it cannot be written.
+        """
         self._handle.write(os.fspath(path))
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """The page to turn the field in: in a notebook, or opened in the browser."""
+        """The page to turn the field in: in a notebook, or opened in the browser (`show`)."""
         from ._display import show
 
         return show(self, path)
 
     def plot(self, ax: Any = None) -> Any:
-        """A picture by littoral's renderer, in matplotlib axes."""
+        """A picture by littoral's renderer in matplotlib axes: in `ax` or new ones, returned."""
         from ._display import plot
 
         return plot(self, ax)
@@ -160,7 +176,7 @@ class DistanceSolver:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Field:
-        """Distance from curves and points; arguments as for `distance`."""
+        """Distance from curves and points [length]; arguments and errors as for `distance`."""
         sources = make_sources(self.mesh, curves, points, signed)
         return Field(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
@@ -192,7 +208,8 @@ def distance(
     them; points in space (n x 3 floats), which are projected; `Curve`, `FaceChain`. They may be
     broken. signed: one truth value for all curves or one for each; signed curves (the default) have
     positive distances to the left of travel. points: vertices, pairs or `SurfacePoint`s.
-    Raises littoral's errors as `DistanceSolver`.
+    Raises what `DistanceSolver` does, InputError without a source, IndexOutOfRange for one that is
+    not there. `littoral.methods()` names each method's paper.
 
     >>> import littoral
     >>> field = littoral.distance(littoral.examples.square(4), curves=[2, 7, 12, 17, 22])
@@ -220,7 +237,8 @@ def distance_matrix(
     """Distances between points of a surface: sources x targets, or x vertices without targets.
 
     Both are vertices, (element, [barycentric]) pairs or `SurfacePoint`s; one solve for each source
-    on shared factors. +inf between components [length].
+    on shared factors. +inf between components [length]. Raises IndexOutOfRange for points that are
+    not there, UnsupportedError and InputError as `DistanceSolver`.
 
     >>> import littoral
     >>> littoral.distance_matrix(littoral.examples.square(4), [0, 4], [4, 20]).round(6).tolist()
@@ -242,6 +260,13 @@ def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> li
     """Where a function given at the vertices takes a value, or several: lines, nodes x 3 each.
 
     A closed line repeats its first node; larger values are on the left, seen from the normals.
+    values: vertices. Raises InputError for another number of them, UnsupportedError for a cloud.
+
+    >>> import littoral
+    >>> square = littoral.examples.square(4)
+    >>> (line,) = littoral.isolines(square, square.points[:, 0], .3)
+    >>> line.shape, line[0].round(6).tolist()
+    ((9, 3), [0.3, 1.0, 0.0])
     """
     surface = as_surface(mesh)
     if surface.n_faces == 0:
@@ -265,6 +290,8 @@ def offset_curves(
     **options: Any,
 ) -> list[Floats]:
     """Curves at signed distances from curves on a surface, nodes x 3 each [length].
+
+    distances: one number or several. Arguments and errors as for `distance` and `isolines`.
 
     >>> import littoral
     >>> (line,) = littoral.offset_curves(littoral.examples.square(4), [2, 7, 12, 17, 22], .1)

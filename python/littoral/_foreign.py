@@ -104,7 +104,12 @@ def as_surface(value: Any) -> Surface:
 
     Taken: littoral's own; `pyvista.PolyData` and grids (their surface); `trimesh.Trimesh`, scenes
     and point clouds; open3d's meshes and clouds; `meshio.Mesh`; pytorch3d's `Meshes` of one mesh;
-    and pairs (V, F), of numpy, torch, jax or lists.
+    and pairs (V, F), of numpy, torch, jax or lists. Raises TypeError for anything else, InputError
+    for those without faces or points.
+
+    >>> import littoral
+    >>> littoral.as_surface(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    <littoral.Mesh: 3 vertices, 1 faces>
     """
     if isinstance(value, Surface):
         return value

@@ -34,7 +34,10 @@ def option_texts(options: Mapping[str, Any]) -> Options:
 
 @dataclass(frozen=True)
 class Option:
-    """One option of a method."""
+    """One option of a method: name, unit, range, choices, default, help, and kind of value.
+
+    The name is the command line's; in Python "-" becomes "_".
+    """
 
     name: str
     unit: str
@@ -47,7 +50,13 @@ class Option:
 
 @dataclass(frozen=True)
 class Method:
-    """A method: its name, what it does, where it runs, its options and its paper."""
+    """A method: its name, what it does, where it runs, its options and its paper.
+
+    >>> import littoral
+    >>> heat = littoral.methods()["Distance on surfaces"][1]
+    >>> heat.name, heat.domains[0], heat.options[0].name
+    ('signed-heat', 'triangle mesh', 'time-scale')
+    """
 
     name: str
     summary: str
@@ -57,7 +66,7 @@ class Method:
 
 
 def methods() -> dict[str, list[Method]]:
-    """All methods by purpose, the default of each first.
+    """All methods by purpose, the default of each first; each names its paper in `reference`.
 
     >>> import littoral
     >>> [m.name for m in littoral.methods()["Distance on surfaces"]][:3]

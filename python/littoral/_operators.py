@@ -26,6 +26,12 @@ class Operators:
     its left) and at the vertices of other surfaces; 0 x 0 on triangle meshes without sides.
     connection_mass: its lumped mass [length^2]. vector_at: edges x 2, where vectors live, or empty.
     Source: Feng, Crane, A Heat Method for Generalized Signed Distance (2024), sections 5 and 8.
+
+    >>> import littoral
+    >>> square = littoral.examples.square(2)
+    >>> ops = littoral.operators(square)
+    >>> (ops.G @ square.points[:, 0])[::3].round(6).tolist()
+    [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
 
     L: Any
@@ -39,7 +45,7 @@ class Operators:
 
 
 def operators(mesh: Any, *, threads: int | None = None) -> Operators:
-    """The operators of a surface (see `Operators`); needs scipy.
+    """The operators of a surface (see `Operators`); needs scipy. TypeError for no surface.
 
     >>> import littoral
     >>> ops = littoral.operators(littoral.examples.square(2))
@@ -87,24 +93,28 @@ class Factorization:
         """A^-1 b for b of length n, or for each column of n x k.
 
         Of a Laplacian: for b without its mean over each connected part, the solution that has none.
+        Raises InputError for b of another kind.
         """
         given = as_array(b, "b")
         if given.ndim not in (1, 2) or given.dtype.kind not in "biufc":
             raise InputError(f"b: expected n or n x k numbers, got {given.dtype} {given.shape}")
-        columns = given.reshape(len(given), -1)
+        columns = given[:, None] if given.ndim == 1 else given
         if self._complex:
             out: Array = self._handle.solve_complex(
                 columns.astype(np.complex128), settings(threads)
             )
         elif np.iscomplexobj(columns):
-            return self.solve(given.real) + 1j * self.solve(given.imag)
+            real, imaginary = (
+                self.solve(part, threads=threads) for part in (given.real, given.imag)
+            )
+            return real + 1j * imaginary
         else:
             out = self._handle.solve(columns.astype(np.float64), settings(threads))
         return np.asarray(out).reshape(given.shape)
 
     @property
     def nonzeros(self) -> float:
-        """Of the factor."""
+        """How many numbers other than 0 the factor holds."""
         return self._handle.nonzeros
 
     def __repr__(self) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import _core
 from ._arrays import Array, Floats, Ints
+from ._errors import InputError
 from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
@@ -19,7 +20,13 @@ class Regions:
     """Winding numbers on a surface, and which curves bound.
 
     `region`: faces, integers: the winding number of the larger part of each face. `bounding`,
-    `nonbounding`, `completed`: polylines, nodes x 3 each.
+    `nonbounding`, `completed`: polylines, nodes x 3 each: the parts of the curves that bound, those
+    that do not, and what was added to close them [length]. `report`: the method's `Report`.
+
+    >>> import littoral
+    >>> regions = littoral.winding(littoral.examples.square(4), [6, 8, 18, 16, 6])
+    >>> regions, len(regions.bounding), len(regions.nonbounding)
+    (<littoral.Regions: 32 faces, winding numbers 0, 1>, 1, 0)
     """
 
     def __init__(self, core: _core.Regions, mesh: Surface) -> None:
@@ -51,17 +58,20 @@ class Regions:
         return self._handle.bounding_sources
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt, .html .png."""
+        """Writes by extension: .ply .obj .vtp the cut surface, .csv .npy .txt, .html .png.
+
+        Raises UnsupportedError for other extensions, IoError where it cannot be written.
+        """
         self._handle.write(os.fspath(path))
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """The page to turn the regions in: in a notebook, or opened in the browser."""
+        """The page to turn the regions in: in a notebook, or opened in the browser (`show`)."""
         from ._display import show
 
         return show(self, path)
 
     def plot(self, ax: Any = None) -> Any:
-        """A picture by littoral's renderer, in matplotlib axes."""
+        """A picture by littoral's renderer in matplotlib axes: in `ax` or new ones, returned."""
         from ._display import plot
 
         return plot(self, ax)
@@ -112,7 +122,9 @@ def winding(
 ) -> Regions:
     """Winding numbers of signed curves on a triangle mesh; curves as for `distance`.
 
-    Components without a curve are one region, 0.
+    Components without a curve are one region, 0. Raises UnsupportedError for other surfaces,
+    IndexOutOfRange and InputError as `distance`.
+    Source: Feng, Gillespie, Crane, Winding Numbers on Discrete Surfaces (2023).
 
     >>> import littoral
     >>> square = littoral.examples.square(4)
@@ -120,6 +132,8 @@ def winding(
     8
     """
     surface = as_surface(mesh)
+    if curves is None:
+        raise InputError("curves: expected one or several, got None")
     sources = make_sources(surface, curves)
     core = _core.winding(
         surface._handle, sources, method or "", option_texts(options), settings(threads, progress)

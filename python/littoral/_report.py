@@ -12,6 +12,11 @@ class Report:
 
     `status` is "converged", "not converged" (the answer is the best iterate) or "uncertain" (see
     `warnings`). `timings` are seconds by stage, `residuals` relative ones by equation.
+
+    >>> import littoral
+    >>> report = littoral.distance(littoral.examples.square(4), points=0).report
+    >>> report.status, report.sizes["vertices"]
+    ('converged', 25.0)
     """
 
     method: str = ""

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
+import numpy as np
+
 from . import _core
 
 Progress: TypeAlias = Callable[[float, str], object]
@@ -24,7 +26,7 @@ def settings(threads: int | None = None, callback: Progress | None = None) -> _c
     if threads is None and told is None and not (_defaults["threads"] or _defaults["memory_limit"]):
         return None
     used = _defaults["threads"] if threads is None else threads
-    if isinstance(used, bool) or int(used) != used or used < 0:
+    if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or used < 0:
         raise ValueError(
             f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
         )
@@ -32,14 +34,28 @@ def settings(threads: int | None = None, callback: Progress | None = None) -> _c
 
 
 def set_threads(threads: int) -> None:
-    """Threads of every call that does not say otherwise; 0: all cores."""
+    """Threads of every call that does not say otherwise; 0: all cores. ValueError for less.
+
+    Results do not depend on it.
+
+    >>> import littoral
+    >>> littoral.set_threads(2)
+    >>> littoral.set_threads(0)
+    """
     settings(threads)  # complains
     _defaults["threads"] = threads
 
 
 def set_memory_limit(limit: float) -> None:
-    """Work foreseen to need more [bytes] raises IoError before it is begun; 0: what there is."""
-    if not limit >= 0:
+    """Work foreseen to need more [bytes] raises IoError before it is begun; 0: what there is.
+
+    Raises ValueError for a negative limit.
+
+    >>> import littoral
+    >>> littoral.set_memory_limit(4e9)
+    >>> littoral.set_memory_limit(0)
+    """
+    if not isinstance(limit, (int, float, np.integer, np.floating)) or not limit >= 0:
         raise ValueError(f"limit: expected bytes or 0, got {limit!r}")
     _defaults["memory_limit"] = float(limit)
 

@@ -19,6 +19,8 @@ _VERTEX, _EDGE, _FACE = 0, 1, 2
 class SurfacePoint:
     """A point of a surface: a vertex, a point of an edge, or of a face by barycentric coordinates.
 
+    Make one of `vertex`, `edge` or `face`. What takes it raises IndexOutOfRange if it is not there.
+
     >>> SurfacePoint.vertex(3)
     SurfacePoint.vertex(3)
     >>> SurfacePoint.face(7, .5, .25, .25)
@@ -58,7 +60,13 @@ class Curve:
 
     `nodes`: vertices by number, surface points, potpourri3d's (element, [barycentric]) pairs, or
     points in space (n x 3), which are projected. Consecutive nodes need not share a face. A signed
-    curve has positive distances to the left of travel. A closed one repeats its first node.
+    curve has positive distances to the left of travel. A closed one repeats its first node. Nodes
+    are checked by what takes the curve.
+
+    >>> import littoral
+    >>> line = littoral.Curve([2, 7, 12, 17, 22], signed=False)
+    >>> littoral.distance(littoral.examples.square(4), line).values[:5].tolist()
+    [0.5, 0.25, 0.0, 0.25, 0.5]
     """
 
     nodes: Any
@@ -67,7 +75,15 @@ class Curve:
 
 @dataclass(frozen=True)
 class FaceChain:
-    """Faces, neighbours in this order, each inside one more than the last; for winding numbers."""
+    """Faces, neighbours in this order, each inside one more than the last; for winding numbers.
+
+    faces: integers, by number. `distance` raises UnsupportedError for it.
+
+    >>> import littoral
+    >>> regions = littoral.winding(littoral.examples.square(4), littoral.FaceChain([0, 1]))
+    >>> regions.region[:2].tolist()
+    [0, 1]
+    """
 
     faces: Any
 

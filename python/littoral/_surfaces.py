@@ -34,10 +34,18 @@ class Surface:
     Immutable. Nothing is merged, dropped or repaired: nonmanifold edges, boundaries, several
     components, inconsistent orientation and degenerate faces are all allowed. The library keeps one
     copy of the coordinates (float64) and indices (int32).
+
+    >>> import littoral
+    >>> square = littoral.examples.square(4)
+    >>> square.kind, square.n_edges, isinstance(square, littoral.Surface)
+    ('triangle mesh', 56, True)
     """
 
     _handle: _core.Mesh
     _dtype: Any = np.float64
+
+    def __init__(self) -> None:
+        raise TypeError("make a Mesh, Polygons, PointCloud or Voxels")
 
     @classmethod
     def _of(cls: type[S], core: _core.Mesh, dtype: Any = np.float64) -> S:
@@ -108,18 +116,29 @@ class Surface:
         return self._handle.normals
 
     def positions(self, points: Any) -> Floats:
-        """Where points of the surface lie: n x 3 [length]."""
+        """Where points of the surface lie: n x 3 [length]; IndexOutOfRange if one is not there.
+
+        >>> import littoral
+        >>> littoral.examples.square(4).positions([(0, [.5]), 24]).tolist()
+        [[0.125, 0.0, 0.0], [1.0, 1.0, 0.0]]
+        """
         return self._handle.positions(point_arrays(points, self, "points"))
 
     def interpolate(self, values: Any, points: Any) -> Floats:
-        """A function given at the vertices, at points of the surface; linear in triangles."""
+        """n: a function given at the vertices, at points of the surface; linear in triangles.
+
+        Raises InputError for values that are not one a vertex.
+        """
         given = floats(values, "values", finite=False)
         if len(given) != self.n_vertices:
             raise InputError(f"values: expected {self.n_vertices}, one a vertex, got {len(given)}")
         return self._handle.interpolate(given, point_arrays(points, self, "points"))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the surface by extension (.obj .ply .off .stl ...)."""
+        """Writes the surface by extension: .obj .ply .off .stl.
+
+        Raises UnsupportedError for other extensions, IoError where it cannot be written.
+        """
         self._handle.write(os.fspath(path))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -177,7 +196,9 @@ class Mesh(Surface):
 
 
 class Polygons(Surface):
-    """A mesh of polygons: V vertices x 3, and a list of faces, each a sequence of vertices.
+    """A mesh of polygons: V vertices x 3 [length], faces: a list, each a sequence of vertices.
+
+    Raises as `Mesh`.
 
     >>> V = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, .5, 0]]
     >>> Polygons(V, [[0, 1, 2, 3], [1, 4, 2]])
@@ -197,9 +218,10 @@ class Polygons(Surface):
 
 
 class PointCloud(Surface):
-    """A point cloud: P points x 3 and, optionally, N normals x 3 (need not be of unit length).
+    """A point cloud: P points x 3 [length], and N normals x 3 or none (need not be of unit length).
 
-    Normals are estimated where they are needed and not given.
+    On surfaces, normals are estimated where they are needed and not given. Raises TypeError, and
+    InputError for other shapes and points that are not finite.
 
     >>> PointCloud([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
     <littoral.PointCloud: 3 points>
@@ -219,7 +241,8 @@ class PointCloud(Surface):
 class Voxels(Surface):
     """The boundary of the voxels that are not 0, with normals that do not know about the grid.
 
-    inside: nx x ny x nz. The centre of voxel i, j, k lies at origin + (i, j, k) * spacing.
+    inside: nx x ny x nz. The centre of voxel i, j, k lies at origin + (i, j, k) * spacing [length].
+    Outside the array is 0. Raises InputError for another shape.
 
     >>> import numpy as np
     >>> Voxels(np.pad(np.ones((2, 2, 2), bool), 1)).n_faces

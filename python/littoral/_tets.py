@@ -30,6 +30,8 @@ from ._settings import Progress, settings
 class TetMesh:
     """Tetrahedra: V vertices x 3 [length], T tets x 4 by vertex.
 
+    Either orientation will do. Raises TypeError, InputError and IndexOutOfRange as `Mesh`.
+
     >>> TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     <littoral.TetMesh: 4 vertices, 1 tets>
     """
@@ -78,7 +80,15 @@ class TetMesh:
 
 
 class TetField:
-    """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches."""
+    """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches.
+
+    `report`: the method's `Report`.
+
+    >>> import littoral
+    >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    >>> littoral.tet_distance(tets, vertices=0)
+    <littoral.TetField: 4 vertices, by signed-heat, converged>
+    """
 
     def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
         self._handle = core
@@ -92,7 +102,7 @@ class TetField:
         return self.report.warnings
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension: .vtk .vtu .csv .npy ..."""
+        """Writes by extension, .vtk or .vtu; UnsupportedError for others, IoError."""
         self._handle.write(os.fspath(path))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
@@ -116,7 +126,15 @@ class TetDistanceSolver:
     """A method prepared for one tet mesh; may be used from several threads.
 
     method: a name of `littoral.methods()["Distance through tets"]`; without one signed heat: signed
-    from surfaces, unsigned from vertices.
+    from surfaces, unsigned from vertices. Raises TypeError for another mesh, InputError for an
+    unknown method or option.
+    Source: Feng, Crane, A Heat Method for Generalized Signed Distance (2024), section 8.1.
+
+    >>> import littoral
+    >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    >>> solver = littoral.TetDistanceSolver(tets, "quadratic")
+    >>> solver.solve(vertices=0).values.round(2).tolist()
+    [0.0, 1.0, 1.0, 1.0]
     """
 
     def __init__(
@@ -149,7 +167,8 @@ class TetDistanceSolver:
     ) -> TetField:
         """Distance from a surface or cloud (signed), from vertices, or from the boundary.
 
-        Raises InputError where no source lies in a tet.
+        flip reverses the normals; estimate_normals makes those of a cloud. Raises InputError where
+        no source lies in a tet, IndexOutOfRange.
         """
         given: Ints = np.empty(0, np.int32)
         if vertices is not None:
@@ -184,11 +203,27 @@ def tet_distance(
     vertices: Any = None,
     *,
     boundary: bool = False,
+    flip: bool = False,
+    estimate_normals: bool = False,
     method: str | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> TetField:
-    """Distance through tets, once: `TetDistanceSolver` and its `solve` in one call."""
-    solver = TetDistanceSolver(mesh, method, threads=threads, **options)
-    return solver.solve(surface, vertices, boundary=boundary, threads=threads, progress=progress)
+    """Distance through tets, once: `TetDistanceSolver` and its `solve` in one call.
+
+    >>> import littoral
+    >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    >>> littoral.tet_distance(tets, vertices=0, method="quadratic").values.round(2).tolist()
+    [0.0, 1.0, 1.0, 1.0]
+    """
+    solver = TetDistanceSolver(mesh, method, threads=threads, progress=progress, **options)
+    return solver.solve(
+        surface,
+        vertices,
+        boundary=boundary,
+        flip=flip,
+        estimate_normals=estimate_normals,
+        threads=threads,
+        progress=progress,
+    )

@@ -177,3 +177,16 @@ def test_many_queries_are_answered_block_by_block(cube):
     x[270_000, 1] = np.inf
     with pytest.raises(ValueError, match="query point 270000 "):
         sdf(x)
+
+
+def test_resolutions_are_whole_numbers(cube):
+    with pytest.raises(ValueError, match="resolution"):
+        littoral.SDF(cube).sample(8.5)
+
+
+def test_tets_take_the_other_side(cube):
+    V = [[-1, -1, -1], [4, -1, -1], [-1, 4, -1], [-1, -1, 4]]
+    tets = littoral.TetMesh(V, [[0, 1, 2, 3]])
+    one = littoral.tet_distance(tets, cube).values
+    other = littoral.tet_distance(tets, cube, flip=True).values
+    np.testing.assert_allclose(one, -other, atol=1e-9)

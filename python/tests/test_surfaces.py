@@ -242,3 +242,25 @@ def test_many_calls_do_not_grow(square):
     calls()
     calls()
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096  # kB
+
+
+def test_what_does_not_fit_is_refused(square):
+    for bad in ((0, [7.0]), (0, [0.5, 0.6, 0.5]), (0, [-0.1, 0.6, 0.5])):
+        with pytest.raises(ValueError, match="barycentric"):
+            square.positions(bad)
+        with pytest.raises(ValueError, match="barycentric"):
+            littoral.distance(square, points=bad)
+    six_digits = (0, [0.333333, 0.333333, 0.333333])
+    np.testing.assert_allclose(
+        littoral.distance(square, points=six_digits).values,
+        littoral.distance(square, points=(0, [1 / 3] * 3)).values,
+        atol=1e-6,
+    )
+    with pytest.raises(ValueError, match="curves"):
+        littoral.winding(square, None)
+    with pytest.raises(ValueError, match="threads"):
+        littoral.distance(square, points=0, threads="two")
+    with pytest.raises(TypeError, match="Mesh"):
+        littoral.Surface()
+    with pytest.raises(littoral.UnsupportedError, match="^chains of faces"):
+        littoral.distance(square, littoral.FaceChain([0, 1]))

@@ -131,9 +131,10 @@ std::string curve_label(std::size_t index, const std::string& origin) {
 PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
                             const Task& task) {
   if (!sources.chains.empty())
-    throw UnsupportedError(sources.chains[0].origin +
-                           ": chains of faces say where winding numbers jump; distance is measured "
-                           "from curves and points");
+    throw UnsupportedError(
+        (sources.chains[0].origin.empty() ? "" : sources.chains[0].origin + ": ") +
+        "chains of faces say where winding numbers jump; distance is measured "
+        "from curves and points");
   Preparation preparation(mesh);
   auto check_count = [](Eigen::Index nodes, const std::string& label) {
     if (nodes < 2)

@@ -34,20 +34,26 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");
 }
 
-SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p) {
-  check_element(mesh, p);
-  if (p.on == SurfacePoint::On::vertex) return SurfacePoint::at_vertex(p.element);
+void check_barycentrics(const SurfacePoint& p) {
+  if (p.on == SurfacePoint::On::vertex) return;
   const int n = p.on == SurfacePoint::On::edge ? 2 : 3;
   double sum = 0;
   for (int k = 0; k < n; ++k) {
-    if (!(p.b[k] >= -1e-6 && p.b[k] <= 1 + 1e-6))
-      throw InputError("a source on " + element_name(p) + " has the barycentric coordinate " +
+    if (!(p.b[k] >= -barycentric_slack && p.b[k] <= 1 + barycentric_slack))
+      throw InputError("a point on " + element_name(p) + " has the barycentric coordinate " +
                        std::to_string(p.b[k]) + ", outside [0, 1]");
     sum += p.b[k];
   }
-  if (!(std::abs(sum - 1) <= 1e-6))
-    throw InputError("the barycentric coordinates of a source on " + element_name(p) + " sum to " +
+  if (!(std::abs(sum - 1) <= barycentric_slack))
+    throw InputError("the barycentric coordinates of a point on " + element_name(p) + " sum to " +
                      std::to_string(sum) + ", not 1");
+}
+
+SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p) {
+  check_element(mesh, p);
+  check_barycentrics(p);
+  if (p.on == SurfacePoint::On::vertex) return SurfacePoint::at_vertex(p.element);
+  const int n = p.on == SurfacePoint::On::edge ? 2 : 3;
 
   // Weight per distinct vertex: corners of a face may repeat.
   std::array<int, 3> vertex{};

@@ -18,12 +18,19 @@ std::string element_name(const SurfacePoint& p);
 /// face.
 void check_element(const SurfaceMesh& mesh, const SurfacePoint& p);
 
+/// Coordinates may be off by this much, as numbers of six digits are.
+inline constexpr double barycentric_slack = 1e-5;
+
+/// Throws InputError, naming the element, where the coordinates of a point on an edge or face are
+/// not finite, negative or do not sum to 1 (within the slack).
+void check_barycentrics(const SurfacePoint& p);
+
 /// The same point named by the smallest element that holds it: a coordinate below 1e-12 of the sum
 /// counts as zero, so a face point on a side becomes an edge point and one at a corner a vertex.
 ///
 /// Triangle meshes only. Throws InputError naming the element where its number is out of range, it
 /// belongs to no face, or the coordinates are not finite, negative or do not sum to 1 (within
-/// 1e-6).
+/// the slack).
 SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p);
 
 /// Faces that contain the point (given in its simplest form), ascending, each once.

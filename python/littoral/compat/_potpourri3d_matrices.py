@@ -38,7 +38,11 @@ def cotan_laplacian(V: Any, F: Any, denom_eps: float = 0.0) -> Any:
 
 
 def face_areas(V: Any, F: Any) -> Floats:
-    """Area of each face: faces [length^2]."""
+    """Area of each face: faces [length^2].
+
+    >>> face_areas([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).tolist()
+    [0.5]
+    """
     mesh = triangle_mesh(V, F)
     a, b, c = (mesh.points[np.asarray(mesh.faces)[:, k]] for k in range(3))
     doubled: Floats = np.linalg.norm(np.cross(b - a, c - a), axis=1)

@@ -14,6 +14,11 @@ class EdgeFlipGeodesicSolver:
 
     Paths come from exact distances, not from edge flips, which find a path that is as short as
     those beside it, but perhaps not the shortest.
+
+    >>> from littoral.examples import square
+    >>> paths = EdgeFlipGeodesicSolver(square(2).points, square(2).faces)
+    >>> paths.find_geodesic_path(0, 8).round(6).tolist()
+    [[0.0, 0.0, 0.0], [0.5, 0.5, 0.0], [1.0, 1.0, 0.0]]
     """
 
     def __init__(self, V: Any, F: Any, t_coef: float = 1.0) -> None:
@@ -39,7 +44,7 @@ class EdgeFlipGeodesicSolver:
     def find_geodesic_path_poly(
         self, v_list: Any, max_iterations: Any = None, max_relative_length_decrease: Any = None
     ) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(
             "shortening of a given path",
             "use find_geodesic_path for the shortest one, or potpourri3d itself",
@@ -48,12 +53,12 @@ class EdgeFlipGeodesicSolver:
     def find_geodesic_loop(
         self, v_list: Any, max_iterations: Any = None, max_relative_length_decrease: Any = None
     ) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported("geodesic loops", "potpourri3d itself has them")
 
 
 class GeodesicTracer:
-    """Not supported."""
+    """Not supported: raises UnsupportedError."""
 
     def __init__(self, V: Any, F: Any, t_coef: float = 1.0) -> None:
         unsupported(
@@ -63,7 +68,7 @@ class GeodesicTracer:
 
 
 class MeshVectorHeatSolver:
-    """Not supported."""
+    """Not supported: raises UnsupportedError."""
 
     def __init__(
         self, V: Any, F: Any, t_coef: float = 1.0, use_intrinsic_delaunay: bool = True
@@ -75,7 +80,7 @@ class MeshVectorHeatSolver:
 
 
 class PointCloudLocalTriangulation:
-    """Not supported."""
+    """Not supported: raises UnsupportedError."""
 
     def __init__(self, P: Any, with_degeneracy_heuristic: bool = True) -> None:
         unsupported(

@@ -95,6 +95,11 @@ def signed_distance(
     sign_type is PSEUDONORMAL. DEFAULT and both kinds of winding number: S = (1 - 2 w) |P - C|, w
     without its sign for the fast one. With bounds, points farther than the larger of their sizes,
     or nearer than that less the difference of the bounds, get S = nan, I = faces + 1, C = N = 0.
+
+    >>> from littoral.examples import cube
+    >>> S, I, C, N = signed_distance([[.5, .5, .5], [.5, .5, 3]], cube().points, cube().faces)
+    >>> S.round(2).tolist(), C[1].tolist()
+    ([-0.5, 2.0], [0.5, 0.5, 1.0])
     """
     queries = as_array(P, "P")
     if queries.ndim == 2 and queries.shape[1] == 2:
@@ -133,6 +138,11 @@ def point_mesh_squared_distance(P: Any, V: Any, Ele: Any) -> tuple[Floats, Indic
 
     P: points x 3 (or x 2). V: vertices x 3 (or x 2). Ele: elements x 3, triangles, or x 1, points.
     D: points [length^2]; I: points, nearest element; C: nearest point there, as P.
+
+    >>> from littoral.examples import cube
+    >>> D, I, C = point_mesh_squared_distance([[.2, .3, 3]], cube().points, cube().faces)
+    >>> D.tolist(), C.tolist()
+    ([4.0], [[0.2, 0.3, 1.0]])
     """
     x, points = space_points(P, "P"), space_points(V, "V")
     elements = ints(as_array(Ele, "Ele").reshape(-1), "Ele").reshape(np.shape(Ele))
@@ -158,6 +168,10 @@ def winding_number(V: Any, F: Any, O: Any = None, *, o: Any = None) -> Any:  # n
     """Generalized winding number of triangles at points: points, or one number for one point.
 
     V: vertices x 3. F: faces x 3. O, or o: points x 3, or 3 numbers.
+
+    >>> from littoral.examples import cube
+    >>> round(winding_number(cube().points, cube().faces, [.5, .5, .5]), 3)
+    1.0
     """
     if (O is None) == (o is None):
         raise TypeError("winding_number: expected V, F and O, or V, F and o")
@@ -220,12 +234,19 @@ def _in_order(
 
 
 def fast_winding_number_precompute(*args: Any, **named: Any) -> tuple[Floats, Floats, Floats]:
-    """Not supported."""
+    """Not supported: raises UnsupportedError."""
     unsupported("octrees of points to prepare", "call fast_winding_number(P, N, A, Q)")
 
 
 class FastWindingNumberBVH:
-    """Winding numbers of one mesh at many sets of points."""
+    """Winding numbers of one mesh at many sets of points.
+
+    >>> from littoral.examples import cube
+    >>> bvh = FastWindingNumberBVH()
+    >>> bvh.init(cube().points, cube().faces)
+    >>> bvh.winding_number([[.5, .5, .5]]).round(3).tolist()
+    [1.0]
+    """
 
     def __init__(self) -> None:
         self._sdf: SDF | None = None
@@ -279,7 +300,14 @@ def heat_geodesics_precompute(
 
 
 def heat_geodesics_solve(data: HeatGeodesicsData, gamma: Any) -> Floats:
-    """Distance to the nearest of the vertices gamma by the heat method, at all vertices."""
+    """Distance to the nearest of the vertices gamma by the heat method, at all vertices [length].
+
+    >>> from littoral.examples import sphere
+    >>> data = HeatGeodesicsData()
+    >>> heat_geodesics_precompute(sphere().points, sphere().faces, data)
+    >>> bool(abs(heat_geodesics_solve(data, [0]).max() - 3.14) < .1)
+    True
+    """
     if not isinstance(data, HeatGeodesicsData):
         raise TypeError(f"data: expected HeatGeodesicsData, got {type(data).__name__}")
     if data._solver is None:
@@ -294,6 +322,10 @@ def exact_geodesic(
     """Exact distance along triangles of targets to the nearest source: vertices VT, then faces FT.
 
     V: vertices x 3 (or x 2). F: faces x 3. VS, VT: vertices; FS, FT: faces, by their barycenters.
+
+    >>> from littoral.examples import square
+    >>> exact_geodesic(square(2).points, square(2).faces, VS=[0], VT=[2, 8]).round(6).tolist()
+    [1.0, 1.414214]
     """
     mesh = triangle_mesh(V, F, flat=True)
     n, m = mesh.n_vertices, mesh.n_faces

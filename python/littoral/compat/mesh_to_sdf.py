@@ -133,6 +133,11 @@ def mesh_to_voxels(
     Element i, j, k is at x, y, z = -1 + 2 (i, j, k) / (R - 1). pad: a layer of 1 around it, R + 2.
     check_result: BadMeshException where neighbours differ too much. return_gradients: also
     R x R x R x 3, of unit length.
+
+    >>> import littoral
+    >>> voxels = mesh_to_voxels(littoral.examples.cube(), 5)
+    >>> voxels.shape, float(voxels[2, 2, 2])
+    ((5, 5, 5), -1.0)
     """
     _check(surface_point_method, sign_method)
     points = _raster(voxel_resolution)
@@ -203,6 +208,11 @@ def sample_sdf_near_surface(
     near the surface, half of them 0.0025 off along each axis (standard deviation) and the other
     half 0.00025; the others, at the end, are even in the sphere. min_size: BadMeshException where a
     smaller share of these is inside. `numpy.random.seed` makes the points repeat.
+
+    >>> import littoral
+    >>> points, sdf = sample_sdf_near_surface(littoral.examples.cube(), 100)
+    >>> points.shape, sdf.shape
+    ((100, 3), (100,))
     """
     _check(surface_point_method, sign_method)
     count = int(number_of_points)
@@ -231,7 +241,7 @@ def sample_sdf_near_surface(
 
 
 def get_surface_point_cloud(*args: Any, **kwargs: Any) -> NoReturn:
-    """Raises UnsupportedError."""
+    """Not supported: raises UnsupportedError."""
     raise UnsupportedError(
         "get_surface_point_cloud: littoral measures to the mesh itself and makes no cloud of it; "
         "use mesh_to_sdf, or littoral.SDF for many queries"

@@ -131,6 +131,11 @@ class MeshHeatMethodDistanceSolver:
     """Unsigned distance to vertices by the heat method.
 
     V: vertices x 3. F: faces x 3. use_robust: on an intrinsic Delaunay triangulation.
+
+    >>> from littoral.examples import sphere
+    >>> d = MeshHeatMethodDistanceSolver(sphere().points, sphere().faces).compute_distance(0)
+    >>> d.shape, bool(abs(d.max() - 3.14) < .1)
+    ((642,), True)
     """
 
     def __init__(self, V: Any, F: Any, t_coef: float = 1.0, use_robust: bool = True) -> None:
@@ -158,7 +163,13 @@ def compute_distance_multisource(V: Any, F: Any, v_inds: Any) -> Floats:
 
 
 class MeshFastMarchingDistanceSolver:
-    """Distance by fast marching. V: vertices x 3. F: faces x 3."""
+    """Distance by fast marching. V: vertices x 3. F: faces x 3.
+
+    >>> from littoral.examples import square
+    >>> solver = MeshFastMarchingDistanceSolver(square(4).points, square(4).faces)
+    >>> solver.compute_distance([[(0, [])]]).round(6)[:3].tolist()
+    [0.0, 0.25, 0.5]
+    """
 
     def __init__(self, V: Any, F: Any) -> None:
         self._mesh = triangle_mesh(V, F)
@@ -236,6 +247,12 @@ class MeshSignedHeatSolver:
     """Signed distance to curves, which may be broken, by the signed heat method.
 
     V: vertices x 3. F: faces x 3. Each set of options is prepared once.
+
+    >>> from littoral.examples import square
+    >>> solver = MeshSignedHeatSolver(square(4).points, square(4).faces)
+    >>> up = [(2, []), (7, []), (12, []), (17, []), (22, [])]
+    >>> solver.compute_distance([up]).round(6)[:2].tolist()
+    [0.5, 0.25]
     """
 
     def __init__(self, V: Any, F: Any, t_coef: float = 1.0) -> None:
@@ -295,15 +312,15 @@ class PolygonMeshHeatSolver:
         return -answer(solver.solve(given or None))
 
     def extend_scalar(self, v_inds: Any, values: Any) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_EXTEND)
 
     def get_tangent_frames(self) -> tuple[Floats, Floats, Floats]:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_FRAMES)
 
     def transport_tangent_vectors(self, v_inds: Any, vectors: Any) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_TRANSPORT)
 
 
@@ -317,7 +334,7 @@ class PointCloudHeatSolver:
         self._signed: tuple[Floats, _Solvers] | None = None
 
     def compute_distance(self, p_ind: int) -> Floats:
-        """Distance to a point of the cloud, at all points."""
+        """Distance to a point of the cloud, at all points [length]."""
         return self._unsigned.from_one(p_ind, "p_ind", "points")
 
     def compute_distance_multisource(self, p_inds: Any) -> Floats:
@@ -351,21 +368,21 @@ class PointCloudHeatSolver:
         return -answer(solvers(**options).solve(given or None))
 
     def extend_scalar(self, p_inds: Any, values: Any) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_EXTEND)
 
     def get_tangent_frames(self) -> tuple[Floats, Floats, Floats]:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_FRAMES)
 
     def transport_tangent_vector(self, p_ind: int, vector: Any) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_TRANSPORT)
 
     def transport_tangent_vectors(self, p_inds: Any, vectors: Any) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_TRANSPORT)
 
     def compute_log_map(self, p_ind: int) -> Floats:
-        """Not supported."""
+        """Not supported: raises UnsupportedError."""
         unsupported(*_LOG_MAP)

@@ -35,9 +35,10 @@ import numpy as np
 from .._arrays import Array, Floats, Ints, as_array, floats
 from .._errors import InputError, UnsupportedError
 from .._report import Report
-from .._space import SDF, Volume
+from .._space import SDF
 from .._surfaces import Mesh, PointCloud, Polygons, Surface
 from .._tets import TetDistanceSolver, TetMesh
+from .._volumes import Volume
 
 _KNOWN = ("level_set_constraint", "t_coef", "bbox_min", "bbox_max", "resolution", "verbose")
 _DEFAULTS: Mapping[str, Any] = MappingProxyType({})
@@ -233,7 +234,15 @@ def _lattice(box: Floats, longest: int) -> tuple[tuple[int, ...], Floats, TetMes
 
 
 class SignedHeatTetSolver:
-    """Signed distance at the vertices of tets, from meshes and oriented clouds."""
+    """Signed distance at the vertices of tets, from meshes and oriented clouds.
+
+    >>> import littoral
+    >>> solver = SignedHeatTetSolver(verbose=False)
+    >>> cube = littoral.examples.cube()
+    >>> phi = solver.compute_distance_to_mesh(cube.points, cube.faces, {"resolution": [7, 7, 7]})
+    >>> phi.shape, solver.get_vertices().shape
+    ((343,), (343, 3))
+    """
 
     def __init__(self, verbose: bool = True) -> None:
         self._verbose = bool(verbose)

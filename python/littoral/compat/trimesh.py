@@ -87,6 +87,10 @@ class ProximityQuery:
 
     The mesh is taken as it is now: changes made to it later are not seen. `sdf` is the
     `littoral.SDF` behind it, which is negative inside.
+
+    >>> import littoral
+    >>> ProximityQuery(littoral.examples.cube()).signed_distance([[.5, .5, .5]]).tolist()
+    [0.5]
     """
 
     def __init__(self, mesh: Any) -> None:

@@ -113,6 +113,7 @@ double Mesh::interpolate(const VecX& values, const SurfacePoint& point) const {
     return values[point.element];
   }
   check_element(mesh, point);
+  check_barycentrics(point);
   double sum = 0;
   const auto add = [&](double weight, int v) {
     if (weight != 0) sum += weight * values[v];  // infinite values reach no farther than they must

@@ -50,7 +50,7 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
     report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
     surfaces.push_back({level, std::move(surface)});
   }
-  if (!any) throw InputError("none of the levels is met: there is nothing to write");
+  if (!any) throw InputError("none of the levels is met");
   return surfaces;
 }
 

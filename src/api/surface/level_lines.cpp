@@ -44,7 +44,7 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
     if (all.back().lines.empty()) report.warn("there are no lines at level " + number_text(level));
     any = any || !all.back().lines.empty();
   }
-  if (!any) throw InputError("none of the levels is met by a face: there is nothing to write");
+  if (!any) throw InputError("none of the levels is met by a face");
   return all;
 }
 

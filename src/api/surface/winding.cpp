@@ -183,8 +183,9 @@ class WindingOnSurface {
     const std::vector<CurvePiece> pieces = drawn_pieces(mesh, sources, task, report);
     ConformingCurves curves = conforming(mesh, pieces, formulation, report);
     if (curves.is_cut && !sources.chains.empty())
-      throw UnsupportedError(sources.chains[0].origin +
-                             ": chains of faces go with curves along edges, not through faces");
+      throw UnsupportedError(
+          (sources.chains[0].origin.empty() ? "" : sources.chains[0].origin + ": ") +
+          "chains of faces go with curves along edges, not through faces");
     WindingAnswer answer{{}, std::move(curves.cut), {}, {}, {}, {}, {}, {}};
     const SurfaceMesh& cut = answer.cut.mesh;
     if (curves.is_cut) report.sizes.emplace_back("cut_faces", cut.n_faces());

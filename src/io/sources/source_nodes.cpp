@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "littoral/error.h"
+#include "sources/surface_points.h"
 
 namespace littoral::io {
 
@@ -64,8 +65,8 @@ SurfacePoint NodeMaker::face(std::int64_t index, std::array<double, 3> b, int ba
          " corners; nodes inside faces need a triangle");
   }
   const double sum = b[0] + b[1] + b[2];
-  const bool negative = std::ranges::any_of(b, [](double x) { return !(x >= -1e-9); });
-  if (negative || !(std::abs(sum - 1) <= 1e-6)) {
+  const bool negative = std::ranges::any_of(b, [](double x) { return !(x >= -barycentric_slack); });
+  if (negative || !(std::abs(sum - 1) <= barycentric_slack)) {
     fail("barycentric coordinates must not be negative and must add up to 1");
   }
   for (double& x : b) x = std::max(x, 0.0);

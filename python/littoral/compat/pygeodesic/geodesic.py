@@ -23,7 +23,14 @@ __all__ = ["PyGeodesicAlgorithmExact", "read_mesh_from_file"]
 
 
 class PyGeodesicAlgorithmExact:
-    """Exact distances and shortest paths. _points: vertices x 3. _faces: faces x 3."""
+    """Exact distances and shortest paths. _points: vertices x 3. _faces: faces x 3.
+
+    >>> from littoral.examples import square
+    >>> geodesics = PyGeodesicAlgorithmExact(square(2).points, square(2).faces)
+    >>> length, path = geodesics.geodesicDistance(0, 8)
+    >>> round(length, 6), path[0].tolist()
+    (1.414214, [1.0, 1.0, 0.0])
+    """
 
     def __init__(self, _points: Any, _faces: Any) -> None:
         self._paths = ShortestPaths(triangle_mesh(_points, _faces))
@@ -81,7 +88,10 @@ def _flat(value: Any, name: str) -> Any:
 
 
 def read_mesh_from_file(filename: str | os.PathLike[str]) -> tuple[Floats, Indices]:
-    """Points x 3 and faces x 3 of a text: a line with both numbers, the points, the faces."""
+    """Points x 3 and faces x 3 of a text: a line with both numbers, the points, the faces.
+
+    Raises InputError and IoError.
+    """
     try:
         with open(filename, encoding="utf-8") as file:
             rows = [line.split() for line in file]

@@ -1,0 +1,96 @@
+"""Values at the nodes of grids."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import Floats, as_array
+from ._errors import InputError
+from ._settings import settings
+from ._surfaces import Mesh, Surface, triple
+
+
+class Volume:
+    """Values at the nodes of a grid, linear along each axis between them.
+
+    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length].
+
+    >>> Volume(np.zeros((2, 3, 4)), spacing=.5).nodes()[1, 2, 3].tolist()
+    [0.5, 1.0, 1.5]
+    """
+
+    _handle: _core.Volume
+
+    def __init__(
+        self,
+        values: Any,
+        spacing: float | Sequence[float] = 1.0,
+        origin: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        array = as_array(values, "values")
+        if array.ndim != 3 or array.dtype.kind not in "fiub":
+            raise InputError(
+                f"values: expected nx x ny x nz numbers, got {array.dtype} {array.shape}"
+            )
+        grid = _core.Grid(array.shape, triple(origin, "origin"), triple(spacing, "spacing"))
+        self._handle = _core.Volume(grid, np.ascontiguousarray(array.ravel(order="F"), np.float64))
+
+    @classmethod
+    def _of(cls, core: _core.Volume) -> Volume:
+        self = cls.__new__(cls)
+        self._handle = core
+        return self
+
+    @property
+    def values(self) -> Floats:
+        """nx x ny x nz, read-only, not copied."""
+        return self._handle.values.reshape(tuple(self._handle.grid.n), order="F")
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Nodes along x, y and z."""
+        nx, ny, nz = self._handle.grid.n
+        return nx, ny, nz
+
+    @property
+    def spacing(self) -> Floats:
+        """Between nodes, by axis [length]."""
+        return self._handle.grid.spacing
+
+    @property
+    def origin(self) -> Floats:
+        """Where node 0, 0, 0 lies."""
+        return self._handle.grid.origin
+
+    def nodes(self) -> Floats:
+        """Where the nodes lie: nx x ny x nz x 3 [length]."""
+        axes = [
+            o + s * np.arange(n)
+            for o, s, n in zip(self.origin, self.spacing, self.shape, strict=True)
+        ]
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+
+    def isosurface(
+        self, level: float = 0.0, *, close_at_box: bool = False, threads: int | None = None
+    ) -> Surface:
+        """The surface on which the volume takes the level, larger values outside.
+
+        Closed unless it meets the box, or with close_at_box. InputError where it is met nowhere.
+        """
+        core = _core.isosurface(self._handle, float(level), bool(close_at_box), settings(threads))
+        return Mesh._of(core)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes by extension, .vti .vdb .nrrd .npy; UnsupportedError for others, IoError."""
+        self._handle.write(os.fspath(path))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Volume, (np.array(self.values), tuple(self.spacing), tuple(self.origin))
+
+    def __repr__(self) -> str:
+        return f"<littoral.Volume: {' x '.join(str(n) for n in self.shape)} nodes>"

@@ -262,5 +262,5 @@ def test_what_does_not_fit_is_refused(square):
         littoral.distance(square, points=0, threads="two")
     with pytest.raises(TypeError, match="Mesh"):
         littoral.Surface()
-    with pytest.raises(littoral.UnsupportedError, match="^chains of faces"):
+    with pytest.raises(littoral.UnsupportedError, match=r"^chains of faces"):
         littoral.distance(square, littoral.FaceChain([0, 1]))

@@ -36,7 +36,7 @@ void check_lengths(const std::string& name, const PolygonSoup& soup) {
 void check_stl(const PolygonSoup& soup) {
   if (soup.n_faces() == 0 && soup.n_vertices() > 0)
     throw UnsupportedError(
-        "there are points and no faces, STL holds triangles only; .ply, .obj and .pcd hold points");
+        "there are points and no faces, STL holds triangles only; .ply and .obj hold points");
   for (int f = 0; f < soup.n_faces(); ++f) {
     if (soup.face(f).size() != 3) {
       throw UnsupportedError(

@@ -33,6 +33,22 @@ def _described(array: Array) -> str:
     return f"{array.dtype} of shape {array.shape}"
 
 
+def _shaped(array: Array, name: str, columns: int | None, kinds: str, what: str) -> Array:
+    """The array if its numbers are of these kinds and its shape is n, or n x columns."""
+    shape = "n" if columns is None else f"n x {columns}"
+    if array.dtype.kind not in kinds:
+        if array.size:
+            raise TypeError(f"{name}: expected {what} ({shape}), got {_described(array)}")
+        array = array.astype(np.int32)  # of nothing
+    if columns is not None and array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, columns)
+    if array.ndim != (1 if columns is None else 2) or (
+        columns is not None and array.shape[1] != columns
+    ):
+        raise InputError(f"{name}: expected shape {shape}, got {_described(array)}")
+    return array
+
+
 def floats(value: Any, name: str, columns: int | None = None, finite: bool = True) -> Floats:
     """Float64 in C order: n x columns, or n without columns.
 
@@ -48,17 +64,7 @@ def floats(value: Any, name: str, columns: int | None = None, finite: bool = Tru
         and (columns is None or array.shape[1] == columns)
     ):
         return array
-    shape = "n" if columns is None else f"n x {columns}"
-    if array.dtype.kind not in "fiub":
-        if array.size:
-            raise TypeError(f"{name}: expected real numbers ({shape}), got {_described(array)}")
-        array = array.astype(np.float64)
-    if columns is not None and array.size == 0 and array.ndim < 2:
-        array = array.reshape(0, columns)
-    if array.ndim != (1 if columns is None else 2) or (
-        columns is not None and array.shape[1] != columns
-    ):
-        raise InputError(f"{name}: expected shape {shape}, got {_described(array)}")
+    array = _shaped(array, name, columns, "fiub", "real numbers")
     out = np.ascontiguousarray(array, dtype=np.float64)
     if finite and not np.isfinite(out).all():
         first = np.argwhere(~np.isfinite(out))[0]
@@ -73,18 +79,7 @@ def ints(value: Any, name: str, columns: int | None = None) -> Ints:
     Raises TypeError for anything but integers, InputError for a wrong shape and IndexOutOfRange for
     numbers beyond 32 bits.
     """
-    array = as_array(value, name)
-    shape = "n" if columns is None else f"n x {columns}"
-    if array.dtype.kind not in "iu":
-        if array.size:
-            raise TypeError(f"{name}: expected integers ({shape}), got {_described(array)}")
-        array = array.astype(np.int32)
-    if columns is not None and array.size == 0 and array.ndim < 2:
-        array = array.reshape(0, columns)
-    if array.ndim != (1 if columns is None else 2) or (
-        columns is not None and array.shape[1] != columns
-    ):
-        raise InputError(f"{name}: expected shape {shape}, got {_described(array)}")
+    array = _shaped(as_array(value, name), name, columns, "iu", "integers")
     return narrowed(array, name)
 
 

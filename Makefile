@@ -50,17 +50,17 @@ bench:  ## benchmarks
 	cmake --build build/bench
 	build/bench/bench/littoral_bench
 
-peers: domains  ## littoral beside other programs: the tables and plot of docs/performance.md
+peers: domains  ## littoral beside other programs: the tables and plot of docs/measurements/performance.md
 	cmake --build build/bench --target littoral_surface_timer
 	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer $(or $(CLOCK),wall) \
-	  docs/performance.md docs/gallery/performance-surface.png $(MESHES)
+	  docs/measurements/performance.md docs/gallery/performance-surface.png $(MESHES)
 
 domains:  ## the part of that about polygon meshes and point clouds
 	scripts/setup.sh test
 	cmake --preset bench
 	cmake --build build/bench --target littoral_domain_timer
 	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
-	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/performance.md 96 192
+	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/measurements/performance.md 96 192
 
 clean:  ## remove what was built
 	rm -rf build out

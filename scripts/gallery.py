@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/gallery.md again: gallery.py PROGRAM [SHARED].
+"""Makes the pictures of docs/gallery again: gallery.py PROGRAM [SHARED].
 
 Without the shared data collection (SHARED, or ../shared beside the checkout) only those that need
 none are made.

@@ -1,6 +1,6 @@
 #pragma once
 // Files. Every reader answers any bytes with a value or an InputError naming file and line; files
-// are written beside their target and renamed. docs/formats.md lists the formats.
+// are written beside their target and renamed. docs/reference/formats.md lists the formats.
 
 #include <filesystem>
 #include <string>

@@ -2,8 +2,8 @@
 // The methods and their options: one plain struct for each, with the library's defaults.
 //
 // Names on the command line, in JSON and in Python are those of the members with hyphens for
-// underscores; docs/support.md lists all of them with ranges and units. Values out of range are an
-// InputError where a method is prepared.
+// underscores; docs/reference/support.md lists all of them with ranges and units. Values out of
+// range are an InputError where a method is prepared.
 
 #include <string>
 

@@ -13,7 +13,7 @@ import littoral
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/guides/python.md"])
 def test_the_code_runs(page, monkeypatch, tmp_path, capsys):
     pytest.importorskip("scipy")
     (tmp_path / "examples").symlink_to(ROOT / "examples")
@@ -49,7 +49,7 @@ def is_numbers(value):
 )
 def test_calls_of_other_packages_give_what_the_table_says(name):
     pytest.importorskip("scipy")
-    page = (ROOT / "docs/coming_from.md").read_text()
+    page = (ROOT / "docs/guides/coming_from.md").read_text()
     section = page.split(f"\n## {name}\n")[1].split("\n## ")[0]
     flat = name == "potpourri3d"
     mesh = littoral.examples.square(8) if flat else littoral.examples.sphere(2)

@@ -19,7 +19,7 @@ def test_the_tutorial_runs(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr("webbrowser.open", opened.append)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.chdir(ROOT)
-    notebook = json.loads(Path("docs/tutorial.ipynb").read_text(encoding="utf-8"))
+    notebook = json.loads(Path("docs/tutorials/tutorial.ipynb").read_text(encoding="utf-8"))
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in cells)
     names: dict = {}

@@ -1,6 +1,6 @@
 #pragma once
 // The file formats, one row each. From the rows come the choice of reader and writer, what messages
-// and help say about extensions, and docs/formats.md.
+// and help say about extensions, and docs/reference/formats.md.
 
 #include <filesystem>
 #include <iosfwd>
@@ -95,7 +95,7 @@ Content read_content(const std::filesystem::path& path, const std::string& field
 /// A page or a picture of a scene, by extension. Throws as write_page and write_picture do.
 void write_scene(const std::filesystem::path& path, const Scene& scene);
 
-/// A line for each format, and docs/formats.md.
+/// A line for each format, and docs/reference/formats.md.
 std::string formats_text();
 std::string formats_markdown();
 

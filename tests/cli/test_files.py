@@ -129,5 +129,5 @@ def test_view_serves_the_page(mesh: Path) -> None:
 
 
 def test_support_table_in_the_docs_is_the_registry(run: Run) -> None:
-    docs = Path(__file__).parents[2] / "docs" / "support.md"
+    docs = Path(__file__).parents[2] / "docs/reference/support.md"
     assert docs.read_text() == run("methods", "--markdown").stdout

@@ -13,7 +13,7 @@ VERBS += ["offset", "view", "render"]
 
 @pytest.mark.parametrize("page, verb", [("formats", "formats"), ("verbs", "help")])
 def test_pages_are_what_the_program_prints(run: Run, page: str, verb: str) -> None:
-    assert (ROOT / "docs" / f"{page}.md").read_text() == run(verb, "--markdown").stdout
+    assert (ROOT / "docs/reference" / f"{page}.md").read_text() == run(verb, "--markdown").stdout
 
 
 def kinds(run: Run, extension: str) -> tuple[set[str], set[str]]:

@@ -10,7 +10,7 @@ FUNCTION = re.compile(r"`(\w+(?:::\w+)+)`")
 
 
 def pages() -> list[Path]:
-    return [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
+    return [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
 
 
 def test_files_that_the_docs_name_exist() -> None:

@@ -21,7 +21,7 @@ namespace littoral {
 
 namespace {
 
-// Calibrated on damaged curves (docs/accuracy.md).
+// Calibrated on damaged curves (docs/measurements/accuracy.md).
 constexpr double spread = 0.1;
 
 const OptionTable<Automatic>& automatic_options() {

@@ -84,8 +84,8 @@ void print_verb(const CLI::App& verb) {
 
 void print_verbs(const CLI::App& program) {
   std::cout << "# Verbs and their options\n\nOptions of methods are [a page of their own]"
-               "(support.md), file formats [another](formats.md); [the command line](cli.md) has "
-               "examples.\n";
+               "(support.md), file formats [another](formats.md); "
+               "[the command line](../guides/command_line.md) has examples.\n";
   const auto verbs = program.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* verb : verbs) print_verb(*verb);
   std::cout << "\n## Options of all verbs\n\nBut of those that tell what there is.\n\n"

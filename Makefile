@@ -41,7 +41,7 @@ wheel:  ## the Python package as a wheel, in build/dist
 	scripts/make_wheel.sh build/dist
 
 docs:  ## the documentation, in build/site
-	scripts/setup.sh python
+	scripts/setup.sh docs
 	build/venv/bin/mkdocs build --strict --site-dir build/site
 
 bench:  ## benchmarks

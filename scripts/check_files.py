@@ -1,4 +1,4 @@
-"""Checks the tracked files: length, paths of machines, pages that repeat themselves.
+"""Checks the tracked files: length, paths of machines; pages: repeated lines, line width.
 
 usage: check_files.py [ROOT]    prints one line per finding; exit status 1 if there are any
 """
@@ -13,6 +13,9 @@ SOURCES = {".h", ".cpp", ".py", ".sh", ".js", ".mjs", ".ts", ".css", ".html", ".
 DATA = ("examples/data/", "tests/fixtures/", "fuzz/corpus/")
 GENERATED = {"package-lock.json"}
 LONG_LINE = 70  # characters; a longer line twice in one page is a repetition
+WIDEST = 100  # characters of a line of prose in a page
+PRINTED = {"docs/reference/verbs.md", "docs/reference/formats.md", "docs/reference/support.md"}
+UNBREAKABLE = ("|", "#", "![", "[", "<")  # rows of tables, headings, pictures, links, comments
 MACHINE_PATH = re.compile(r"(?<![\w.$}])/(?:work|home|root|Users|tmp|mnt|workspace)/\w")
 
 
@@ -40,6 +43,19 @@ def repeated_lines(lines: list[str]) -> list[tuple[int, int]]:
     return found
 
 
+def wide_lines(lines: list[str]) -> list[int]:
+    """The numbers of lines of prose that are not wrapped; tables, code and headings aside."""
+    found = []
+    code = False
+    for number, line in enumerate(lines, 1):
+        text = line.strip()
+        code ^= text.startswith("```")
+        breaks = " " in text and not text.startswith(UNBREAKABLE)
+        if not code and len(line) > WIDEST and breaks:
+            found.append(number)
+    return found
+
+
 def findings(root: Path) -> list[str]:
     """One line per file that is too long and per line with a machine path or that stands twice."""
     found = []
@@ -55,6 +71,9 @@ def findings(root: Path) -> list[str]:
         if path.suffix == ".md":
             for number, before in repeated_lines(lines):
                 found.append(f"{path}:{number}: the same as line {before}")
+        if path.suffix == ".md" and path.parts[0] == "docs" and path.as_posix() not in PRINTED:
+            for number in wide_lines(lines):
+                found.append(f"{path}:{number}: over {WIDEST} characters; wrap it")
         for number, line in enumerate(lines, 1):
             if match := MACHINE_PATH.search(line):
                 found.append(f"{path}:{number}: a path of one machine: {match[0]}...")
@@ -67,7 +86,7 @@ def main(arguments: list[str]) -> int:
     print(
         "\n".join(found)
         if found
-        else f"files: none over {LONGEST} lines, no machine paths, no repeated lines"
+        else f"files: none over {LONGEST} lines, no machine paths, no repeated or long lines"
     )
     return 1 if found else 0
 

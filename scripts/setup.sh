@@ -5,6 +5,7 @@
 #   scripts/setup.sh tidy    build, and clang-tidy
 #   scripts/setup.sh aarch64 test, and what compiles and runs programs for 64-bit ARM
 #   scripts/setup.sh python  the Python environment in build/venv alone
+#   scripts/setup.sh docs    python, and what reads the headers for the site
 # Does nothing, quickly, when all of it is there. Works as root or through sudo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +14,7 @@ build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
   libopenblas-dev libmetis-dev libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libopenvdb-dev
   libtbb-dev libboost-dev libimath-dev)
 test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
-  libbenchmark-dev python3-venv chromium)
+  libbenchmark-dev python3-venv chromium doxygen)
 arm_packages=(g++-aarch64-linux-gnu qemu-user libpng-dev:arm64 zlib1g-dev:arm64 libgtest-dev:arm64
   libgmock-dev:arm64 librapidcheck-dev:arm64)
 oldest_node=18
@@ -118,5 +119,9 @@ case "${1:-}" in
     install_packages python3-venv
     python_environment
     ;;
-  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python" ;;
+  docs)
+    install_packages python3-venv doxygen
+    python_environment
+    ;;
+  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python|docs" ;;
 esac

@@ -15,8 +15,8 @@ export LITTORAL_SHARED="${LITTORAL_SHARED:-$(dirname "$PWD")/shared}"
 jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
-check_stages=(files format tools docs quick package)
-test_stages=(files format tools docs release cli install wheel permissive sanitize threads fuzz viewer)
+check_stages=(files format tools docs quick package pages)
+test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer)
 long_stages=(slow sanitize_slow sanitize_package fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
@@ -75,6 +75,12 @@ stage_package() {
     PYTHONPATH="$package" "$venv/python" -m nanobind.stubgen -q -m littoral._core -o build/_core.pyi &&
     "$venv/ruff" format -q --config 'extend-exclude = []' build/_core.pyi && diff build/_core.pyi python/littoral/_core.pyi &&
     PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests
+}
+
+# The code on the pages of the documentation.
+stage_pages() {
+  build_release && LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$PWD/build/release/python" \
+    "$venv/python" -m pytest -q -rs tests/pages
 }
 
 stage_wheel() { stage_package && scripts/test_wheel.sh build/release; }

@@ -95,7 +95,7 @@ def read_tets(path: str | os.PathLike[str]) -> TetMesh:
 def read_sources(path: str | os.PathLike[str], mesh: Any) -> _core.Sources:
     """Curves and points on a mesh from a file, for `distance(mesh, curves=...)`.
 
-    docs/reference/conventions.md describes the formats (.txt .obj .ply .json).
+    docs/reference/curves.md describes the formats (.txt .obj .ply .json).
     mesh: what `as_surface` takes.
     Raises InputError naming file and line, IoError.
 

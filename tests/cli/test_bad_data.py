@@ -79,7 +79,7 @@ def expected(folder: str, verdict: str) -> set[str]:
 
 def test_no_class_is_left_out() -> None:
     assert expected("files", "reject") <= set(FILES)
-    # docs/reference/conventions.md: such curves are traced across the mesh instead
+    # docs/reference/curves.md: such curves are traced across the mesh instead
     assert expected("curves", "reject") - set(CURVES) == {"bad_nonadjacent.txt"}
     assert not expected("files", "load") & set(FILES)
     assert not expected("geometry", "load") & set(GEOMETRY)

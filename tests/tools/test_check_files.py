@@ -50,3 +50,9 @@ def test_a_long_line_that_stands_twice_in_a_page_is_found(tmp_path: Path) -> Non
     }
     (found,) = check_files.findings(repository(tmp_path, pages))
     assert found == "a.md:4: the same as line 1"
+
+
+def test_prose_over_a_hundred_characters_is_found_in_pages() -> None:
+    wide = "word " * 21
+    pages = ["fine", wide, f"| {wide} |", "```", wide, "```", f"# {wide}", f"![{wide}](a.png)"]
+    assert check_files.wide_lines(pages) == [2]

@@ -34,3 +34,26 @@ def test_functions_that_the_docs_name_exist() -> None:
         if any(word not in words for word in name.split("::"))
     ]
     assert missing == []
+
+
+def literals() -> str:
+    """All string literals of the sources, those in a row joined, quotes and backslashes gone."""
+    code = "\n".join(p.read_text(encoding="utf-8") for p in (ROOT / "src").rglob("*.cpp"))
+    code += "\n".join(p.read_text(encoding="utf-8") for p in (ROOT / "src").rglob("*.h"))
+    joined = re.sub(r'(?<!\\)"\s*"', "", code)
+    return "\n".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', joined))
+
+
+def test_messages_that_the_docs_explain_are_those_of_the_program() -> None:
+    page = (ROOT / "docs/guides/troubleshooting.md").read_text(encoding="utf-8")
+    page = page.split("## No message")[0]
+    known = literals()
+    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| [^|]+ \|$", page, re.M)
+    messages = [row for row in rows if row not in {"message", "---"}]
+    assert len(messages) > 30
+    pieces = [
+        piece.strip(" :;")
+        for message in messages
+        for piece in re.split(r"\.\.\.|\b(?:FILE|NAME|[A-Z])\b:?(?: %)?|\b64\b", message)
+    ]
+    assert [piece for piece in pieces if len(piece) > 11 and piece not in known] == []

@@ -1,15 +1,20 @@
 """Makes the pictures of docs/gallery again: gallery.py PROGRAM [SHARED].
 
+Those of docs/gallery/spot.md are made by the commands on that page, which need the Python package.
 Without the shared data collection (SHARED, or ../shared beside the checkout) only those that need
 none are made.
 """
 
 import json
 import math
+import os
+import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from page_code import run_page
 
 ROOT = Path(__file__).resolve().parents[1]
 SIZE = ["--width", "600", "--height", "450"]
@@ -146,8 +151,22 @@ def cloud_pictures(program: str, clouds: Path, work: Path, out: Path) -> None:
     trace("cloud-offset", uneven, "--level", "3", "--slice", "0", "--resolution", "64")
 
 
+def spot_pictures(program: str, out: Path) -> None:
+    """Runs the code of a page and keeps the pictures that it made."""
+    program, before = str(Path(program).resolve()), Path.cwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            run_page(out / "spot.md", Path(folder), program)
+        finally:
+            os.chdir(before)
+        for picture in sorted((Path(folder) / "out").glob("spot-*.png")):
+            shutil.copy(picture, out)
+
+
 def main(program: str, shared: Path) -> None:
     out = ROOT / "docs" / "gallery"
+    spot_pictures(program, out)
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
 

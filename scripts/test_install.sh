@@ -27,6 +27,7 @@ expect "441 vertices" "$here/build/hello"
 expect "between three points" "$here/build/many_sources" "$mesh"
 expect "bounding" "$here/build/regions" "$mesh" "$curves" "$out"
 expect "100 %" "$here/build/offset" "$mesh" "$out"
+expect "overlap" "$here/build/clearance" "$mesh" "$mesh"
 expect "from pole to pole" "$here/build/cloud"
 expect "from its boundary" "$here/build/tets"
 for file in distance.ply distance.png regions.txt shell.ply difference.ply distance.nrrd; do

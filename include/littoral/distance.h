@@ -14,7 +14,7 @@
 namespace littoral {
 
 /// Distance from the sources at the vertices of the mesh [length]; signed for signed curves, with
-/// positive values to the left of travel. The default is SignedHeat{}.
+/// positive values to the left of travel. The default is Automatic{}.
 ///
 /// Throws InputError and UnsupportedError for bad input before anything is factored, SolveError if
 /// a solve breaks down, IoError where memory will not do, Cancelled.

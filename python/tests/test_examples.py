@@ -7,6 +7,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
+
+import littoral
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -16,15 +19,97 @@ def run(name: str, *arguments: str | Path) -> str:
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
+SPOT = EXAMPLES / "data/spot.obj"
+JERSEY = EXAMPLES / "data/spot-jersey.txt"
+
+
 def test_curve_offsets():
-    data = EXAMPLES / "data"
-    said = run("curve_offsets.py", data / "spot.obj", data / "spot-jersey.txt", "-0.1", "0.1")
+    said = run("curve_offsets.py", SPOT, JERSEY, "-0.1", "0.1")
     assert "at distance -0.1: " in said and "sure at" in said
 
 
 def test_samples(tmp_path):
     out = tmp_path / "samples.npz"
-    run("samples.py", EXAMPLES / "data/spot.obj", "1000", out)
+    run("samples.py", SPOT, "1000", out)
     samples = np.load(out)
     assert samples["sdf"].shape == (1000,) and samples["sdf"].dtype == np.float32
     assert 0.2 < (samples["sdf"] < 0).mean() < 0.8
+
+
+def test_a_printable_shell_of_a_broken_scan(tmp_path):
+    mesh = littoral.read(SPOT)
+    middle = mesh.points[mesh.faces].mean(axis=1)
+    left = mesh.faces[np.linalg.norm(middle - [0, 0.3, 0.3], axis=1) > 0.25]
+    littoral.Mesh(mesh.points, left).save(tmp_path / "scan.obj")
+    said = run("print_shell.py", tmp_path / "scan.obj", "0.04", tmp_path / "shell.stl")
+    assert "closed: True" in said and " 0 free edges" not in said
+    shell = littoral.read(tmp_path / "shell.stl")
+    assert np.median(littoral.SDF(mesh)(shell.points)) == pytest.approx(0.04, abs=0.004)
+
+
+def test_a_lasso(tmp_path):
+    said = run("lasso.py", SPOT, JERSEY, tmp_path / "part.obj")
+    part = littoral.read(tmp_path / "part.obj")
+    assert 1000 < part.n_faces < 4000 and "0 curves bound nothing" in said
+
+
+def test_courses_of_knitting():
+    said = run("knitting.py", SPOT, "306", "5")
+    lengths = [float(line.split()[-2]) for line in said.splitlines()]
+    assert len(lengths) == 5 and min(lengths) > 0.1
+
+
+def test_clearance(tmp_path):
+    ball = littoral.examples.sphere(2)
+    ball.save(tmp_path / "one.obj")
+    littoral.Mesh(ball.points + np.array([2.5, 0, 0]), ball.faces).save(tmp_path / "apart.obj")
+    littoral.Mesh(ball.points + np.array([1.5, 0, 0]), ball.faces).save(tmp_path / "into.obj")
+    said = run("clearance.py", tmp_path / "one.obj", tmp_path / "apart.obj")
+    assert said.startswith("clearance") and float(said.split()[1][:-1]) == pytest.approx(
+        0.5, abs=0.03
+    )
+    said = run("clearance.py", tmp_path / "one.obj", tmp_path / "into.obj")
+    assert said.startswith("overlap") and float(said.split()[1][:-1]) == pytest.approx(
+        0.5, abs=0.05
+    )
+
+
+def test_clusters(tmp_path):
+    said = run("clusters.py", SPOT, "6", tmp_path / "labels.npy")
+    labels = np.load(tmp_path / "labels.npy")
+    assert set(labels) == set(range(6)) and "farthest" in said
+
+
+def test_the_cut_locus_of_a_torus_lies_across_from_the_source(tmp_path):
+    u, v = np.meshgrid(np.arange(60), np.arange(30), indexing="ij")
+    a, b = 2 * np.pi * u / 60, 2 * np.pi * v / 30
+    r = 1 + 0.4 * np.cos(b)
+    points = np.stack([r * np.cos(a), r * np.sin(a), 0.4 * np.sin(b)], -1).reshape(-1, 3)
+    i, right = u * 30 + v, (u + 1) % 60 * 30 + v
+    up, both = u * 30 + (v + 1) % 30, (u + 1) % 60 * 30 + (v + 1) % 30
+    corners = [np.stack(t, -1).reshape(-1, 3) for t in ((i, right, both), (i, both, up))]
+    littoral.Mesh(points, np.concatenate(corners)).save(tmp_path / "torus.obj")
+    run("cut_locus.py", tmp_path / "torus.obj", "0", tmp_path / "ridge.ply")
+    ridge = littoral.read(tmp_path / "ridge.ply").points
+    # the source is at angle 0 outside: the ridge is at angle pi, or on the inner circle
+    opposite = ridge[:, 0] < -0.5
+    inner = np.hypot(ridge[:, 0], ridge[:, 1]) < 0.75
+    assert opposite.any() and inner.any() and (opposite | inner).mean() > 0.9
+
+
+def test_thickness_of_a_plate(tmp_path):
+    size = np.array([6, 6, 4])  # cells, six tets each
+    at = np.stack(np.meshgrid(*(np.arange(n + 1) for n in size), indexing="ij"), -1).reshape(-1, 3)
+    steps = np.array([(size[1] + 1) * (size[2] + 1), size[2] + 1, 1])
+    first = (at[(at < size).all(axis=1)] * steps).sum(axis=1)
+    tets = [
+        np.stack([first, first + a, first + a + b, first + steps.sum()], -1)
+        for a in steps
+        for b in steps
+        if a != b
+    ]
+    rows = ["4 " + " ".join(map(str, tet)) for tet in np.concatenate(tets)]
+    lines = [f"{len(at)} {len(rows)}", *(f"{x} {y} {0.25 * z}" for x, y, z in at), *rows]
+    (tmp_path / "plate.tet").write_text("\n".join(lines) + "\n")
+    run("thickness.py", tmp_path / "plate.tet", tmp_path / "thickness.npy")
+    assert np.load(tmp_path / "thickness.npy").max() == pytest.approx(1, abs=0.1)

@@ -42,7 +42,7 @@ def test_blocks_are_found_with_their_language_and_reason() -> None:
 @pytest.mark.parametrize(
     "code, said",
     [
-        ("```sh\nlittoral what\n```", "what"),
+        ("```sh\nlittoral info nowhere.obj\n```", "nowhere.obj"),
         ("```cpp\nint nowhere_in_the_sources;\n```", "in no file"),
         ("```\nno language\n```", "what is ''"),
     ],

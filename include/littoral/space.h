@@ -3,6 +3,7 @@
 // broken.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "littoral/context.h"
@@ -21,6 +22,14 @@ class PointwiseDistance;
 struct Orientation {
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
+};
+
+/// What the values of a volume stand for.
+enum class VolumeMeaning {
+  automatic,  // mask or distance where the values say so, otherwise an InputError
+  distance,   // signed, negative inside [length]; taken as it is
+  mask,       // 0 outside, anything else inside
+  density     // larger values are inside
 };
 
 /// Values, and their gradients where they were asked for.
@@ -91,6 +100,11 @@ Sdf signed_distance(const Mesh& input, const AnyMethod& method = {},
                     const Orientation& orientation = {}, const Context& context = {});
 /// A volume of signed distance, linear between nodes; outside its box a bound of the distance.
 Sdf signed_distance(const Volume& volume);
+/// Signed distance to what a volume bounds: voxels of a mask, a density above `threshold` (without
+/// one, half way between its extremes), or distance as above. Throws InputError where `automatic`
+/// cannot tell, saying what was seen.
+Sdf signed_distance(const Volume& volume, VolumeMeaning meaning,
+                    const std::optional<double>& threshold = {}, const Context& context = {});
 
 /// The smaller, the larger of two distances, the first without the second; corners where they meet
 /// are rounded this far from them [length]. The sign and zero set are right; the magnitude is a
@@ -121,5 +135,10 @@ struct Morphology {
 /// The surfaces at signed distance d from the shape {volume <= 0}, one for each d [length].
 std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& distances,
                          const Morphology& morphology = {}, const Context& context = {});
+
+/// A closed wall about the surface at signed distance `at`: the surface half the thickness farther
+/// out and, reversed, the one half the thickness farther in [length].
+Mesh wall(const Volume& distance, double thickness, double at = 0,
+          const Morphology& morphology = {}, const Context& context = {});
 
 }  // namespace littoral

@@ -35,7 +35,8 @@ std::string OptionInfo::range() const {
 
 namespace {
 [[noreturn]] void throw_bad_value(const OptionInfo& info, const std::string& text) {
-  throw InputError("option " + info.name + ": '" + text + "' is not one of: " + info.range());
+  throw InputError("option " + info.name + ": '" + text + "' is not one of: " + info.range() +
+                   meant(text, info.choices));
 }
 [[noreturn]] void throw_out_of_range(const OptionInfo& info, const std::string& value) {
   throw InputError("option " + info.name + ": " + value + " is outside " + info.range());

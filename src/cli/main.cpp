@@ -8,8 +8,9 @@
 #include <regex>
 
 #include "base/parallel.h"
-#include "cli/input/method_options.h"
+#include "cli/arguments.h"
 #include "cli/interrupt.h"
+#include "cli/output.h"
 #include "cli/session.h"
 #include "cli/verbs/verbs.h"
 #include "littoral/error.h"
@@ -58,6 +59,8 @@ int run(cli::Session& session, const CLI::App& program) {
     return say(session, program, bad_input, e.what());
   } catch (const UnsupportedError& e) {
     return say(session, program, bad_input, e.what());
+  } catch (const cli::OutputError& e) {
+    return say(session, program, failed, e.what());
   } catch (const IoError& e) {
     return say(session, program, session.reading ? bad_input : failed, e.what());
   } catch (const std::bad_alloc&) {
@@ -91,11 +94,14 @@ int main(int argc, char** argv) {
   cli::add_view(program, session);
   cli::add_render(program, session);
   try {
-    std::vector<std::string> arguments = cli::expand_optional_values(argc, argv);
+    std::vector<std::string> arguments = cli::expanded_arguments(argc, argv);
+    cli::check_names(program, arguments);
     std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request);
+  } catch (const InputError& e) {
+    return say(session, program, bad_input, e.what());
   } catch (const CLI::ParseError& e) {
     std::string verb;
     for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();

@@ -12,7 +12,14 @@ namespace littoral::cli {
 using io::Kind;
 
 void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds) {
-  for (const std::string& file : files) io::format_to_write(file, kinds);
+  for (const std::string& file : files) {
+    io::format_to_write(file, kinds);
+    try {
+      io::check_writable(file);
+    } catch (const IoError& e) {
+      throw OutputError(e.what());
+    }
+  }
 }
 
 void add_output_option(CLI::App& verb, std::string& file, const std::string& help) {

@@ -9,12 +9,20 @@
 #include "cli/session.h"
 #include "io/formats.h"
 #include "io/render/scene.h"
+#include "littoral/error.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/tet_mesh.h"
 
 namespace littoral::cli {
 
-/// Throws UnsupportedError unless each file can be written as one of the kinds.
+/// A result that cannot be written; known before anything is computed.
+class OutputError : public IoError {
+ public:
+  using IoError::IoError;
+};
+
+/// Throws UnsupportedError unless each file can be written as one of the kinds, OutputError where
+/// its folder is not there or cannot be written to.
 void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds);
 
 /// Adds -o for one file, which must be given.

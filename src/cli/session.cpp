@@ -87,7 +87,7 @@ void add_common_options(CLI::App& verb, Session& session) {
       ->type_name("N");
   verb.add_option("--progress", session.progress,
                   "a bar on stderr: auto (if it is a terminal), always, never [default auto]")
-      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->check(one_of({"auto", "always", "never"}))
       ->type_name("WHEN");
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
@@ -104,6 +104,17 @@ void add_index_option(CLI::App& verb, Session& session) {
                   "what sources and --vertex count from: 0 or 1 [default: as the format has it]")
       ->check(CLI::IsMember({0, 1}).description(""))
       ->type_name("0|1");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return CLI::Validator(
+      [words](const std::string& word) {
+        if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+        std::string all;
+        for (const std::string& known : words) all += (all.empty() ? "" : ", ") + known;
+        return "'" + word + "' is none of " + all + meant(word, words);
+      },
+      "");
 }
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {

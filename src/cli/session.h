@@ -56,6 +56,8 @@ CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
+/// Accepts one of these words; the message for another one names the nearest.
+CLI::Validator one_of(const std::vector<std::string>& words);
 /// Adds --json.
 void add_json_option(CLI::App& verb, Session& session);
 /// Adds --index-base.

@@ -30,7 +30,8 @@ using Kinds = std::vector<Kind>;
 struct Format {
   std::string_view extension;  // ".obj"
   std::string_view about;
-  bool lines = false;  // a surface's lines are kept, so that it can hold sources
+  bool lines = false;   // a surface's lines are kept, so that it can hold sources
+  bool no_box = false;  // of a volume, origin and spacing are not kept
 
   PolygonSoup (*read_surface)(std::string_view bytes, const std::string& name) = nullptr;
   PolygonSoup (*read_cloud)(std::string_view bytes, const std::string& name) = nullptr;
@@ -40,7 +41,7 @@ struct Format {
   TetFile (*read_tets)(std::string_view bytes, const std::string& name) = nullptr;
   Sources (*read_sources)(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
                           std::optional<int> index_base) = nullptr;
-  MatX3 (*read_table)(std::string_view bytes, const std::string& name) = nullptr;
+  PointTable (*read_table)(std::string_view bytes, const std::string& name) = nullptr;
 
   // Clouds are written with any values at their points, fields with one.
   void (*write_surface)(std::ostream& out, const PolygonSoup& soup,

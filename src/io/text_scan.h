@@ -50,6 +50,8 @@ class LineScanner {
   void expect_end();
 
   std::size_t line() const { return line_; }
+  /// What is left of the line.
+  std::string_view rest_of_line() const { return rest_; }
   std::size_t line_bytes_left() const { return rest_.size(); }
   /// Throws InputError "name:line: text" for the current line, or for another one.
   [[noreturn]] void fail(const std::string& text) const { fail_at(line_, text); }

@@ -36,6 +36,10 @@ void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& body);
 
+/// Throws IoError where a file could not be written at `path`: its folder is not there or cannot be
+/// written to, or `path` is a folder. Leaves nothing behind.
+void check_writable(const std::filesystem::path& path);
+
 /// Removes temporary files of writes in progress; async-signal-safe enough for an interrupt
 /// handler.
 void remove_unfinished_files() noexcept;

@@ -96,6 +96,19 @@ void write_atomically(const std::filesystem::path& path,
   temporary.keep();
 }
 
+void check_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) fail(path, EISDIR);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
+  const std::filesystem::path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    throw IoError("cannot write " + path.string() + ": there is no folder " + folder.string());
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
+  const Unfinished probe(temporary_name(error ? path : resolved));
+  write_stream(path, probe.path(), [](std::ostream&) {});
+}
+
 void remove_unfinished_files() noexcept {
   for (Slot& slot : slots) {
     if (slot.state == Slot::named) remove_file(slot.path.data());

@@ -28,10 +28,13 @@ std::string csv_cell(const std::string& name) {
 void write_csv(std::ostream& out, const Table& table) {
   const Eigen::MatrixXd& x = table.columns;
   if (!table.rows_are.empty()) out << table.rows_are << ',';
+  for (const TextColumn& column : table.carried) out << csv_cell(column.name) << ',';
   for (std::size_t c = 0; c < table.names.size(); ++c)
     out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? ',' : '\n');
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     if (!table.rows_are.empty()) out << r << ',';
+    for (const TextColumn& column : table.carried)
+      out << csv_cell(column.cells[static_cast<std::size_t>(r)]) << ',';
     for (Eigen::Index c = 0; c < x.cols(); ++c)
       out << exact_text(x(r, c)) << (c + 1 < x.cols() ? ',' : '\n');
   }
@@ -68,25 +71,6 @@ void write_npy(std::ostream& out, const Table& table) {
 void write_table(const std::filesystem::path& path, const Table& table) {
   const Format& format = format_to_write(path, {Kind::table});
   write_atomically(path, [&](std::ostream& out) { format.write_table(out, table); });
-}
-
-MatX3 read_columns(std::string_view bytes, const std::string& name) {
-  std::string text(bytes);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
-  LineScanner scan(text, name, '#');
-  std::vector<double> numbers;
-  for (bool first = true; scan.next(); first = false) {
-    const std::string_view word = scan.word();
-    const auto x = parse_double(word);
-    if (!x && first) continue;
-    if (!x) scan.fail("expected a number, found " + in_quotes(word));
-    numbers.push_back(*x);
-    numbers.push_back(scan.number("y"));
-    numbers.push_back(scan.number("z"));
-  }
-  if (numbers.empty()) throw InputError(name + ": no points");
-  return Eigen::Map<const MatX3>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
 }
 
 }  // namespace littoral::io

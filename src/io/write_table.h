@@ -11,11 +11,18 @@
 
 namespace littoral::io {
 
+/// A column of a file that is passed on.
+struct TextColumn {
+  std::string name;
+  std::vector<std::string> cells;
+};
+
 /// Columns of numbers under names.
 struct Table {
   std::vector<std::string> names;
   Eigen::MatrixXd columns;  // rows x names
   std::string rows_are{};   // "vertex": .csv files count the rows, from 0, in a first column
+  std::vector<TextColumn> carried{};  // .csv files have them first, as they were read
 };
 
 /// By extension. Throws UnsupportedError for formats of anything else, IoError naming the path.
@@ -30,8 +37,20 @@ void write_npy(std::ostream& out, const Table& table);
 /// The head of such a file; `shape` as "8," or "2, 3, 4".
 void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest);
 
-/// The first three numbers of each line, rows x 3; separated by commas, semicolons or blanks. A
-/// first line of words is a head. Throws InputError naming the line.
-MatX3 read_columns(std::string_view bytes, const std::string& name);
+/// Points, and the other columns of the table that they were in.
+struct PointTable {
+  MatX3 points{0, 3};
+  std::vector<TextColumn> carried{};
+};
+
+/// A table of points: rows of cells between commas, semicolons, tabs or blanks. A first row that
+/// is no number names the columns, and x, y, z (or Points:0, Points:1, Points:2) are the points;
+/// without one there are three columns. Throws InputError naming the line, and for other columns
+/// one that shows the first line.
+PointTable read_points_text(std::string_view bytes, const std::string& name);
+/// NumPy's N x 3 array, alone or in an archive.
+PointTable read_npy_points(std::string_view bytes, const std::string& name);
+PointTable read_npz_points(std::string_view bytes, const std::string& name);
+void write_npz(std::ostream& out, const Table& table);
 
 }  // namespace littoral::io

@@ -31,7 +31,7 @@ def test_rows_of_the_table(run: Run) -> None:
         {"surface", "cloud", "sources"},
         {"surface", "cloud", "sources", "field"},
     )
-    assert kinds(run, ".npy") == ({"volume", "voxels"}, {"volume", "field", "table"})
+    assert kinds(run, ".npy") == ({"volume", "voxels", "table"}, {"volume", "field", "table"})
     assert kinds(run, ".html") == ({""}, {"page"})
     assert ".nrrd" in run("formats").stdout
 

@@ -110,7 +110,7 @@ def test_implicit_functions_become_distances(run: Run, tmp_path: Path) -> None:
     run("query", "f.npy", "--redistance", "--points", "q.csv", "-o", "v.csv")
     # along an axis the surface is at 1, and flat
     assert values(tmp_path / "v.csv") == pytest.approx([0.5 * unit, -0.3 * unit], abs=0.02 * unit)
-    run("query", "f.npy", "--points", "q.csv", "-o", "w.csv")  # as it is: far from a distance
+    run("query", "f.npy", "--as", "distance", "--points", "q.csv", "-o", "w.csv")  # far from one
     assert values(tmp_path / "w.csv")[0] == pytest.approx(1.5**4 - 1, rel=0.02)
     for method in ("tori", "planar", "winding", "signed-heat"):
         run("sdf", "f.npy", "--redistance", "--method", method, "--resolution", 24, "-o", "s.ply")

@@ -9,6 +9,7 @@
 #include "api/space/isosurfaces.h"
 #include "api/space/sampled_distance.h"
 #include "api/space/sdf.h"
+#include "api/space/volume_meaning.h"
 #include "base/lazy.h"
 #include "littoral/error.h"
 
@@ -216,6 +217,13 @@ Sdf signed_distance(const Volume& volume) {
   return made_of(std::move(shapes), {});
 }
 
+Sdf signed_distance(const Volume& volume, VolumeMeaning meaning,
+                    const std::optional<double>& threshold, const Context& context) {
+  CsgShapes shapes;
+  shapes.all.push_back(shape_of(volume, meaning, threshold));
+  return made_of(std::move(shapes), context);
+}
+
 Sdf unite(const Sdf& a, const Sdf& b, double blend) {
   return combined(a, b, Boolean::unite, blend);
 }
@@ -260,6 +268,15 @@ std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& dist
          offset_isosurfaces(distance, distances, morphology, false, report, task))
       out.emplace_back(std::move(each.surface));
     return out;
+  });
+}
+
+Mesh wall(const Volume& distance, double thickness, double at, const Morphology& morphology,
+          const Context& context) {
+  return run(context, [&](const Task& task) {
+    Report report;
+    return Mesh(std::move(
+        wall_isosurfaces(distance, {at}, thickness, morphology, false, report, task)[0].surface));
   });
 }
 

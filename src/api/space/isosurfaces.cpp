@@ -6,6 +6,7 @@
 #include "base/option_table.h"
 #include "contour/isosurface.h"
 #include "contour/redistance.h"
+#include "domain/mesh/surface_mesh.h"
 #include "io/write.h"
 #include "littoral/error.h"
 
@@ -73,6 +74,51 @@ std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
     field = offset_back(field, close, -close, 2 * close + more, "closing", report,
                         task.stage(0.3, "closing"));
   return isosurfaces(field, offsets, close_at_box, report, task.stage(1, "contouring"));
+}
+
+std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vector<double>& offsets,
+                                         double thickness, const Morphology& morphology,
+                                         bool close_at_box, Report& report, Task task) {
+  if (!(thickness > 0) || !std::isfinite(thickness))
+    throw InputError("the thickness of a wall must be positive");
+  const double spacing = distance.grid.spacing.maxCoeff();
+  if (thickness < spacing)
+    report.warn("a wall of thickness " + number_text(thickness) +
+                " is thinner than the spacing of the grid, " + number_text(spacing) +
+                ": use a larger option resolution");
+  std::vector<double> levels;
+  for (const double d : offsets)
+    for (const double side : {0.5, -0.5}) levels.push_back(d + side * thickness);
+  Report measured;
+  std::vector<Isosurface> sides =
+      offset_isosurfaces(distance, levels, morphology, close_at_box, measured, std::move(task));
+  measured.warnings.clear();  // of levels, which are said below
+  report.merge(measured);
+  std::vector<Isosurface> walls;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    Isosurface& outer = sides[2 * i];
+    PolygonSoup& inner = sides[2 * i + 1].surface;
+    if (outer.surface.n_faces() == 0)
+      throw InputError("no wall at offset " + number_text(offsets[i]) + ": its outer surface, at " +
+                       number_text(outer.level) + ", is empty");
+    if (inner.n_faces() == 0)
+      report.warn("the wall at offset " + number_text(offsets[i]) +
+                  " is solid: there is no surface at " + number_text(sides[2 * i + 1].level));
+    for (int f = 0; f < inner.n_faces(); ++f)
+      std::reverse(inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f)],
+                   inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f) + 1]);
+    PolygonSoup wall = join_isosurfaces({outer, sides[2 * i + 1]});
+    wall.scalars.clear();
+    int open_edges = 0;
+    const SurfaceMesh mesh(wall);
+    for (int e = 0; e < mesh.n_edges(); ++e) open_edges += mesh.edge_faces(e).size() == 1;
+    if (open_edges > 0)
+      report.warn("the wall at offset " + number_text(offsets[i]) + " is open along " +
+                  std::to_string(open_edges) +
+                  " edges where it meets the box: use a larger option padding, or option clip");
+    walls.push_back({offsets[i], std::move(wall)});
+  }
+  return walls;
 }
 
 PolygonSoup join_isosurfaces(const std::vector<Isosurface>& surfaces) {

@@ -33,6 +33,14 @@ std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
                                            const Morphology& morphology, bool close_at_box,
                                            Report& report, Task task);
 
+/// A closed wall about each of the offsets: the surface half the thickness farther out and,
+/// reversed, the one half the thickness farther in, so that what lies between them is inside. Where
+/// the inner one is not there the wall is solid, with a warning. Throws InputError for a thickness
+/// that is not positive, and as above.
+std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vector<double>& offsets,
+                                         double thickness, const Morphology& morphology,
+                                         bool close_at_box, Report& report, Task task);
+
 /// All surfaces as one surface, with the scalar "level".
 PolygonSoup join_isosurfaces(const std::vector<Isosurface>& surfaces);
 

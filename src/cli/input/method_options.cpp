@@ -43,26 +43,6 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
   }
 }
 
-std::vector<std::string> expand_optional_values(int argc, char** argv) {
-  std::map<std::string, std::vector<std::string>> may_stand_alone;
-  for (const MethodFamily& family : method_families())
-    for (const MethodInfo& method : family.methods)
-      for (const OptionInfo& info : method.options)
-        if (std::find(info.choices.begin(), info.choices.end(), "on") != info.choices.end())
-          may_stand_alone["--" + info.name] = info.choices;
-  std::vector<std::string> out;
-  for (int i = 1; i < argc; ++i) {
-    out.emplace_back(argv[i]);
-    const auto found = may_stand_alone.find(out.back());
-    if (found == may_stand_alone.end()) continue;
-    const std::vector<std::string>& words = found->second;
-    const bool given =
-        i + 1 < argc && std::find(words.begin(), words.end(), argv[i + 1]) != words.end();
-    out.back() += "=" + std::string(given ? argv[++i] : "on");
-  }
-  return out;
-}
-
 void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
                  const std::string& fallback) {
   std::string names;

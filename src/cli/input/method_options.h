@@ -31,10 +31,6 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
 void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
                  const std::string& fallback = "");
 
-/// The arguments after the program's name; options of which "on" is one of several words may stand
-/// without a word, and are joined to the one that follows or to "on" by "=".
-std::vector<std::string> expand_optional_values(int argc, char** argv);
-
 /// The methods of both families, each name once.
 std::vector<MethodInfo> joined(std::vector<MethodInfo> methods,
                                const std::vector<MethodInfo>& more);

@@ -1,5 +1,6 @@
 #include "cli/input/space_input.h"
 
+#include "api/space/volume_meaning.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -19,6 +20,28 @@ void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& 
   add_methods(verb, texts.method, Registry<SpaceDomain>::instance().infos(), fallback);
 }
 
+namespace {
+
+void add_meaning_options(CLI::App& verb, SpaceArguments& texts) {
+  const auto group = [](CLI::Option* option) { return option->group("Volumes as input"); };
+  group(verb.add_option("--as", texts.meaning,
+                        "what volumes hold: mask (0 outside, all else inside), distance (negative "
+                        "inside, taken as it is) or density (larger than --threshold inside) "
+                        "[default: voxels and volumes of 0 and one other value are masks; those of "
+                        "both signs and slope 1 distance; all else is an error]"))
+      ->check(one_of({"auto", "distance", "mask", "density"}))
+      ->type_name("WORD");
+  group(verb.add_option("--threshold", texts.threshold,
+                        "of --as density: where the surface is [default: half way between the "
+                        "smallest and the largest value]"))
+      ->type_name("T");
+  group(verb.add_flag("--redistance", texts.redistance,
+                      "INPUT is a volume of any values: distance to where they are zero, negative "
+                      "where they are"));
+}
+
+}  // namespace
+
 void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) {
   const auto group = [](CLI::Option* option) { return option->group("Several shapes"); };
   const std::string kinds = ": mesh, soup, cloud, or volume of distance; may be repeated";
@@ -31,16 +54,15 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) 
                         "of the shapes after INPUT [default: as --method where that is given, "
                         "otherwise tori for clouds, completed for all else]"))
       ->type_name("NAME");
+  const std::string unit = std::string(" [") + length_unit_text + "; default 0]";
   group(verb.add_option("--blend", texts.blend,
-                        "round corners where shapes meet, this far from them [length; default 0]"))
-      ->check(CLI::Range(0.0, 1e300).description(""))
+                        "round corners where shapes meet, this far from them" + unit))
       ->type_name("R");
   if (with_offset)
     group(verb.add_option("--offset", texts.offset,
-                          "move the surface outward, or if negative inward [length; default 0]"))
+                          "move the surface outward, or if negative inward" + unit))
         ->type_name("D");
-  group(verb.add_flag("--redistance", texts.redistance,
-                      "INPUT is a volume of any values: distance to where they are zero"));
+  add_meaning_options(verb, texts);
 }
 
 void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
@@ -48,8 +70,8 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
                   "nodes along the longest side, 2 to 100000 [default 64]")
       ->check(CLI::Range(2, 100000).description(""))
       ->type_name("N");
-  verb.add_option("--spacing", texts.spacing, "distance between nodes, instead [length]")
-      ->check(CLI::PositiveNumber.description(""))
+  verb.add_option("--spacing", texts.spacing,
+                  std::string("distance between nodes, instead [") + length_unit_text + "]")
       ->type_name("H");
   verb.add_option("--bounds", texts.bounds, "the box: x0,y0,z0,x1,y1,z1 [length]")
       ->type_name("BOX");
@@ -67,26 +89,44 @@ SpaceRequest space_request(const SpaceArguments& texts, const Session& session) 
 
 namespace {
 
-Shape read_shape(const std::string& file, const std::string& field, bool redistance, double level) {
+VolumeMeaning meaning_named(const std::string& word) {
+  return word == "mask"       ? VolumeMeaning::mask
+         : word == "distance" ? VolumeMeaning::distance
+         : word == "density"  ? VolumeMeaning::density
+                              : VolumeMeaning::automatic;
+}
+
+Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArguments& texts,
+                      bool redistance, Session& session) {
+  warn_without_box(file, session);
+  VolumeMeaning meaning = meaning_named(texts.meaning);
+  const bool voxels =
+      io::format_to_read(std::filesystem::path(file).extension().string(), file, {io::Kind::volume})
+          .read_voxels != nullptr;
+  if (voxels && meaning == VolumeMeaning::automatic) meaning = VolumeMeaning::mask;
+  try {
+    if (redistance) return shape_at_level(volume, 0);
+    std::optional<double> threshold;
+    if (!texts.threshold.empty()) threshold = parse_number("threshold", texts.threshold);
+    return shape_of(std::move(volume), meaning, threshold);
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what());
+  }
+}
+
+Shape read_shape(const std::string& file, const SpaceArguments& texts, bool first,
+                 Session& session) {
   io::format_to_read(std::filesystem::path(file).extension().string(), file,
                      {io::Kind::surface, io::Kind::cloud, io::Kind::volume});
-  io::Content content = io::read_content(file, field);
+  io::Content content = io::read_content(file, first ? texts.field : "");
+  const bool redistance = first && texts.redistance;
+  if (auto* volume = std::get_if<Volume>(&content))
+    return shape_of_volume(std::move(*volume), file, texts, redistance, session);
+  if (redistance)
+    throw InputError(file + " is no volume: option redistance is for " +
+                     io::read_extensions({io::Kind::volume}));
   Shape shape;
-  auto* volume = std::get_if<Volume>(&content);
-  if (!volume) {
-    if (redistance)
-      throw InputError(file + " is no volume: option redistance is for " +
-                       io::read_extensions({io::Kind::volume}));
-    shape.surface = std::get<PolygonSoup>(std::move(content));
-  } else if (!redistance) {
-    shape.field = std::move(*volume);
-  } else {
-    try {
-      shape = shape_at_level(*volume, level);
-    } catch (const InputError& e) {
-      throw InputError(file + ": " + e.what());
-    }
-  }
+  shape.surface = std::get<PolygonSoup>(std::move(content));
   return shape;
 }
 
@@ -102,19 +142,32 @@ OptionValues known_options(const std::string& method, const GivenOptions& given)
 
 }  // namespace
 
-CsgShapes read_shapes(SpaceArguments& texts, const Session& session) {
+void warn_without_box(const std::string& file, Session& session) {
+  const io::Format& format = io::format_to_read(std::filesystem::path(file).extension().string(),
+                                                file, {io::Kind::volume});
+  if (format.no_box)
+    session.report.warn(file +
+                        " holds no origin and spacing: its first node is taken at 0, 0, 0 and the "
+                        "others 1 apart, and lengths are in that unit (VTK image data, NRRD and "
+                        "NumPy archives hold them)");
+}
+
+CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
+  if (texts.redistance && texts.meaning != "auto")
+    throw InputError("option redistance does not go with option as");
   CsgShapes shapes;
-  shapes.all.push_back(read_shape(texts.input, texts.field, texts.redistance, texts.at_level));
+  shapes.all.push_back(read_shape(texts.input, texts, true, session));
   for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
                                    {Boolean::intersect, &texts.intersect},
                                    {Boolean::subtract, &texts.subtract}}) {
     for (const std::string& file : *files) {
-      shapes.all.push_back(read_shape(file, "", false, 0));
+      shapes.all.push_back(read_shape(file, texts, false, session));
       shapes.csg.operations.push_back(how);
     }
   }
-  shapes.csg.blend = texts.blend;
-  shapes.csg.offset = texts.offset;
+  const InputSize size = [&] { return longest_side(shapes); };
+  shapes.csg.blend = parse_radius("blend", texts.blend, size);
+  if (!texts.offset.empty()) shapes.csg.offset = parse_length("offset", texts.offset, size);
   Shape& first = shapes.all.front();
   const AnyMethod own = first.request.method;  // where the level of a volume is measured anew
   first.request = space_request(texts, session);
@@ -135,10 +188,12 @@ CsgShapes read_shapes(SpaceArguments& texts, const Session& session) {
   return shapes;
 }
 
-GridOptions grid_request(const SpaceArguments& texts) {
+GridOptions grid_request(const SpaceArguments& texts, const InputSize& size) {
   GridOptions request;
   if (texts.resolution > 0) request.resolution = texts.resolution;
-  if (texts.spacing > 0) request.spacing = texts.spacing;
+  if (!texts.spacing.empty()) request.spacing = parse_length("spacing", texts.spacing, size);
+  if (request.spacing && !(*request.spacing > 0))
+    throw InputError("option spacing takes a positive length");
   request.padding = texts.padding;
   if (!texts.bounds.empty()) {
     const std::vector<double> numbers = parse_numbers("bounds", texts.bounds);
@@ -153,22 +208,24 @@ CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::s
   return verb
       .add_option("--points", points,
                   help + "the vertices of any surface or cloud file, or " +
-                      io::read_extensions({io::Kind::table}) + " with x, y, z first")
+                      io::read_extensions({io::Kind::table}) +
+                      " with columns x, y, z; .csv passes other columns on")
       ->type_name("FILE");
 }
 
-MatX3 read_queries(const std::string& file) {
+io::PointTable read_queries(const std::string& file) {
   const io::Format& format =
       io::format_to_read(std::filesystem::path(file).extension().string(), file,
                          {io::Kind::table, io::Kind::surface, io::Kind::cloud});
   if (format.read_table) return format.read_table(io::read_bytes(file), file);
-  return io::read_surface(file).points;
+  return {io::read_surface(file).points, {}};
 }
 
-void write_at_points(const std::string& file, const MatX3& points, const io::Table& table) {
+void write_at_points(const std::string& file, const io::PointTable& queries, io::Table table) {
+  table.carried = queries.carried;
   if (io::is_written_as(file, {io::Kind::table})) return io::write_table(file, table);
   PolygonSoup cloud;
-  cloud.points = points;
+  cloud.points = queries.points;
   for (std::size_t c = 0; c < table.names.size(); ++c)
     cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
   io::write_surface(file, cloud);

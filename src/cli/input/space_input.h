@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "api/space/csg.h"
+#include "cli/input/lengths.h"
 #include "cli/input/method_options.h"
 #include "cli/session.h"
 
@@ -16,14 +17,14 @@ struct SpaceArguments {
   MethodArguments method;
   bool estimate_normals = false;
   int resolution = 0;  // 0: not given
-  double spacing = 0;  // 0: not given
+  std::string spacing;
   std::string bounds;
   double padding = GridOptions().padding;
   std::vector<std::string> unite, intersect, subtract;
   std::string operand_method;
-  double blend = 0, offset = 0;
+  std::string blend, offset;
   bool redistance = false;
-  double at_level = 0;  // of a volume that is redistanced
+  std::string meaning = "auto", threshold;  // of volumes
 };
 
 /// Adds INPUT, --estimate-normals and --flip.
@@ -41,17 +42,19 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts);
 /// The request that was given, checked.
 SpaceRequest space_request(const SpaceArguments& texts, const Session& session);
 /// The grid that was asked for.
-GridOptions grid_request(const SpaceArguments& texts);
+GridOptions grid_request(const SpaceArguments& texts, const InputSize& size);
 /// Reads INPUT and what it is combined with, checks the options.
-CsgShapes read_shapes(SpaceArguments& texts, const Session& session);
+CsgShapes read_shapes(SpaceArguments& texts, Session& session);
+/// A warning for a file whose format has no place for a volume's box.
+void warn_without_box(const std::string& file, Session& session);
 
 /// Adds --points, whose help begins with `help`.
 CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help);
-/// Points of any surface or cloud file, or the first three columns of a table.
-MatX3 read_queries(const std::string& file);
+/// Points of any surface or cloud file, or those of a table with its other columns.
+io::PointTable read_queries(const std::string& file);
 
 /// What values at points are written to: tables, or clouds with the values.
 inline const io::Kinds query_outputs = {io::Kind::table, io::Kind::cloud};
-void write_at_points(const std::string& file, const MatX3& points, const io::Table& table);
+void write_at_points(const std::string& file, const io::PointTable& queries, io::Table table);
 
 }  // namespace littoral::cli

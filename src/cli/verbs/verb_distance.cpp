@@ -155,8 +155,9 @@ void add_distance(CLI::App& program, Session& session) {
                           "its tets")
       ->type_name("FILE");
   add_repeated_option(verb, "--vertex", arguments->vertices,
-                      "a source vertex, from 0; may be repeated")
-      ->type_name("I");
+                      "a source vertex, from 0; several as 1,5,9 or repeated")
+      ->delimiter(',')
+      ->type_name("I[,I...]");
   verb.add_flag("--boundary", arguments->boundary,
                 "measure from the boundary of the surface or of the tets, without sign");
   add_output_option(verb, arguments->out,

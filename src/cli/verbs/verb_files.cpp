@@ -8,6 +8,7 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
+#include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
 #include "cli/verbs/verbs.h"
@@ -106,6 +107,7 @@ void contour(FileArguments& arguments, Session& session) {
   check_level_outputs(arguments.outs, levels.size(), {lines ? Kind::sources : Kind::surface});
   const Overloaded job{
       [&](const Volume& volume) {
+        warn_without_box(arguments.in, session);
         session.reading = false;
         write_isosurfaces(arguments.outs, isosurfaces(volume, levels, arguments.clip,
                                                       session.report, session.task()));

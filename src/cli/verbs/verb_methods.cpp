@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "api/report_json.h"
+#include "cli/arguments.h"
 #include "cli/input/method_options.h"
 #include "cli/verbs/verbs.h"
 #include "io/formats.h"
@@ -123,15 +124,19 @@ void add_formats(CLI::App& program, Session& session) {
 }
 
 void add_help(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand("help", "all verbs");
+  CLI::App* verb = program.add_subcommand("help", "all verbs, or one with its options");
   auto markdown = std::make_shared<bool>(false);
+  auto name = std::make_shared<std::string>();
+  verb->add_option("VERB", *name, "the verb to explain")->type_name("");
   verb->add_flag("--markdown", *markdown, "with their options, as tables for the documentation");
-  verb->callback([markdown, &program, &session] {
-    session.job = [markdown, &program] {
+  verb->callback([=, &program, &session] {
+    session.job = [=, &program] {
       if (*markdown)
         print_verbs(program);
-      else
+      else if (name->empty())
         std::cout << program.help("", CLI::AppFormatMode::Normal);
+      else
+        std::cout << verb_named(program, *name).help(program.get_name());
     };
   });
 }

@@ -21,46 +21,64 @@ namespace {
 struct OffsetArguments {
   std::string in, field;
   std::vector<std::string> sources, out;
-  std::string distances, dilate, erode;
-  Morphology morphology;
+  std::string distances, dilate, erode, open, close, wall;
   bool clip = false;
   MethodArguments method;
   SpaceArguments space;
 };
 
-// --distance, then --dilate as they are, then --erode as negative; 0 for --open and --close alone.
-std::vector<double> all_distances(const OffsetArguments& arguments) {
-  std::vector<double> all;
-  if (!arguments.distances.empty()) all = parse_numbers("distance", arguments.distances);
+/// What was asked for, in the unit of the input.
+struct OffsetLengths {
+  std::vector<double> distances;
+  Morphology morphology;
+  double wall = 0;  // thickness
+  bool plain() const { return morphology.open == 0 && morphology.close == 0 && wall == 0; }
+};
+
+// --distance, then --dilate as they are, then --erode as negative; 0 where only other things are
+// asked for.
+OffsetLengths lengths_of(const OffsetArguments& arguments, const InputSize& size) {
+  OffsetLengths all;
+  all.morphology.open = parse_radius("open", arguments.open, size);
+  all.morphology.close = parse_radius("close", arguments.close, size);
+  all.wall = parse_radius("shell", arguments.wall, size);
+  if (!arguments.wall.empty() && all.wall == 0)
+    throw InputError("option shell takes a positive thickness");
+  if (!arguments.distances.empty())
+    all.distances = parse_lengths("distance", arguments.distances, size);
   for (const auto& [option, text, sign] :
        {std::tuple("dilate", &arguments.dilate, 1.0), {"erode", &arguments.erode, -1.0}}) {
     if (text->empty()) continue;
-    for (const double radius : parse_numbers(option, *text)) {
+    for (const double radius : parse_lengths(option, *text, size)) {
       if (radius < 0)
         throw InputError(std::string("option ") + option + " takes no negative number");
-      all.push_back(sign * radius);
+      all.distances.push_back(sign * radius);
     }
   }
-  if (!all.empty()) return all;
-  if (arguments.morphology.open > 0 || arguments.morphology.close > 0) return {0};
-  throw InputError("no offset given: use --distance, --dilate, --erode, --open or --close");
+  if (!all.distances.empty()) return all;
+  if (all.plain())
+    throw InputError(
+        "no offset given: use --distance, --dilate, --erode, --shell, --open or --close");
+  all.distances = {0};
+  return all;
 }
 
-void offset_curves(OffsetArguments& arguments, const std::vector<double>& distances,
-                   Session& session) {
-  check_level_outputs(arguments.out, distances.size(), {io::Kind::sources});
+void offset_curves(OffsetArguments& arguments, std::size_t count, Session& session) {
+  if (!arguments.wall.empty()) throw InputError("option shell is for shapes in space");
+  check_level_outputs(arguments.out, count, {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
   const SurfaceMesh mesh = read_mesh(arguments.in);
+  const OffsetLengths lengths =
+      lengths_of(arguments, [&] { return bounding_box(mesh.soup()).size().maxCoeff(); });
   Sources sources = read_all_sources(arguments.sources, mesh, session);
   if (session.flip) sources = sources.reversed();
   session.reading = false;
   Task task = session.task();
-  const bool once = arguments.morphology.open == 0 && arguments.morphology.close == 0;
-  const auto solver =
-      prepare(method, domain_of(mesh), once ? SolveHint::single_rhs : SolveHint::many_rhs,
-              task.stage(0.2, "preparing"), session.report);
-  const auto levels = offset_lines(*solver, mesh, sources, distances, arguments.morphology,
+  const auto solver = prepare(method, domain_of(mesh),
+                              lengths.plain() ? SolveHint::single_rhs : SolveHint::many_rhs,
+                              task.stage(0.2, "preparing"), session.report);
+  const auto levels = offset_lines(*solver, mesh, sources, lengths.distances, lengths.morphology,
                                    session.report, task.stage(0.75, "offsets"));
   task.checkpoint(1);
   write_lines(arguments.out, mesh, levels);
@@ -71,25 +89,29 @@ void offset_curves(OffsetArguments& arguments, const std::vector<double>& distan
 struct DistanceAround {
   Volume distance;
   PolygonSoup input, completion;
+  OffsetLengths lengths;
 };
 
 /// Around a shape or several, on a grid that holds all offsets of it; that of a volume alone is
 /// there already.
-DistanceAround distance_around(OffsetArguments& arguments, const std::vector<double>& distances,
-                               Session& session) {
+DistanceAround distance_around(OffsetArguments& arguments, Session& session) {
   SpaceArguments& space = arguments.space;
   space.input = arguments.in;
   space.field = arguments.field;
   space.method = arguments.method;
   CsgShapes shapes = read_shapes(space, session);
+  const InputSize size = [&] { return longest_side(shapes); };
+  const OffsetLengths lengths = lengths_of(arguments, size);
   if (shapes.all.size() == 1 && shapes.all.front().field)
-    return {*shapes.all.front().field, {}, {}};
+    return {*shapes.all.front().field, {}, {}, lengths};
   double farthest = 0;
-  for (const double d : distances) farthest = std::max(farthest, std::abs(d));
-  const double reach = farthest + arguments.morphology.open + arguments.morphology.close;
-  GridOptions grid = grid_request(space);
+  for (const double d : lengths.distances) farthest = std::max(farthest, std::abs(d));
+  const double reach =
+      farthest + lengths.wall / 2 + lengths.morphology.open + lengths.morphology.close;
+  GridOptions grid = grid_request(space, size);
   grid.padding += reach / longest_side(shapes);
   DistanceAround around;
+  around.lengths = lengths;
   around.distance.grid = choose_grid(shapes, grid);
   session.reading = false;
   SpaceAnswer answer = grid_answer(shapes, around.distance.grid, session.task(), session.report);
@@ -99,17 +121,22 @@ DistanceAround distance_around(OffsetArguments& arguments, const std::vector<dou
   return around;
 }
 
-void offset_shape(OffsetArguments& arguments, const std::vector<double>& distances,
-                  Session& session) {
-  check_level_outputs(arguments.out, distances.size(), {io::Kind::surface});
-  const DistanceAround around = distance_around(arguments, distances, session);
+void offset_shape(OffsetArguments& arguments, std::size_t count, Session& session) {
+  check_level_outputs(arguments.out, count, {io::Kind::surface});
+  const DistanceAround around = distance_around(arguments, session);
+  const OffsetLengths& lengths = around.lengths;
   session.reading = false;
   Task task = session.task();
+  if (lengths.wall > 0) {
+    write_isosurfaces(arguments.out,
+                      wall_isosurfaces(around.distance, lengths.distances, lengths.wall,
+                                       lengths.morphology, arguments.clip, session.report, task));
+    return;
+  }
   const auto surfaces =
-      offset_isosurfaces(around.distance, distances, arguments.morphology, arguments.clip,
+      offset_isosurfaces(around.distance, lengths.distances, lengths.morphology, arguments.clip,
                          session.report, task.stage(0.9, "offsets"));
-  const bool once = arguments.morphology.open == 0 && arguments.morphology.close == 0;
-  if (once && around.input.n_faces() > 0)
+  if (lengths.plain() && around.input.n_faces() > 0)
     for (const Isosurface& surface : surfaces)
       measure_offset(surface, around.input, around.completion, session.report,
                      task.stage(0.1 / static_cast<double>(surfaces.size()), "measuring offsets"));
@@ -118,11 +145,11 @@ void offset_shape(OffsetArguments& arguments, const std::vector<double>& distanc
 }
 
 void run_offset(OffsetArguments& arguments, Session& session) {
-  const std::vector<double> distances = all_distances(arguments);
+  const std::size_t count = lengths_of(arguments, [] { return 1.0; }).distances.size();
   if (arguments.sources.empty())
-    offset_shape(arguments, distances, session);
+    offset_shape(arguments, count, session);
   else
-    offset_curves(arguments, distances, session);
+    offset_curves(arguments, count, session);
   session.print_report();
 }
 
@@ -132,18 +159,23 @@ void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
                        io::read_extensions({io::Kind::surface, io::Kind::cloud}) +
                        ", a volume of signed distance " + io::read_extensions({io::Kind::volume}) +
                        ", or with --sources the surface the curves lie on");
+  const std::string unit = std::string(" [") + length_unit_text + "]";
   verb.add_option("--distance", arguments.distances,
-                  "offsets, separated by commas; negative ones are inside [length]")
+                  "offsets, separated by commas; negative ones are inside" + unit)
       ->type_name("D[,D...]");
-  verb.add_option("--dilate", arguments.dilate, "offsets outward [length]")->type_name("R[,R...]");
-  verb.add_option("--erode", arguments.erode, "offsets inward [length]")->type_name("R[,R...]");
-  const auto radius = [](CLI::Option* option) {
-    option->check(CLI::Range(0.0, 1e300).description(""))->type_name("R");
-  };
-  radius(verb.add_option("--open", arguments.morphology.open,
-                         "first erode by R and dilate by R: thin parts go [length]"));
-  radius(verb.add_option("--close", arguments.morphology.close,
-                         "first (after --open) dilate by R and erode by R: gaps fill [length]"));
+  verb.add_option("--dilate", arguments.dilate, "offsets outward" + unit)->type_name("R[,R...]");
+  verb.add_option("--erode", arguments.erode, "offsets inward" + unit)->type_name("R[,R...]");
+  verb.add_option("--shell", arguments.wall,
+                  "a closed wall of this thickness, half of it on either side of each offset "
+                  "(without any, of the surface): the inner side is reversed" +
+                      unit)
+      ->type_name("T");
+  verb.add_option("--open", arguments.open,
+                  "first erode by R and dilate by R: thin parts go" + unit)
+      ->type_name("R");
+  verb.add_option("--close", arguments.close,
+                  "first (after --open) dilate by R and erode by R: gaps fill" + unit)
+      ->type_name("R");
   verb.add_flag("--clip", arguments.clip, "close the surface flat where it meets the box");
   add_output_option(verb, arguments.out,
                     io::written_extensions({io::Kind::surface}) + ", lines " +

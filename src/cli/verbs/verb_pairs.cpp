@@ -53,9 +53,11 @@ void add_pairs(CLI::App& program, Session& session) {
   add_input_option(
       verb, "DOMAIN", arguments->domain,
       "the surface: " + kinds_help({io::Kind::surface, io::Kind::cloud, io::Kind::voxels}));
-  add_repeated_option(verb, "--vertex", arguments->vertices,
-                      "a vertex to measure from, from 0; may be repeated; without, all")
-      ->type_name("I");
+  add_repeated_option(
+      verb, "--vertex", arguments->vertices,
+      "a vertex to measure from, from 0; several as 1,5,9 or repeated; without, all")
+      ->delimiter(',')
+      ->type_name("I[,I...]");
   add_output_option(verb, arguments->out,
                     "the matrix, a row for each vertex measured from: " +
                         io::written_extensions({io::Kind::table}));

@@ -20,11 +20,12 @@ struct QueryArguments {
 void run_query(QueryArguments& arguments, Session& session) {
   check_outputs(arguments.out, query_outputs);
   const CsgShapes shapes = read_shapes(arguments.space, session);
-  const MatX3 queries = read_queries(arguments.points);
+  const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
   MatX3 gradients;
-  const VecX values = query_distance(shapes, queries, arguments.gradient ? &gradients : nullptr,
-                                     session.task(), session.report);
+  const VecX values =
+      query_distance(shapes, queries.points, arguments.gradient ? &gradients : nullptr,
+                     session.task(), session.report);
   io::Table table{{"distance"}, values};
   if (arguments.gradient) {
     table.names.insert(table.names.end(), {"gradient_x", "gradient_y", "gradient_z"});

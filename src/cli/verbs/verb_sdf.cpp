@@ -23,6 +23,7 @@ const io::Kinds space_outputs = {Kind::volume, Kind::tets, Kind::surface, Kind::
 struct SdfArguments {
   SpaceArguments space;
   std::string levels = "0";
+  std::vector<double> level_values;
   std::vector<std::string> out;
   double band = 0;
   bool clip = false;
@@ -45,7 +46,7 @@ std::vector<Isosurface> isosurfaces_of(const Volume& volume, const TetField& tet
 
 void write_distance(const std::string& file, const SdfArguments& arguments, const Volume& volume,
                     const TetField& tets, Session& session) {
-  const std::vector<double> levels = parse_numbers("level", arguments.levels);
+  const std::vector<double> levels = arguments.level_values;
   const std::string& input = arguments.space.input;
   if (io::is_written_as(file, {Kind::volume}))
     return io::write_volume(file, volume, {.band = arguments.band});
@@ -69,10 +70,12 @@ void run_sdf(SdfArguments& arguments, Session& session) {
     throw InputError("option tets goes with --domain tets");
   if (arguments.clip && arguments.domain == "tets")
     throw UnsupportedError("option clip is for grids: the cube of the tets is larger than the box");
-  parse_numbers("level", arguments.levels);
+  check_lengths("level", arguments.levels);
   const CsgShapes shapes = read_shapes(arguments.space, session);
+  const InputSize size = [&] { return longest_side(shapes); };
+  arguments.level_values = parse_lengths("level", arguments.levels, size);
   Volume volume;
-  volume.grid = choose_grid(shapes, grid_request(arguments.space));
+  volume.grid = choose_grid(shapes, grid_request(arguments.space, size));
   session.reading = false;
   TetField tets;
   if (arguments.domain == "tets") {
@@ -108,19 +111,20 @@ void add_sdf(CLI::App& program, Session& session) {
   verb.add_option("--domain", arguments->domain,
                   "where to solve: a grid, or tets that are small near the input only; volumes "
                   "are sampled from these [default grid]")
-      ->check(CLI::IsMember({"grid", "tets"}).description(""))
+      ->check(one_of({"grid", "tets"}))
       ->type_name("WORD");
   verb.add_option("--tets", arguments->tets,
                   "of --domain tets: lattice, or tetgen, tets whose faces follow a mesh that does "
                   "not cross itself, made by that program where it is installed [default lattice]")
-      ->check(CLI::IsMember({"lattice", "tetgen"}).description(""))
+      ->check(one_of({"lattice", "tetgen"}))
       ->type_name("WORD");
   verb.add_option("--tetgen-timeout", arguments->tetgen.timeout,
                   "how long tetgen may take [seconds; default 600]")
       ->check(CLI::Range(0.01, 1e6).description(""))
       ->type_name("S");
   verb.add_option("--level", arguments->levels,
-                  "levels of surfaces, separated by commas [length; default 0]")
+                  std::string("levels of surfaces, separated by commas [") + length_unit_text +
+                      "; default 0]")
       ->type_name("L[,L...]");
   verb.add_flag("--clip", arguments->clip, "close surfaces along the box where they leave it");
   verb.add_option("--band", arguments->band,

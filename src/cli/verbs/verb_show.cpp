@@ -54,7 +54,7 @@ void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
   const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
   volumes(verb.add_option("--axis", texts.axis,
                           "the slice is orthogonal to this axis: x, y or z [default z]"))
-      ->check(CLI::IsMember({"x", "y", "z"}).description(""))
+      ->check(one_of({"x", "y", "z"}))
       ->type_name("A");
   volumes(
       verb.add_option("--slice", texts.position,
@@ -112,7 +112,7 @@ io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
   traced.for_page = for_page;
   if (!view.position.empty()) traced.position = view.slice_at();
   if (!view.level.empty()) traced.level = parse_number("level", view.level);
-  GridOptions request = grid_request(texts.space);
+  GridOptions request = grid_request(texts.space, [&] { return longest_side(shapes); });
   if (!request.resolution && !request.spacing)
     request.resolution = for_page                      ? page_nodes
                          : traced.position.has_value() ? slice_nodes
@@ -181,7 +181,10 @@ std::string page_text(const io::Scene& scene) {
 }
 
 void view(ShowArguments& arguments, Session& session) {
-  check_outputs({arguments.out.empty() ? "page.html" : arguments.out}, {io::Kind::page});
+  if (arguments.out.empty())
+    io::format_to_write("page.html", {io::Kind::page});  // is there a viewer?
+  else
+    check_outputs({arguments.out}, {io::Kind::page});
   const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
   if (arguments.out.empty())

@@ -48,9 +48,9 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   SpaceRequest request;
   request.flip = session.flip;
   const PolygonSoup input = io::read_surface(arguments.domain);
-  const MatX3 queries = read_queries(arguments.points);
+  const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
-  const VecX values = query_winding(input, queries, request, session.task(), session.report);
+  const VecX values = query_winding(input, queries.points, request, session.task(), session.report);
   finish(arguments.out, session.task(), session, [&](const std::string& file) {
     write_at_points(file, queries, {{"winding"}, values});
   });
@@ -64,6 +64,7 @@ void run_winding(WindingArguments& arguments, Session& session) {
   check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
     throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj");
+  if (!arguments.curves.empty()) check_outputs({arguments.curves}, {Kind::surface});
   const AnyMethod method = arguments.method.method();
   check_method<WindingDomain>(method);
   const auto mesh = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
@@ -112,7 +113,7 @@ void add_winding(CLI::App& program, Session& session) {
       ->type_name("FILE");
   verb.add_option("--show", arguments->show,
                   "what pages, pictures and .vtp show: region or winding")
-      ->check(CLI::IsMember({"region", "winding"}))
+      ->check(one_of({"region", "winding"}))
       ->type_name("WORD");
   verb.add_flag("--flip", session.flip, "reverse every curve, or the surface");
   add_method_options(verb, arguments->method.options, Registry<WindingDomain>::instance().infos());

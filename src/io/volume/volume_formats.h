@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/volume/volume.h"
 
@@ -32,6 +33,25 @@ struct NpyHeader {
 };
 std::optional<NpyHeader> parse_npy_header(std::string_view bytes);
 
+/// A NumPy array of numbers, as stored.
+struct NpyArray {
+  std::vector<std::int64_t> shape;
+  bool fortran = false;  // the first axis runs fastest
+  VecX numbers;
+};
+/// Throws InputError and UnsupportedError naming the file.
+NpyArray read_npy_array(std::string_view bytes, const std::string& name);
+/// array[i, j, k] at x_i, y_j, z_k; spacing 1, origin 0. Throws InputError unless it has three
+/// axes.
+Volume npy_volume(const NpyArray& array, const std::string& name);
+/// Throws InputError unless the array is N x 3.
+MatX3 npy_points(const NpyArray& array, const std::string& name);
+
+/// NumPy archives (.npz): a volume is "values" (or the only array of three axes) with "origin" and
+/// "spacing" (three numbers each, or one), points are "points" or the only array of N x 3.
+Volume read_npz_volume(std::string_view bytes, const std::string& name, const std::string& field);
+void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
+
 /// How numbers are stored.
 struct NumberKind {
   char family = 'f';  // 'f' floating point, 'i' signed, 'u' unsigned
@@ -56,7 +76,10 @@ void check_box(const Grid& grid, const std::string& name);
 /// where it has other characters. `used`: how much of the text was read.
 std::optional<std::string> decode_base64(std::string_view text, std::size_t& used);
 
-/// Unpacks a zlib or gzip stream of exactly `size` bytes; nothing where it is another or damaged.
-std::optional<std::string> unpack(std::string_view packed, std::size_t size);
+/// How packed bytes begin.
+enum class Packing { zlib_or_gzip, raw_deflate };
+/// Unpacks a stream of exactly `size` bytes; nothing where it is another or damaged.
+std::optional<std::string> unpack(std::string_view packed, std::size_t size,
+                                  Packing packing = Packing::zlib_or_gzip);
 
 }  // namespace littoral::io

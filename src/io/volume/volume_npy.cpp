@@ -62,12 +62,9 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
   }
 }
 
-Volume read_npy_volume(std::string_view bytes, const std::string& name, const std::string&) {
+NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
   const auto header = parse_npy_header(bytes);
   if (!header) throw InputError(name + ": the header is not that of a NumPy array");
-  if (header->shape.size() != 3)
-    throw InputError(name + ": the array has " + std::to_string(header->shape.size()) +
-                     " dimensions, a volume has 3");
   const std::string& type = header->type;
   NumberKind kind;
   std::int64_t size = 0;
@@ -82,23 +79,59 @@ Volume read_npy_volume(std::string_view bytes, const std::string& name, const st
     throw UnsupportedError(name + ": numbers of type " + in_quotes(type) +
                            "; floating-point numbers and integers are read");
   kind.size = static_cast<std::size_t>(size);
-  const std::array<std::int64_t, 3> n{header->shape[0], header->shape[1], header->shape[2]};
-  const std::size_t nodes = checked_nodes(n, (bytes.size() - header->data) / kind.size, name);
+  const std::size_t most = (bytes.size() - header->data) / kind.size;
+  std::size_t count = 1;
+  for (const std::int64_t n : header->shape) {
+    if (n > 0 && count > most / static_cast<std::size_t>(n))
+      throw InputError(name + ": the shape has more numbers than the file holds");
+    count *= static_cast<std::size_t>(n);
+  }
+  const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
+  return {header->shape, header->fortran,
+          load_numbers(bytes.substr(header->data), kind, count, order)};
+}
+
+Volume npy_volume(const NpyArray& array, const std::string& name) {
+  if (array.shape.size() != 3)
+    throw InputError(name + ": the array has " + std::to_string(array.shape.size()) +
+                     " dimensions, a volume has 3");
+  const std::array<std::int64_t, 3> n{array.shape[0], array.shape[1], array.shape[2]};
+  checked_nodes(n, static_cast<std::size_t>(array.numbers.size()), name);
   Volume volume;
   for (int k = 0; k < 3; ++k) volume.grid.n[k] = static_cast<int>(n[k]);
-  const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
-  const VecX stored = load_numbers(bytes.substr(header->data), kind, nodes, order);
-  if (header->fortran) {
-    volume.values = stored;
+  if (array.fortran) {
+    volume.values = array.numbers;
     return volume;
   }
-  volume.values.resize(stored.size());
+  volume.values.resize(array.numbers.size());
   Eigen::Index from = 0;
   for (int i = 0; i < volume.grid.n[0]; ++i)
     for (int j = 0; j < volume.grid.n[1]; ++j)
       for (int k = 0; k < volume.grid.n[2]; ++k)
-        volume.values[static_cast<Eigen::Index>(volume.grid.node(i, j, k))] = stored[from++];
+        volume.values[static_cast<Eigen::Index>(volume.grid.node(i, j, k))] = array.numbers[from++];
   return volume;
+}
+
+MatX3 npy_points(const NpyArray& array, const std::string& name) {
+  if (array.shape.size() != 2 || array.shape[1] != 3) {
+    std::string shape;
+    for (const std::int64_t n : array.shape)
+      shape += (shape.empty() ? "" : " x ") + std::to_string(n);
+    throw InputError(name + ": points are an array of N x 3, this one is " +
+                     (shape.empty() ? "a number" : shape));
+  }
+  if (array.shape[0] == 0) throw InputError(name + ": no points");
+  const Eigen::Index rows = array.numbers.size() / 3;
+  if (array.fortran) return Eigen::Map<const Eigen::MatrixX3d>(array.numbers.data(), rows, 3);
+  return Eigen::Map<const MatX3>(array.numbers.data(), rows, 3);
+}
+
+Volume read_npy_volume(std::string_view bytes, const std::string& name, const std::string&) {
+  return npy_volume(read_npy_array(bytes, name), name);
+}
+
+PointTable read_npy_points(std::string_view bytes, const std::string& name) {
+  return {npy_points(read_npy_array(bytes, name), name), {}};
 }
 
 void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {

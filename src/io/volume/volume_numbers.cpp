@@ -101,13 +101,13 @@ std::optional<std::string> decode_base64(std::string_view text, std::size_t& use
   return bytes;
 }
 
-std::optional<std::string> unpack(std::string_view packed, std::size_t size) {
+std::optional<std::string> unpack(std::string_view packed, std::size_t size, Packing packing) {
   constexpr std::size_t best_ratio = 1032;  // of the format
   if (size / best_ratio > packed.size() + 1) return std::nullopt;
   std::string bytes(size, '\0');
   z_stream stream{};
-  constexpr int zlib_or_gzip = 15 + 32;
-  if (inflateInit2(&stream, zlib_or_gzip) != Z_OK) return std::nullopt;
+  const int window = packing == Packing::raw_deflate ? -15 : 15 + 32;
+  if (inflateInit2(&stream, window) != Z_OK) return std::nullopt;
   // zlib counts in 32 bits: feed it pieces.
   constexpr std::size_t piece = std::size_t{1} << 30;
   std::size_t in = 0, out = 0;

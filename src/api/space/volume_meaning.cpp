@@ -1,0 +1,168 @@
+#include "api/space/volume_meaning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/option_table.h"
+#include "contour/isosurface.h"
+#include "littoral/error.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr double least_slope = 0.7, largest_slope = 1.4;  // of what is taken for distance
+constexpr std::size_t most_sampled_cells = 4'000'000;
+
+/// What is seen of values without knowing what they are.
+struct ValueTraits {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool zero_and_another = true;  // no other values than 0 and one more
+  double zero_slope = 0;         // median over the cells that the zero set passes
+  double near_one = 0;           // share of the cells that are not flat, with a slope near 1
+};
+
+bool is_near_one(double slope) { return slope >= least_slope && slope <= largest_slope; }
+
+void look_at_values(const Volume& volume, ValueTraits& seen) {
+  double other = 0;
+  for (const double value : volume.values) {
+    if (!std::isfinite(value)) {
+      seen.zero_and_another = false;
+      continue;
+    }
+    seen.low = std::min(seen.low, value);
+    seen.high = std::max(seen.high, value);
+    if (value == 0 || value == other) continue;
+    if (other != 0) seen.zero_and_another = false;
+    other = value;
+  }
+}
+
+/// Slope at the middle of a cell, and whether values of both signs are at its corners; nothing
+/// where a corner is not finite.
+std::optional<std::pair<double, bool>> cell_slope(const Volume& volume, int i, int j, int k) {
+  Vec3 slope = Vec3::Zero();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int c = 0; c < 8; ++c) {
+    const int a[3] = {c & 1, c >> 1 & 1, c >> 2};
+    const double value =
+        volume.values[static_cast<Eigen::Index>(volume.grid.node(i + a[0], j + a[1], k + a[2]))];
+    if (!std::isfinite(value)) return std::nullopt;
+    low = std::min(low, value);
+    high = std::max(high, value);
+    for (int d = 0; d < 3; ++d) slope[d] += (a[d] ? value : -value) / 4;
+  }
+  return std::pair(slope.cwiseQuotient(volume.grid.spacing).norm(), low <= 0 && high > 0);
+}
+
+void look_at_slopes(const Volume& volume, ValueTraits& seen) {
+  const auto& n = volume.grid.n;
+  const std::size_t step = 1 + volume.grid.n_nodes() / most_sampled_cells;
+  constexpr double flat = 0.05;
+  std::vector<double> at_zero;
+  std::size_t cells = 0, near = 0, at = 0;
+  for (int k = 0; k + 1 < n[2]; ++k)
+    for (int j = 0; j + 1 < n[1]; ++j)
+      for (int i = 0; i + 1 < n[0]; ++i) {
+        if (at++ % step != 0) continue;
+        const auto cell = cell_slope(volume, i, j, k);
+        if (!cell) continue;
+        if (cell->second) at_zero.push_back(cell->first);
+        if (cell->first < flat) continue;
+        ++cells;
+        near += is_near_one(cell->first);
+      }
+  if (cells > 0) seen.near_one = static_cast<double>(near) / static_cast<double>(cells);
+  if (at_zero.empty()) return;
+  const auto middle = at_zero.begin() + static_cast<std::ptrdiff_t>(at_zero.size() / 2);
+  std::nth_element(at_zero.begin(), middle, at_zero.end());
+  seen.zero_slope = *middle;
+}
+
+/// Three digits will do.
+std::string about(double value) {
+  if (value == 0) return "0";
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+  return number_text(unit >= 1 ? std::round(value / unit) * unit
+                               : std::round(value / unit) / std::round(1 / unit));
+}
+
+[[noreturn]] void throw_unclear(const ValueTraits& seen) {
+  const bool both = seen.low < 0 && seen.high > 0;
+  std::string text = "the values, from " + about(seen.low) + " to " + about(seen.high);
+  if (both)
+    text += ", have a slope of about " + about(seen.zero_slope) +
+            " where they are 0, and near 1 in " + about(std::round(100 * seen.near_one)) +
+            " % of the cells";
+  throw InputError(text +
+                   ", which is neither a mask (0 and one other value) nor signed distance "
+                   "(both signs, slope 1). Say what they are: option as distance (taken as it is, "
+                   "negative inside), option as mask (not 0 is inside), option as density (larger "
+                   "than option threshold is inside), or option redistance (measured from where "
+                   "they are 0, negative inside)");
+}
+
+Volume with_border(const Volume& mask) {
+  Volume out;
+  for (int d = 0; d < 3; ++d) out.grid.n[d] = mask.grid.n[d] + 2;
+  out.grid.spacing = mask.grid.spacing;
+  out.grid.origin = mask.grid.origin - mask.grid.spacing;
+  out.values = VecX::Ones(static_cast<Eigen::Index>(out.grid.n_nodes()));
+  for (int k = 0; k < mask.grid.n[2]; ++k)
+    for (int j = 0; j < mask.grid.n[1]; ++j)
+      for (int i = 0; i < mask.grid.n[0]; ++i)
+        if (mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))] != 0)
+          out.values[static_cast<Eigen::Index>(out.grid.node(i + 1, j + 1, k + 1))] = 0;
+  return out;
+}
+
+Shape shape_of_mask(const Volume& mask) {
+  if (!mask.values.allFinite()) throw InputError("a mask needs finite values, 0 outside");
+  const Volume bordered = with_border(mask);
+  Report unheard;
+  Shape shape;
+  shape.surface = isosurface(bordered.grid, bordered.values, 0.5, {}, unheard);
+  if (shape.surface.n_faces() == 0) throw InputError("nothing is inside: all values are 0");
+  return shape;
+}
+
+Shape shape_of_density(Volume density, std::optional<double> threshold) {
+  ValueTraits seen;
+  look_at_values(density, seen);
+  if (!(seen.low < seen.high)) throw InputError("a density needs values that differ");
+  const double level = threshold.value_or((seen.low + seen.high) / 2);
+  if (!(level >= seen.low && level < seen.high))
+    throw InputError("option threshold: no surface at " + about(level) + "; values run from " +
+                     about(seen.low) + " to " + about(seen.high));
+  density.values = -density.values;
+  return shape_at_level(density, -level);
+}
+
+}  // namespace
+
+VolumeMeaning meaning_of(const Volume& volume) {
+  ValueTraits seen;
+  look_at_values(volume, seen);
+  if (!(seen.low <= seen.high)) throw InputError("the volume has no finite values");
+  if (seen.zero_and_another && seen.low < seen.high) return VolumeMeaning::mask;
+  look_at_slopes(volume, seen);
+  const bool both = seen.low < 0 && seen.high > 0;
+  if (both && is_near_one(seen.zero_slope) && 3 * seen.near_one >= 1)
+    return VolumeMeaning::distance;
+  throw_unclear(seen);
+}
+
+Shape shape_of(Volume volume, VolumeMeaning meaning, std::optional<double> threshold) {
+  if (meaning == VolumeMeaning::automatic) meaning = meaning_of(volume);
+  if (threshold && meaning != VolumeMeaning::density)
+    throw InputError("option threshold goes with option as density");
+  if (meaning == VolumeMeaning::mask) return shape_of_mask(volume);
+  if (meaning == VolumeMeaning::density) return shape_of_density(std::move(volume), threshold);
+  Shape shape;
+  shape.field = std::move(volume);
+  return shape;
+}
+
+}  // namespace littoral

@@ -1,0 +1,22 @@
+#pragma once
+// The words after the program's name, before they are parsed.
+
+#include <string>
+#include <vector>
+
+#include "cli/session.h"
+
+namespace littoral::cli {
+
+/// Options of which "on" is one of several words may stand without a word, and are joined to the
+/// one that follows or to "on" by "=". Lists of whole numbers, 10 1500 3000 or 10,1500,3000, become
+/// one list with commas.
+std::vector<std::string> expanded_arguments(int argc, char** argv);
+
+/// Throws InputError for a verb or an option that there is not, naming the nearest.
+void check_names(const CLI::App& program, const std::vector<std::string>& arguments);
+
+/// The verb of this name. Throws InputError naming the nearest.
+const CLI::App& verb_named(const CLI::App& program, const std::string& name);
+
+}  // namespace littoral::cli

@@ -1,0 +1,132 @@
+// NumPy archives: a volume with its box, or points.
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "io/volume/volume_formats.h"
+#include "io/write_table.h"
+#include "io/zip_archive.h"
+#include "littoral/error.h"
+
+namespace littoral::io {
+
+namespace {
+
+using NpyArrays = std::map<std::string, NpyArray>;
+
+NpyArrays read_arrays(std::string_view bytes, const std::string& name) {
+  NpyArrays arrays;
+  for (const ZipMember& member : zip_members(bytes, name)) {
+    std::string key = member.name;
+    if (key.ends_with(".npy")) key.resize(key.size() - 4);
+    const std::string held = unpacked(member, name);
+    const auto header = parse_npy_header(held);
+    if (header && header->type.size() == 3 && header->type[1] == 'U') continue;  // text
+    arrays[key] = read_npy_array(held, name + ": " + key);
+  }
+  return arrays;
+}
+
+std::string names_of(const NpyArrays& arrays) {
+  std::string names;
+  for (const auto& [key, array] : arrays) names += (names.empty() ? "" : ", ") + key;
+  return names.empty() ? "none" : names;
+}
+
+/// The array wanted by name or, where there is none of these names, the only one that will do.
+template <class Fits>
+const NpyArray& choose_array(const NpyArrays& arrays, const std::vector<std::string>& wanted,
+                             const std::string& what, const std::string& name, Fits fits,
+                             std::string& chosen) {
+  for (const std::string& key : wanted)
+    if (arrays.count(key) != 0) {
+      chosen = key;
+      return arrays.at(key);
+    }
+  const NpyArray* only = nullptr;
+  for (const auto& [key, array] : arrays) {
+    if (!fits(array)) continue;
+    if (only)
+      throw InputError(name + ": several arrays could be " + what + "; name one '" +
+                       wanted.front() + "'; there are: " + names_of(arrays));
+    only = &array;
+    chosen = key;
+  }
+  if (!only) throw InputError(name + ": no array is " + what + "; there are: " + names_of(arrays));
+  return *only;
+}
+
+/// Three numbers, or one for all axes.
+void read_triple(const NpyArrays& arrays, const std::string& key, const std::string& name,
+                 Vec3& triple) {
+  const auto found = arrays.find(key);
+  if (found == arrays.end())
+    throw InputError(name + ": an archive of a volume holds '" + key +
+                     "', three numbers; there are: " + names_of(arrays));
+  const VecX& numbers = found->second.numbers;
+  if (numbers.size() == 1)
+    triple.setConstant(numbers[0]);
+  else if (numbers.size() == 3)
+    triple = numbers;
+  else
+    throw InputError(name + ": '" + key + "' has " + std::to_string(numbers.size()) +
+                     " numbers instead of three");
+}
+
+template <class Write>
+std::string npy_bytes(Write write) {
+  std::ostringstream out;
+  write(out);
+  return out.str();
+}
+
+}  // namespace
+
+Volume read_npz_volume(std::string_view bytes, const std::string& name, const std::string& field) {
+  const NpyArrays arrays = read_arrays(bytes, name);
+  std::string chosen;
+  const auto wanted = field.empty() ? std::vector<std::string>{"distance", "values"}
+                                    : std::vector<std::string>{field};
+  if (!field.empty() && arrays.count(field) == 0 && field != "distance")
+    throw InputError(name + ": there is no array '" + field + "'; there are: " + names_of(arrays));
+  const NpyArray& values = choose_array(
+      arrays, wanted, "a volume of three axes", name,
+      [](const NpyArray& array) { return array.shape.size() == 3; }, chosen);
+  Volume volume = npy_volume(values, name + ": " + chosen);
+  volume.name = chosen == "values" ? "distance" : chosen;
+  read_triple(arrays, "origin", name, volume.grid.origin);
+  read_triple(arrays, "spacing", name, volume.grid.spacing);
+  check_box(volume.grid, name);
+  return volume;
+}
+
+void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {
+  const auto triple = [](const Vec3& x) {
+    return npy_bytes([&](std::ostream& to) { write_npy(to, {{""}, x}); });
+  };
+  write_zip(out, {{volume.name + ".npy",
+                   npy_bytes([&](std::ostream& to) { write_npy_volume(to, volume, options); })},
+                  {"origin.npy", triple(volume.grid.origin)},
+                  {"spacing.npy", triple(volume.grid.spacing)}});
+}
+
+PointTable read_npz_points(std::string_view bytes, const std::string& name) {
+  const NpyArrays arrays = read_arrays(bytes, name);
+  std::string chosen;
+  const NpyArray& points = choose_array(
+      arrays, {"points"}, "points, N x 3", name,
+      [](const NpyArray& array) { return array.shape.size() == 2 && array.shape[1] == 3; }, chosen);
+  return {npy_points(points, name + ": " + chosen), {}};
+}
+
+void write_npz(std::ostream& out, const Table& table) {
+  std::vector<std::pair<std::string, std::string>> members;
+  for (std::size_t c = 0; c < table.names.size(); ++c)
+    members.emplace_back(table.names[c] + ".npy", npy_bytes([&](std::ostream& to) {
+                           write_npy(to, {{""}, table.columns.col(static_cast<Eigen::Index>(c))});
+                         }));
+  write_zip(out, members);
+}
+
+}  // namespace littoral::io

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/platform/memory.h"
@@ -89,8 +90,9 @@ struct InfoValueJson {
 
 }  // namespace
 
-std::string report_json(const Report& report) {
-  Json out;
+namespace {
+
+void add_report(Json& out, const Report& report) {
   out["method"] = report.method;
   out["domain"] = report.domain;
   out["status"] = report.status;
@@ -103,6 +105,65 @@ std::string report_json(const Report& report) {
   out["warnings"] = report.warnings;
   out["unreachable_components"] = report.unreachable_components;
   out["peak_memory_mb"] = std::round(peak_memory() / (1 << 20));
+}
+
+void add_run(Json& out, const RunRecord& record) {
+  out["schema"] = "littoral-report-1";
+  out["program"] = {{"name", "littoral"}, {"version", record.version}};
+  out["verb"] = record.verb;
+  out["inputs"] = record.inputs;
+  out["outputs"] = record.outputs;
+}
+
+Json triple(const Vec3& x) { return {number(x[0]), number(x[1]), number(x[2])}; }
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json out;
+  add_report(out, report);
+  return dump(out);
+}
+
+ValueRange range_of(std::string name, const VecX& values) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  ValueRange range{std::move(name), none, none, static_cast<std::size_t>(values.size()), 0};
+  for (const double value : values) {
+    if (!std::isfinite(value)) {
+      ++range.not_finite;
+      continue;
+    }
+    range.low = std::fmin(range.low, value);
+    range.high = std::fmax(range.high, value);
+  }
+  return range;
+}
+
+std::string run_json(const RunRecord& record, const Report& report) {
+  Json out;
+  add_run(out, record);
+  add_report(out, report);
+  if (record.grid)
+    out["grid"] = {{"origin", triple(record.grid->origin)},
+                   {"spacing", triple(record.grid->spacing)},
+                   {"shape", record.grid->n},
+                   {"axis_order", "array[i, j, k] is at origin + (i, j, k) * spacing"}};
+  out["values"] = Json::object();
+  for (const ValueRange& range : record.values)
+    out["values"][range.name] = {{"min", number(range.low)},
+                                 {"max", number(range.high)},
+                                 {"count", range.count},
+                                 {"not_finite", range.not_finite}};
+  return dump(out);
+}
+
+std::string failure_json(const RunRecord& record, const Report& report, const std::string& kind,
+                         const std::string& message, int exit_status) {
+  Json out;
+  add_run(out, record);
+  out["status"] = "failed";
+  out["error"] = {{"kind", kind}, {"message", message}, {"exit_status", exit_status}};
+  out["warnings"] = report.warnings;
   return dump(out);
 }
 

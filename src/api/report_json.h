@@ -1,12 +1,15 @@
 #pragma once
 // Reports and facts as JSON text.
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "api/surface/mesh_info.h"
 #include "littoral/methods.h"
 #include "littoral/report.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 
@@ -14,6 +17,30 @@ namespace littoral {
 /// warnings and unreachable_components. Stages named twice are added up; numbers that are not
 /// finite become the texts "inf", "-inf", "nan"; bytes that are not UTF-8 are replaced.
 std::string report_json(const Report& report);
+
+/// Values of a result in short.
+struct ValueRange {
+  std::string name;
+  double low = 0, high = 0;  // of the finite ones; NaN where there are none
+  std::size_t count = 0, not_finite = 0;
+};
+ValueRange range_of(std::string name, const VecX& values);
+
+/// What a run of the program adds to the report of its computation.
+struct RunRecord {
+  std::string version, verb;  // of the program
+  std::vector<std::string> inputs, outputs;  // files
+  std::optional<Grid> grid;
+  std::vector<ValueRange> values;
+};
+
+/// The report with schema, program, verb, inputs, outputs, grid and values: docs/reference holds
+/// the schema.
+std::string run_json(const RunRecord& record, const Report& report);
+/// The same for a run that failed: `kind` is "usage", "input", "unsupported", "io", "solve",
+/// "memory" or "internal".
+std::string failure_json(const RunRecord& record, const Report& report, const std::string& kind,
+                         const std::string& message, int exit_status);
 
 /// The facts as one object, in their order.
 std::string info_json(const std::vector<InfoEntry>& entries);

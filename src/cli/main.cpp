@@ -36,12 +36,16 @@ std::string with_flags(const std::string& text, const CLI::App& program) {
   return out.append(rest, text.cend());
 }
 
-Status say(cli::Session& session, const CLI::App& program, Status status, std::string text) {
+/// The error as one line, and as an object where a report was asked for.
+Status say(cli::Session& session, const CLI::App& program, Status status, const std::string& kind,
+           std::string text) {
   session.print_warnings();
   text = with_flags(text, program);
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
   std::fprintf(stderr, "littoral: error: %s\n", text.c_str());
+  if (session.json)
+    std::cout << failure_json(session.record, session.report, kind, text, status) << std::endl;
   return status;
 }
 
@@ -56,17 +60,19 @@ int run(cli::Session& session, const CLI::App& program) {
   } catch (const Cancelled&) {
     cli::exit_interrupted();
   } catch (const InputError& e) {
-    return say(session, program, bad_input, e.what());
+    return say(session, program, bad_input, "input", e.what());
   } catch (const UnsupportedError& e) {
-    return say(session, program, bad_input, e.what());
+    return say(session, program, bad_input, "unsupported", e.what());
   } catch (const cli::OutputError& e) {
-    return say(session, program, failed, e.what());
+    return say(session, program, failed, "io", e.what());
   } catch (const IoError& e) {
-    return say(session, program, session.reading ? bad_input : failed, e.what());
+    return say(session, program, session.reading ? bad_input : failed, "io", e.what());
+  } catch (const SolveError& e) {
+    return say(session, program, failed, "solve", e.what());
   } catch (const std::bad_alloc&) {
-    return say(session, program, failed, "not enough memory");
+    return say(session, program, failed, "memory", "not enough memory");
   } catch (const std::exception& e) {
-    return say(session, program, failed, e.what());
+    return say(session, program, failed, "internal", e.what());
   }
 }
 
@@ -74,6 +80,7 @@ int run(cli::Session& session, const CLI::App& program) {
 
 int main(int argc, char** argv) {
   cli::Session session;
+  session.record.version = LITTORAL_VERSION;
   CLI::App program("Distance and inside/outside for geometry that is broken.", "littoral");
   program.set_version_flag("--version", "littoral " LITTORAL_VERSION);
   program.require_subcommand(1);
@@ -95,17 +102,19 @@ int main(int argc, char** argv) {
   cli::add_render(program, session);
   try {
     std::vector<std::string> arguments = cli::expanded_arguments(argc, argv);
+    session.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    if (!arguments.empty()) session.record.verb = arguments.front();
     cli::check_names(program, arguments);
     std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request);
   } catch (const InputError& e) {
-    return say(session, program, bad_input, e.what());
+    return say(session, program, bad_input, "usage", e.what());
   } catch (const CLI::ParseError& e) {
     std::string verb;
     for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();
-    return say(session, program, bad_input,
+    return say(session, program, bad_input, "usage",
                std::string(e.what()) + " (see littoral" + verb + " --help)");
   }
   cli::watch_for_interrupts(session.cancel);

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <iostream>
 
-#include "api/report_json.h"
 #include "base/option_table.h"
 #include "base/platform/process.h"
 #include "littoral/error.h"
@@ -65,7 +64,7 @@ void Session::print_warnings() {
 void Session::print_report() {
   print_warnings();
   print_details();
-  if (json) std::cout << report_json(report) << "\n";
+  if (json) std::cout << run_json(record, report) << "\n";
 }
 
 void Session::print_details() const {
@@ -78,6 +77,16 @@ void Session::print_details() const {
       std::fprintf(stderr, "%s: %s\n", name.c_str(), number_text(value).c_str());
   for (const auto& [stage, seconds] : report.timings)
     std::fprintf(stderr, "%s: %.3f s\n", stage.c_str(), seconds);
+}
+
+void record_files(const CLI::App& verb, Session& session) {
+  session.record.verb = verb.get_name();
+  for (const CLI::Option* option : verb.get_options()) {
+    const bool input = option->get_positional() || option->get_type_name() == "FILE";
+    if (!input && option->get_type_name() != "OUT") continue;
+    auto& files = input ? session.record.inputs : session.record.outputs;
+    files.insert(files.end(), option->results().begin(), option->results().end());
+  }
 }
 
 void add_common_options(CLI::App& verb, Session& session) {

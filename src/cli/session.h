@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "api/report_json.h"
 #include "base/task.h"
 #include "io/formats.h"
 #include "littoral/report.h"
@@ -27,6 +28,7 @@ struct Session {
   bool reading = true;        // a file error is then the input's fault (exit status 2, not 1)
   CancelToken cancel;
   Report report;
+  RunRecord record;
 
   /// A task that draws progress on stderr where asked for, and stops on interrupts.
   Task task();
@@ -73,13 +75,19 @@ CLI::Option* add_input_option(CLI::App& verb, const std::string& name, std::stri
 /// "a surface .obj .ply, tets .mesh"
 std::string kinds_help(const io::Kinds& kinds);
 
+/// Notes the files that were named, by what the options say of their values.
+void record_files(const CLI::App& verb, Session& session);
+
 /// Adds a verb that runs `job(arguments, session)`.
 template <class Arguments, class Job>
 CLI::App& add_verb(CLI::App& program, Session& session, std::shared_ptr<Arguments> arguments,
                    const char* name, const std::string& help, Job job) {
   CLI::App* verb = program.add_subcommand(name, help);
   add_common_options(*verb, session);
-  verb->callback([=, &session] { session.job = [=, &session] { job(*arguments, session); }; });
+  verb->callback([=, &session] {
+    record_files(*verb, session);
+    session.job = [=, &session] { job(*arguments, session); };
+  });
   return *verb;
 }
 

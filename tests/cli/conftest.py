@@ -41,7 +41,7 @@ def run(tmp_path: Path) -> Run:
             errors = [x for x in result.stderr.splitlines() if "warning: " not in x]
             assert len(errors) == 1, result.stderr
             assert errors[0].startswith("littoral: error: ")
-            assert result.stdout == ""
+            assert "--json" in arguments or result.stdout == ""
         return result
 
     return call

@@ -75,6 +75,9 @@ PolygonSoup cloud_with(const PolygonSoup& shown, const SurfaceMesh& cloud) {
   return out;
 }
 
+const VecX& values_of(const SurfaceAnswer& answer) { return answer.values; }
+const VecX& values_of(const VecX& answer) { return answer; }
+
 /// `read(file)` opens the domain, `domain(input)` makes it one of methods, `write` a file.
 template <class D, class Read, class MakeDomain, class Write>
 void measure(const DistanceArguments& arguments, const io::Kinds& outputs, Session& session,
@@ -92,6 +95,7 @@ void measure(const DistanceArguments& arguments, const io::Kinds& outputs, Sessi
   Task task = session.task();
   const auto answer =
       solve_once<D>(method, domain(*input), sources, task.stage(0.95, "distance"), session.report);
+  session.record.values = {range_of("distance", values_of(answer))};
   finish(arguments.out, task.stage(0.05, "writing"), session,
          [&, &from = sources, &opened = input](const std::string& file) {
            write(file, *opened, from, answer);

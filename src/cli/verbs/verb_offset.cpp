@@ -125,6 +125,7 @@ void offset_shape(OffsetArguments& arguments, std::size_t count, Session& sessio
   check_level_outputs(arguments.out, count, {io::Kind::surface});
   const DistanceAround around = distance_around(arguments, session);
   const OffsetLengths& lengths = around.lengths;
+  session.record.grid = around.distance.grid;
   session.reading = false;
   Task task = session.task();
   if (lengths.wall > 0) {

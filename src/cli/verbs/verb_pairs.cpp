@@ -37,6 +37,7 @@ void run_pairs(PairsArguments& arguments, Session& session) {
   Task task = session.task();
   const PairsAnswer answer = pair_distances(domain_of(mesh, input.normals()), vertices, method,
                                             task.stage(0.95, "pairs of vertices"), report);
+  session.record.values = {range_of("distance", answer.distances.reshaped())};
   io::Table table{{}, answer.distances};
   for (int v = 0; v < mesh.n_vertices(); ++v) table.names.push_back("to " + std::to_string(v));
   finish(arguments.out, task.stage(0.05, "writing"), session,

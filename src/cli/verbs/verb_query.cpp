@@ -26,6 +26,7 @@ void run_query(QueryArguments& arguments, Session& session) {
   const VecX values =
       query_distance(shapes, queries.points, arguments.gradient ? &gradients : nullptr,
                      session.task(), session.report);
+  session.record.values = {range_of("distance", values)};
   io::Table table{{"distance"}, values};
   if (arguments.gradient) {
     table.names.insert(table.names.end(), {"gradient_x", "gradient_y", "gradient_z"});

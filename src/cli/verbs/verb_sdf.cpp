@@ -91,6 +91,8 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   } else {
     volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
   }
+  session.record.grid = volume.grid;
+  session.record.values = {range_of("distance", volume.values)};
   finish(arguments.out, session.task(), session,
          [&](const std::string& file) { write_distance(file, arguments, volume, tets, session); });
 }

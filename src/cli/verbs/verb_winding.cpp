@@ -51,6 +51,7 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
   const VecX values = query_winding(input, queries.points, request, session.task(), session.report);
+  session.record.values = {range_of("winding", values)};
   finish(arguments.out, session.task(), session, [&](const std::string& file) {
     write_at_points(file, queries, {{"winding"}, values});
   });
@@ -78,6 +79,7 @@ void run_winding(WindingArguments& arguments, Session& session) {
   if (session.flip) sources = sources.reversed();
   const WindingAnswer answer =
       solve_once<WindingDomain>(method, {mesh}, sources, session.task(), session.report);
+  session.record.values = {range_of("region", answer.region.cast<double>())};
   if (!arguments.curves.empty())
     io::write_polylines(arguments.curves, {{"bounding", &answer.bounding},
                                            {"nonbounding", &answer.nonbounding},
@@ -110,7 +112,7 @@ void add_winding(CLI::App& program, Session& session) {
                         "others values at vertices");
   verb.add_option("--curves", arguments->curves,
                   "where to write the bounding, nonbounding and completed curves: .obj")
-      ->type_name("FILE");
+      ->type_name("OUT");
   verb.add_option("--show", arguments->show,
                   "what pages, pictures and .vtp show: region or winding")
       ->check(one_of({"region", "winding"}))

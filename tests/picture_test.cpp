@@ -65,7 +65,7 @@ int count_like(const io::Image& image, const io::Rgb& colour) {
 TEST(Picture, FlatFieldColoursAreTheMap) {
   const io::Image image = io::draw_picture(square_scene(), small());
   ASSERT_EQ(image.rgb.size(), 240u * 180u * 3u);
-  const auto& map = io::colour_map(true);
+  const auto& map = io::colour_map(io::ColourMap::diverging);
   EXPECT_LE(difference(pixel(image, 0.5, 0.5), map[128]), 3);
   EXPECT_LE(difference(pixel(image, 0.175, 0.5), map[4]), 16);    // x near 0: left
   EXPECT_LE(difference(pixel(image, 0.825, 0.5), map[251]), 16);  // x near 1: right

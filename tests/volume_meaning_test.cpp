@@ -61,7 +61,8 @@ TEST(VolumeMeaning, DensityIsLargerInside) {
 
 TEST(VolumeMeaning, WallsAreClosedAndHollow) {
   const Volume ball = sampled([](const Vec3& x) { return x.norm() - 0.6; });
-  const PolygonSoup& hollow = wall(ball, 0.2).soup();
+  const Mesh mesh = wall(ball, 0.2);
+  const PolygonSoup& hollow = mesh.soup();
   double volume = 0;  // by the divergence theorem
   for (int f = 0; f < hollow.n_faces(); ++f) {
     const auto c = hollow.face(f);

@@ -28,7 +28,7 @@ ValueRange range_of(std::string name, const VecX& values);
 
 /// What a run of the program adds to the report of its computation.
 struct RunRecord {
-  std::string version, verb;  // of the program
+  std::string version, verb;                 // of the program
   std::vector<std::string> inputs, outputs;  // files
   std::optional<Grid> grid;
   std::vector<ValueRange> values;

@@ -148,6 +148,19 @@ double parse_number(const std::string& option, const std::string& text) {
   return numbers.front();
 }
 
+Vec3 parse_position(const std::string& option, const std::string& text) {
+  const std::vector<double> numbers = parse_numbers(option, text);
+  if (numbers.size() != 3) throw InputError("option " + option + " takes three numbers: x,y,z");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::array<double, 2> parse_range(const std::string& option, const std::string& text) {
+  const std::vector<double> numbers = parse_numbers(option, text);
+  if (numbers.size() != 2 || !(numbers[0] < numbers[1]))
+    throw InputError("option " + option + " takes two ascending numbers: a,b");
+  return {numbers[0], numbers[1]};
+}
+
 CLI::Option* add_input_option(CLI::App& verb, const std::string& name, std::string& file,
                               const std::string& help) {
   return verb.add_option(name, file, help)->required()->type_name("");

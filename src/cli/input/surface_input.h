@@ -28,6 +28,22 @@ SurfaceInput read_domain(const std::filesystem::path& path);
 Sources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
                          Session& session);
 
+/// Sources without a file, as given.
+struct NamedSources {
+  std::vector<long long> vertices;
+  std::vector<std::string> at, faces, edges, curves;
+  bool empty() const {
+    return vertices.empty() && at.empty() && faces.empty() && edges.empty() && curves.empty();
+  }
+};
+/// Adds --vertex, --at, --face, --edge and --curve-vertices.
+void add_named_sources(CLI::App& verb, NamedSources& named);
+/// Adds --curve-vertices alone.
+void add_named_curves(CLI::App& verb, NamedSources& named);
+/// The sources on a mesh. Throws InputError for an element that the mesh of `file` has not.
+Sources named_sources(const NamedSources& named, const SurfaceMesh& mesh, const std::string& file,
+                      Session& session);
+
 /// The surfaces of several files in one soup, or the clouds; not both.
 PolygonSoup read_surfaces(const std::vector<std::string>& files);
 

@@ -26,21 +26,21 @@ const io::Kinds tet_outputs = {Kind::tets, Kind::field, Kind::page, Kind::pictur
 struct DistanceArguments {
   std::string domain;
   std::vector<std::string> sources, out;
-  std::vector<long long> vertices;
+  NamedSources named;
   bool boundary = false;
   MethodArguments method;
 };
 
 [[noreturn]] void throw_no_sources(const std::string& domain, const std::string& own) {
   throw InputError(
-      "nothing to measure distance from: name --sources FILE, --vertex I or --boundary (" + domain +
-      " has no " + own + " of its own)");
+      "nothing to measure distance from: name --sources FILE, --vertex I, --at X,Y,Z or --boundary "
+      "(" +
+      domain + " has no " + own + " of its own)");
 }
 
 Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Session& session) {
   Sources sources = read_all_sources(arguments.sources, mesh, session);
-  for (int v : checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session))
-    sources.points.push_back(SurfacePoint::at_vertex(v));
+  sources.add(named_sources(arguments.named, mesh, arguments.domain, session));
   if (arguments.boundary) {
     const std::vector<Curve> loops = boundary_curves(mesh);
     if (loops.empty())
@@ -56,8 +56,13 @@ Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Sess
 
 TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, Session& session) {
   TetSources sources;
+  const NamedSources& named = arguments.named;
+  if (!named.at.empty() || !named.faces.empty() || !named.edges.empty() || !named.curves.empty())
+    throw InputError(
+        "options --at, --face, --edge and --curve-vertices are for surfaces; tets take "
+        "--vertex, --boundary and --sources");
   sources.vertices =
-      checked_vertices(arguments.vertices, file.mesh.n_vertices(), arguments.domain, session);
+      checked_vertices(named.vertices, file.mesh.n_vertices(), arguments.domain, session);
   sources.boundary = arguments.boundary;
   sources.surface = read_surfaces(arguments.sources);
   sources.flip = session.flip;
@@ -158,10 +163,7 @@ void add_distance(CLI::App& program, Session& session) {
                           "--vertex and --boundary, the lines of DOMAIN, or the triangles among "
                           "its tets")
       ->type_name("FILE");
-  add_repeated_option(verb, "--vertex", arguments->vertices,
-                      "a source vertex, from 0; several as 1,5,9 or repeated")
-      ->delimiter(',')
-      ->type_name("I[,I...]");
+  add_named_sources(verb, arguments->named);
   verb.add_flag("--boundary", arguments->boundary,
                 "measure from the boundary of the surface or of the tets, without sign");
   add_output_option(verb, arguments->out,

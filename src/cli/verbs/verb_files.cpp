@@ -22,7 +22,8 @@ namespace littoral::cli {
 namespace {
 
 struct FileArguments {
-  std::string in, out, mesh, field, levels;
+  std::string in, out, mesh, field, levels, range;
+  int count = 0;  // of evenly spaced levels; 0: none
   std::vector<std::string> outs;
   double band = 0;
   bool triangulate = false, clip = false;
@@ -101,23 +102,47 @@ void convert(FileArguments& arguments, Session& session) {
   std::visit(job, io::read_content(arguments.in, arguments.field));
 }
 
+/// The levels given, or evenly spaced ones: between the extremes of the values, or from one end of
+/// a range to the other.
+std::vector<double> levels_for(const FileArguments& arguments, const VecX& values) {
+  if (!arguments.levels.empty()) return parse_numbers("level", arguments.levels);
+  const int n = arguments.count;
+  std::vector<double> levels;
+  if (!arguments.range.empty()) {
+    const auto [low, high] = parse_range("range", arguments.range);
+    for (int i = 0; i < n; ++i)
+      levels.push_back(n == 1 ? (low + high) / 2 : low + (high - low) * i / (n - 1));
+    return levels;
+  }
+  const ValueRange range = range_of("", values);
+  if (!(range.low < range.high))
+    throw InputError("option count: the values of " + arguments.in + " do not differ");
+  for (int i = 1; i <= n; ++i) levels.push_back(range.low + (range.high - range.low) * i / (n + 1));
+  return levels;
+}
+
 void contour(FileArguments& arguments, Session& session) {
-  const std::vector<double> levels = parse_numbers("level", arguments.levels);
+  if (arguments.levels.empty() == (arguments.count == 0))
+    throw InputError("name either option level or option count");
+  if (!arguments.range.empty() && arguments.count == 0)
+    throw InputError("option range goes with option count");
+  const std::size_t count = levels_for(arguments, Eigen::Vector2d(0, 1)).size();
   const bool lines = io::is_read_as(arguments.in, {Kind::surface, Kind::cloud});
-  check_level_outputs(arguments.outs, levels.size(), {lines ? Kind::sources : Kind::surface});
+  check_level_outputs(arguments.outs, count, {lines ? Kind::sources : Kind::surface});
   const Overloaded job{
       [&](const Volume& volume) {
         warn_without_box(arguments.in, session);
         session.reading = false;
-        write_isosurfaces(arguments.outs, isosurfaces(volume, levels, arguments.clip,
-                                                      session.report, session.task()));
+        write_isosurfaces(arguments.outs,
+                          isosurfaces(volume, levels_for(arguments, volume.values), arguments.clip,
+                                      session.report, session.task()));
       },
       [&](const io::TetFile& file) {
         std::string name;
         const VecX& values = field_of(file, arguments, name);
         session.reading = false;
         std::vector<Isosurface> surfaces;
-        for (const double level : levels)
+        for (const double level : levels_for(arguments, values))
           surfaces.push_back(
               {level, isosurface(file.mesh, values, level, session.report, session.task())});
         write_isosurfaces(arguments.outs, surfaces);
@@ -127,7 +152,8 @@ void contour(FileArguments& arguments, Session& session) {
         const SurfaceMesh mesh = mesh_of(soup, arguments.in);
         session.reading = false;
         Task task = session.task();
-        const auto found = level_lines(mesh, values, levels, session.report, task);
+        const auto found =
+            level_lines(mesh, values, levels_for(arguments, values), session.report, task);
         task.checkpoint(1);
         write_lines(arguments.outs, mesh, found);
       }};
@@ -187,8 +213,15 @@ void add_contour(CLI::App& program, Session& session) {
                        kinds_help({Kind::volume, Kind::tets}) + " with values");
   verb.add_option("--level", arguments->levels,
                   "the values, separated by commas [unit of the field]")
-      ->required()
       ->type_name("L[,L...]");
+  verb.add_option("--count", arguments->count,
+                  "instead: this many evenly spaced values between the smallest and the largest, 1 "
+                  "to 1000")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("N");
+  verb.add_option("--range", arguments->range,
+                  "of --count: from the one value to the other, both included")
+      ->type_name("A,B");
   add_output_option(verb, arguments->outs,
                     "lines: " + io::written_extensions({Kind::sources}) +
                         "; surfaces: " + io::written_extensions({Kind::surface}) +

@@ -21,6 +21,7 @@ namespace {
 struct OffsetArguments {
   std::string in, field;
   std::vector<std::string> sources, out;
+  NamedSources named;
   std::string distances, dilate, erode, open, close, wall;
   bool clip = false;
   MethodArguments method;
@@ -72,6 +73,7 @@ void offset_curves(OffsetArguments& arguments, std::size_t count, Session& sessi
   const OffsetLengths lengths =
       lengths_of(arguments, [&] { return bounding_box(mesh.soup()).size().maxCoeff(); });
   Sources sources = read_all_sources(arguments.sources, mesh, session);
+  sources.add(named_sources(arguments.named, mesh, arguments.in, session));
   if (session.flip) sources = sources.reversed();
   session.reading = false;
   Task task = session.task();
@@ -147,7 +149,7 @@ void offset_shape(OffsetArguments& arguments, std::size_t count, Session& sessio
 
 void run_offset(OffsetArguments& arguments, Session& session) {
   const std::size_t count = lengths_of(arguments, [] { return 1.0; }).distances.size();
-  if (arguments.sources.empty())
+  if (arguments.sources.empty() && arguments.named.empty())
     offset_shape(arguments, count, session);
   else
     offset_curves(arguments, count, session);
@@ -188,6 +190,7 @@ void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
       verb, "--sources,-s", arguments.sources,
       "curves on INPUT: " + io::read_extensions({io::Kind::sources}) + "; may be repeated")
       ->type_name("FILE");
+  add_named_curves(verb, arguments.named);
   verb.add_option("--method", arguments.method.name,
                   "of `littoral sdf`, or for curves of `littoral distance` [default: as there]")
       ->type_name("NAME");

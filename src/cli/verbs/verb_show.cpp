@@ -40,6 +40,13 @@ struct TraceArguments {
   SpaceArguments space;  // its input is set from the verb's FILE
 };
 
+const std::vector<std::pair<std::string, io::ColourMap>> colour_maps = {
+    {"auto", io::ColourMap::automatic},
+    {"sequential", io::ColourMap::sequential},
+    {"diverging", io::ColourMap::diverging},
+    {"grey", io::ColourMap::grey},
+    {"heat", io::ColourMap::heat}};
+
 struct ShowArguments {
   std::string in, out, field;
   std::vector<std::string> sources;
@@ -48,7 +55,49 @@ struct ShowArguments {
   TraceArguments trace;
   const CLI::App* verb = nullptr;
   int isolines = 20;
+  std::string up, view, colour_map = "auto", colour_range;
 };
+
+/// An axis, as x or -z, or three numbers.
+Vec3 direction_of(const std::string& option, const std::string& text) {
+  const bool back = text.starts_with('-');
+  const std::string axis = text.substr(back || text.starts_with('+') ? 1 : 0);
+  if (axis == "x" || axis == "y" || axis == "z")
+    return (back ? -1 : 1) * Vec3::Unit(axis.front() - 'x');
+  return parse_position(option, text);
+}
+
+void set_style(io::Scene& scene, const ShowArguments& arguments) {
+  scene.isolines = arguments.isolines;
+  if (!arguments.up.empty()) scene.up = direction_of("up", arguments.up);
+  if (!arguments.view.empty()) scene.towards_eye = direction_of("view", arguments.view);
+  if (!arguments.colour_range.empty())
+    scene.colour_range = parse_range("colour-range", arguments.colour_range);
+  for (const auto& [name, map] : colour_maps)
+    if (name == arguments.colour_map) scene.colour_map = map;
+}
+
+void add_style_options(CLI::App& verb, ShowArguments& arguments) {
+  const auto style = [](CLI::Option* option) { return option->group("Looks"); };
+  style(verb.add_option("--up", arguments.up,
+                        "what points up: x, y, z, -x, -y, -z or X,Y,Z [default: y, or z for what "
+                        "stands on z = 0]"))
+      ->type_name("AXIS");
+  style(verb.add_option("--view", arguments.view,
+                        "from where it is seen: an axis or X,Y,Z, from the shape to the eye "
+                        "[default: from the front above]"))
+      ->type_name("AXIS");
+  std::vector<std::string> names;
+  for (const auto& [name, map] : colour_maps) names.push_back(name);
+  style(verb.add_option("--colour-map", arguments.colour_map,
+                        "sequential, diverging, grey, heat, or auto: diverging where values are "
+                        "negative somewhere [default auto]"))
+      ->check(one_of(names))
+      ->type_name("NAME");
+  style(verb.add_option("--colour-range", arguments.colour_range,
+                        "values at the ends of the colours [default: what there is]"))
+      ->type_name("A,B");
+}
 
 void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
   const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
@@ -165,7 +214,7 @@ io::Scene read_scene_of(ShowArguments& arguments, bool for_page, Session& sessio
 io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) {
   io::Scene scene = read_scene_of(arguments, for_page, session);
   io::describe(scene, title_of(arguments.in), session.report);
-  scene.isolines = arguments.isolines;
+  set_style(scene, arguments);
   io::check_scene(scene);
   session.reading = false;
   session.task().checkpoint();
@@ -218,6 +267,7 @@ CLI::App& add_show_verb(CLI::App& program, Session& session,
                   "about how many isolines, 0 to 1000 [default 20]")
       ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N");
+  add_style_options(verb, *arguments);
   add_volume_view_options(verb, arguments->volume);
   add_trace_options(verb, arguments->trace, session);
   arguments->verb = &verb;

@@ -23,6 +23,7 @@ const io::Kinds region_outputs = {Kind::field, Kind::page, Kind::picture};
 struct WindingArguments {
   std::string domain, points, curves, show = "region";
   std::vector<std::string> sources, out;
+  NamedSources named;
   MethodArguments method;
 };
 
@@ -41,7 +42,8 @@ void write_regions(const std::string& file, const WindingArguments& arguments,
 
 /// Winding numbers of a mesh, soup or cloud at points in space.
 void run_at_points(const WindingArguments& arguments, Session& session) {
-  if (!arguments.sources.empty() || !arguments.curves.empty() || !arguments.method.options.empty())
+  if (!arguments.sources.empty() || !arguments.named.empty() || !arguments.curves.empty() ||
+      !arguments.method.options.empty())
     throw InputError(
         "option points: winding numbers in space take no sources, no curves and no options");
   check_outputs(arguments.out, query_outputs);
@@ -70,11 +72,12 @@ void run_winding(WindingArguments& arguments, Session& session) {
   check_method<WindingDomain>(method);
   const auto mesh = std::make_shared<const SurfaceMesh>(read_mesh(arguments.domain));
   Sources sources = read_all_sources(arguments.sources, *mesh, session);
+  sources.add(named_sources(arguments.named, *mesh, arguments.domain, session));
   if (sources.empty() && !mesh->soup().lines.empty())
     sources = io::sources_from_lines(mesh->soup(), arguments.domain);
   if (sources.empty())
-    throw InputError("no curves given: use option sources (" + arguments.domain +
-                     " has no lines of its own)");
+    throw InputError("no curves given: use option sources or option curve-vertices (" +
+                     arguments.domain + " has no lines of its own)");
   session.reading = false;
   if (session.flip) sources = sources.reversed();
   const WindingAnswer answer =
@@ -103,6 +106,7 @@ void add_winding(CLI::App& program, Session& session) {
                       "signed curves: " + io::read_extensions({Kind::sources}) +
                           "; may be repeated; without, the lines of DOMAIN")
       ->type_name("FILE");
+  add_named_curves(verb, arguments->named);
   add_points_option(
       verb, arguments->points,
       "winding numbers in space, to " + io::written_extensions(query_outputs) + ", at: ");

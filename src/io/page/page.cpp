@@ -86,7 +86,7 @@ json field_json(const Scene& scene, const FieldStyle& style) {
     labels.push_back(label_text(tick));
   }
   field["labels"] = labels;
-  const auto& map = colour_map(style.diverging);
+  const auto& map = colour_map(style.map);
   field["colours"] = base64(map.data(), map.size() * sizeof(Rgb));
   return field;
 }

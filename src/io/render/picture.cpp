@@ -63,8 +63,8 @@ void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
   for (int y = top; y < bottom; ++y) {
     const double t = (bar.bottom - (y + 0.5)) / (bar.bottom - bar.top);
     const double value = (1 - t) * style.low + t * style.high;
-    const Rgb colour = colour_map(style.diverging)[static_cast<std::size_t>(
-        std::lround(255 * colour_position(style, value)))];
+    const Rgb colour = colour_map(
+        style.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style, value)))];
     draw_line(image, bar.left + 1, y + 0.5, bar.left + bar.width - 1, y + 0.5, 1, colour);
   }
   const double right = bar.left + bar.width;

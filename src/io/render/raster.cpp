@@ -215,8 +215,8 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   for (int k = 0; k < 3; ++k)
     if (counts[k] > 0) value += counts[k] * b[k] / total * scene_.values[v[k]];
   if (!std::isfinite(value)) return as_vector(infinite_colour) * lit;
-  Eigen::Vector3f colour = as_vector(colour_map(style_.diverging)[static_cast<std::size_t>(
-      std::lround(255 * colour_position(style_, value)))]);
+  Eigen::Vector3f colour = as_vector(colour_map(
+      style_.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style_, value)))]);
   // Slope of the value per sample: value = N / D with N = sum c b v, D = sum c b linear in the
   // picture, where corners count c.
   double slope_x = 0, slope_y = 0;

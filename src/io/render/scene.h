@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,6 +53,9 @@ struct SceneTrace {
   double steepness = 1;  // of the field at most
 };
 
+/// The colours of values; automatic: sequential, or diverging where values are negative somewhere.
+enum class ColourMap { automatic, sequential, diverging, grey, heat };
+
 /// Everything on show. All texts are plain UTF-8; pages escape them.
 struct Scene {
   MatX3 points{0, 3};      // vertices x 3; those of triangles must be finite
@@ -62,9 +66,12 @@ struct Scene {
   VecX weights;  // vertices, 0..1: values are interpolated as sum b w v / sum b w; or empty: all 1
   std::string field_name = "distance";
   std::vector<SceneCurve> curves;
-  MatX3 source_points{0, 3};                  // isolated source points x 3
-  std::vector<double> levels;                 // isolines at these values; empty: evenly spaced ones
-  int isolines = 20;                          // about how many evenly spaced ones; 0: none
+  MatX3 source_points{0, 3};   // isolated source points x 3
+  std::vector<double> levels;  // isolines at these values; empty: evenly spaced ones
+  int isolines = 20;           // about how many evenly spaced ones; 0: none
+  ColourMap colour_map = ColourMap::automatic;
+  std::optional<std::array<double, 2>> colour_range{};  // values at its ends; or what there is
+  std::optional<Vec3> towards_eye{}, up{};    // of the first view; or what suits the shape
   std::shared_ptr<const SceneVolume> volume;  // the triangles are then a slice and a surface
   std::shared_ptr<const SceneTrace> trace;    // beside the triangles
   std::string title;

@@ -5,6 +5,7 @@
 
 #include "base/dense_decompositions.h"
 #include "io/render/scene_style.h"
+#include "littoral/error.h"
 
 namespace littoral::io {
 
@@ -60,6 +61,13 @@ bool z_is_up(const Vec3& low, const Vec3& high) {
   return stands_on(2) && !stands_on(1) && high[2] - low[2] > 10 * small;
 }
 
+Vec3 unit_direction(const Vec3& v, const std::string& name) {
+  const double length = v.stableNorm();
+  if (!(length > 0) || !std::isfinite(length))
+    throw InputError("option " + name + ": a direction must be finite and not zero");
+  return v / length;
+}
+
 }  // namespace
 
 SceneFrame scene_frame(const Scene& scene) {
@@ -96,9 +104,23 @@ SceneFrame scene_frame(const Scene& scene) {
   } else {
     view = upright.transpose() * front_view(upright * second * upright.transpose());
   }
+  if (scene.up && !scene.towards_eye) {  // the front above, about the axis that is up
+    const Vec3 axis = unit_direction(*scene.up, "up");
+    const Vec3 other = std::abs(axis[0]) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+    const Vec3 side = (other - other.dot(axis) * axis).normalized();
+    upright.row(1) = axis;
+    upright.row(0) = side;
+    upright.row(2) = side.cross(axis);
+    if (!scene.volume)
+      view = upright.transpose() * front_view(upright * second * upright.transpose());
+  }
+  if (scene.towards_eye) view = unit_direction(*scene.towards_eye, "view");
   frame.towards_eye = view.normalized();
-  Vec3 up = upright.row(1);
-  if (std::abs(frame.towards_eye.dot(up)) > 0.99) up = -upright.row(2);
+  Vec3 up = scene.up ? unit_direction(*scene.up, "up") : Vec3(upright.row(1));
+  if (std::abs(frame.towards_eye.dot(up)) > (scene.up ? 1 - 1e-9 : 0.99)) {
+    if (scene.up) throw InputError("option up is parallel to the direction of the view");
+    up = -upright.row(2);
+  }
   frame.up = (up - up.dot(frame.towards_eye) * frame.towards_eye).normalized();
   return frame;
 }

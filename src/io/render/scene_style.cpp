@@ -58,7 +58,7 @@ std::array<Rgb, 256> blend(const std::vector<Stop>& stops) {
 
 }  // namespace
 
-const std::array<Rgb, 256>& colour_map(bool diverging) {
+const std::array<Rgb, 256>& colour_map(ColourMap map) {
   static const std::array<Rgb, 256> two = blend({{0, 28, 52, 120},
                                                  {0.22, 52, 118, 190},
                                                  {0.40, 150, 196, 226},
@@ -71,7 +71,24 @@ const std::array<Rgb, 256>& colour_map(bool diverging) {
                                                  {0.5, 74, 168, 178},
                                                  {0.75, 52, 106, 164},
                                                  {1, 48, 44, 112}});
-  return diverging ? two : one;
+  static const std::array<Rgb, 256> grey = blend({{0, 245, 245, 245}, {1, 40, 40, 40}});
+  static const std::array<Rgb, 256> heat = blend({{0, 20, 12, 30},
+                                                  {0.35, 130, 24, 60},
+                                                  {0.65, 226, 92, 32},
+                                                  {0.85, 248, 186, 60},
+                                                  {1, 255, 252, 220}});
+  switch (map) {
+    case ColourMap::diverging:
+      return two;
+    case ColourMap::grey:
+      return grey;
+    case ColourMap::heat:
+      return heat;
+    case ColourMap::automatic:
+    case ColourMap::sequential:
+      break;
+  }
+  return one;
 }
 
 FieldStyle field_style(const Scene& scene) {
@@ -98,10 +115,19 @@ FieldStyle field_style(const Scene& scene) {
   style.high = high;
   // A trace of negative values, as a solver leaves around zero, does not make a signed field.
   const double reach = std::max(std::abs(low), std::abs(high));
-  style.diverging = low < -0.01 * reach;
+  style.diverging = scene.colour_map == ColourMap::automatic
+                        ? low < -0.01 * reach
+                        : scene.colour_map == ColourMap::diverging;
+  style.map = scene.colour_map != ColourMap::automatic ? scene.colour_map
+              : style.diverging                        ? ColourMap::diverging
+                                                       : ColourMap::sequential;
   style.colour_low = style.diverging ? -reach : low;
   style.colour_high = style.diverging ? reach : high;
   if (!style.diverging && low < 0.2 * high) style.colour_low = std::min(0.0, low);
+  if (scene.colour_range) {
+    style.colour_low = (*scene.colour_range)[0];
+    style.colour_high = (*scene.colour_range)[1];
+  }
   if (scene.levels.empty()) style.spacing = nice_spacing(low, high, scene.isolines);
   return style;
 }

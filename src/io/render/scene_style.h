@@ -24,12 +24,14 @@ struct SceneFrame {
 /// The frame of surface and sources. Flat surfaces are seen face-on from the positive side of their
 /// largest normal component (so nothing is mirrored) with y (or -z) up; others from the front
 /// above, turned by 30 degrees from the shorter horizontal principal axis. y is up, or z for what
-/// stands on the plane z = 0 and not on y = 0.
+/// stands on the plane z = 0 and not on y = 0. What the scene says of its view comes first.
+/// Throws InputError for directions that are zero, not finite or parallel.
 SceneFrame scene_frame(const Scene& scene);
 
 /// Which values the colours span.
 struct FieldStyle {
-  bool present = false;      // is there a finite value?
+  bool present = false;  // is there a finite value?
+  ColourMap map = ColourMap::sequential;
   bool diverging = false;    // two hues about zero, where values are negative somewhere
   bool infinite = false;     // are there infinite values? drawn grey
   double low = 0, high = 0;  // least and greatest finite value on the triangles
@@ -39,8 +41,8 @@ struct FieldStyle {
 
 FieldStyle field_style(const Scene& scene);
 
-/// The colour map (256) of fields with two signs or one; from low to high.
-const std::array<Rgb, 256>& colour_map(bool diverging);
+/// The colours (256) of a map, from low to high.
+const std::array<Rgb, 256>& colour_map(ColourMap map);
 
 /// Position of a finite value in the colour map, 0..1.
 double colour_position(const FieldStyle& style, double value);

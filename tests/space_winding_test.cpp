@@ -32,10 +32,12 @@ TEST(WindingNumber, ExactSumsAgreeWithBruteForceAlsoOnBrokenSurfaces) {
 }
 
 TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
-  const PolygonSoup soup = test::torus_soup(120, 60);
-  const MatX3i faces = triangles_of(soup);
+  const PolygonSoup soup = test::torus_soup(60, 40);
+  MatX3i faces = triangles_of(soup);
+  for (Eigen::Index f = 0; f < faces.rows(); f += 7) std::swap(faces(f, 0), faces(f, 1));
   const WindingNumber winding(soup.points, faces);
-  const MatX3 queries = random_points(300, 1.6);
+  EXPECT_FALSE(winding.exact());
+  const MatX3 queries = random_points(150, 1.6);
   double worst = 0;
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const Vec3 q = queries.row(i);

@@ -24,7 +24,7 @@ std::vector<int> same_positions(const MatX3& points) {
   return first;
 }
 
-std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces) {
+std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i& faces) {
   const std::vector<int> first = same_positions(points);
   struct Side {
     std::pair<int, int> ends;  // the lower first
@@ -49,10 +49,16 @@ std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i
     for (; end < sides.size() && sides[end].ends == sides[begin].ends; ++end)
       sum += sides[end].count;
     const auto [a, b] = sides[begin].ends;
-    if (sum > 0) out.push_back({a, b});
-    if (sum < 0) out.push_back({b, a});
+    for (; sum > 0; --sum) out.push_back({a, b});
+    for (; sum < 0; ++sum) out.push_back({b, a});
   }
   return out;
+}
+
+std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces) {
+  std::vector<std::array<int, 2>> edges = boundary_chain(points, faces);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 }  // namespace littoral

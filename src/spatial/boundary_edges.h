@@ -15,6 +15,9 @@ namespace littoral {
 /// points: n x 3; faces: m x 3, rows index points.
 std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces);
 
+/// The same, each as often as it counts.
+std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i& faces);
+
 /// For each vertex, the lowest one at its position.
 std::vector<int> same_positions(const MatX3& points);
 

@@ -4,7 +4,25 @@
 #include <limits>
 #include <numeric>
 
+#include "base/index.h"
+
 namespace littoral {
+
+std::vector<int> ClusterTree::opened(int root, int width) const {
+  const auto size = [&](int c) {
+    return clusters[c].child < 0 ? 0 : clusters[c].end - clusters[c].begin;
+  };
+  std::vector<int> members{root};
+  while (int_size(members) < width) {
+    const auto largest = std::max_element(members.begin(), members.end(),
+                                          [&](int a, int b) { return size(a) < size(b); });
+    const int child = clusters[*largest].child;
+    if (child < 0) break;
+    *largest = child;
+    members.push_back(child + 1);
+  }
+  return members;
+}
 
 ClusterTree cluster(const MatX3& centres, int leaf_size) {
   ClusterTree tree;

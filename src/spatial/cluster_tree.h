@@ -18,6 +18,10 @@ struct Cluster {
 struct ClusterTree {
   std::vector<Cluster> clusters;
   std::vector<int> order;  // place -> item
+
+  /// Up to `width` clusters that make up another one: the largest are opened as long as there is
+  /// room.
+  std::vector<int> opened(int root, int width) const;
 };
 
 /// Groups items by their centres (items x 3, finite) until at most `leaf_size` are together.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/index.h"
+#include "spatial/boundary_edges.h"
 
 namespace littoral {
 
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double four_pi = 4 * M_PI;
 constexpr int leaf_size = winding_lanes;
-constexpr double far_away = 1e5;  // in units: what is there sees one vector area
+constexpr int most_boundary_edges = 1500;  // beyond, the sum over clusters is faster
+constexpr double far_away = 1e5;           // in units: what is there sees one vector area
 
 using Triangle = std::array<Vec3, 3>;
 
@@ -106,7 +108,19 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
     items.centres.emplace_back((t[0] + t[1] + t[2]) / 3);
     items.areas.emplace_back((t[1] - t[0]).cross(t[2] - t[0]) / 2);
   }
-  build(std::move(items));
+  const auto chain = boundary_chain(points, faces);
+  if (int_size(chain) > most_boundary_edges) {
+    build(std::move(items));
+    return;
+  }
+  exact_ = true;
+  const auto local = [&](int v) { return Vec3((points.row(v).transpose() - origin_) / unit_); };
+  std::vector<std::array<Vec3, 2>> boundary;
+  boundary.reserve(chain.size());
+  for (const auto& [a, b] : chain) boundary.push_back({local(a), local(b)});
+  if (!chain.empty())
+    for (const Vec3& a : items.areas) total_ += a;
+  crossing_ = CrossingNumber(items.tree, items.triangles, boundary);
 }
 
 WindingNumber::WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas) {
@@ -171,21 +185,8 @@ int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
 }
 
 int WindingNumber::add_node(const Items& items, const std::vector<Moments>& moments, int root) {
-  // The largest clusters under the root, as long as there is room.
   const auto& clusters = items.tree.clusters;
-  const auto size = [&](int c) {
-    const Cluster& cluster = clusters[c];
-    return cluster.child < 0 ? 0 : cluster.end - cluster.begin;
-  };
-  std::vector<int> members{root};
-  while (members.size() < winding_lanes) {
-    const auto largest = std::max_element(members.begin(), members.end(),
-                                          [&](int a, int b) { return size(a) < size(b); });
-    const int child = clusters[*largest].child;
-    if (child < 0) break;
-    *largest = child;
-    members.push_back(child + 1);
-  }
+  const std::vector<int> members = items.tree.opened(root, winding_lanes);
   const int at = nodes_.size();
   nodes_.emplace_back();
   Node node;
@@ -223,13 +224,14 @@ double WindingNumber::leaf_sum(int leaf, const double* q) const {
 }
 
 double WindingNumber::operator()(const Vec3& query, double accuracy) const {
-  if (root_ == none) return 0;
+  if (root_ == none && !exact_) return 0;
   const Vec3 q = (query - origin_) / unit_;
   const double distance = q.norm();
   if (!(distance < far_away)) {
     const double sum = -total_.dot(q / distance) / distance / distance / four_pi;
     return std::isfinite(sum) ? sum : 0;
   }
+  if (exact_) return crossing_(q);
   const std::array<float, 3> near_q{static_cast<float>(q[0]), static_cast<float>(q[1]),
                                     static_cast<float>(q[2])};
   const WindingKernels& kernels = winding_kernels();

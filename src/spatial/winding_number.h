@@ -7,15 +7,16 @@
 
 #include "littoral/types.h"
 #include "spatial/cluster_tree.h"
+#include "spatial/crossing_number.h"
 #include "spatial/winding_kernels.h"
 
 namespace littoral {
 
 /// Sum of signed solid angles over 4 pi: 1 inside a closed surface whose normals point outward, 0
-/// outside, in between where it is broken. Far clusters are expanded to second order (Barill et
-/// al., "Fast winding numbers for soups and clouds", 2018); near triangles count exactly (van
-/// Oosterom and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several
-/// threads.
+/// outside, in between where it is broken. Exact where the triangles' boundary has few edges or
+/// none (crossing_number.h). Otherwise far clusters are expanded to second order (Barill et al.,
+/// "Fast winding numbers for soups and clouds", 2018); near triangles count exactly (van Oosterom
+/// and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several threads.
 class WindingNumber {
  public:
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
@@ -28,6 +29,9 @@ class WindingNumber {
   /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 3 keeps
   /// the error below 1e-3, 2.3 below 3e-3; infinity sums exactly.
   double operator()(const Vec3& query, double accuracy = 3) const;
+
+  /// Whether values are exact whatever the accuracy.
+  bool exact() const { return exact_; }
 
  private:
   // Moments of the vector area about the centre, contracted as the expansion needs them.
@@ -65,6 +69,8 @@ class WindingNumber {
   Vec3 origin_ = Vec3::Zero();
   double unit_ = 1;
   Vec3 total_ = Vec3::Zero();  // vector area
+  bool exact_ = false;
+  CrossingNumber crossing_;  // one of the two: this, or the tree below
   int root_ = none;
   std::vector<Node> nodes_;
   std::vector<TriangleLanes> triangle_leaves_;  // one of the two

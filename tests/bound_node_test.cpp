@@ -66,5 +66,38 @@ TEST(BoundNode, SeesTiltedPlanesAsFlat) {
   EXPECT_LE(bound, truth);
 }
 
+TEST(BoundNode, InSinglePrecisionItIsBelowEveryPointToo) {
+  const MatX3 queries = test::random_points(60, 1, 8);
+  const std::vector<int> rows = rows_of(MatX3(3000, 3));
+  for (const double flatness : {1.0, 1e-3, 0.0})
+    for (const int n : {1, 3, 50, 3000}) {
+      MatX3 points = test::random_points(n, 0.5, static_cast<unsigned>(n));
+      points.col(2) = flatness * points.col(2) + 0.5 * points.col(0);
+      BoundNode node;
+      for (int l = 0; l < bound_lanes; ++l) set_empty(node, l), node.child[l] = l;
+      set_bounds(points, rows.data(), rows.data() + n, node, 3);
+      SmallBoundNode small;
+      set_small(node, small);
+      for (const double reach : {1e-3, 1.0, 30.0, 33.0, 1e3, 1e30, 1e120})
+        for (Eigen::Index i = 0; i < queries.rows(); ++i) {
+          const Vec3 q = reach * queries.row(i);
+          const double truth =
+              (points.rowwise() - q.transpose()).rowwise().squaredNorm().minCoeff();
+          alignas(64) double exact[bound_lanes], squared[bound_lanes];
+          bound_kernel()(node, q.data(), exact);
+          const SmallBoundKernels& kernels = small_bound_kernels();
+          const auto kernel =
+              q.cwiseAbs().maxCoeff() <= near_bound_kernel ? kernels.near : kernels.far;
+          EXPECT_EQ(kernel(small, q.data(), truth, squared), 1u << 3);
+          EXPECT_LE(squared[3], truth);
+          EXPECT_EQ(squared[2], infinity);
+          if (reach > 30) continue;
+          EXPECT_GT(std::sqrt(squared[3]), std::sqrt(exact[3]) - 3e-3 * (1 + reach));
+          EXPECT_EQ(kernel(small, q.data(), squared[3] / 2, squared),
+                    squared[3] > 0 ? 0u : 1u << 3);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace littoral

@@ -32,6 +32,16 @@ TEST(MortonOrder, IsAPermutationThatKeepsNeighboursTogether) {
   EXPECT_LT(steps / 4095, 0.2);
 }
 
+TEST(MortonOrder, OfManyPointsIsThatOfFewWithOthersBetween) {
+  MatX3 points = test::random_points(9000, 1);
+  points.row(0).setConstant(-1);  // the same lattice
+  points.row(1).setConstant(1);
+  points.row(2) = points.row(3);
+  std::vector<int> many = morton_order(points);
+  std::erase_if(many, [](int i) { return i >= 4000; });
+  EXPECT_EQ(many, morton_order(points.topRows(4000)));
+}
+
 TEST(MortonOrder, OfCornersOfACubeFollowsTheirBits) {
   MatX3 corners(8, 3);
   for (int w = 0; w < 8; ++w) corners.row(7 - w) << (w & 1), (w >> 1 & 1), (w >> 2);

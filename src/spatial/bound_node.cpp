@@ -79,4 +79,18 @@ void set_empty(BoundNode& node, int lane) {
   node.radius[lane] = node.half[lane] = node.slack[lane] = 0;
 }
 
+void set_small(const BoundNode& from, SmallBoundNode& to) {
+  for (int l = 0; l < bound_lanes; ++l) {
+    for (int d = 0; d < 3; ++d) {
+      to.low[d][l] = static_cast<float>(from.low[d][l]);
+      to.high[d][l] = static_cast<float>(from.high[d][l]);
+      to.centre[d][l] = static_cast<float>(from.centre[d][l]);
+      to.axis[d][l] = static_cast<float>(from.axis[d][l]);
+    }
+    to.radius[l] = static_cast<float>(from.radius[l]);
+    to.half[l] = static_cast<float>(from.half[l]);
+    to.child[l] = from.child[l];
+  }
+}
+
 }  // namespace littoral

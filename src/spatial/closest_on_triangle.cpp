@@ -42,6 +42,18 @@ SegmentFoot closest_on_segment(const Vec3& a, const Vec3& b) {
 TriangleFoot closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3* corner[3] = {&a, &b, &c};
   TriangleFoot best;
+  // Mostly a corner: where both its sides lead away from the query, more so than rounding could.
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &p = *corner[k], &q = *corner[(k + 1) % 3], &r = *corner[(k + 2) % 3];
+    const double least = 1e-14 * (p.cwiseAbs().sum() * (q.cwiseAbs().sum() + r.cwiseAbs().sum()));
+    if (p.dot(q - p) > least && p.dot(r - p) > least) {
+      best.barycentric = {0, 0, 0};
+      best.barycentric[k] = 1;
+      best.offset = p;
+      best.squared = p.squaredNorm();
+      return best;
+    }
+  }
   double longest = -1;
   int base = 0;
   for (int k = 0; k < 3; ++k) {

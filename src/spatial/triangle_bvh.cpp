@@ -19,6 +19,7 @@ constexpr double beyond_all = std::numeric_limits<double>::infinity();
 constexpr int bins = 12;
 constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
 constexpr int stack_size = 8 * 80;
+constexpr int finest_unit = -60;        // below the rounding of coordinates up to 1
 constexpr int farthest_exponent = 200;  // squares of 2^200 are far from overflow
 
 Vec3 scaled(const Vec3& v, int exponent) {
@@ -82,17 +83,26 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
     for (std::size_t k = 0; k < 3; ++k) all.row(3 * i + k) = corners_[i][k];
   }
   faces_ = std::move(sorted);
+  const Box& whole = splits.front().box;
+  centre_ = 0.5 * (whole.low + whole.high);
+  const double extent = (whole.high - whole.low).maxCoeff();
+  if (extent > 0) unit_ = std::ldexp(1.0, std::max(exponent_of(extent), finest_unit));
+  all = (all.rowwise() - centre_.transpose()) / unit_;
   std::vector<Lanes> ranges;
   add_node(splits, 0, ranges);
   parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t at = begin; at < end; ++at)
+    BoundNode node;
+    for (std::size_t at = begin; at < end; ++at) {
+      std::copy_n(nodes_[at].child, width, node.child);
       for (int c = 0; c < width; ++c) {
         const auto [from, to] = ranges[at][c];
         if (from == to)
-          set_empty(nodes_[at], c);
+          set_empty(node, c);
         else
-          set_bounds(all, rows.data() + 3 * from, rows.data() + 3 * to, nodes_[at], c);
+          set_bounds(all, rows.data() + 3 * from, rows.data() + 3 * to, node, c);
       }
+      set_small(node, nodes_[at]);
+    }
   });
 }
 
@@ -242,22 +252,28 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (hint >= 0 && hint < int_size(place_) && place_[hint] >= 0) look_at(place_[hint]);
 
   std::array<BoundEntry, stack_size> stack;  // a node adds at most eight
-  BoundKernel* const bounds = bound_kernel();
+  const Vec3 local = (q - centre_) / unit_;
+  const SmallBoundKernels& kernels = small_bound_kernels();
+  SmallBoundKernel* const bounds =
+      local.cwiseAbs().maxCoeff() <= near_bound_kernel ? kernels.near : kernels.far;
+  const double per_unit = 1 / (unit_ * unit_);  // a power of two
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
     const BoundEntry entry = stack[--top];
-    if (entry.squared > best) continue;
+    if (entry.squared > best * per_unit) continue;
     if (entry.child < 0) {
       look_at(-1 - entry.child);
       continue;
     }
-    const BoundNode& node = nodes_[entry.child];
+    const SmallBoundNode& node = nodes_[entry.child];
     // Bounds hold for computed feet, too, so that pruning never changes which of several equally
     // near faces wins.
     alignas(64) double bound[width];
-    bounds(node, q.data(), bound);
-    top = push_children(node, bound, best, stack.data(), top);
+    // Empty lanes are at infinity: the first bound is the largest number.
+    const double most = std::min(best * per_unit, std::numeric_limits<double>::max());
+    const unsigned near = bounds(node, local.data(), most, bound);
+    top = push_children(node.child, bound, near, stack.data(), top);
   }
 
   NearestPoint answer;

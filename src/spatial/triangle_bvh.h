@@ -54,7 +54,9 @@ class TriangleBvh {
   int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges);
 
   int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
-  std::vector<BoundNode> nodes_;              // child: another node, or -1 - (stored triangle)
+  Vec3 centre_ = Vec3::Zero();                // nodes: coordinates about it,
+  double unit_ = 1;                           // in these units
+  std::vector<SmallBoundNode> nodes_;         // child: another node, or -1 - (stored triangle)
   std::vector<int> faces_;                    // original number of each stored triangle
   std::vector<int> place_;                    // where each original one is stored, or -1
   std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the tree

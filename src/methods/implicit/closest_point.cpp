@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "base/parallel.h"
 #include "spatial/point_tree.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/winding_number.h"
@@ -28,12 +29,24 @@ DistanceSample signed_sample(const Vec3& x, const Vec3& nearest, double distance
   return out;
 }
 
+/// Of unit length, zero where a face has no area.
+MatX3 face_normals(const MatX3& points, const MatX3i& faces) {
+  MatX3 normals = MatX3::Zero(faces.rows(), 3);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Vec3 a = points.row(faces(f, 0)), b = points.row(faces(f, 1)),
+               c = points.row(faces(f, 2));
+    const Vec3 n = (b - a).cross(c - a).stableNormalized();
+    if (n.allFinite()) normals.row(f) = n;
+  }
+  return normals;
+}
+
 /// Angle-weighted normals at corners, and sums of normals across edges. Vertices at one position
 /// count as one, so that soups whose faces share nothing but positions work as well.
 class Pseudonormals {
  public:
-  Pseudonormals(const MatX3& points, const MatX3i& faces)
-      : faces_(faces), normals_(MatX3::Zero(faces.rows(), 3)) {
+  Pseudonormals(const MatX3& points, const MatX3i& faces, const MatX3& normals)
+      : faces_(faces), normals_(normals) {
     std::map<std::array<double, 3>, int> place;
     for (Eigen::Index v = 0; v < points.rows(); ++v)
       vertex_.push_back(place.try_emplace({points(v, 0), points(v, 1), points(v, 2)}, place.size())
@@ -42,9 +55,8 @@ class Pseudonormals {
     for (Eigen::Index f = 0; f < faces.rows(); ++f) {
       std::array<Vec3, 3> p;
       for (int k = 0; k < 3; ++k) p[k] = points.row(faces(f, k));
-      const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
-      if (!n.allFinite()) continue;
-      normals_.row(f) = n;
+      const Vec3 n = normals.row(f);
+      if (n.isZero(0)) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
         const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
@@ -74,7 +86,6 @@ class Pseudonormals {
     }
     return normals_.row(foot.face);
   }
-  Vec3 of_face(int f) const { return normals_.row(f); }
 
  private:
   int vertex(Eigen::Index f, int k) const { return vertex_[faces_(f, k)]; }
@@ -91,16 +102,22 @@ class Pseudonormals {
 class ToTriangles : public PointwiseDistance {
  public:
   ToTriangles(const MatX3& points, const MatX3i& faces, SignRule rule)
-      : bvh_(points, faces), normals_(points, faces) {
-    if (rule == SignRule::winding) winding_ = std::make_unique<WindingNumber>(points, faces);
+      : normals_(face_normals(points, faces)) {
+    parallel_for(2, 1, [&](std::size_t part, std::size_t) {
+      if (part == 0)
+        bvh_ = std::make_unique<TriangleBvh>(points, faces);
+      else if (rule == SignRule::winding)
+        winding_ = std::make_unique<WindingNumber>(points, faces);
+      else
+        pseudonormals_ = std::make_unique<Pseudonormals>(points, faces, normals_);
+    });
   }
   DistanceSample at(const Vec3& x) const override {
-    const NearestPoint foot = bvh_.closest_point(x);
-    return signed_sample(x, foot.point, foot.distance, is_inside(x, foot),
-                         normals_.of_face(foot.face));
+    const NearestPoint foot = bvh_->closest_point(x);
+    return signed_sample(x, foot.point, foot.distance, is_inside(x, foot), normals_.row(foot.face));
   }
   double value_after(const Vec3& x, int& last) const override {
-    const NearestPoint foot = bvh_.closest_point(x, last);
+    const NearestPoint foot = bvh_->closest_point(x, last);
     last = foot.face;
     return is_inside(x, foot) ? -foot.distance : foot.distance;
   }
@@ -108,12 +125,13 @@ class ToTriangles : public PointwiseDistance {
  private:
   bool is_inside(const Vec3& x, const NearestPoint& foot) const {
     return winding_ ? (*winding_)(x, sign_accuracy) > 0.5
-                    : normals_.at(foot).dot(x - foot.point) < 0;
+                    : pseudonormals_->at(foot).dot(x - foot.point) < 0;
   }
 
-  TriangleBvh bvh_;
-  Pseudonormals normals_;
-  std::unique_ptr<WindingNumber> winding_;  // null: pseudonormals
+  std::unique_ptr<TriangleBvh> bvh_;
+  MatX3 normals_;                           // of the faces
+  std::unique_ptr<WindingNumber> winding_;  // one of the two
+  std::unique_ptr<Pseudonormals> pseudonormals_;
 };
 
 class ToPoints : public PointwiseDistance {

@@ -14,12 +14,13 @@ from ._errors import InputError, UnsupportedError
 from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
+from ._results import Shown, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
 
 
-class Field:
+class Field(Shown):
     """Distance at the vertices of a surface, and what the computation says about itself.
 
     `values`: vertices [length], signed for signed curves, +inf where no source reaches.
@@ -37,11 +38,6 @@ class Field:
         self.mesh = mesh
         self.values: Array = mesh._values(core.values)
         self.report = Report(**core.report())
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the computation warns of; empty where nothing is doubtful."""
-        return self.report.warnings
 
     @property
     def confidence(self) -> Floats:
@@ -69,10 +65,11 @@ class Field:
         at = point_arrays(points, self.mesh, "points")
         return self.mesh._values(self.mesh._handle.interpolate(self._handle.values, at))
 
+    @method_takes_kind
     def isolines(self, level: float | Iterable[float] = 0.0) -> list[Floats]:
         """The lines on which the field takes a value (or several): nodes x 3 each.
 
-        A closed line repeats its first node; larger values are on the left.
+        A closed line repeats its first node; larger values are on the left. as_: see `isolines`.
         """
         return isolines(self.mesh, self._handle.values, level)
 
@@ -83,22 +80,8 @@ class Field:
         """
         self._handle.write(os.fspath(path))
 
-    def show(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """The page to turn the field in: in a notebook, or opened in the browser (`show`)."""
-        from ._display import show
-
-        return show(self, path)
-
-    def plot(self, ax: Any = None) -> Any:
-        """A picture by littoral's renderer in matplotlib axes: in `ax` or new ones, returned."""
-        from ._display import plot
-
-        return plot(self, ax)
-
-    def _repr_png_(self) -> bytes:
-        from ._display import picture
-
-        return picture(self)
+    def _parts(self) -> tuple[Any, ...]:
+        return "surface", self.mesh, {"distance": self.values}, {}
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         return np.array(self.values, dtype=dtype, copy=True if copy is None else copy)
@@ -167,6 +150,7 @@ class DistanceSolver:
         """Of the preparation."""
         return Report(**self._handle.report())
 
+    @method_takes_kind
     def solve(
         self,
         curves: Any = None,
@@ -176,7 +160,7 @@ class DistanceSolver:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Field:
-        """Distance from curves and points [length]; arguments and errors as for `distance`."""
+        """Distance from curves and points [length]; all arguments and errors as for `distance`."""
         sources = make_sources(self.mesh, curves, points, signed)
         return Field(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
@@ -191,6 +175,7 @@ def _solver_from(mesh: Surface, method: str | None, options: dict[str, Any]) -> 
     return DistanceSolver(mesh, method, **options)
 
 
+@takes_kind
 def distance(
     mesh: Any,
     curves: Any = None,
@@ -208,6 +193,8 @@ def distance(
     them; points in space (n x 3 floats), which are projected; `Curve`, `FaceChain`. They may be
     broken. signed: one truth value for all curves or one for each; signed curves (the default) have
     positive distances to the left of travel. points: vertices, pairs or `SurfacePoint`s.
+    as_: "pyvista", "trimesh" or "meshio" for the surface as that library's object, with
+    "distance" at its vertices, instead of a `Field`; InputError for another name.
     Raises what `DistanceSolver` does, InputError without a source, IndexOutOfRange for one that is
     not there. `littoral.methods()` names each method's paper.
 
@@ -256,11 +243,13 @@ def distance_matrix(
     return surface._values(values)
 
 
+@takes_kind
 def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> list[Floats]:
     """Where a function given at the vertices takes a value, or several: lines, nodes x 3 each.
 
     A closed line repeats its first node; larger values are on the left, seen from the normals.
-    values: vertices. Raises InputError for another number of them, UnsupportedError for a cloud.
+    values: vertices. as_: "pyvista" or "meshio" for one object of that library with all lines.
+    Raises InputError for another number of values, UnsupportedError for a cloud.
 
     >>> import littoral
     >>> square = littoral.examples.square(4)
@@ -280,6 +269,7 @@ def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> li
     return out
 
 
+@takes_kind
 def offset_curves(
     mesh: Any,
     curves: Any,
@@ -291,12 +281,12 @@ def offset_curves(
 ) -> list[Floats]:
     """Curves at signed distances from curves on a surface, nodes x 3 each [length].
 
-    distances: one number or several. Arguments and errors as for `distance` and `isolines`.
+    distances: one number or several. Arguments, `as_` and errors as for `distance`, `isolines`.
 
     >>> import littoral
     >>> (line,) = littoral.offset_curves(littoral.examples.square(4), [2, 7, 12, 17, 22], .1)
     >>> line[:, 0].round(6).tolist()[0]
     0.4
     """
-    field = distance(mesh, curves, signed=signed, method=method, **options)
+    field: Field = distance(mesh, curves, signed=signed, method=method, **options)
     return field.isolines(distances)

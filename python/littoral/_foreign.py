@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from ._arrays import Array, as_array
-from ._errors import InputError
+from ._arrays import Array, Floats, as_array
+from ._errors import InputError, UnsupportedError
 from ._surfaces import Mesh, PointCloud, Polygons, Surface
+
+Data: TypeAlias = dict[str, Array]
 
 
 def _library(value: Any) -> str:
@@ -158,33 +161,134 @@ def _meshio_cells(surface: Surface) -> list[tuple[str, Any]]:
     ]
 
 
-def as_kind(kind: str, surface: Surface, data: dict[str, Array] | None = None) -> Any:
-    """A surface with functions at its vertices as an object of another library: "pyvista",
-    "trimesh" or "meshio"."""
-    data = {name: np.array(values) for name, values in (data or {}).items()}
-    faces = surface.faces
-    if kind == "pyvista":
-        import pyvista
+def _segments(lines: list[Floats]) -> tuple[Array, Array]:
+    """All nodes (n x 3), and the segments between them (n x 2)."""
+    points = np.concatenate([np.empty((0, 3)), *lines])
+    ends = np.cumsum([len(line) for line in lines], dtype=int)
+    first = np.setdiff1d(np.arange(len(points)), ends - 1)
+    return points, np.column_stack([first, first + 1])
 
-        if surface.n_faces == 0:
-            out = pyvista.PolyData(np.array(surface.points))
-        elif isinstance(faces, list):
-            out = pyvista.PolyData.from_irregular_faces(np.array(surface.points), faces)
-        else:
-            out = pyvista.PolyData.from_regular_faces(np.array(surface.points), np.array(faces))
-        for name, values in data.items():
-            out.point_data[name] = values
-        return out
-    if kind == "trimesh":
-        import trimesh
 
-        if surface.n_faces == 0 or isinstance(faces, list) or faces.shape[1] != 3:
-            raise InputError("trimesh holds triangles; this is a " + surface.kind)
-        return trimesh.Trimesh(
-            np.array(surface.points), np.array(faces), vertex_attributes=data, process=False
-        )
-    if kind == "meshio":
-        import meshio
+def _pyvista_surface(surface: Surface, points: Data, faces: Data) -> Any:
+    import pyvista
 
-        return meshio.Mesh(np.array(surface.points), _meshio_cells(surface), point_data=data)
-    raise InputError(f"as_: expected 'pyvista', 'trimesh' or 'meshio', got {kind!r}")
+    corners = surface.faces
+    if surface.n_faces == 0:
+        out = pyvista.PolyData(np.array(surface.points))
+    elif isinstance(corners, list):
+        out = pyvista.PolyData.from_irregular_faces(np.array(surface.points), corners)
+    else:
+        out = pyvista.PolyData.from_regular_faces(np.array(surface.points), np.array(corners))
+    return _with_data(out, points, faces)
+
+
+def _pyvista_lines(lines: list[Floats]) -> Any:
+    import pyvista
+
+    out = pyvista.PolyData()
+    out.points = np.concatenate([np.empty((0, 3)), *lines])
+    ends = np.cumsum([len(line) for line in lines], dtype=int)
+    out.lines = np.concatenate(
+        [np.empty(0, int)]
+        + [np.r_[len(line), b - len(line) : b] for line, b in zip(lines, ends, strict=True)]
+    )
+    return out
+
+
+def _pyvista_tets(points: Array, tets: Array, values: Data) -> Any:
+    import pyvista
+
+    kinds = np.full(len(tets), pyvista.CellType.TETRA, np.uint8)
+    cells = np.column_stack([np.full(len(tets), 4), tets]).ravel()
+    return _with_data(pyvista.UnstructuredGrid(cells, kinds, np.array(points)), values, {})
+
+
+def _pyvista_volume(values: Array, spacing: Array, origin: Array) -> Any:
+    import pyvista
+
+    out = pyvista.ImageData(dimensions=values.shape, spacing=spacing, origin=origin)
+    return _with_data(out, {"distance": values.ravel(order="F")}, {})
+
+
+def _with_data(out: Any, points: Data, cells: Data) -> Any:
+    for name, values in points.items():
+        out.point_data[name] = np.array(values)
+    for name, values in cells.items():
+        out.cell_data[name] = np.array(values)
+    return out
+
+
+def _trimesh_surface(surface: Surface, points: Data, faces: Data) -> Any:
+    import trimesh
+
+    corners = surface.faces
+    if surface.n_faces == 0 or isinstance(corners, list) or corners.shape[1] != 3:
+        raise UnsupportedError("as_: trimesh holds triangles; this is a " + surface.kind)
+    return trimesh.Trimesh(
+        np.array(surface.points),
+        np.array(corners),
+        vertex_attributes={name: np.array(values) for name, values in points.items()},
+        face_attributes={name: np.array(values) for name, values in faces.items()},
+        process=False,
+    )
+
+
+def _meshio_surface(surface: Surface, points: Data, faces: Data) -> Any:
+    import meshio
+
+    cells = _meshio_cells(surface)
+    ends = np.cumsum([len(block) for _, block in cells])[:-1]
+    return meshio.Mesh(
+        np.array(surface.points),
+        cells,
+        point_data={name: np.array(values) for name, values in points.items()},
+        cell_data={name: np.split(np.array(values), ends) for name, values in faces.items()},
+    )
+
+
+def _meshio_lines(lines: list[Floats]) -> Any:
+    import meshio
+
+    points, segments = _segments(lines)
+    return meshio.Mesh(points, [("line", segments)])
+
+
+def _meshio_tets(points: Array, tets: Array, values: Data) -> Any:
+    import meshio
+
+    data = {name: np.array(each) for name, each in values.items()}
+    return meshio.Mesh(np.array(points), [("tetra", np.array(tets))], point_data=data)
+
+
+# What each library is handed, by what it is.
+_WRITE: dict[str, dict[str, Callable[..., Any]]] = {
+    "pyvista": {
+        "surface": _pyvista_surface,
+        "lines": _pyvista_lines,
+        "tets": _pyvista_tets,
+        "grid": _pyvista_volume,
+    },
+    "trimesh": {"surface": _trimesh_surface},
+    "meshio": {"surface": _meshio_surface, "lines": _meshio_lines, "tets": _meshio_tets},
+}
+
+
+def check_kind(kind: str) -> None:
+    """Raises InputError for a library that nothing is handed over to."""
+    if kind not in _WRITE:
+        raise InputError(f"as_: expected one of {', '.join(map(repr, _WRITE))}, got {kind!r}")
+
+
+def handed_over(result: Any, kind: str) -> Any:
+    """A result as an object of another library; a list of lines as one, of surfaces as a list.
+
+    Results say what they are by `_parts`: the name in `_WRITE`, then what is written.
+    """
+    check_kind(kind)
+    if isinstance(result, list) and result and not isinstance(result[0], np.ndarray):
+        return [handed_over(each, kind) for each in result]
+    what, *parts = ("lines", result) if isinstance(result, list) else result._parts()
+    if what not in _WRITE[kind]:
+        able = ", ".join(repr(name) for name in _WRITE if what in _WRITE[name])
+        raise UnsupportedError(f"as_: {kind} is handed no {what}; possible: {able}")
+    return _WRITE[kind][what](*parts)

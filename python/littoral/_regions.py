@@ -11,12 +11,13 @@ from ._errors import InputError
 from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
+from ._results import Shown, takes_kind
 from ._settings import Progress, settings
 from ._sources import make_sources, sources_state
 from ._surfaces import Surface
 
 
-class Regions:
+class Regions(Shown):
     """Winding numbers on a surface, and which curves bound.
 
     `region`: faces, integers: the winding number of the larger part of each face. `bounding`,
@@ -39,11 +40,6 @@ class Regions:
         self.report = Report(**core.report())
 
     @property
-    def warnings(self) -> list[str]:
-        """What the computation warns of."""
-        return self.report.warnings
-
-    @property
     def surface(self) -> tuple[Surface, dict[str, Array]]:
         """The surface cut along the curves, split where values jump, with its functions by name.
 
@@ -64,17 +60,8 @@ class Regions:
         """
         self._handle.write(os.fspath(path))
 
-    def show(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """The page to turn the regions in: in a notebook, or opened in the browser (`show`)."""
-        from ._display import show
-
-        return show(self, path)
-
-    def plot(self, ax: Any = None) -> Any:
-        """A picture by littoral's renderer in matplotlib axes: in `ax` or new ones, returned."""
-        from ._display import plot
-
-        return plot(self, ax)
+    def _parts(self) -> tuple[Any, ...]:
+        return "surface", self.mesh, {}, {"winding": self.region}
 
     def __reduce__(self) -> tuple[Any, ...]:
         core = self._handle
@@ -111,6 +98,7 @@ def _regions_from(mesh: Surface, *state: Any) -> Regions:
     return Regions(core, mesh)
 
 
+@takes_kind
 def winding(
     mesh: Any,
     curves: Any,
@@ -122,8 +110,9 @@ def winding(
 ) -> Regions:
     """Winding numbers of signed curves on a triangle mesh; curves as for `distance`.
 
-    Components without a curve are one region, 0. Raises UnsupportedError for other surfaces,
-    IndexOutOfRange and InputError as `distance`.
+    Components without a curve are one region, 0. as_: "pyvista", "trimesh" or "meshio" for the
+    mesh as that library's object, with "winding" at its faces.
+    Raises UnsupportedError for other surfaces, IndexOutOfRange and InputError as `distance`.
     Source: Feng, Gillespie, Crane, Winding Numbers on Discrete Surfaces (2023).
 
     >>> import littoral

@@ -13,6 +13,7 @@ from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
+from ._results import Reported, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 from ._surfaces import Mesh, PointCloud, Surface
 from ._volumes import Volume
@@ -36,7 +37,7 @@ def _queries(points: Any) -> tuple[Floats, Any, bool]:
     return floats(array, "points", 3, finite=False), result_type(points), False
 
 
-class SDF:
+class SDF(Reported):
     """Signed distance around a surface, soup or oriented cloud: negative inside [length].
 
     `SDF(V, F)`: vertices x 3 and faces; `SDF(P, N)`: points x 3 and normals x 3; `SDF(mesh)`: what
@@ -117,6 +118,7 @@ class SDF:
         values = like(self._handle.confidence(x, settings(threads)), dtype)
         return values[0] if single else values
 
+    @method_takes_kind
     def sample(
         self,
         resolution: int | None = None,
@@ -132,6 +134,7 @@ class SDF:
 
         resolution: nodes along the longest side (64), or spacing [length]. bounds: x0 y0 z0 x1 y1
         z1; without, a margin of `padding` longest sides. grid: a volume whose nodes to use instead.
+        as_: "pyvista" for a `pyvista.ImageData` with "distance".
         """
         nodes = grid._handle.grid if grid is not None else None
         if nodes is None:
@@ -151,14 +154,9 @@ class SDF:
         return self._handle.bounds()
 
     @property
-    def report(self) -> Report:
+    def report(self) -> Report:  # type: ignore[override]
         """Of the preparation."""
         return Report(**self._handle.report())
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the preparation warns of."""
-        return self.report.warnings
 
     def __or__(self, other: SDF) -> SDF:
         return unite(self, other)
@@ -237,12 +235,14 @@ def sdf_of_volume(volume: Volume) -> SDF:
     return SDF._of(_core.Sdf.of_volume(volume._handle), (volume,))
 
 
+@takes_kind
 def signed_heat_grid(
     V: Any, F: Any = None, resolution: int | None = None, *, spacing: float | None = None,
     bounds: Sequence[float] | None = None, padding: float = 0.25, **options: Any
 ) -> Volume:  # fmt: skip
-    """Signed distance on a grid by the signed heat method; V, F, options as for `SDF` [length].
+    """Signed distance on a grid by the signed heat method [length].
 
+    V, F, options as for `SDF`, the rest as for `SDF.sample`, `as_` too.
     Source: Feng, Crane, A Heat Method for Generalized Signed Distance (2024), section 8.2.
 
     >>> import littoral
@@ -253,6 +253,7 @@ def signed_heat_grid(
     return sdf.sample(resolution, spacing=spacing, bounds=bounds, padding=padding)
 
 
+@takes_kind
 def offset(
     shape: Any,
     distances: float | Iterable[float],
@@ -268,6 +269,7 @@ def offset(
 
     shape: a volume of distance, an SDF, or what `SDF` takes; the latter are sampled (resolution,
     spacing). open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps fill.
+    as_: "pyvista", "trimesh" or "meshio" for a list of that library's objects.
 
     >>> from littoral.examples import cube
     >>> round(float(offset(cube(), .1, resolution=24)[0].points.max()), 1)

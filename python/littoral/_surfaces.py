@@ -141,6 +141,9 @@ class Surface:
         """
         self._handle.write(os.fspath(path))
 
+    def _parts(self) -> tuple[Any, ...]:
+        return "surface", self, {}, {}
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _surface_from, (type(self), self._handle.soup(), np.dtype(self._dtype).str)
 
@@ -185,14 +188,17 @@ class Mesh(Surface):
             if (faces < -1).any() or ends_first.any():
                 bad = int(np.flatnonzero((faces < -1).any(axis=1) | ends_first)[0])
                 raise InputError(f"F[{bad}] is {faces[bad]}: only -1 may follow a face's corners")
-            check_range(faces[kept], len(points), "the corners of F", "vertices")
-            offsets = np.concatenate([[0], np.cumsum(kept.sum(axis=1))])
-            self._handle = _core.Mesh.polygons(
-                points, narrowed(faces[kept], "F"), offsets.astype(np.int32)
-            )
+            self._handle = _polygons(points, faces[kept], kept.sum(axis=1), "F")
             return
         check_range(faces, len(points), "F", "vertices")
         self._handle = _core.Mesh.of(points, narrowed(faces, "F"))
+
+
+def _polygons(points: Floats, corners: Array, sizes: Any, name: str) -> _core.Mesh:
+    """A mesh of faces of these sizes, whose corners stand one after the other."""
+    check_range(corners, len(points), "the corners of " + name, "vertices")
+    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
+    return _core.Mesh.polygons(points, narrowed(corners, name), offsets)
 
 
 class Polygons(Surface):
@@ -210,10 +216,8 @@ class Polygons(Surface):
         if len(faces) == 0:
             raise InputError("faces: there are none; PointCloud takes points alone")
         rows = [ints(face, f"faces[{f}]") for f, face in enumerate(faces)]
-        offsets = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.int32)
-        corners = np.concatenate(rows)
-        check_range(corners, len(points), "the corners of faces", "vertices")
-        self._handle = _core.Mesh.polygons(points, corners, offsets)
+        sizes = [len(row) for row in rows]
+        self._handle = _polygons(points, np.concatenate(rows), sizes, "faces")
         self._dtype = result_type(V)
 
 

@@ -24,6 +24,7 @@ from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
+from ._results import Reported, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 
 
@@ -79,7 +80,7 @@ class TetMesh:
         return f"<littoral.TetMesh: {self.n_vertices} vertices, {self.n_tets} tets>"
 
 
-class TetField:
+class TetField(Reported):
     """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches.
 
     `report`: the method's `Report`.
@@ -96,14 +97,12 @@ class TetField:
         self.values: Array = like(core.values, mesh._dtype)
         self.report = Report(**core.report())
 
-    @property
-    def warnings(self) -> list[str]:
-        """What the computation warns of."""
-        return self.report.warnings
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension, .vtk or .vtu; UnsupportedError for others, IoError."""
         self._handle.write(os.fspath(path))
+
+    def _parts(self) -> tuple[Any, ...]:
+        return "tets", self.mesh.points, self.mesh.tets, {"distance": self.values}
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         return np.array(self.values, dtype=dtype, copy=True if copy is None else copy)
@@ -154,6 +153,7 @@ class TetDistanceSolver:
             mesh._handle, method or "", option_texts(options), settings(threads, progress)
         )
 
+    @method_takes_kind
     def solve(
         self,
         surface: Any = None,
@@ -167,7 +167,8 @@ class TetDistanceSolver:
     ) -> TetField:
         """Distance from a surface or cloud (signed), from vertices, or from the boundary.
 
-        flip reverses the normals; estimate_normals makes those of a cloud. Raises InputError where
+        flip reverses the normals; estimate_normals makes those of a cloud. as_: "pyvista" or
+        "meshio" for the tets as that library's object, with "distance". Raises InputError where
         no source lies in a tet, IndexOutOfRange.
         """
         given: Ints = np.empty(0, np.int32)
@@ -197,6 +198,7 @@ def _tet_solver_from(
     return TetDistanceSolver(mesh, method, **options)
 
 
+@takes_kind
 def tet_distance(
     mesh: TetMesh,
     surface: Any = None,

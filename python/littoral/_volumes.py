@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from ._arrays import Floats, as_array
 from ._errors import InputError
+from ._results import method_takes_kind
 from ._settings import settings
 from ._surfaces import Mesh, Surface, triple
 
@@ -75,12 +76,14 @@ class Volume:
         ]
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
+    @method_takes_kind
     def isosurface(
         self, level: float = 0.0, *, close_at_box: bool = False, threads: int | None = None
     ) -> Surface:
         """The surface on which the volume takes the level, larger values outside.
 
-        Closed unless it meets the box, or with close_at_box. InputError where it is met nowhere.
+        Closed unless it meets the box, or with close_at_box. as_: "pyvista", "trimesh" or "meshio"
+        for that library's object. InputError where the level is met nowhere.
         """
         core = _core.isosurface(self._handle, float(level), bool(close_at_box), settings(threads))
         return Mesh._of(core)
@@ -88,6 +91,9 @@ class Volume:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension, .vti .vdb .nrrd .npy; UnsupportedError for others, IoError."""
         self._handle.write(os.fspath(path))
+
+    def _parts(self) -> tuple[Any, ...]:
+        return "grid", self.values, self.spacing, self.origin
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Volume, (np.array(self.values), tuple(self.spacing), tuple(self.origin))

@@ -18,7 +18,7 @@ import pyvista
 from ._arrays import Array
 from ._distance import DistanceSolver
 from ._errors import InputError
-from ._foreign import as_kind, as_surface
+from ._foreign import as_surface
 from ._regions import winding
 from ._space import SDF, offset
 from ._surfaces import Surface
@@ -93,7 +93,7 @@ class Accessor:
         """
         single = isinstance(distances, (int, float, np.number))
         wanted = [float(distances)] if single else list(distances)  # type: ignore[arg-type]
-        found = [as_kind("pyvista", each) for each in offset(self._sdf({}), wanted, **options)]
+        found = offset(self._sdf({}), wanted, as_="pyvista", **options)
         return found[0] if single else found
 
 

@@ -35,6 +35,23 @@ def spot() -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="session")
+def shapes(spot, sphere, square) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """By name: the cow; the same without some faces that share no vertex, since other libraries do
+    not pass vertices where holes meet; the unit sphere; the square."""
+    V, F = spot
+    touched: set[int] = set()
+    dropped = []
+    for f in range(0, len(F), 7):
+        if touched.isdisjoint(F[f].tolist()):
+            touched.update(F[f].tolist())
+            dropped.append(f)
+    made = {"spot": spot, "broken": (V, np.delete(F, dropped, axis=0))}
+    for name, mesh in (("ball", sphere), ("square", square)):
+        made[name] = np.array(mesh.points), np.array(mesh.faces)
+    return made
+
+
+@pytest.fixture(scope="session")
 def shared() -> Path:
     """A larger collection of data, where there is one."""
     root = Path(__file__).parents[2]

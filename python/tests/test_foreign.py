@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import littoral
-from littoral._foreign import as_kind
+from littoral._foreign import handed_over
 
 QUAD_AND_TRIANGLE = (
     np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0.5, 0]], float),
@@ -145,27 +145,93 @@ def test_there_and_back(kind, shape):
         "mixed": littoral.Polygons(*QUAD_AND_TRIANGLE),
         "cloud": littoral.PointCloud(QUAD_AND_TRIANGLE[0]),
     }[shape]
+    field = littoral.distance(surface, points=1, method="unsigned-heat")
     if kind == "trimesh" and shape != "triangles":
-        with pytest.raises(ValueError, match="trimesh holds triangles"):
-            as_kind(kind, surface)
+        with pytest.raises(littoral.UnsupportedError, match="trimesh holds triangles"):
+            handed_over(field, kind)
         return
-    values = np.arange(surface.n_vertices, dtype=float)
-    values.flags.writeable = False
-    out = as_kind(kind, surface, {"distance": values})
+    out = handed_over(field, kind)
     back = littoral.as_surface(out)
     assert back.kind == surface.kind
     np.testing.assert_array_equal(back.points, surface.points)
     np.testing.assert_array_equal(back.corners, surface.corners)
     np.testing.assert_array_equal(back.face_offsets, surface.face_offsets)
     data = out.vertex_attributes if kind == "trimesh" else out.point_data
-    np.testing.assert_array_equal(data["distance"], values)
-    data["distance"][0] = 7  # their own: nothing of littoral changes
-    assert values[0] == 0
+    np.testing.assert_array_equal(data["distance"], field.values)
+    data["distance"][1] = 7  # their own: nothing of littoral changes
+    assert field.values[1] < 1e-9
 
 
-def test_unknown_kind():
-    with pytest.raises(ValueError, match="'open3d'"):
-        as_kind("open3d", littoral.examples.cube())
+@pytest.mark.parametrize("kind", ["pyvista", "trimesh", "meshio"])
+def test_what_calls_return(kind, square):
+    """Every call with `as_`, beside the same without."""
+    pytest.importorskip(kind)
+    curve, loop = [2, 11, 20], [20, 24, 60, 56, 20]
+    named = "vertex_attributes" if kind == "trimesh" else "point_data"
+    distance = littoral.distance(square, curve).values
+    for got in (
+        littoral.distance(square, curve, as_=kind),
+        littoral.DistanceSolver(square).solve(curve, as_=kind),
+    ):
+        np.testing.assert_array_equal(getattr(got, named)["distance"], distance)
+    got = littoral.winding(square, loop, as_=kind)
+    faces = got.face_attributes if kind == "trimesh" else got.cell_data
+    region = faces["winding"][0] if kind == "meshio" else faces["winding"]
+    np.testing.assert_array_equal(region, littoral.winding(square, loop).region)
+    volume = littoral.SDF(littoral.examples.sphere(2)).sample(12)
+    (shell,) = littoral.offset(volume, 0.2, as_=kind)
+    for one, other in (
+        (shell, littoral.offset(volume, 0.2)[0]),
+        (volume.isosurface(0.1, as_=kind), volume.isosurface(0.1)),
+    ):
+        np.testing.assert_array_equal(littoral.as_surface(one).points, other.points)
+        np.testing.assert_array_equal(littoral.as_surface(one).corners, other.corners)
+
+
+def test_lines_and_tets_of_calls(square):
+    pyvista = pytest.importorskip("pyvista")
+    levels = [-0.1, 0.1]
+    lines = littoral.offset_curves(square, [4, 13, 22], levels)
+    got = littoral.offset_curves(square, [4, 13, 22], levels, as_="pyvista")
+    assert got.n_cells == len(lines) == 2
+    for i, line in enumerate(lines):
+        np.testing.assert_array_equal(got.get_cell(i).points, line)
+    assert littoral.isolines(square, np.zeros(81), 5, as_="pyvista").n_cells == 0
+    assert littoral.isolines(square, np.zeros(81), 5) == []
+    tets = littoral.TetMesh(np.eye(4, 3), [[0, 1, 2, 3]])
+    cells = littoral.tet_distance(tets, vertices=0, as_="pyvista")
+    assert cells.n_cells == 1 and isinstance(cells, pyvista.UnstructuredGrid)
+    np.testing.assert_array_equal(cells["distance"], littoral.tet_distance(tets, vertices=0))
+    sdf = littoral.SDF(littoral.examples.sphere(2))
+    grid = sdf.sample(8, as_="pyvista")
+    volume = sdf.sample(8)
+    at = [volume.nodes()[2, 3, 4], grid.points[2 + 8 * (3 + 8 * 4)]]
+    np.testing.assert_allclose(at[0], at[1], atol=1e-12)
+    assert grid["distance"][2 + 8 * (3 + 8 * 4)] == volume.values[2, 3, 4]
+
+
+def test_lines_and_tets_for_meshio(square):
+    pytest.importorskip("meshio")
+    lines = littoral.offset_curves(square, [4, 13, 22], [-0.1, 0.1])
+    got = littoral.offset_curves(square, [4, 13, 22], [-0.1, 0.1], as_="meshio")
+    np.testing.assert_array_equal(got.points, np.concatenate(lines))
+    segments = got.cells_dict["line"]
+    assert len(segments) == sum(len(line) - 1 for line in lines)
+    np.testing.assert_array_equal(np.diff(segments, axis=1), 1)
+    assert len(lines[0]) - 1 not in segments[:, 0]  # nothing from one line to the next
+    tets = littoral.TetMesh(np.eye(4, 3), [[0, 1, 2, 3]])
+    cells = littoral.tet_distance(tets, vertices=0, as_="meshio")
+    np.testing.assert_array_equal(cells.cells_dict["tetra"], tets.tets)
+    assert len(cells.point_data["distance"]) == 4
+
+
+def test_what_is_not_handed_over(square):
+    with pytest.raises(littoral.UnsupportedError, match=r"meshio is handed no grid.*'pyvista'"):
+        littoral.SDF(littoral.examples.cube()).sample(4, as_="meshio")
+    with pytest.raises(littoral.UnsupportedError, match="trimesh is handed no lines"):
+        littoral.isolines(square, square.points[:, 0], 0.3, as_="trimesh")
+    with pytest.raises(ValueError, match="'pyvista', 'trimesh', 'meshio', got 'open3d'"):
+        littoral.distance(square, points=0, as_="open3d")
 
 
 @pytest.fixture
@@ -193,7 +259,7 @@ def test_distance_of_polydata(accessor_mesh):
 
 
 def test_winding_of_polydata(square, accessor_mesh):
-    flat = as_kind("pyvista", square)
+    flat = handed_over(square, "pyvista")
     loop = [20, 24, 60, 56, 20]
     got = flat.littoral.winding(loop)
     np.testing.assert_array_equal(got["winding"], littoral.winding(square, loop).region)

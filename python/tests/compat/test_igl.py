@@ -25,24 +25,9 @@ def cube():
     return np.array(mesh.points), np.array(mesh.faces, np.int64)
 
 
-def with_holes(F: np.ndarray) -> np.ndarray:
-    """Without some faces that share no vertex: libigl does not pass vertices where holes meet."""
-    touched: set[int] = set()
-    dropped = []
-    for f in range(0, len(F), 7):
-        if touched.isdisjoint(F[f].tolist()):
-            touched.update(F[f].tolist())
-            dropped.append(f)
-    return np.delete(F, dropped, axis=0)
-
-
-def shape_of(name, spot, sphere):
-    """The cow, the same with holes, the unit sphere; and points around."""
-    V, F = spot
-    if name == "ball":
-        V, F = np.array(sphere.points), np.array(sphere.faces)
-    if name == "broken":
-        F = with_holes(F)
+def shape_of(name, shapes):
+    """One of the shapes, and points around."""
+    V, F = shapes[name]
     rng = np.random.default_rng(0)
     return V, F.astype(np.int64), rng.uniform(V.min(0) - 0.2, V.max(0) + 0.2, (400, 3))
 
@@ -219,8 +204,8 @@ def test_the_names_are_the_same(real):
 
 @pytest.mark.parametrize("sign", TYPES)
 @pytest.mark.parametrize("name", ["spot", "broken", "ball"])
-def test_signed_distance_side_by_side(real, name, sign, spot, sphere):
-    V, F, x = shape_of(name, spot, sphere)
+def test_signed_distance_side_by_side(real, name, sign, shapes):
+    V, F, x = shape_of(name, shapes)
     theirs = real.signed_distance(x, V, F, real.SignedDistanceType[sign.name])
     ours = igl.signed_distance(x, V, F, real.SignedDistanceType[sign.name])
     for a, b in zip(ours, theirs, strict=True):
@@ -240,8 +225,8 @@ def test_signed_distance_side_by_side(real, name, sign, spot, sphere):
 
 
 @pytest.mark.parametrize("name", ["spot", "broken", "ball"])
-def test_winding_and_nearest_side_by_side(real, name, spot, sphere):
-    V, F, x = shape_of(name, spot, sphere)
+def test_winding_and_nearest_side_by_side(real, name, shapes):
+    V, F, x = shape_of(name, shapes)
     for f in ("winding_number", "fast_winding_number"):
         ours, theirs = (getattr(m, f)(V, F, x) for m in (igl, real))
         print(f"{name}, {f}: {abs(ours - theirs).max():.2g}")
@@ -260,8 +245,8 @@ def test_winding_and_nearest_side_by_side(real, name, spot, sphere):
 
 
 @pytest.mark.parametrize("name", ["spot", "broken", "ball"])
-def test_geodesics_side_by_side(real, name, spot, sphere):
-    V, F, _ = shape_of(name, spot, sphere)
+def test_geodesics_side_by_side(real, name, shapes):
+    V, F, _ = shape_of(name, shapes)
     sources = {"VS": np.array([7, 100]), "FS": np.array([50])}
     targets = {"VT": np.arange(0, len(V), 20), "FT": np.arange(0, len(F), 100)}
     ours, theirs = (m.exact_geodesic(V, F, **sources, **targets) for m in (igl, real))

@@ -27,17 +27,6 @@ def holes(F: np.ndarray) -> np.ndarray:
     return np.delete(F, np.arange(0, len(F), 10), axis=0)
 
 
-def apart_holes(F: np.ndarray) -> np.ndarray:
-    """Without some faces that share no vertex."""
-    touched: set[int] = set()
-    dropped = []
-    for f in range(0, len(F), 7):
-        if touched.isdisjoint(F[f].tolist()):
-            touched.update(F[f].tolist())
-            dropped.append(f)
-    return np.delete(F, dropped, axis=0)
-
-
 # ------------------------------------------------------------------ without the real package
 
 
@@ -159,13 +148,8 @@ def test_files(tmp_path):
 
 
 @pytest.mark.parametrize("shape", ["spot", "broken", "ball", "square"])
-def test_side_by_side(real, request, shape, spot, sphere, square):
-    V, F = spot
-    if shape == "broken":
-        F = apart_holes(F)
-    elif shape != "spot":
-        mesh = sphere if shape == "ball" else square
-        V, F = np.array(mesh.points), np.array(mesh.faces)
+def test_side_by_side(real, shapes, shape):
+    V, F = shapes[shape]
     theirs = real.PyGeodesicAlgorithmExact(V, F)
     ours = geodesic.PyGeodesicAlgorithmExact(V, F)
     worst, apart, compared = 0.0, 0.0, 0

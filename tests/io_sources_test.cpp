@@ -142,12 +142,12 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error("e 1 x"), "a.txt:3: expected a number, found 'x'");
   EXPECT_EQ(error("e 1"), "a.txt:3: expected 'e EDGE T' or 'e VERTEX VERTEX T'");
   EXPECT_EQ(error("f 3 .5 .5"), "a.txt:3: node refers to face 3, the mesh has 3 (counted from 0)");
-  const std::string bad_sum =
-      "a.txt:3: barycentric coordinates must not be negative and must add up to 1";
-  EXPECT_EQ(error("f 0 .9 .9"), bad_sum);
-  EXPECT_EQ(error("f 0 .5 .5 .1"), bad_sum);
-  EXPECT_EQ(error("f 0 nan .5 .5"), bad_sum);
-  EXPECT_EQ(error("f 0 1.1 -.1 0"), bad_sum);
+  const std::string on_face = "a.txt:3: a point on face 0 has the barycentric coordinate ";
+  EXPECT_EQ(error("f 0 .9 .9"), on_face + "-0.800000, outside [0, 1]");
+  EXPECT_EQ(error("f 0 .5 .5 .1"),
+            "a.txt:3: the barycentric coordinates of a point on face 0 sum to 1.100000, not 1");
+  EXPECT_EQ(error("f 0 nan .5 .5"), on_face + "nan, outside [0, 1]");
+  EXPECT_EQ(error("f 0 1.1 -.1 0"), on_face + "1.100000, outside [0, 1]");
   EXPECT_EQ(error("f 0 1"), "a.txt:3: expected 'f FACE A B' or 'f FACE A B C'");
   EXPECT_EQ(error("f 2 .5 .5"),
             "a.txt:3: face 2 has 5 corners; nodes inside faces need a triangle");

@@ -1,5 +1,6 @@
 // The extension module: errors, settings, methods, reports; the rest is in the files beside it.
 
+#include "api/report_json.h"
 #include "bindings.h"
 
 namespace littoral::python {
@@ -35,13 +36,21 @@ void translate(const std::exception_ptr& thrown, void*) {
   }
 }
 
+template <class T>
+nb::object as_python(const T& value) {
+  return nb::cast(value);
+}
 template <class Value>
-nb::dict as_dict(const std::vector<std::pair<std::string, Value>>& entries) {
+nb::object as_python(const std::vector<std::pair<std::string, Value>>& entries) {
   nb::dict out;
   for (const auto& [name, value] : entries) out[name.c_str()] = value;
   return out;
 }
 
+template <class T>
+void read_into(T& value, const nb::handle& data) {
+  value = nb::cast<T>(data);
+}
 template <class Value>
 void read_into(std::vector<std::pair<std::string, Value>>& entries, const nb::handle& data) {
   for (const auto& [name, value] : nb::cast<nb::dict>(data))
@@ -85,31 +94,14 @@ nb::list families() {
 
 nb::dict as_dict(const Report& report) {
   nb::dict out;
-  out["method"] = report.method;
-  out["domain"] = report.domain;
-  out["status"] = report.status;
-  out["options"] = as_dict(report.options);
-  out["sizes"] = as_dict(report.sizes);
-  out["timings"] = as_dict(report.timings);
-  out["iterations"] = as_dict(report.iterations);
-  out["residuals"] = as_dict(report.residuals);
-  out["warnings"] = report.warnings;
-  out["unreachable_components"] = report.unreachable_components;
+  const Report once = summed_up(report);
+  each_entry(once, [&](const char* name, const auto& value) { out[name] = as_python(value); });
   return out;
 }
 
 Report as_report(const nb::dict& data) {
   Report report;
-  report.method = nb::cast<std::string>(data["method"]);
-  report.domain = nb::cast<std::string>(data["domain"]);
-  report.status = nb::cast<std::string>(data["status"]);
-  read_into(report.options, data["options"]);
-  read_into(report.sizes, data["sizes"]);
-  read_into(report.timings, data["timings"]);
-  read_into(report.iterations, data["iterations"]);
-  read_into(report.residuals, data["residuals"]);
-  report.warnings = nb::cast<std::vector<std::string>>(data["warnings"]);
-  report.unreachable_components = nb::cast<std::vector<int>>(data["unreachable_components"]);
+  each_entry(report, [&](const char* name, auto& value) { read_into(value, data[name]); });
   return report;
 }
 

@@ -126,15 +126,21 @@ def like(values: Array, dtype: npt.DTypeLike) -> Array:
     return values.astype(dtype, copy=False)
 
 
+def unwrapped(value: Any, name: str) -> Any:
+    """Arrays of other libraries as those of numpy; everything else as it is."""
+    if hasattr(value, "__array__") or hasattr(value, "__dlpack__"):
+        return as_array(value, name)
+    return value
+
+
 def is_vertex_list(value: Any) -> bool:
     """One or many plain integers: vertices by number."""
-    array = value if isinstance(value, np.ndarray) else None
-    if array is None:
-        if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-            return True
-        if isinstance(value, Sequence) and not isinstance(value, str):
-            return all(isinstance(v, (int, np.integer)) for v in value)
-        array = as_array(value, "points") if hasattr(value, "__array__") else np.empty(0)
-        if array.size == 0 and not hasattr(value, "__array__"):
-            return False
-    return array.dtype.kind in "iu" and array.ndim <= 1
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind in "iu" and value.ndim <= 1
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return all(_is_integer(v) for v in value)
+    return _is_integer(value)
+
+
+def _is_integer(value: Any) -> bool:
+    return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.bool_))

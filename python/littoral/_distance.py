@@ -69,7 +69,8 @@ class Field(Shown):
     def isolines(self, level: float | Iterable[float] = 0.0) -> list[Floats]:
         """The lines on which the field takes a value (or several): nodes x 3 each.
 
-        A closed line repeats its first node; larger values are on the left. as_: see `isolines`.
+        A closed line repeats its first node; larger values are on the left. as_ and errors as for
+        `littoral.isolines`.
         """
         return isolines(self.mesh, self._handle.values, level)
 

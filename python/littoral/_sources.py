@@ -9,7 +9,16 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import Floats, as_array, check_range, floats, is_vertex_list, narrowed
+from ._arrays import (
+    Floats,
+    as_array,
+    check_range,
+    floats,
+    ints,
+    is_vertex_list,
+    narrowed,
+    unwrapped,
+)
 from ._errors import InputError
 
 _VERTEX, _EDGE, _FACE = 0, 1, 2
@@ -60,8 +69,8 @@ class Curve:
 
     `nodes`: vertices by number, surface points, potpourri3d's (element, [barycentric]) pairs, or
     points in space (n x 3), which are projected. Consecutive nodes need not share a face. A signed
-    curve has positive distances to the left of travel. A closed one repeats its first node. Nodes
-    are checked by what takes the curve.
+    curve has positive distances to the left of travel. A closed one repeats its first node. What
+    takes the curve checks the nodes, and raises as `distance`.
 
     >>> import littoral
     >>> line = littoral.Curve([2, 7, 12, 17, 22], signed=False)
@@ -134,6 +143,7 @@ def point_arrays(value: Any, mesh: Any, name: str) -> _core.Points:
 
     Raises IndexOutOfRange for elements that do not exist.
     """
+    value = unwrapped(value, name)
     if is_vertex_list(value):
         vertices = np.atleast_1d(as_array(value, name))
         vertices = vertices.reshape(-1)
@@ -192,8 +202,7 @@ def _curves(value: Any) -> list[Any]:
     """One or several curves as a list of them."""
     if value is None or (isinstance(value, (list, tuple)) and not value):
         return []
-    if hasattr(value, "__array__") and not isinstance(value, np.ndarray):
-        value = as_array(value, "curves")
+    value = unwrapped(value, "curves")
     if isinstance(value, (list, tuple)) and _space_points(value) is not None:
         return [np.asarray(value, np.float64)]
     return [value] if _is_one_curve(value) else list(value)
@@ -216,9 +225,9 @@ def make_sources(
     for i, (curve, sign) in enumerate(zip(given, signs, strict=True)):
         name = f"curves[{i}]"
         if isinstance(curve, FaceChain):
-            faces = np.atleast_1d(as_array(curve.faces, name))
+            faces = ints(np.atleast_1d(as_array(curve.faces, name)), name)
             check_range(faces, mesh.n_faces, name, "faces")
-            out.add_chain(narrowed(faces, name))
+            out.add_chain(faces)
             continue
         is_signed = True if sign is None else bool(sign)
         if isinstance(curve, Curve):

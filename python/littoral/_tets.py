@@ -212,7 +212,7 @@ def tet_distance(
     progress: Progress | None = None,
     **options: Any,
 ) -> TetField:
-    """Distance through tets, once: `TetDistanceSolver` and its `solve` in one call.
+    """Distance through tets, once: `TetDistanceSolver` and its `solve` in one call; raises as they.
 
     >>> import littoral
     >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])

@@ -19,7 +19,8 @@ from ._surfaces import Mesh, Surface, triple
 class Volume:
     """Values at the nodes of a grid, linear along each axis between them.
 
-    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length].
+    values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length]. Raises
+    TypeError and InputError for another shape, and for spacings that are not positive.
 
     >>> Volume(np.zeros((2, 3, 4)), spacing=.5).nodes()[1, 2, 3].tolist()
     [0.5, 1.0, 1.5]

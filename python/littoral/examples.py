@@ -1,14 +1,25 @@
-"""Small shapes to try things on."""
+"""Small shapes to try things on. Lengths are in the unit of the square's, cube's or sphere's size.
+
+>>> import littoral
+>>> littoral.examples.square(2), littoral.examples.sphere(0)
+(<littoral.Mesh: 9 vertices, 8 faces>, <littoral.Mesh: 12 vertices, 20 faces>)
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
+from ._errors import InputError
 from ._surfaces import Mesh, Polygons
 
 
 def square(n: int) -> Mesh:
-    """The unit square, n x n cells of two triangles; vertex i + (n + 1) j lies at (i, j) / n."""
+    """The unit square, n x n cells of two triangles; vertex i + (n + 1) j lies at (i, j) / n.
+
+    Raises InputError unless n is positive.
+    """
+    if n < 1:
+        raise InputError(f"n: expected at least one cell, got {n}")
     i, j = np.meshgrid(np.arange(n + 1), np.arange(n + 1))
     V = np.column_stack([i.ravel() / n, j.ravel() / n, np.zeros((n + 1) ** 2)])
     a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
@@ -26,7 +37,12 @@ def cube() -> Mesh:
 
 
 def sphere(subdivisions: int = 3) -> Mesh:
-    """The unit sphere: an icosahedron whose triangles are cut in four that many times."""
+    """The unit sphere: an icosahedron whose triangles are cut in four that many times.
+
+    Raises InputError for fewer than none.
+    """
+    if subdivisions < 0:
+        raise InputError(f"subdivisions: expected none or more, got {subdivisions}")
     golden = (1 + 5**0.5) / 2
     corners = [(0, s, t * golden) for s in (-1, 1) for t in (-1, 1)]
     V = np.array([np.roll(c, k) for c in corners for k in range(3)], float)
@@ -55,7 +71,7 @@ def sphere(subdivisions: int = 3) -> Mesh:
 
 
 def quads(n: int) -> Polygons:
-    """The unit square of n x n squares."""
+    """The unit square of n x n squares; raises as `square`."""
     mesh = square(n)
     a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
     return Polygons(mesh.points, np.stack([a, a + 1, a + n + 2, a + n + 1], axis=1).tolist())

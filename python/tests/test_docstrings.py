@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
+import re
 from types import ModuleType
 from typing import Any
 
@@ -17,6 +18,9 @@ NO_EXAMPLE = {"Closest", "Option"} | {
     for name, value in vars(littoral).items()
     if inspect.isclass(value) and issubclass(value, littoral.Error)
 }
+
+# What calls return; nobody makes one.
+RETURNED = {"Closest", "Field", "Method", "Operators", "Option", "Regions", "Report", "TetField"}
 
 COMPAT = [
     "igl",
@@ -99,6 +103,43 @@ def test_functions_and_classes_show_a_use():
         if name not in NO_EXAMPLE and ">>>" not in (value.__doc__ or "")
     ]
     assert without == []
+
+
+def silent(names: dict[str, Any], of_module: str) -> list[str]:
+    """What takes arguments and does not say what it raises, nor does its class or its module."""
+    speaks = re.compile(r"[Rr]aise|Error\b|IndexOutOfRange|errors as")
+    found = []
+    for name, value in names.items():
+        own = inspect.getdoc(value) or ""
+        if name not in RETURNED and not speaks.search(own + of_module) and takes_something(value):
+            found.append(name)
+        if not inspect.isclass(value):
+            continue
+        for member, each in members(value).items():
+            if not speaks.search((inspect.getdoc(each) or "") + own + of_module):
+                found += [f"{name}.{member}"] * takes_something(each)
+    return found
+
+
+def takes_something(value: Any) -> bool:
+    if isinstance(value, property) or (inspect.isclass(value) and issubclass(value, Exception)):
+        return False
+    return bool(set(inspect.signature(value).parameters) - {"self", "cls", "threads"})
+
+
+def test_calls_say_what_they_raise():
+    assert silent(public(littoral), "") == []
+    assert silent(public(littoral.examples), "") == []
+    for name in COMPAT:
+        module = importlib.import_module(f"littoral.compat.{name}")
+        assert silent(public(module), module.__doc__ or "") == [], name
+
+
+def test_lengths_have_a_unit():
+    """Docstrings of what is measured say in what."""
+    for name in ("distance", "offset", "isolines", "SDF", "Volume", "TetMesh", "Mesh", "Field"):
+        text = inspect.getdoc(getattr(littoral, name))
+        assert "[length" in text or "nodes x 3" in text, name
 
 
 def test_first_lines_are_a_sentence():

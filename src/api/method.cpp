@@ -5,15 +5,10 @@
 namespace littoral {
 
 void check_has_option(const MethodInfo& method, const std::string& option) {
-  std::string known;
-  std::vector<std::string> names;
-  for (const OptionInfo& info : method.options) {
+  for (const OptionInfo& info : method.options)
     if (info.name == option) return;
-    names.push_back(info.name);
-    known += (known.empty() ? "" : ", ") + info.name;
-  }
   throw InputError("method " + method.name + " has no option '" + option + "'" +
-                   meant(option, names) + "; it has: " + (known.empty() ? "none" : known));
+                   instead_of(option, method.options, "it has"));
 }
 
 void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,

@@ -164,14 +164,9 @@ class Registry {
   }
   /// Throws InputError listing the known ones.
   std::shared_ptr<const Method<D>> find(const std::string& name) const {
-    std::string known;
-    std::vector<std::string> names;
-    for (const auto& method : all()) {
+    for (const auto& method : all())
       if (method->info.name == name) return method;
-      names.push_back(method->info.name);
-      known += (known.empty() ? "" : ", ") + method->info.name;
-    }
-    throw InputError("unknown method '" + name + "'" + meant(name, names) + "; known: " + known);
+    throw InputError("unknown method '" + name + "'" + instead_of(name, infos()));
   }
 
  private:

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/platform/memory.h"
 
@@ -35,42 +37,36 @@ Json option_value(const std::string& text) {
   return text;
 }
 
-Json sums(const std::vector<std::pair<std::string, double>>& list) {
-  std::vector<std::pair<std::string, double>> unique;
+/// Every name once, where it was first; `join(known, value)` is what becomes of two values.
+template <class Join>
+void unite(std::vector<std::pair<std::string, double>>& list, const Join& join) {
+  std::vector<std::pair<std::string, double>> once;
   for (const auto& [name, value] : list) {
-    auto it = unique.begin();
-    while (it != unique.end() && it->first != name) ++it;
-    if (it == unique.end())
-      unique.emplace_back(name, value);
+    const auto it = std::ranges::find(once, name, &std::pair<std::string, double>::first);
+    if (it == once.end())
+      once.emplace_back(name, value);
     else
-      it->second += value;
+      it->second = join(it->second, value);
   }
-  Json out = Json::object();
-  for (const auto& [name, value] : unique) out[name] = number(value);
-  return out;
+  list = std::move(once);
 }
 
-/// Named values; of those named twice the last, for sizes, which may be stated again.
-Json object(const std::vector<std::pair<std::string, double>>& list) {
-  Json out = Json::object();
-  for (const auto& [name, value] : list) out[name] = number(value);
-  return out;
-}
-
-/// Named values; of those named twice the largest, for what is left of several equations.
-Json largest(const std::vector<std::pair<std::string, double>>& list) {
-  std::vector<std::pair<std::string, double>> unique;
-  for (const auto& [name, value] : list) {
-    const auto it = std::find_if(unique.begin(), unique.end(), [&sought = name](const auto& known) {
-      return known.first == sought;
-    });
-    if (it == unique.end())
-      unique.emplace_back(name, value);
-    else if (std::isnan(value) || value > it->second)
-      it->second = value;
+struct EntryJson {
+  template <class T>
+  Json operator()(const T& value) const {
+    return value;
   }
-  return object(unique);
-}
+  Json operator()(const std::vector<std::pair<std::string, std::string>>& options) const {
+    Json out = Json::object();
+    for (const auto& [name, text] : options) out[name] = option_value(text);
+    return out;
+  }
+  Json operator()(const std::vector<std::pair<std::string, double>>& numbers) const {
+    Json out = Json::object();
+    for (const auto& [name, value] : numbers) out[name] = number(value);
+    return out;
+  }
+};
 
 struct InfoValueJson {
   Json operator()(bool value) const { return value; }
@@ -90,20 +86,23 @@ struct InfoValueJson {
 
 }  // namespace
 
+Report summed_up(Report report) {
+  const auto last = [](double, double value) { return value; };
+  const auto largest = [](double known, double value) {
+    return std::isnan(value) || value > known ? value : known;
+  };
+  unite(report.sizes, last);
+  unite(report.timings, std::plus());
+  unite(report.iterations, std::plus());
+  unite(report.residuals, largest);
+  return report;
+}
+
 namespace {
 
 void add_report(Json& out, const Report& report) {
-  out["method"] = report.method;
-  out["domain"] = report.domain;
-  out["status"] = report.status;
-  out["options"] = Json::object();
-  for (const auto& [name, text] : report.options) out["options"][name] = option_value(text);
-  out["sizes"] = object(report.sizes);
-  out["timings"] = sums(report.timings);
-  out["iterations"] = sums(report.iterations);
-  out["residuals"] = largest(report.residuals);
-  out["warnings"] = report.warnings;
-  out["unreachable_components"] = report.unreachable_components;
+  const Report once = summed_up(report);
+  each_entry(once, [&](const char* name, const auto& value) { out[name] = EntryJson{}(value); });
   out["peak_memory_mb"] = std::round(peak_memory() / (1 << 20));
 }
 

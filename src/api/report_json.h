@@ -13,6 +13,25 @@
 
 namespace littoral {
 
+/// Visits each entry of a report with its name, in the order in which front ends show them.
+template <class R, class Visit>
+void each_entry(R& report, const Visit& visit) {
+  visit("method", report.method);
+  visit("domain", report.domain);
+  visit("status", report.status);
+  visit("options", report.options);
+  visit("sizes", report.sizes);
+  visit("timings", report.timings);
+  visit("iterations", report.iterations);
+  visit("residuals", report.residuals);
+  visit("warnings", report.warnings);
+  visit("unreachable_components", report.unreachable_components);
+}
+
+/// The report with every name once: timings and iterations added up, of residuals the largest, of
+/// sizes, which may be stated again, the last.
+Report summed_up(Report report);
+
 /// One object with method, domain, status, options, sizes, timings [s], iterations, residuals,
 /// warnings and unreachable_components. Stages named twice are added up; numbers that are not
 /// finite become the texts "inf", "-inf", "nan"; bytes that are not UTF-8 are replaced.

@@ -75,7 +75,8 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text) {
   throw_bad_value(info, text);
 }
 
-std::string meant(const std::string& name, const std::vector<std::string>& known) {
+std::string instead_of(const std::string& name, const std::vector<std::string>& known,
+                       const std::string& heading) {
   // Levenshtein's distance, row by row.
   const auto edits = [&](const std::string& other) {
     std::vector<std::size_t> row(other.size() + 1);
@@ -90,24 +91,21 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
     }
     return row.back();
   };
-  std::string nearest;
+  std::string nearest, all;
   std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const std::string& other : known)
+  for (const std::string& other : known) {
+    all += (all.empty() ? "" : ", ") + other;
     if (const std::size_t n = edits(other); n < fewest) {
       fewest = n;
       nearest = other;
     }
-  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  }
+  return (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; " + heading + ": " +
+         (all.empty() ? "none" : all);
 }
 
 void throw_unknown_option(const std::string& name, const std::vector<OptionInfo>& known) {
-  std::vector<std::string> names;
-  std::string all;
-  for (const auto& info : known) {
-    names.push_back(info.name);
-    all += (all.empty() ? "" : ", ") + info.name;
-  }
-  throw InputError("unknown option '" + name + "'" + meant(name, names) + "; known: " + all);
+  throw InputError("unknown option '" + name + "'" + instead_of(name, known));
 }
 
 }  // namespace littoral

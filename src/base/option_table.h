@@ -22,8 +22,18 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
 /// Throws InputError unless the number is in [low, high].
 void check_option_range(const OptionInfo& info, double value);
-/// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.
-std::string meant(const std::string& name, const std::vector<std::string>& known);
+/// "; did you mean 'time-scale'?" where a known name is but a few letters away, then all of them
+/// behind `heading`.
+std::string instead_of(const std::string& name, const std::vector<std::string>& known,
+                       const std::string& heading);
+/// The same of what has a name: options, methods.
+template <class Named>
+std::string instead_of(const std::string& name, const std::vector<Named>& known,
+                       const std::string& heading = "known") {
+  std::vector<std::string> names;
+  for (const Named& each : known) names.push_back(each.name);
+  return instead_of(name, names, heading);
+}
 [[noreturn]] void throw_unknown_option(const std::string& name,
                                        const std::vector<OptionInfo>& known);
 

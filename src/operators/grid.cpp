@@ -11,10 +11,11 @@
 
 namespace littoral {
 
-VecX grid_divergence(const Grid& grid, const Directions& Y) {
+VecX grid_divergence(const Grid& grid, const Directions& Y, const Task& task) {
   const int nx = grid.n[0], ny = grid.n[1], nz = grid.n[2];
   VecX b(grid.n_nodes());
   parallel_for(nz, 4, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint();
     for (int k = begin; k < index(end); ++k)
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) {

@@ -16,7 +16,7 @@ using Directions = Rows<float, 3>;  // nodes x 3
 /// G^T Y with G the forward differences along grid edges and Y at their midpoints, the mean of both
 /// ends: the weak form of -div Y whose natural boundary condition is that of eq. 3. Nodes; sums to
 /// 0.
-VecX grid_divergence(const Grid& grid, const Directions& Y);
+VecX grid_divergence(const Grid& grid, const Directions& Y, const Task& task = {});
 
 /// The same as assembled operators, for methods that multiply often: a cell at every node, whose
 /// gradient (three numbers) is that of the grid edges that leave the node along the axes, 0 where

@@ -14,6 +14,7 @@ namespace {
 
 constexpr float tolerance = 0.01f;
 constexpr std::size_t grain = 256;
+constexpr std::size_t cells_between_checkpoints = 65536;
 
 // Nodes low .. high (both included) along each axis; owns low .. high - 1, and high at the end of
 // the grid, so that every node belongs to exactly one cell.
@@ -68,7 +69,9 @@ class Sampler {
       known_[node] = 1;
       wanted.push_back(node);
     };
-    for (const Cell& c : cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i % cells_between_checkpoints == 0) task.checkpoint();
+      const Cell& c = cells[i];
       for (int w = 0; w < 8; ++w) want(corner(c, w));
       if (stride_ > 1) want(middle(c));
     }
@@ -120,7 +123,9 @@ class Sampler {
   /// Fills the smooth cells and divides the others.
   std::vector<Cell> settle(const std::vector<Cell>& cells, const Task& task) {
     std::vector<char> smooth(cells.size());
-    parallel_for(cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+    // As many cells at once as hold about 64 times `grain` nodes: a large one is filled in a while.
+    const std::size_t nodes = static_cast<std::size_t>(stride_) * stride_ * stride_;
+    parallel_for(cells.size(), std::clamp<std::size_t>(64 * grain / nodes, 1, grain), [&](std::size_t begin, std::size_t end) {
       task.checkpoint();
       for (std::size_t c = begin; c < end; ++c) {
         smooth[c] = is_smooth(cells[c]) ? 1 : 0;
@@ -130,6 +135,7 @@ class Sampler {
     std::vector<Cell> finer;
     const int half = stride_ / 2;
     for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (c % cells_between_checkpoints == 0) task.checkpoint();
       if (smooth[c] != 0) continue;
       for (int w = 0; w < 8; ++w) {
         Cell child = cells[c];

@@ -34,19 +34,23 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");
 }
 
-void check_barycentrics(const SurfacePoint& p) {
-  if (p.on == SurfacePoint::On::vertex) return;
+std::string barycentric_fault(const SurfacePoint& p) {
+  if (p.on == SurfacePoint::On::vertex) return {};
   const int n = p.on == SurfacePoint::On::edge ? 2 : 3;
   double sum = 0;
   for (int k = 0; k < n; ++k) {
     if (!(p.b[k] >= -barycentric_slack && p.b[k] <= 1 + barycentric_slack))
-      throw InputError("a point on " + element_name(p) + " has the barycentric coordinate " +
-                       std::to_string(p.b[k]) + ", outside [0, 1]");
+      return "a point on " + element_name(p) + " has the barycentric coordinate " +
+             std::to_string(p.b[k]) + ", outside [0, 1]";
     sum += p.b[k];
   }
-  if (!(std::abs(sum - 1) <= barycentric_slack))
-    throw InputError("the barycentric coordinates of a point on " + element_name(p) + " sum to " +
-                     std::to_string(sum) + ", not 1");
+  if (std::abs(sum - 1) <= barycentric_slack) return {};
+  return "the barycentric coordinates of a point on " + element_name(p) + " sum to " +
+         std::to_string(sum) + ", not 1";
+}
+
+void check_barycentrics(const SurfacePoint& p) {
+  if (const std::string fault = barycentric_fault(p); !fault.empty()) throw InputError(fault);
 }
 
 SurfacePoint simplest(const SurfaceMesh& mesh, const SurfacePoint& p) {

@@ -21,8 +21,11 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p);
 /// Coordinates may be off by this much, as numbers of six digits are.
 inline constexpr double barycentric_slack = 1e-5;
 
-/// Throws InputError, naming the element, where the coordinates of a point on an edge or face are
-/// not finite, negative or do not sum to 1 (within the slack).
+/// What is wrong with the coordinates of a point on an edge or face, naming the element: not finite,
+/// negative, or a sum that is not 1 (within the slack). Nothing if they are right.
+std::string barycentric_fault(const SurfacePoint& p);
+
+/// Throws that as an InputError.
 void check_barycentrics(const SurfacePoint& p);
 
 /// The same point named by the smallest element that holds it: a coordinate below 1e-12 of the sum

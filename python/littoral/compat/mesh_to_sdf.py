@@ -12,6 +12,12 @@ Distance is to the mesh itself, not to points scanned or sampled on it, so it di
 mesh_to_sdf's by the spacing of these points. Inside is where the generalized winding number is
 beyond 1/2, either way round; faces should be oriented alike. The arguments that say how to scan and
 sample are checked and have no effect, and `bounding_radius` only where it is not positive.
+
+There is no scan: it would put points a pixel apart, on what cameras around the mesh see, in place
+of the faces. The answer is the one that both of mesh_to_sdf's ways approximate, unless faces lie
+inside others: cameras do not see them, and here they count, as for "sample".
+
+Bad input raises TypeError or ValueError.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ Inside is where the generalized winding number of all triangles together is beyo
 round. On closed meshes that do not overlap this is what Open3D finds with rays. Scenes with holes
 have an inside here, which in Open3D depends on the direction of a ray; overlaps of closed meshes
 are inside here and outside in Open3D. Where several triangles are equally near, another one of them
-may be named. Computation is in double precision.
+may be named. Computation is in double precision. Bad input raises TypeError, ValueError or
+IndexError.
 """
 
 from __future__ import annotations

@@ -9,7 +9,8 @@ about the vertices' mean whose half side is twice their largest distance from it
 Options are a dict of: t_coef (1), diffusion time over h^2, h as in littoral's `time_scale`;
 bbox_min and bbox_max, 3 each; resolution, nodes by axis (32); level_set_constraint, "ZeroSet" (the
 default) or "None". A box or a resolution that is not positive counts as not given, as there.
-Without a resolution the previous one stays. Unknown options raise ValueError.
+Without a resolution the previous one stays. Unknown options and bad input raise ValueError,
+TypeError or IndexError.
 
 The grid solver has the same nodes as signedheat3d's, and zero in every cell that the input meets,
 whatever level_set_constraint says, as there.

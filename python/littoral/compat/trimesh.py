@@ -10,7 +10,8 @@ Inside is where the generalized winding number is beyond 1/2, either way round. 
 whose faces are oriented alike that is what trimesh finds. It differs where trimesh has no sound
 answer: next to holes, where trimesh takes the side of the nearest face, and in overlaps of closed
 parts, which count as inside here and by `trimesh.Trimesh.contains` as outside. Where several
-triangles are equally near, another one of them may be named.
+triangles are equally near, another one of them may be named. Bad input raises TypeError or
+ValueError.
 """
 
 from __future__ import annotations

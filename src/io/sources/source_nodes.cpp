@@ -64,11 +64,8 @@ SurfacePoint NodeMaker::face(std::int64_t index, std::array<double, 3> b, int ba
     fail("face " + std::to_string(index) + " has " + std::to_string(mesh_.face(f).size()) +
          " corners; nodes inside faces need a triangle");
   }
-  const double sum = b[0] + b[1] + b[2];
-  const bool negative = std::ranges::any_of(b, [](double x) { return !(x >= -barycentric_slack); });
-  if (negative || !(std::abs(sum - 1) <= barycentric_slack)) {
-    fail("barycentric coordinates must not be negative and must add up to 1");
-  }
+  const auto written = SurfacePoint::in_face(static_cast<int>(index), b[0], b[1], b[2]);
+  if (const std::string fault = barycentric_fault(written); !fault.empty()) fail(fault);
   for (double& x : b) x = std::max(x, 0.0);
   const double total = b[0] + b[1] + b[2];
   return SurfacePoint::in_face(f, b[0] / total, b[1] / total, b[2] / total);

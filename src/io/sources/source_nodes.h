@@ -32,8 +32,8 @@ class NodeMaker {
   SurfacePoint edge(std::int64_t index, double t, int base) const;
   /// (1-t) i + t j on the edge between two vertices.
   SurfacePoint edge(std::int64_t i, std::int64_t j, double t, int base) const;
-  /// Barycentric coordinates in a triangle; negative by rounding (1e-9) and sums within 1e-6 of 1
-  /// are put right.
+  /// Barycentric coordinates in a triangle; what is off by no more than `barycentric_slack` is put
+  /// right.
   SurfacePoint face(std::int64_t index, std::array<double, 3> b, int base) const;
 
   /// Face `index`, counted from `base`.

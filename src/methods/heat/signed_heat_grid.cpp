@@ -70,7 +70,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
 
   // Step III: L phi = G^T Y.
   const Stopwatch watch(report, "integrate");
-  VecX phi = grid_divergence(grid, Y);
+  VecX phi = grid_divergence(grid, Y, solve_stage);
   Y.resize(0, 3);
   GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
   const GridRows rows = grid_rows(grid, source.points, source.areas);

@@ -148,6 +148,7 @@ void GridPoisson<S>::solve(Vector& b, const Task& task) const {
   cosine_.forward(b, task);
   const Eigen::Index nx = n_[0], ny = n_[1];
   parallel_for(n_[2], 4, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint();
     for (Eigen::Index k = begin; k < index(end); ++k)
       for (Eigen::Index j = 0; j < ny; ++j) {
         const S yz = eigenvalues_[1][j] + eigenvalues_[2][k];

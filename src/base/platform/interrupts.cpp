@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <thread>
 
 namespace littoral {
 
@@ -13,13 +14,18 @@ namespace {
 // Only the first thread writes to these, and only it has them: nested calls leave the outer one's.
 std::atomic<const CancelToken*> raised_by_interrupt{nullptr};
 struct sigaction handler_before = {};
+// Handlers that may be looking at these: a signal may be handled on any thread.
+std::atomic<int> handlers_inside{0};
 
 void raise_and_pass_on(int signal, siginfo_t* info, void* context) {
+  ++handlers_inside;
   if (const CancelToken* token = raised_by_interrupt.load()) token->cancel();
-  if (handler_before.sa_flags & SA_SIGINFO)
-    handler_before.sa_sigaction(signal, info, context);
-  else if (handler_before.sa_handler != SIG_DFL && handler_before.sa_handler != SIG_IGN)
-    handler_before.sa_handler(signal);
+  const struct sigaction before = handler_before;
+  --handlers_inside;
+  if (before.sa_flags & SA_SIGINFO)
+    before.sa_sigaction(signal, info, context);
+  else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN)
+    before.sa_handler(signal);
 }
 
 bool on_first_thread() { return ::syscall(SYS_gettid) == ::getpid(); }
@@ -45,6 +51,7 @@ CancelOnInterrupt::~CancelOnInterrupt() {
   if (!active_) return;
   sigaction(SIGINT, &handler_before, nullptr);
   raised_by_interrupt = nullptr;
+  while (handlers_inside > 0) std::this_thread::yield();  // on other threads, for a moment
 }
 
 }  // namespace littoral

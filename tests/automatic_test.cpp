@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "constants.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
 #include "one_call.h"
@@ -17,7 +18,7 @@
 namespace littoral {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 VecX answer(const SurfaceMesh& mesh, const Sources& sources, Report& report,
             const Automatic& options = {}) {

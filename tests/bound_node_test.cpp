@@ -10,12 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "constants.h"
 #include "space_helpers.h"
 
 namespace littoral {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 std::vector<int> rows_of(const MatX3& points) {
   std::vector<int> rows(static_cast<std::size_t>(points.rows()));

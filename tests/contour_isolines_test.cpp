@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "constants.h"
 #include "contour/isolines.h"
 #include "littoral/error.h"
 #include "test_meshes.h"
@@ -13,7 +14,7 @@
 namespace littoral {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 VecX coordinate(const SurfaceMesh& mesh, int axis) { return mesh.points().col(axis); }
 
@@ -97,7 +98,7 @@ TEST(Isolines, FlatFieldAtTheLevelHasNoLineAndAFlatRegionOne) {
 TEST(Isolines, FacesWithInfiniteValuesAreSkipped) {
   const SurfaceMesh mesh(test::grid_soup(4, 4));
   VecX values = coordinate(mesh, 0);
-  for (const double hole : {inf, -inf, std::nan("")}) {
+  for (const double hole : {infinity, -infinity, std::nan("")}) {
     values[2 + 2 * 5] = hole;  // the middle vertex
     const auto lines = isolines(mesh, values, 0.4);
     ASSERT_EQ(lines.size(), 2u);
@@ -166,7 +167,7 @@ TEST(Isolines, PolygonsJoinAroundTheSideOfTheirMiddle) {
 TEST(Isolines, RefusesWrongLengthAndLevel) {
   const SurfaceMesh mesh(test::grid_soup(2, 2));
   EXPECT_THROW(isolines(mesh, VecX::Zero(3), 0), InputError);
-  EXPECT_THROW(isolines(mesh, VecX::Zero(9), inf), InputError);
+  EXPECT_THROW(isolines(mesh, VecX::Zero(9), infinity), InputError);
   EXPECT_THROW(isolines(mesh, VecX::Zero(9), std::nan("")), InputError);
 }
 

@@ -61,10 +61,6 @@ double volume(const PolygonSoup& soup) {
   return sum;
 }
 
-Grid box_grid(int n, double half = 1) {
-  return {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
-}
-
 double sphere(const Vec3& p) { return p.norm() - 0.7; }
 
 double torus(const Vec3& p) { return std::hypot(std::hypot(p[0], p[1]) - 0.6, p[2]) - 0.25; }
@@ -72,7 +68,7 @@ double torus(const Vec3& p) { return std::hypot(std::hypot(p[0], p[1]) - 0.6, p[
 TEST(Isosurface, SphereConvergesWithSecondOrderAndLooksOutward) {
   double before = 0;
   for (int n : {17, 33, 65}) {
-    const PolygonSoup soup = contour(sampled(box_grid(n), sphere));
+    const PolygonSoup soup = contour(sampled(test::box_grid(n), sphere));
     expect_clean(soup);
     EXPECT_EQ(info(soup, "euler_characteristic"), 2);
     double worst = 0;
@@ -88,7 +84,7 @@ TEST(Isosurface, SphereConvergesWithSecondOrderAndLooksOutward) {
 }
 
 TEST(Isosurface, TorusHasOneHandle) {
-  const PolygonSoup soup = contour(sampled(box_grid(40), torus));
+  const PolygonSoup soup = contour(sampled(test::box_grid(40), torus));
   expect_clean(soup);
   EXPECT_EQ(info(soup, "euler_characteristic"), 0);
   EXPECT_EQ(info(soup, "components"), 1);
@@ -106,7 +102,7 @@ TEST(Isosurface, RandomFieldsGiveManifolds) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    const auto field = sampled(box_grid(9), [&](const Vec3&) { return uniform(random); });
+    const auto field = sampled(test::box_grid(9), [&](const Vec3&) { return uniform(random); });
     expect_clean(contour(field), false);
     expect_clean(contour(field, 0.4, true));
   }
@@ -118,7 +114,7 @@ TEST(Isosurface, ValuesAtTheLevelMakeNoDegenerateTriangles) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> whole(-1 - static_cast<int>(seed % 3), 2);
     const auto field =
-        sampled(box_grid(8), [&](const Vec3&) { return static_cast<double>(whole(random)); });
+        sampled(test::box_grid(8), [&](const Vec3&) { return static_cast<double>(whole(random)); });
     expect_clean(contour(field), false);
     expect_clean(contour(field, 0, true));
   }
@@ -126,7 +122,7 @@ TEST(Isosurface, ValuesAtTheLevelMakeNoDegenerateTriangles) {
 
 TEST(Isosurface, BoxOnTheNodesIsExact) {
   const auto box = [](const Vec3& p) { return p.cwiseAbs().maxCoeff() - 0.5; };
-  const PolygonSoup soup = contour(sampled(box_grid(9), box));
+  const PolygonSoup soup = contour(sampled(test::box_grid(9), box));
   expect_clean(soup);
   EXPECT_EQ(info(soup, "euler_characteristic"), 2);
   EXPECT_NEAR(volume(soup), 1, 1e-12);
@@ -136,13 +132,13 @@ TEST(Isosurface, BoxOnTheNodesIsExact) {
 
 TEST(Isosurface, ALonePointAtTheLevelHasNoSurface) {
   const auto distance = [](const Vec3& p) { return p.norm(); };
-  EXPECT_EQ(contour(sampled(box_grid(9), distance)).n_faces(), 0);
+  EXPECT_EQ(contour(sampled(test::box_grid(9), distance)).n_faces(), 0);
 }
 
 TEST(Isosurface, ClosedAtTheBoxWhereAsked) {
   const auto plane = [](const Vec3& p) { return p[2] + 0.1 * p[0] - 0.05; };
   Report report;
-  const auto field = sampled(box_grid(12), plane);
+  const auto field = sampled(test::box_grid(12), plane);
   const PolygonSoup open = isosurface(field.grid, field.values, 0, {}, report);
   EXPECT_EQ(info(open, "boundary_loops"), 1);
   ASSERT_EQ(report.warnings.size(), 1u);
@@ -166,8 +162,8 @@ TEST(Isosurface, TopologyOfTheTrilinearInterpolant) {
   for (unsigned seed = 0; seed < 24; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    const auto coarse = sampled(box_grid(3), [&](const Vec3&) { return uniform(random); });
-    const auto fine = sampled(box_grid(2 * 14 + 1), [&](const Vec3& p) {
+    const auto coarse = sampled(test::box_grid(3), [&](const Vec3&) { return uniform(random); });
+    const auto fine = sampled(test::box_grid(2 * 14 + 1), [&](const Vec3& p) {
       return interpolate(coarse, (p + Vec3::Ones()).cwiseQuotient(coarse.grid.spacing));
     });
     const PolygonSoup a = contour(coarse, 0, true), b = contour(fine, 0, true);
@@ -184,7 +180,7 @@ TEST(Isosurface, TopologyOfTheTrilinearInterpolant) {
 
 // Two opposite corners above: joined by a tube if the middle is above, too.
 TEST(Isosurface, TubeThroughACell) {
-  Volume cell{box_grid(2), VecX::Constant(8, -1), "distance"};
+  Volume cell{test::box_grid(2), VecX::Constant(8, -1), "distance"};
   cell.values[0] = cell.values[7] = 2;
   const PolygonSoup discs = contour(cell);
   EXPECT_EQ(info(discs, "components"), 2);
@@ -199,7 +195,7 @@ TEST(Isosurface, TubeThroughACell) {
 TEST(Isosurface, SameBitsForAnyNumberOfThreads) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto field = sampled(box_grid(24), [&](const Vec3&) { return uniform(random); });
+  const auto field = sampled(test::box_grid(24), [&](const Vec3&) { return uniform(random); });
   set_thread_count(1);
   const PolygonSoup one = contour(field, 0.1, true);
   set_thread_count(5);
@@ -210,7 +206,7 @@ TEST(Isosurface, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Isosurface, ScaleAndTranslation) {
-  const auto field = sampled(box_grid(15), torus);
+  const auto field = sampled(test::box_grid(15), torus);
   const PolygonSoup base = contour(field);
   for (double scale : {1e-3, 1e3}) {
     Volume moved = field;
@@ -226,14 +222,15 @@ TEST(Isosurface, ScaleAndTranslation) {
 
 TEST(Isosurface, HugeAndTinyValues) {
   for (double scale : {1e-300, 1e300, 1.7e308}) {
-    auto field = sampled(box_grid(9), [](const Vec3& p) { return p.norm() < 0.7 ? -1.0 : 1.0; });
+    auto field =
+        sampled(test::box_grid(9), [](const Vec3& p) { return p.norm() < 0.7 ? -1.0 : 1.0; });
     field.values *= scale;
     expect_clean(contour(field));
   }
 }
 
 TEST(Isosurface, BadInputIsRefused) {
-  auto field = sampled(box_grid(5), sphere);
+  auto field = sampled(test::box_grid(5), sphere);
   Report report;
   const auto refused = [&](const Volume& f, double level, const std::string& why) {
     try {
@@ -258,7 +255,7 @@ TEST(Isosurface, BadInputIsRefused) {
 }
 
 TEST(Isosurface, Cancels) {
-  const auto field = sampled(box_grid(9), sphere);
+  const auto field = sampled(test::box_grid(9), sphere);
   CancelToken cancel;
   cancel.cancel();
   Report report;
@@ -268,7 +265,7 @@ TEST(Isosurface, Cancels) {
 // n nodes along each axis of the test grids' box.
 TetMesh kuhn_lattice(int n) {
   TetMesh mesh = test::tet_box(n - 1);
-  const Grid grid = box_grid(n);
+  const Grid grid = test::box_grid(n);
   for (int v = 0; v < mesh.n_vertices(); ++v)
     mesh.points.row(v) = grid.point(v % n, v / n % n, v / n / n);
   return mesh;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "constants.h"
 #include "domain_shapes.h"
 #include "heat_helpers.h"
 
@@ -14,28 +15,27 @@ namespace littoral {
 namespace {
 
 using test::Domain;
-using test::Shape;
-const double pi = std::acos(-1.0);
+using test::pi;
 
 class OnEveryDomain : public testing::TestWithParam<Domain> {
  protected:
   static constexpr int n = 24;
-  static Shape sphere() { return test::sphere(GetParam(), n); }
+  static test::Shape sphere() { return test::sphere(GetParam(), n); }
 
   /// The circle 60 degrees from the north pole, positive to its north.
   static Sources parallel(bool is_signed = true) {
     return test::space_curve(test::circle(0, 0, 0.5, std::sin(pi / 3), 200), is_signed);
   }
-  static double colatitude(const Shape& s, int v) {
+  static double colatitude(const test::Shape& s, int v) {
     const Vec3 p = s.soup.points.row(v);
     return std::atan2(std::hypot(p.x(), p.y()), p.z());
   }
-  static int topmost(const Shape& s) {
+  static int topmost(const test::Shape& s) {
     Eigen::Index v = 0;
     s.soup.points.col(2).maxCoeff(&v);
     return static_cast<int>(v);
   }
-  static double mean_error(const Shape& s, const VecX& phi,
+  static double mean_error(const test::Shape& s, const VecX& phi,
                            const std::function<double(double)>& exact) {
     EXPECT_TRUE(phi.allFinite());
     double sum = 0;
@@ -46,7 +46,7 @@ class OnEveryDomain : public testing::TestWithParam<Domain> {
 };
 
 TEST_P(OnEveryDomain, SignedCircleWithEveryConstraint) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   for (const OptionValues& options :
        {OptionValues{{"constraint", "none"}}, OptionValues{{"constraint", "zero-set"}},
         OptionValues{{"constraint", "level-sets"}}, OptionValues{{"soft", "100"}}}) {
@@ -56,7 +56,7 @@ TEST_P(OnEveryDomain, SignedCircleWithEveryConstraint) {
 }
 
 TEST_P(OnEveryDomain, UnsignedCircle) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     const VecX phi = s.distance(parallel(false), method);
     EXPECT_LE(mean_error(s, phi, [](double t) { return std::abs(pi / 3 - t); }), 2 * tolerance());
@@ -64,7 +64,7 @@ TEST_P(OnEveryDomain, UnsignedCircle) {
 }
 
 TEST_P(OnEveryDomain, Point) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     const VecX phi = s.distance(test::vertex_points({topmost(s)}), method);
     EXPECT_LE(mean_error(s, phi, [](double t) { return t; }), 5 * tolerance());
@@ -72,12 +72,12 @@ TEST_P(OnEveryDomain, Point) {
 }
 
 TEST_P(OnEveryDomain, MotionScaleAndOrientation) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   const VecX phi = s.distance(parallel(), "signed-heat");
   const double size = phi.cwiseAbs().maxCoeff();
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const double scale : {1e-3, 1.0, 1e3}) {
-    Shape moved = s;
+    test::Shape moved = s;
     const Eigen::RowVector3d shift = scale * Eigen::RowVector3d(3, -2, 5);
     auto move = [&](MatX3& x) { x = ((scale * x * R.transpose()).rowwise() + shift).eval(); };
     move(moved.soup.points);
@@ -93,12 +93,12 @@ TEST_P(OnEveryDomain, MotionScaleAndOrientation) {
 }
 
 TEST_P(OnEveryDomain, Relabelling) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   std::mt19937 random(3);
   std::vector<int> name(s.soup.n_vertices());
   std::iota(name.begin(), name.end(), 0);
   std::shuffle(name.begin(), name.end(), random);
-  Shape other = s;
+  test::Shape other = s;
   for (int v = 0; v < s.soup.n_vertices(); ++v) {
     other.soup.points.row(name[v]) = s.soup.points.row(v);
     if (s.soup.normals.rows()) other.soup.normals.row(name[v]) = s.soup.normals.row(v);
@@ -114,8 +114,8 @@ TEST_P(OnEveryDomain, Relabelling) {
 }
 
 TEST_P(OnEveryDomain, FarFromTheOrigin) {
-  const Shape s = sphere();
-  Shape moved = s;
+  const test::Shape s = sphere();
+  test::Shape moved = s;
   const Eigen::RowVector3d shift(2e6, -3e6, 1e6);
   moved.soup.points.rowwise() += shift;
   Sources sources = parallel();
@@ -126,8 +126,8 @@ TEST_P(OnEveryDomain, FarFromTheOrigin) {
 }
 
 TEST_P(OnEveryDomain, PointsWithoutAFaceChangeNothing) {
-  const Shape s = sphere();
-  Shape more = s;
+  const test::Shape s = sphere();
+  test::Shape more = s;
   const int count = s.soup.n_vertices();
   auto add = [](MatX3& x, const Eigen::RowVector3d& row) {
     if (x.rows() == 0) return;
@@ -145,14 +145,14 @@ TEST_P(OnEveryDomain, PointsWithoutAFaceChangeNothing) {
 }
 
 TEST_P(OnEveryDomain, HeldNormals) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   const VecX phi = s.distance(parallel(), "signed-heat", {{"preserve-normals", "on"}});
   EXPECT_LE(mean_error(s, phi, [](double t) { return pi / 3 - t; }), 2 * tolerance());
 }
 
 /// Two spheres, five apart.
-Shape twins(const Shape& s) {
-  Shape two = s;
+test::Shape twins(const test::Shape& s) {
+  test::Shape two = s;
   const int half = s.soup.n_vertices();
   auto twice = [](MatX3& x, const Eigen::RowVector3d& shift) {
     const Eigen::Index rows = x.rows();
@@ -171,7 +171,7 @@ Shape twins(const Shape& s) {
 }
 
 TEST_P(OnEveryDomain, ComponentsAreProblemsOfTheirOwn) {
-  const Shape s = sphere(), two = twins(s);
+  const test::Shape s = sphere(), two = twins(s);
   const int half = s.soup.n_vertices();
   Sources both = parallel();
   both.space_curves.push_back(both.space_curves[0]);
@@ -186,7 +186,7 @@ TEST_P(OnEveryDomain, ComponentsAreProblemsOfTheirOwn) {
 }
 
 TEST_P(OnEveryDomain, ComponentsWithoutASourceAreInfinite) {
-  const Shape s = sphere(), two = twins(s);
+  const test::Shape s = sphere(), two = twins(s);
   const int half = s.soup.n_vertices();
   for (const char* method : {"signed-heat", "unsigned-heat"}) {
     Report report;
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(Domains, OnEveryDomain,
 class WithFaces : public OnEveryDomain {};
 
 TEST_P(WithFaces, PointsInFacesAndOnEdges) {
-  const Shape s = sphere();
+  const test::Shape s = sphere();
   const SurfaceMesh mesh(s.soup);
   const int f = mesh.n_faces() / 3, e = mesh.n_edges() / 2;
   for (const SurfacePoint& p :
@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(Domains, WithFaces,
 class InThePlane : public testing::TestWithParam<Domain> {};
 
 TEST_P(InThePlane, StraightLineAcrossFacesAndBoundary) {
-  const Shape s = test::square(GetParam(), 20);
+  const test::Shape s = test::square(GetParam(), 20);
   MatX3 line(2, 3);
   line << 0.31, 0, 0, 0.55, 1, 0;
   const Vec3 along = (line.row(1) - line.row(0)).normalized(), left(-along.y(), along.x(), 0);
@@ -263,7 +263,7 @@ TEST_P(Refined, ErrorFallsWithTheSpacing) {
   const auto [domain, order] = GetParam();
   double error[2];
   for (int l = 0; l < 2; ++l) {
-    const Shape s = test::sphere(domain, 16 << l);
+    const test::Shape s = test::sphere(domain, 16 << l);
     const VecX phi = s.distance(test::space_curve(test::circle(0, 0, 0.5, std::sin(pi / 3), 400)),
                                 "signed-heat");
     error[l] = 0;

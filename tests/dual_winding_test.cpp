@@ -90,7 +90,7 @@ TEST(DualWinding, ACutAcrossAMoebiusBandBoundsNothing) {
 }
 
 /// Three square pages that meet along one edge, n x n quads each.
-PolygonSoup book(int n) {
+PolygonSoup square_book(int n) {
   PolygonSoup soup;
   soup.points.resize(3 * (n + 1) * (n + 1), 3);
   const auto vertex = [&](int page, int i, int j) {
@@ -115,7 +115,7 @@ PolygonSoup book(int n) {
 
 TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
   constexpr int n = 6;
-  const SurfaceMesh mesh(book(n));
+  const SurfaceMesh mesh(square_book(n));
   // At the spine, page 2 is above pages 0 and 1.
   Sources sources;
   for (int j = 0; j < n; ++j) {

@@ -41,7 +41,7 @@ PolygonSoup noisy(PolygonSoup soup, double amount, unsigned seed) {
 }
 
 /// Grids of m x n squares that share their first row.
-PolygonSoup book(int pages, int m, int n) {
+PolygonSoup random_book(int pages, int m, int n) {
   PolygonSoup soup;
   soup.points.resize((n + 1) * (1 + pages * m), 3);
   for (int i = 0; i <= n; ++i) soup.points.row(i) << double(i) / n, 0, 0;
@@ -119,8 +119,8 @@ TEST(ExactPolyhedralRandom, LikeTheSimpleSearch) {
         noisy(test::octasphere_soup(3), 0.05, seed),
         noisy(test::torus_soup(24, 12), 0.08, seed),
         noisy(test::grid_soup(12, 9), 0.05, seed),
-        noisy(book(4, 5, 6), 0.06, seed),
-        book(3, 6, 6),
+        noisy(random_book(4, 5, 6), 0.06, seed),
+        random_book(3, 6, 6),
         noisy(needles, 0.02, seed),
         needles,
         test::scrap(seed, 40),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "constants.h"
 #include "heat_helpers.h"
 #include "io/read.h"
 #include "littoral/error.h"
@@ -12,7 +13,7 @@
 namespace littoral {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 void append(PolygonSoup& soup, const PolygonSoup& more, const Vec3& shift) {
   const int n = soup.n_vertices();

@@ -43,18 +43,19 @@ Errors errors(const SurfaceMesh& mesh, const Sources& sources, const VecX& u) {
   return e;
 }
 
-constexpr int n = 40;
+constexpr int cells = 40;
 std::vector<SurfaceMesh> squares() {
   std::vector<SurfaceMesh> all;
-  for (int diagonal : {0, 1}) all.emplace_back(test::grid_soup(n, n, diagonal));
-  for (unsigned seed : {1u, 2u}) all.emplace_back(test::jittered_grid_soup(n, n, 0.3, seed));
+  for (int diagonal : {0, 1}) all.emplace_back(test::grid_soup(cells, cells, diagonal));
+  for (unsigned seed : {1u, 2u})
+    all.emplace_back(test::jittered_grid_soup(cells, cells, 0.3, seed));
   return all;
 }
 
 TEST(HeatPoints, MidwayBetweenTwoPoints) {
   // One sum of heat from both gave 0.32, 0.62, 0.81, 0.91 of the exact value, and 0.22, 0.49, 0.67,
   // 0.82 as vectors at time scale 16, on the second of these meshes.
-  const int middle = n / 2 + n / 2 * (n + 1);
+  const int middle = cells / 2 + cells / 2 * (cells + 1);
   for (const SurfaceMesh& mesh : squares())
     for (int k : {1, 2, 4, 8}) {  // 2 k edges apart
       const Sources sources = test::vertex_points({middle - k, middle + k});
@@ -63,23 +64,23 @@ TEST(HeatPoints, MidwayBetweenTwoPoints) {
         EXPECT_NEAR(u[middle + k], 0, 1e-9);
         const double share = u[middle] / nearest(mesh, sources, mesh.point(middle));
         EXPECT_NEAR(share, 1, k == 1 ? 0.25 : 0.11) << 2 * k << " edges apart";
-        EXPECT_LT(errors(mesh, sources, u).mean, 0.15 / n);
+        EXPECT_LT(errors(mesh, sources, u).mean, 0.15 / cells);
       }
     }
 }
 
 TEST(HeatPoints, ManyPointsAreAsAccurateAsOne) {
-  const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.3));
+  const SurfaceMesh mesh(test::jittered_grid_soup(cells, cells, 0.3));
   std::mt19937 random(7);
-  Sources one = test::vertex_points({n / 2 + n / 2 * (n + 1)}), many;
+  Sources one = test::vertex_points({cells / 2 + cells / 2 * (cells + 1)}), many;
   for (int i = 0; i < 60; ++i)
     many.points.push_back(
-        SurfacePoint::at_vertex(static_cast<int>(random() % ((n + 1) * (n + 1)))));
+        SurfacePoint::at_vertex(static_cast<int>(random() % ((cells + 1) * (cells + 1)))));
   for (int method : {0, 1}) {
-    EXPECT_LT(errors(mesh, one, both(mesh, one)[method]).mean, 0.15 / n);
+    EXPECT_LT(errors(mesh, one, both(mesh, one)[method]).mean, 0.15 / cells);
     const Errors b = errors(mesh, many, both(mesh, many)[method]);
-    EXPECT_LT(b.mean, 0.15 / n);
-    EXPECT_LT(b.largest, 1.3 / n);
+    EXPECT_LT(b.mean, 0.15 / cells);
+    EXPECT_LT(b.largest, 1.3 / cells);
   }
 }
 
@@ -109,8 +110,8 @@ TEST(HeatPoints, TwoPointsOnASphere) {
 TEST(HeatPoints, CornersAndSidesOfASquare) {
   // Radial vectors at a corner have a net direction, which outlives the rest: 0.71 at the far end
   // of a side.
-  const SurfaceMesh mesh(test::grid_soup(n, n, 1));
-  for (int source : {0, n, n / 2, (n / 2) * (n + 1)}) {
+  const SurfaceMesh mesh(test::grid_soup(cells, cells, 1));
+  for (int source : {0, cells, cells / 2, (cells / 2) * (cells + 1)}) {
     const Sources sources = test::vertex_points({source});
     for (const VecX& u : both(mesh, sources)) {
       EXPECT_LT(errors(mesh, sources, u).mean, 0.012);

@@ -17,15 +17,15 @@ PolygonSoup needles() {
   return soup;
 }
 
-struct Case {
+struct Triangulated {
   const char* name;
   PolygonSoup soup;
   bool flat;
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+std::ostream& operator<<(std::ostream& out, const Triangulated& c) { return out << c.name; }
 
-PolygonSoup book() {  // three pages: an edge of three faces is never flipped
+PolygonSoup three_pages() {  // three pages: an edge of three faces is never flipped
   PolygonSoup soup = needles();
   const int n = soup.n_vertices();
   soup.points.conservativeResize(n + 1, 3);
@@ -34,7 +34,7 @@ PolygonSoup book() {  // three pages: an edge of three faces is never flipped
   return soup;
 }
 
-class Retriangulating : public testing::TestWithParam<std::tuple<Case, double>> {
+class Retriangulating : public testing::TestWithParam<std::tuple<Triangulated, double>> {
  protected:
   Retriangulating()
       : mesh(std::get<0>(GetParam()).soup),
@@ -133,8 +133,9 @@ TEST_P(Retriangulating, IsDelaunay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Retriangulating,
-                         testing::Combine(testing::Values(Case{"needles", needles(), true},
-                                                          Case{"book", book(), false}),
+                         testing::Combine(testing::Values(Triangulated{"needles", needles(), true},
+                                                          Triangulated{"book", three_pages(),
+                                                                       false}),
                                           testing::Values(0.0, 25.0)));
 
 TEST(IntrinsicDelaunay, MakesPointDistanceOnNeedlesBetter) {

@@ -22,16 +22,16 @@ const char* const mesh_text =
 
 SurfaceMesh mesh() { return SurfaceMesh(read_surface_bytes(mesh_text, ".obj", "m.obj")); }
 
-Sources read(const std::string& text, const std::string& extension = ".txt",
-             std::optional<int> base = {}) {
+Sources read_sources_text(const std::string& text, const std::string& extension = ".txt",
+                          std::optional<int> base = {}) {
   Report report;
   return read_sources_bytes(text, extension, "a" + extension, mesh(), base, report);
 }
 
-std::string error_of(const std::string& text, const std::string& extension = ".txt",
-                     std::optional<int> base = {}) {
+std::string error_of_sources(const std::string& text, const std::string& extension = ".txt",
+                             std::optional<int> base = {}) {
   try {
-    read(text, extension, base);
+    read_sources_text(text, extension, base);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -57,7 +57,7 @@ std::vector<std::string> text_of(const std::vector<SurfacePoint>& nodes) {
 }
 
 TEST(IoSources, ReadsSignedHeatText) {
-  const Sources s = read(
+  const Sources s = read_sources_text(
       "# c\nsigned_curve\r\nv 0 # c\ne 1 0.25\ne 2 1 .25\nf 0 .5 .25 .25\nf 1 0.5 0.5\n"
       "signed_curve 1\nv 3\nl 1 2\nunsigned_curve 0\n\nl 1 2 4\nunsigned_point\n#v 99\nv 4\nv 5\n");
   ASSERT_EQ(s.curves.size(), 3u);
@@ -72,25 +72,27 @@ TEST(IoSources, ReadsSignedHeatText) {
 }
 
 TEST(IoSources, TheIndexBaseOverridesTheFormats) {
-  EXPECT_THAT(text_of(read("signed_curve\nv 1\nl 2\n", ".txt", 1).curves[0].nodes),
+  EXPECT_THAT(text_of(read_sources_text("signed_curve\nv 1\nl 2\n", ".txt", 1).curves[0].nodes),
               ElementsAre("v0", "v1"));
-  EXPECT_THAT(text_of(read("signed_curve\nv 1\nl 2\n", ".txt", 0).curves[0].nodes),
+  EXPECT_THAT(text_of(read_sources_text("signed_curve\nv 1\nl 2\n", ".txt", 0).curves[0].nodes),
               ElementsAre("v1", "v2"));
-  EXPECT_THAT(text_of(read("#offset 0\nv 1\nv 2\nl 1 2\n", ".txt", 1).curves[0].nodes),
+  EXPECT_THAT(text_of(read_sources_text("#offset 0\nv 1\nv 2\nl 1 2\n", ".txt", 1).curves[0].nodes),
               ElementsAre("v0", "v1"));
-  EXPECT_THAT(text_of(read(R"({"points":[{"v":1}]})", ".json", 1).points), ElementsAre("v0"));
-  EXPECT_EQ(error_of("signed_curve\nv 1\nl 2\n", ".txt", 2),
+  EXPECT_THAT(text_of(read_sources_text(R"({"points":[{"v":1}]})", ".json", 1).points),
+              ElementsAre("v0"));
+  EXPECT_EQ(error_of_sources("signed_curve\nv 1\nl 2\n", ".txt", 2),
             "the index base must be 0 or 1, not 2");
 }
 
 TEST(IoSources, JoinsTheSegmentsOfWindingText) {
-  const Sources s = read("v 1\nv 2\ne 2 .5\nn 1\nv 4\n#l 1 4\nv 2\nl 2 3\nl 1 2 # c\nl 4 5\n");
+  const Sources s =
+      read_sources_text("v 1\nv 2\ne 2 .5\nn 1\nv 4\n#l 1 4\nv 2\nl 2 3\nl 1 2 # c\nl 4 5\n");
   ASSERT_EQ(s.curves.size(), 3u);  // the second point and the fifth are one place, where three meet
   EXPECT_THAT(text_of(s.curves[0].nodes), ElementsAre("v1", "e1 0.5"));
   EXPECT_THAT(text_of(s.curves[1].nodes), ElementsAre("v0", "v1"));
   EXPECT_THAT(text_of(s.curves[2].nodes), ElementsAre("v3", "v1"));
   EXPECT_EQ(s.curves[2].origin, "a.txt:5");
-  const Sources joined = read("v 1\nv 2\ne 2 .5\nl 2 3\nl 1 2\n");
+  const Sources joined = read_sources_text("v 1\nv 2\ne 2 .5\nl 2 3\nl 1 2\n");
   ASSERT_EQ(joined.curves.size(), 1u);
   EXPECT_THAT(text_of(joined.curves[0].nodes), ElementsAre("v0", "v1", "e1 0.5"));
 }
@@ -108,24 +110,26 @@ TEST(IoSources, ChainsSegmentsWhereOneEndsAndOneBegins) {
 }
 
 TEST(IoSources, SaysWhatIsWrongInText) {
-  EXPECT_EQ(error_of(""), "a.txt: no sources");
-  EXPECT_EQ(error_of("# nothing\n"), "a.txt: no sources");
-  EXPECT_EQ(error_of("v 3\nv 4\n"),
+  EXPECT_EQ(error_of_sources(""), "a.txt: no sources");
+  EXPECT_EQ(error_of_sources("# nothing\n"), "a.txt: no sources");
+  EXPECT_EQ(error_of_sources("v 3\nv 4\n"),
             "a.txt:1: nodes with neither a keyword line (signed_curve, unsigned_curve or "
             "unsigned_point) nor segments (l)");
-  EXPECT_EQ(error_of("v 3\nsigned_curve\nv 4\n"),
+  EXPECT_EQ(error_of_sources("v 3\nsigned_curve\nv 4\n"),
             "a.txt:1: node before any keyword (signed_curve, unsigned_curve or unsigned_point)");
-  EXPECT_EQ(error_of("signed_curv\nv 3\nv 4\n"),
+  EXPECT_EQ(error_of_sources("signed_curv\nv 3\nv 4\n"),
             "a.txt:1: unknown record 'signed_curv', expected v, e, l or c, or a keyword "
             "(signed_curve, unsigned_curve or unsigned_point)");
-  EXPECT_EQ(error_of("signed_curve\nv 3\nv 4\nsigned_curv\n"),
+  EXPECT_EQ(error_of_sources("signed_curve\nv 3\nv 4\nsigned_curv\n"),
             "a.txt:4: unknown keyword 'signed_curv', expected signed_curve, unsigned_curve or "
             "unsigned_point");
-  const auto error = [](const std::string& node) { return error_of("signed_curve\nv 1\n" + node); };
+  const auto error = [](const std::string& node) {
+    return error_of_sources("signed_curve\nv 1\n" + node);
+  };
   EXPECT_EQ(error(""), "a.txt:1: signed_curve has 1 nodes, at least 2 are needed");
-  EXPECT_EQ(error_of("unsigned_point\n"),
+  EXPECT_EQ(error_of_sources("unsigned_point\n"),
             "a.txt:1: unsigned_point has 0 nodes, at least 1 is needed");
-  EXPECT_EQ(error_of("signed_curve 2\nv 1\nv 2\n"),
+  EXPECT_EQ(error_of_sources("signed_curve 2\nv 1\nv 2\n"),
             "a.txt:1: after signed_curve only 0 or 1 (reversed) may follow, found '2'");
   EXPECT_EQ(error("v 99999"),
             "a.txt:3: node refers to vertex 99999, the mesh has 8 (counted from 0)");
@@ -151,22 +155,22 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error("f 0 1"), "a.txt:3: expected 'f FACE A B' or 'f FACE A B C'");
   EXPECT_EQ(error("f 2 .5 .5"),
             "a.txt:3: face 2 has 5 corners; nodes inside faces need a triangle");
-  EXPECT_EQ(error_of("v 1\nv 2\nl 1 3\n"),
+  EXPECT_EQ(error_of_sources("v 1\nv 2\nl 1 3\n"),
             "a.txt:3: segment refers to point 3, the file has 2 (counted from 1)");
-  EXPECT_EQ(error_of("v 1\nl 1\n"), "a.txt:2: expected 'l POINT POINT'");
-  EXPECT_EQ(error_of("#offset 2\nv 1\n"), "a.txt:1: expected 0 or 1 after #offset");
-  EXPECT_EQ(error_of("v 1\n", ".svg"),
+  EXPECT_EQ(error_of_sources("v 1\nl 1\n"), "a.txt:2: expected 'l POINT POINT'");
+  EXPECT_EQ(error_of_sources("#offset 2\nv 1\n"), "a.txt:1: expected 0 or 1 after #offset");
+  EXPECT_EQ(error_of_sources("v 1\n", ".svg"),
             "a.svg: cannot be read as sources: the extension is '.svg'; possible: .obj .ply .txt "
             ".json");
 }
 
 TEST(IoSources, PutsRoundingInBarycentricsRight) {
-  const Sources s = read("unsigned_point\nf 0 1.0000005 -1e-10 0\n");
+  const Sources s = read_sources_text("unsigned_point\nf 0 1.0000005 -1e-10 0\n");
   EXPECT_EQ(s.points[0].b, (std::array<double, 3>{1, 0, 0}));
 }
 
 TEST(IoSources, ReadsJson) {
-  const Sources s = read(
+  const Sources s = read_sources_text(
       R"({"curves":[{"signed":false,"closed":true,"points":[[0,0,0],[1,0,0],[1,1.5,0]]},
           {"nodes":[{"v":0},{"e":[2,1],"t":0.25},{"f":0,"b":[0.5,0.25,0.25]}],"closed":true}],
           "points":[{"v":4}]})",
@@ -184,7 +188,7 @@ TEST(IoSources, ReadsJson) {
 }
 
 TEST(IoSources, SaysWhatIsWrongInJson) {
-  const auto error = [](const std::string& text) { return error_of(text, ".json"); };
+  const auto error = [](const std::string& text) { return error_of_sources(text, ".json"); };
   const auto node = [&](const std::string& text) { return error("{\"points\":[" + text + "]}"); };
   const auto curve = [&](const std::string& text) { return error("{\"curves\":[" + text + "]}"); };
   EXPECT_EQ(error("{\"curves\":[}"), "a.json: byte 12: not valid JSON");
@@ -214,22 +218,22 @@ TEST(IoSources, SaysWhatIsWrongInJson) {
 }
 
 TEST(IoSources, LinesOfTheMeshItselfAreCurvesOnIt) {
-  const Sources own = read(std::string(mesh_text) + "l 1 2 4\nl 4 5\n", ".obj");
+  const Sources own = read_sources_text(std::string(mesh_text) + "l 1 2 4\nl 4 5\n", ".obj");
   ASSERT_EQ(own.curves.size(), 2u);
   EXPECT_THAT(text_of(own.curves[0].nodes), ElementsAre("v0", "v1", "v3"));
   EXPECT_TRUE(own.curves[0].is_signed);
 
-  const Sources edges = read(std::string(mesh_text) + "l 2 4\nl 1 2\n", ".obj");
+  const Sources edges = read_sources_text(std::string(mesh_text) + "l 2 4\nl 1 2\n", ".obj");
   ASSERT_EQ(edges.curves.size(), 1u) << "single segments are joined";
   EXPECT_THAT(text_of(edges.curves[0].nodes), ElementsAre("v0", "v1", "v3"));
 
-  const Sources free = read("v 5 0 0\nv 6 0 0\nl 1 2\n", ".obj");
+  const Sources free = read_sources_text("v 5 0 0\nv 6 0 0\nl 1 2\n", ".obj");
   ASSERT_EQ(free.space_curves.size(), 1u);
   EXPECT_EQ(free.space_curves[0].points.row(1), Eigen::RowVector3d(6, 0, 0));
 
-  EXPECT_EQ(error_of(mesh_text, ".obj"),
+  EXPECT_EQ(error_of_sources(mesh_text, ".obj"),
             "a.obj: no lines; sources need 'l' records (.obj) or edges (.ply)");
-  EXPECT_EQ(error_of(std::string(mesh_text) + "l 1 8\n", ".obj"),
+  EXPECT_EQ(error_of_sources(std::string(mesh_text) + "l 1 8\n", ".obj"),
             "a.obj: a line uses vertex 7 (counted from 0), which is not finite");
 }
 

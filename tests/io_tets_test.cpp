@@ -32,7 +32,7 @@ const std::string modern =
     "vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2\nCELL_TYPES 2\n10 5\n"
     "POINT_DATA 4\nFIELD FieldData 1\ndepth 1 4 double\n1 2 3 4\n";
 
-io::TetFile read(const std::string& bytes, const std::string& extension) {
+io::TetFile read_tets(const std::string& bytes, const std::string& extension) {
   return io::read_tets_bytes(bytes, extension, "file" + extension);
 }
 
@@ -48,11 +48,11 @@ void expect_one_tet(const io::TetFile& file, bool triangles) {
 }
 
 TEST(TetFiles, EveryFormatHoldsTheSameTet) {
-  expect_one_tet(read(medit, ".mesh"), true);
-  expect_one_tet(read(tet, ".tet"), false);
-  expect_one_tet(read("4 1\n0 0 0 1 0 0 0 1 0 0 0 1\n4 0 1 2 3", ".TET"), false);
+  expect_one_tet(read_tets(medit, ".mesh"), true);
+  expect_one_tet(read_tets(tet, ".tet"), false);
+  expect_one_tet(read_tets("4 1\n0 0 0 1 0 0 0 1 0 0 0 1\n4 0 1 2 3", ".TET"), false);
   for (const std::string& text : {vtk, modern}) {
-    const io::TetFile file = read(text, ".vtk");
+    const io::TetFile file = read_tets(text, ".vtk");
     expect_one_tet(file, true);
     ASSERT_EQ(file.scalars.size(), 1u);
     EXPECT_EQ(file.scalars.at("depth"), Eigen::Vector4d(1, 2, 3, 4));
@@ -75,7 +75,7 @@ TEST(TetFiles, WrittenFilesReadBackExactly) {
   const std::string bytes = io::read_bytes(path);
   for (std::size_t cut = 0; cut < bytes.size(); cut += 97) {
     try {
-      EXPECT_EQ(read(bytes.substr(0, cut), ".vtk").mesh.n_tets(), mesh.n_tets());
+      EXPECT_EQ(read_tets(bytes.substr(0, cut), ".vtk").mesh.n_tets(), mesh.n_tets());
     } catch (const InputError&) {
     }
   }
@@ -107,7 +107,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(TetFiles, ErrorsNameFileLineAndElement) {
   const auto message = [](const std::string& bytes, const std::string& extension) {
-    return test::message_of([&] { read(bytes, extension); });
+    return test::message_of([&] { read_tets(bytes, extension); });
   };
   const auto expect = [&](const std::string& bytes, const std::string& extension,
                           const std::string& text) {

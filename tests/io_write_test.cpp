@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "constants.h"
 #include "io/binary.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -18,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr double inf = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 class IoWrite : public ::testing::Test {
  protected:
@@ -48,7 +49,7 @@ PolygonSoup polygons() {
   soup.add_face(all);
   soup.lines = {{0, 1, 2}, {2, 3}, {7, 7, 9}};
   VecX distance = soup.points.col(0).array().sin();
-  distance(3) = inf;
+  distance(3) = infinity;
   soup.scalars = {{"distance", distance}, {"winding", 2 * distance}};
   return soup;
 }
@@ -151,7 +152,7 @@ PolygonSoup small_field() {
   soup.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
   soup.add_face(std::vector<int>{0, 1, 2});
   soup.lines = {{2, 1}};
-  soup.scalars["a,b"] = Vec3(1 / 3.0, inf, -2);
+  soup.scalars["a,b"] = Vec3(1 / 3.0, infinity, -2);
   return soup;
 }
 
@@ -159,7 +160,8 @@ TEST_F(IoWrite, FieldsAsText) {
   write_field(folder_ / "a.txt", small_field(), "a,b");
   EXPECT_EQ(read_bytes(folder_ / "a.txt"), "0.33333333333333331\ninf\n-2\n");
   write_field(folder_ / "a.csv", small_field(), "a,b");
-  EXPECT_EQ(read_bytes(folder_ / "a.csv"), "vertex,\"a,b\"\n0,0.3333333333333333\n1,inf\n2,-2\n");
+  EXPECT_EQ(read_bytes(folder_ / "a.csv"),
+            "vertex,\"a,b\"\n0,0.3333333333333333\n1,infinity\n2,-2\n");
 }
 
 TEST_F(IoWrite, FieldsAsNpy) {
@@ -172,7 +174,7 @@ TEST_F(IoWrite, FieldsAsNpy) {
               ::testing::MatchesRegex(
                   "\\{'descr': '<f8', 'fortran_order': False, 'shape': \\(3,\\), \\} *\n"));
   EXPECT_EQ(load_little<double>(bytes.data() + 128), 1 / 3.0);
-  EXPECT_EQ(load_little<double>(bytes.data() + 136), inf);
+  EXPECT_EQ(load_little<double>(bytes.data() + 136), infinity);
 }
 
 TEST_F(IoWrite, FieldsAsVtp) {

@@ -7,12 +7,13 @@
 #include <limits>
 #include <random>
 
+#include "constants.h"
 #include "littoral/error.h"
 
 namespace littoral {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 /// The k x k torus grid graph with random offsets and weights.
 L1Integration random_problem(int k, unsigned seed, bool bounded) {

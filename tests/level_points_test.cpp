@@ -14,7 +14,7 @@
 namespace littoral {
 namespace {
 
-Volume sampled(int n, const std::function<double(const Vec3&)>& f, double half = 1.5) {
+Volume sampled_on(int n, const std::function<double(const Vec3&)>& f, double half = 1.5) {
   Volume field;
   field.grid = {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
   field.values.resize(static_cast<Eigen::Index>(field.grid.n_nodes()));
@@ -29,14 +29,14 @@ Volume sampled(int n, const std::function<double(const Vec3&)>& f, double half =
 // An implicit function of a sphere of radius 1 that is far from a distance.
 double steep(const Vec3& x) { return std::exp(2 * x.squaredNorm()) - std::exp(2.0); }
 
-struct Errors {
+struct PointErrors {
   double place = 0, normal = 0;
   int points = 0;
 };
 
-Errors errors(int n) {
-  const PolygonSoup cloud = level_points(sampled(n, steep), 0, {});
-  Errors worst;
+PointErrors errors(int n) {
+  const PolygonSoup cloud = level_points(sampled_on(n, steep), 0, {});
+  PointErrors worst;
   worst.points = cloud.n_vertices();
   for (int v = 0; v < cloud.n_vertices(); ++v) {
     const Vec3 p = cloud.points.row(v);
@@ -47,7 +47,7 @@ Errors errors(int n) {
 }
 
 TEST(LevelPoints, LieOnTheLevelSetToThirdOrder) {
-  const Errors coarse = errors(24), fine = errors(47);
+  const PointErrors coarse = errors(24), fine = errors(47);
   EXPECT_LT(fine.place, 2e-3);
   EXPECT_LT(fine.place, coarse.place / 5);
   EXPECT_LT(fine.normal, coarse.normal / 2.8);
@@ -55,7 +55,7 @@ TEST(LevelPoints, LieOnTheLevelSetToThirdOrder) {
 }
 
 TEST(LevelPoints, AreAsManyAsTheSurfaceHasCellsAndNotClose) {
-  const Volume field = sampled(28, steep);
+  const Volume field = sampled_on(28, steep);
   const PolygonSoup cloud = level_points(field, 0, {});
   const double h = field.grid.spacing[0], cells = 4 * std::acos(-1.0) / (h * h);
   EXPECT_GT(cloud.n_vertices(), cells);
@@ -66,22 +66,22 @@ TEST(LevelPoints, AreAsManyAsTheSurfaceHasCellsAndNotClose) {
 }
 
 TEST(LevelPoints, SameForAnyUnitOfValuesSpacingAndThreads) {
-  const PolygonSoup cloud = level_points(sampled(24, steep), 0, {});
+  const PolygonSoup cloud = level_points(sampled_on(24, steep), 0, {});
   for (double unit : {1e-250, 1e250}) {
     const PolygonSoup other =
-        level_points(sampled(24, [unit](const Vec3& x) { return unit * steep(x); }), 0, {});
+        level_points(sampled_on(24, [unit](const Vec3& x) { return unit * steep(x); }), 0, {});
     ASSERT_EQ(other.n_vertices(), cloud.n_vertices());
     EXPECT_LT((other.points - cloud.points).norm(), 1e-9);
   }
   set_thread_count(1);
-  const PolygonSoup one = level_points(sampled(24, steep), 0, {});
+  const PolygonSoup one = level_points(sampled_on(24, steep), 0, {});
   set_thread_count(0);
   EXPECT_EQ(one.points, cloud.points);
   EXPECT_EQ(one.normals, cloud.normals);
 }
 
 TEST(LevelPoints, NormalsOfStretchedGridsAreThoseOfTheFunction) {
-  Volume field = sampled(20, [](const Vec3& x) { return x[0] + x[1] - 0.1; });
+  Volume field = sampled_on(20, [](const Vec3& x) { return x[0] + x[1] - 0.1; });
   field.grid.spacing[0] *= 3;  // now 1/3 x + y about the origin of x
   const PolygonSoup cloud = level_points(field, 0, {});
   const Vec3 n = Vec3(1.0 / 3, 1, 0).normalized();
@@ -91,14 +91,14 @@ TEST(LevelPoints, NormalsOfStretchedGridsAreThoseOfTheFunction) {
 
 TEST(LevelPoints, BadVolumesAreNamedAndHolesArePassedOver) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Volume field = sampled(24, steep);
+  Volume field = sampled_on(24, steep);
   EXPECT_THROW(level_points(field, 1e9, {}), InputError);
   EXPECT_THROW(level_points(field, nan, {}), InputError);
   for (Eigen::Index v = 0; v < field.values.size(); v += 7)
     field.values[v] = v % 2 ? nan : std::numeric_limits<double>::infinity();
   for (int k = 12; k < 24; ++k)
     field.values.segment(k * 24 * 24, 24 * 24) =
-        sampled(24, steep).values.segment(k * 24 * 24, 24 * 24);
+        sampled_on(24, steep).values.segment(k * 24 * 24, 24 * 24);
   const PolygonSoup half = level_points(field, 0, {});
   EXPECT_GT(half.n_vertices(), 200);
   EXPECT_TRUE(half.points.allFinite());
@@ -113,7 +113,7 @@ TEST(LevelPoints, BadVolumesAreNamedAndHolesArePassedOver) {
 TEST(LevelPoints, MakeADistanceOfAnImplicitFunction) {
   CsgShapes shapes;
   shapes.all.resize(1);
-  shapes.all[0].surface = level_points(sampled(48, steep), 0, {});
+  shapes.all[0].surface = level_points(sampled_on(48, steep), 0, {});
   shapes.all[0].request.method = Tori{};
   Report report;
   const auto distance = pointwise_distance(shapes, {}, report);

@@ -13,18 +13,14 @@
 namespace littoral {
 namespace {
 
-Grid box_grid(int n, double half = 1) {
-  return {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
-}
-
 double ball(const Vec3& p, const Vec3& centre, double radius) {
   return (p - centre).norm() - radius;
 }
 
 TEST(Redistance, IsTheDistanceToTheLevelSetUpToItsReach) {
   // Twice the distance to a sphere of radius 0.5.
-  const Volume field =
-      test::sampled(box_grid(33), [](const Vec3& p) { return 2 * ball(p, Vec3::Zero(), 0.5); });
+  const Volume field = test::sampled(test::box_grid(33),
+                                     [](const Vec3& p) { return 2 * ball(p, Vec3::Zero(), 0.5); });
   Report report;
   const PolygonSoup surface = isosurface(field.grid, field.values, 0.2, {}, report);
   const VecX distance = redistance(field.grid, field.values, 0.2, surface, 0.3, {});
@@ -51,7 +47,7 @@ std::vector<Isosurface> offsets(const Volume& field, const std::vector<double>& 
 
 TEST(Offset, SpheresGrowAndShrink) {
   const Volume field =
-      test::sampled(box_grid(40), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
+      test::sampled(test::box_grid(40), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
   const auto surfaces = offsets(field, {-0.2, 0, 0.3});
   ASSERT_EQ(surfaces.size(), 3u);
   for (const Isosurface& shell : surfaces) {
@@ -66,7 +62,7 @@ TEST(Offset, SpheresGrowAndShrink) {
 
 TEST(OffsetSlow, OpeningRemovesThinPartsAndKeepsTheRest) {
   // A ball with a thin rod through it.
-  const Volume field = test::sampled(box_grid(50), [](const Vec3& p) {
+  const Volume field = test::sampled(test::box_grid(50), [](const Vec3& p) {
     const double rod = std::max(std::hypot(p[0], p[1]) - 0.1, std::abs(p[2]) - 0.9);
     return std::min(ball(p, Vec3::Zero(), 0.5), rod);
   });
@@ -80,7 +76,7 @@ TEST(OffsetSlow, OpeningRemovesThinPartsAndKeepsTheRest) {
 TEST(OffsetSlow, ClosingFillsAGap) {
   // Two balls nearly touching: closing joins them; what is far from the gap stays.
   const Vec3 left(-0.33, 0, 0), right(0.33, 0, 0);
-  const Volume field = test::sampled(box_grid(50), [&](const Vec3& p) {
+  const Volume field = test::sampled(test::box_grid(50), [&](const Vec3& p) {
     return std::min(ball(p, left, 0.3), ball(p, right, 0.3));
   });
   const auto components = [](const PolygonSoup& soup) {
@@ -96,7 +92,7 @@ TEST(OffsetSlow, ClosingFillsAGap) {
 
 TEST(Offset, RefusesWhatCannotBe) {
   const Volume field =
-      test::sampled(box_grid(20), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
+      test::sampled(test::box_grid(20), [](const Vec3& p) { return ball(p, Vec3::Zero(), 0.5); });
   EXPECT_THROW(offsets(field, {5}), InputError);
   EXPECT_THROW(offsets(field, {0}, {.open = 0.7}), InputError);
   EXPECT_THROW(offsets(field, {0}, {.open = -0.1}), InputError);

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "constants.h"
 #include "io/read.h"
 #include "littoral/error.h"
 #include "shared_data.h"
@@ -16,8 +17,8 @@
 namespace littoral {
 namespace {
 
+using test::pi;
 using testing::HasSubstr;
-const double pi = std::acos(-1.0);
 
 double length(const SurfaceMesh& mesh, const std::vector<SurfacePoint>& nodes) {
   double sum = 0;

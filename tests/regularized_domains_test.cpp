@@ -20,12 +20,6 @@ namespace {
 using test::solve;
 using test::with_alpha;
 
-/// The interval [0, 1] from 0 with the Dirichlet energy: u' = min(1, (1 - x) / alpha).
-double from_one_end(double x, double alpha) {
-  const double free = 1 - alpha;
-  return x <= free ? x : 1 - alpha / 2 - (1 - x) * (1 - x) / (2 * alpha);
-}
-
 /// Quads on the unit square.
 PolygonSoup quads(int n) {
   const PolygonSoup triangles = test::grid_soup(n, n);
@@ -65,7 +59,7 @@ TEST(RegularizedDomains, IntervalOnTrianglesQuadsAndQuadraticElements) {
       const SurfaceMesh mesh(polygons ? quads(16) : test::grid_soup(16, 16, 1));
       const VecX u = by_name(mesh, left_side(mesh), {{"alpha", "0.4"}, {"elements", elements}});
       for (int v = 0; v < mesh.n_vertices(); ++v)
-        EXPECT_NEAR(u[v], from_one_end(mesh.point(v).x(), alpha), 4e-3) << elements << v;
+        EXPECT_NEAR(u[v], test::from_one_end(mesh.point(v).x(), alpha), 4e-3) << elements << v;
     }
 }
 
@@ -87,7 +81,7 @@ TEST(RegularizedDomains, IntervalOnTets) {
     const VecX u = method.solve(terms, with_alpha(alpha), {}, report);
     EXPECT_EQ(report.status, "converged");
     for (int v = 0; v < mesh.n_vertices(); ++v)
-      EXPECT_NEAR(u[v], from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
+      EXPECT_NEAR(u[v], test::from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
   }
 }
 

@@ -10,6 +10,12 @@
 
 namespace littoral::test {
 
+/// The interval [0, 1] from 0 with the Dirichlet energy: u' = min(1, (1 - x) / alpha).
+inline double from_one_end(double x, double alpha) {
+  const double free = 1 - alpha;
+  return x <= free ? x : 1 - alpha / 2 - (1 - x) * (1 - x) / (2 * alpha);
+}
+
 struct Solved {
   VecX u;
   Report report;

@@ -8,6 +8,7 @@
 #include "api/space/sdf.h"
 #include "littoral/error.h"
 #include "one_call.h"
+#include "regularized_helpers.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
 
@@ -19,12 +20,6 @@ VecX through_tets(const TetMesh& mesh, const TetSources& sources, OptionValues o
   options.emplace_back("tolerance", "5e-4");
   return test::tet_mesh_distance(mesh, sources, AnyMethod::named(method, std::move(options)),
                                  report);
-}
-
-/// The interval [0, 1] from 0 with the Dirichlet energy: u' = min(1, (1 - x) / alpha).
-double from_one_end(double x, double alpha) {
-  const double free = 1 - alpha;
-  return x <= free ? x : 1 - alpha / 2 - (1 - x) * (1 - x) / (2 * alpha);
 }
 
 TEST(RegularizedInSpace, IntervalFromVerticesAndFromASurfaceBetweenThem) {
@@ -41,7 +36,7 @@ TEST(RegularizedInSpace, IntervalFromVerticesAndFromASurfaceBetweenThem) {
     const VecX w = through_tets(mesh, square, options, report);
     EXPECT_EQ(report.status, "converged");
     for (int v = 0; v < mesh.n_vertices(); ++v) {
-      EXPECT_NEAR(u[v], from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
+      EXPECT_NEAR(u[v], test::from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
       EXPECT_NEAR(w[v], u[v], 0.02) << alpha << " " << v;
     }
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "constants.h"
 #include "io/render/scene_style.h"
 #include "littoral/error.h"
 #include "test_meshes.h"
@@ -17,7 +18,7 @@ namespace littoral {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double inf = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 // A sphere with its x coordinate as field, one signed, one unsigned curve and a point.
 io::Scene sphere_scene() {
@@ -99,12 +100,12 @@ TEST(Scene, CheckNamesWhatIsWrong) {
   refused([](io::Scene& s) { s.triangles.resize(0, 3); });
   refused([](io::Scene& s) { s.triangles(3, 1) = 1 << 20; });
   refused([](io::Scene& s) { s.triangles(3, 1) = -1; });
-  refused([](io::Scene& s) { s.points(s.triangles(0, 0), 2) = inf; });
+  refused([](io::Scene& s) { s.points(s.triangles(0, 0), 2) = infinity; });
   refused([](io::Scene& s) { s.values.conservativeResize(7); });
   refused([](io::Scene& s) { s.values[5] = std::nan(""); });
-  refused([](io::Scene& s) { s.curves[0].points(0, 0) = inf; });
+  refused([](io::Scene& s) { s.curves[0].points(0, 0) = infinity; });
   refused([](io::Scene& s) { s.source_points(0, 0) = std::nan(""); });
-  refused([](io::Scene& s) { s.levels = {0, inf}; });
+  refused([](io::Scene& s) { s.levels = {0, infinity}; });
   refused([](io::Scene& s) { s.isolines = -1; });
   refused([](io::Scene& s) { s.inner_sides = {1}; });
 }
@@ -115,7 +116,7 @@ TEST(SceneStyle, NiceSpacing) {
   EXPECT_DOUBLE_EQ(io::nice_spacing(0, 1e300, 10), 1e299);
   EXPECT_EQ(io::nice_spacing(1, 1, 10), 0);
   EXPECT_EQ(io::nice_spacing(0, 1, 0), 0);
-  EXPECT_EQ(io::nice_spacing(0, inf, 10), 0);
+  EXPECT_EQ(io::nice_spacing(0, infinity, 10), 0);
   EXPECT_GT(io::nice_spacing(-1.7e308, 1.7e308, 10), 0);
   for (double count = 1; count < 300; count *= 1.3) {
     const double parts = 7.3 / io::nice_spacing(-2, 5.3, count);
@@ -133,13 +134,13 @@ TEST(SceneStyle, SignedFieldsDivergeAboutZero) {
   EXPECT_TRUE(style.diverging);
   EXPECT_NEAR(io::colour_position(style, 0), 0.5, 1e-12);
   scene.values = scene.values.array() + 1.0;
-  scene.values[0] = inf;
+  scene.values[0] = infinity;
   style = io::field_style(scene);
   EXPECT_FALSE(style.diverging);
   EXPECT_TRUE(style.infinite);
   EXPECT_EQ(io::colour_position(style, style.colour_low), 0);
   EXPECT_EQ(io::colour_position(style, style.high), 1);
-  scene.values.setConstant(inf);
+  scene.values.setConstant(infinity);
   EXPECT_FALSE(io::field_style(scene).present);
 }
 

@@ -39,8 +39,8 @@ struct Example {
 };
 
 /// Compares a difference, in shares of the range, with what a case allows.
-template <class Case>
-void expect_small(const VecX& difference, const Case& c) {
+template <class Limits>
+void expect_small(const VecX& difference, const Limits& c) {
   const double largest = difference.cwiseAbs().maxCoeff(), mean = difference.cwiseAbs().mean();
   testing::Test::RecordProperty("largest", std::to_string(largest));
   testing::Test::RecordProperty("mean", std::to_string(mean));
@@ -48,7 +48,7 @@ void expect_small(const VecX& difference, const Case& c) {
   EXPECT_LE(mean, c.mean_tolerance);
 }
 
-struct Case {
+struct TheirRun {
   const char* name;
   const char* output;
   Constraint constraint;
@@ -59,14 +59,14 @@ struct Case {
   bool up_to_shift = false;  // their zero is the smallest value, ours the mean along the source
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) {
+std::ostream& operator<<(std::ostream& out, const TheirRun& c) {
   return out << c.name << "/" << c.output;
 }
 
-class SignedHeatReference : public testing::TestWithParam<Case> {};
+class SignedHeatReference : public testing::TestWithParam<TheirRun> {};
 
 TEST_P(SignedHeatReference, AgreesWithTheAuthorsProgram) {
-  const Case& c = GetParam();
+  const TheirRun& c = GetParam();
   LITTORAL_NEEDS_SHARED(folder_of(c.name));
   const Example example(c.name);
   Report report;
@@ -120,30 +120,31 @@ constexpr auto none = Constraint::none, zero = Constraint::zero_set,
                levels = Constraint::level_sets;
 INSTANTIATE_TEST_SUITE_P(
     Cases, SignedHeatReference,
-    testing::Values(Case{"cheb0_13k", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"octa6_equator", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"duck", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"bumpy-sphere", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"shark-cupcake", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"vase-nested-curves", "dist_none.txt", none, 1e-8, 1e-8},
-                    Case{"mobius", "dist_none.txt", none, 1e-2, 1e-3},
-                    Case{"cheb0_13k", "dist_default.txt", zero, 1e-8, 1e-8},
-                    Case{"octa6_equator", "dist_default.txt", zero, 1e-8, 1e-8},
-                    Case{"duck", "dist_default.txt", zero, 1e-8, 1e-8},
-                    Case{"bumpy-sphere", "dist_zero.txt", zero, 1e-8, 1e-8},
-                    Case{"shark-cupcake", "dist_default.txt", zero, 1e-8, 1e-8},
-                    Case{"vase-nested-curves", "dist_default.txt", zero, 1e-8, 1e-8},
-                    Case{"mobius", "dist_default.txt", zero, 1e-2, 1e-3},
-                    Case{"duck", "dist_multiple.txt", levels, 1e-8, 1e-8},
-                    Case{"bumpy-sphere", "dist_multiple.txt", levels, 1e-8, 1e-8},
-                    Case{"shark-cupcake", "dist_multiple.txt", levels, 1e-8, 1e-8},
-                    Case{"vase-nested-curves", "dist_multiple.txt", levels, 1e-8, 1e-8},
-                    Case{"bumpy-sphere", "dist_default_soft100.txt", zero, 5e-3, 5e-4, 100},
-                    Case{"bumpy-sphere", "dist_default_preserve.txt", zero, 3e-2, 5e-3, 0, true},
-                    Case{"fish-unsigned-curve", "dist_none.txt", none, 0.1, 3e-2},
-                    Case{"fish-unsigned-curve", "dist_default.txt", zero, 0.1, 3e-2},
-                    Case{"block-points", "dist_none.txt", none, 1e-8, 1e-8, 0, false, true},
-                    Case{"block-points", "dist_default.txt", zero, 1e-8, 1e-8, 0, false, true}));
+    testing::Values(
+        TheirRun{"cheb0_13k", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"octa6_equator", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"duck", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"bumpy-sphere", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"shark-cupcake", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"vase-nested-curves", "dist_none.txt", none, 1e-8, 1e-8},
+        TheirRun{"mobius", "dist_none.txt", none, 1e-2, 1e-3},
+        TheirRun{"cheb0_13k", "dist_default.txt", zero, 1e-8, 1e-8},
+        TheirRun{"octa6_equator", "dist_default.txt", zero, 1e-8, 1e-8},
+        TheirRun{"duck", "dist_default.txt", zero, 1e-8, 1e-8},
+        TheirRun{"bumpy-sphere", "dist_zero.txt", zero, 1e-8, 1e-8},
+        TheirRun{"shark-cupcake", "dist_default.txt", zero, 1e-8, 1e-8},
+        TheirRun{"vase-nested-curves", "dist_default.txt", zero, 1e-8, 1e-8},
+        TheirRun{"mobius", "dist_default.txt", zero, 1e-2, 1e-3},
+        TheirRun{"duck", "dist_multiple.txt", levels, 1e-8, 1e-8},
+        TheirRun{"bumpy-sphere", "dist_multiple.txt", levels, 1e-8, 1e-8},
+        TheirRun{"shark-cupcake", "dist_multiple.txt", levels, 1e-8, 1e-8},
+        TheirRun{"vase-nested-curves", "dist_multiple.txt", levels, 1e-8, 1e-8},
+        TheirRun{"bumpy-sphere", "dist_default_soft100.txt", zero, 5e-3, 5e-4, 100},
+        TheirRun{"bumpy-sphere", "dist_default_preserve.txt", zero, 3e-2, 5e-3, 0, true},
+        TheirRun{"fish-unsigned-curve", "dist_none.txt", none, 0.1, 3e-2},
+        TheirRun{"fish-unsigned-curve", "dist_default.txt", zero, 0.1, 3e-2},
+        TheirRun{"block-points", "dist_none.txt", none, 1e-8, 1e-8, 0, false, true},
+        TheirRun{"block-points", "dist_default.txt", zero, 1e-8, 1e-8, 0, false, true}));
 
 }  // namespace
 }  // namespace littoral

@@ -14,8 +14,6 @@
 namespace littoral {
 namespace {
 
-using test::random_points;
-
 TEST(WindingNumber, ExactSumsAgreeWithBruteForceAlsoOnBrokenSurfaces) {
   PolygonSoup soup = test::octasphere_soup(3);
   soup.face_offsets.resize(soup.face_offsets.size() - 100);  // a hole
@@ -23,7 +21,7 @@ TEST(WindingNumber, ExactSumsAgreeWithBruteForceAlsoOnBrokenSurfaces) {
   std::swap(soup.corners[0], soup.corners[1]);  // a flipped face
   const MatX3i faces = triangles_of(soup);
   const WindingNumber winding(soup.points, faces);
-  const MatX3 queries = random_points(200, 1.3);
+  const MatX3 queries = test::random_points(200, 1.3);
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const Vec3 q = queries.row(i);
     EXPECT_NEAR(winding(q, std::numeric_limits<double>::infinity()),
@@ -37,7 +35,7 @@ TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
   for (Eigen::Index f = 0; f < faces.rows(); f += 7) std::swap(faces(f, 0), faces(f, 1));
   const WindingNumber winding(soup.points, faces);
   EXPECT_FALSE(winding.exact());
-  const MatX3 queries = random_points(150, 1.6);
+  const MatX3 queries = test::random_points(150, 1.6);
   double worst = 0;
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const Vec3 q = queries.row(i);

@@ -20,9 +20,9 @@ struct Soup {
   MatX3i faces{0, 3};
 };
 
-enum class Kind { generic, needles, collinear, coincident, repeated, lattice };
+enum class Arrangement { generic, needles, collinear, coincident, repeated, lattice };
 
-Soup random_soup(std::mt19937& random, Kind kind, int n) {
+Soup random_soup(std::mt19937& random, Arrangement kind, int n) {
   std::uniform_real_distribution<double> u(-1, 1);
   Soup soup;
   soup.points.resize(3 * n, 3);
@@ -31,16 +31,18 @@ Soup random_soup(std::mt19937& random, Kind kind, int n) {
     const Vec3 a(u(random), u(random), u(random));
     Vec3 b = a + 0.2 * Vec3(u(random), u(random), u(random));
     Vec3 c = a + 0.2 * Vec3(u(random), u(random), u(random));
-    if (kind == Kind::needles) c = 0.5 * (a + b) + std::pow(10.0, -8 - 8 * u(random)) * (c - a);
-    if (kind == Kind::collinear) c = a + u(random) * (b - a);
-    if (kind == Kind::coincident) b = c = a;
+    if (kind == Arrangement::needles)
+      c = 0.5 * (a + b) + std::pow(10.0, -8 - 8 * u(random)) * (c - a);
+    if (kind == Arrangement::collinear) c = a + u(random) * (b - a);
+    if (kind == Arrangement::coincident) b = c = a;
     soup.points.row(3 * f) = a;
     soup.points.row(3 * f + 1) = b;
     soup.points.row(3 * f + 2) = c;
     soup.faces.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
-    if (kind == Kind::repeated) soup.faces(f, 1) = soup.faces(f, f % 2 ? 0 : 2);
+    if (kind == Arrangement::repeated) soup.faces(f, 1) = soup.faces(f, f % 2 ? 0 : 2);
   }
-  if (kind == Kind::lattice) soup.points = (soup.points * 4).array().round() / 4;  // many ties
+  if (kind == Arrangement::lattice)
+    soup.points = (soup.points * 4).array().round() / 4;  // many ties
   return soup;
 }
 
@@ -75,15 +77,15 @@ NearestPoint one_by_one(const Soup& soup, const Vec3& query) {
 TEST(SpatialBvh, AgreesWithBruteForceOnSoups) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(-1.5, 1.5);
-  for (Kind kind : {Kind::generic, Kind::needles, Kind::collinear, Kind::coincident, Kind::repeated,
-                    Kind::lattice}) {
+  for (Arrangement kind : {Arrangement::generic, Arrangement::needles, Arrangement::collinear,
+                           Arrangement::coincident, Arrangement::repeated, Arrangement::lattice}) {
     for (int n : {1, 2, 5, 60, 700}) {
       const Soup soup = random_soup(random, kind, n);
       const TriangleBvh bvh(soup.points, soup.faces);
       for (int i = 0; i < 60; ++i) {
         Vec3 query(u(random), u(random), u(random));
         if (i % 3 == 1) query = soup.points.row(static_cast<int>(random() % soup.points.rows()));
-        if (i % 3 == 2 && kind == Kind::lattice) query = (query * 4).array().round() / 4;
+        if (i % 3 == 2 && kind == Arrangement::lattice) query = (query * 4).array().round() / 4;
         const NearestPoint hit = bvh.closest_point(query);
         expect_consistent(soup, hit, query);
         const NearestPoint oracle = closest_point_brute_force(soup.points, soup.faces, query);
@@ -96,7 +98,7 @@ TEST(SpatialBvh, AgreesWithBruteForceOnSoups) {
 TEST(SpatialBvh, PruningNeverChangesTheWinner) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> u(-1.5, 1.5);
-  for (Kind kind : {Kind::generic, Kind::lattice, Kind::coincident}) {
+  for (Arrangement kind : {Arrangement::generic, Arrangement::lattice, Arrangement::coincident}) {
     const Soup soup = random_soup(random, kind, 150);
     const TriangleBvh bvh(soup.points, soup.faces);
     for (int i = 0; i < 80; ++i) {
@@ -117,7 +119,7 @@ TEST(SpatialBvh, PruningNeverChangesTheWinner) {
 TEST(SpatialBvh, PropertyDistanceMatchesOracleAtAnyScaleAndOffset) {
   EXPECT_TRUE(rc::check([] {
     std::mt19937 random(*rc::gen::arbitrary<unsigned>());
-    const Kind kind = static_cast<Kind>(*rc::gen::inRange(0, 6));
+    const Arrangement kind = static_cast<Arrangement>(*rc::gen::inRange(0, 6));
     Soup soup = random_soup(random, kind, *rc::gen::inRange(1, 40));
     const double scale = std::pow(10.0, *rc::gen::inRange(-30, 31));
     const double offset = *rc::gen::element(0.0, 1e7);

@@ -11,6 +11,7 @@
 
 #include "api/space/traced_scene.h"
 #include "base/parallel.h"
+#include "constants.h"
 #include "field_helpers.h"
 #include "io/render/picture.h"
 #include "littoral/error.h"
@@ -18,7 +19,7 @@
 namespace littoral {
 namespace {
 
-const double pi = std::acos(-1.0);
+using test::pi;
 
 using test::Formula;
 

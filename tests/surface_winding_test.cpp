@@ -24,11 +24,6 @@ Curve curve_of(std::vector<int> vertices) {
   return curve;
 }
 
-WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources,
-                      const SurfaceWinding& method = {}) {
-  return test::surface_winding(mesh, sources, method);
-}
-
 constexpr int nu = 24, nv = 16;
 
 /// Loops round the tube of a torus at station i, or along it at j.
@@ -71,7 +66,7 @@ TEST(WindingSolver, AClosedCurveOnASphereGivesExactIntegers) {
       for (int g : mesh.edge_faces(mesh.side_edge(f, k)))
         if (!inside[g])
           sources.curves.push_back(curve_of({mesh.face(f)[k], mesh.face(f)[(k + 1) % 3]}));
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     ASSERT_EQ(answer.region[f], inside[f]);
     for (int k = 0; k < 3; ++k) ASSERT_NEAR(answer.numbers.w.u(f, k), inside[f], 1e-10);
@@ -79,18 +74,18 @@ TEST(WindingSolver, AClosedCurveOnASphereGivesExactIntegers) {
   EXPECT_TRUE(answer.nonbounding.empty());
   EXPECT_EQ(answer.numbers.completed, answer.numbers.curve);
   // The other way round it is -1 inside; twice along, 2.
-  const WindingAnswer reversed = winding(mesh, sources.reversed());
+  const WindingAnswer reversed = test::surface_winding(mesh, sources.reversed());
   EXPECT_EQ(reversed.region, -answer.region);
   Sources twice = sources;
   twice.curves.insert(twice.curves.end(), sources.curves.begin(), sources.curves.end());
-  EXPECT_EQ(winding(mesh, twice).region, 2 * answer.region);
+  EXPECT_EQ(test::surface_winding(mesh, twice).region, 2 * answer.region);
 }
 
 TEST(WindingSolver, ALoopThatBoundsNothingIsFound) {
   const SurfaceMesh mesh(test::torus_soup(nu, nv));
   Sources sources;
   sources.curves = {curve_of(meridian(3)), curve_of(disk(8, 12, 2, 6))};
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     ASSERT_EQ(answer.region[f], in_quads(f, 8, 12, 2, 6)) << "face " << f;
     for (int k = 0; k < 3; ++k) ASSERT_NEAR(answer.numbers.w.u(f, k), answer.region[f], 1e-8);
@@ -99,7 +94,8 @@ TEST(WindingSolver, ALoopThatBoundsNothingIsFound) {
   EXPECT_EQ(answer.nonbounding[0].rows(), nv + 1);
   EXPECT_LT(std::abs(answer.numbers.gap), 1e-6);
   // Rounding without decomposition puts regions elsewhere.
-  const WindingAnswer naive = winding(mesh, sources, {.keep_nonbounding = true});
+  const WindingAnswer naive =
+      test::surface_winding(mesh, sources, SurfaceWinding{.keep_nonbounding = true});
   EXPECT_NE(naive.region, answer.region);
 }
 
@@ -109,7 +105,7 @@ TEST(WindingSolver, TwoLoopsThatBoundTogetherAreKept) {
   std::vector<int> back = meridian(9);
   std::reverse(back.begin(), back.end());
   sources.curves = {curve_of(meridian(3)), curve_of(back)};
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   EXPECT_TRUE(answer.nonbounding.empty());
   // Between the loops or outside of them: the larger part is 0.
   const int sign = answer.region[2 * nv * 5];
@@ -126,14 +122,15 @@ TEST(WindingSolver, AGapChangesNoLabel) {
   tube.erase(tube.end() - 3, tube.end());
   Sources sources;
   sources.curves = {curve_of(loop), curve_of(tube)};
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   double wrong = 0;
   for (int f = 0; f < mesh.n_faces(); ++f)
     wrong += answer.region[f] != static_cast<int>(in_quads(f, 6, 14, 2, 10));
   EXPECT_LT(wrong / mesh.n_faces(), 0.02);
   // The broken loop round the tube bounds nothing, and most of the curve knows.
   ASSERT_EQ(answer.nonbounding.size(), 1u);
-  const WindingAnswer cut = winding(mesh, sources, {.labels = Labels::cut});
+  const WindingAnswer cut =
+      test::surface_winding(mesh, sources, SurfaceWinding{.labels = Labels::cut});
   wrong = 0;
   for (int f = 0; f < mesh.n_faces(); ++f)
     wrong += cut.region[f] != static_cast<int>(in_quads(f, 6, 14, 2, 10));
@@ -146,7 +143,7 @@ TEST(WindingSolver, DependsNeitherOnNumberingNorScaleNorPlace) {
   loop.pop_back();
   Sources sources;
   sources.curves = {curve_of(loop), curve_of(tube)};
-  const WindingAnswer before = winding(SurfaceMesh(soup), sources);
+  const WindingAnswer before = test::surface_winding(SurfaceMesh(soup), sources);
   std::mt19937 random(5);
   std::vector<int> vertex(soup.n_vertices()), face(soup.n_faces());
   std::iota(vertex.begin(), vertex.end(), 0);
@@ -163,7 +160,7 @@ TEST(WindingSolver, DependsNeitherOnNumberingNorScaleNorPlace) {
   }
   for (Curve& curve : sources.curves)
     for (SurfacePoint& node : curve.nodes) node.element = vertex[node.element];
-  const WindingAnswer after = winding(SurfaceMesh(other), sources);
+  const WindingAnswer after = test::surface_winding(SurfaceMesh(other), sources);
   for (int f = 0; f < soup.n_faces(); ++f) EXPECT_EQ(after.region[f], before.region[face[f]]);
 }
 
@@ -192,8 +189,8 @@ TEST(WindingSolver, RefinementChangesNoRegion) {
     if (broken) loop.resize(loop.size() - 3), tube.resize(tube.size() - 2);
     Sources coarse_sources, fine_sources;
     coarse_sources.curves = fine_sources.curves = {curve_of(loop), curve_of(tube)};
-    const VecXi coarse = winding(mesh, coarse_sources).region;
-    const VecXi refined = winding(fine, fine_sources).region;
+    const VecXi coarse = test::surface_winding(mesh, coarse_sources).region;
+    const VecXi refined = test::surface_winding(fine, fine_sources).region;
     int differ = 0;
     for (int f = 0; f < fine.n_faces(); ++f) differ += refined[f] != coarse[f / 4];
     EXPECT_LE(differ, broken ? 0.01 * fine.n_faces() : 0);
@@ -209,7 +206,7 @@ TEST(WindingSolver, CurvesThroughFacesCutTheMeshAndMapBack) {
     ring.row(i) << 0.5 + 0.3 * std::cos(a), 0.5 + 0.3 * std::sin(a), 0;
   }
   sources.space_curves.push_back({ring, true, "ring"});
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   const SurfaceMesh& cut = answer.cut.mesh;
   EXPECT_GT(cut.n_faces(), mesh.n_faces());
   double area = 0, inside = 0;
@@ -307,14 +304,14 @@ TEST(WindingSolver, RefusesWhatHasNoSides) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
   Sources sources;
   sources.points.push_back(SurfacePoint::at_vertex(3));
-  EXPECT_THROW(winding(mesh, sources), InputError);
+  EXPECT_THROW(test::surface_winding(mesh, sources), InputError);
   PolygonSoup book = test::grid_soup(1, 1);
   book.points.conservativeResize(5, 3);
   book.points.row(4) << 0.5, 0.5, 1;
   test::add_triangle(book, 0, 3, 4);  // three faces at the diagonal
   Sources line;
   line.curves = {curve_of({0, 3})};  // along the edge of three faces
-  EXPECT_THROW(winding(SurfaceMesh(book), line), UnsupportedError);
+  EXPECT_THROW(test::surface_winding(SurfaceMesh(book), line), UnsupportedError);
 }
 
 double wrong_share(const std::string& mesh_name, const std::string& curve,
@@ -323,7 +320,7 @@ double wrong_share(const std::string& mesh_name, const std::string& curve,
   const SurfaceMesh mesh(io::read_surface(folder / (mesh_name + ".obj")));
   Report report;
   const Sources sources = io::read_sources(folder / curve, mesh, {}, report);
-  const WindingAnswer answer = winding(mesh, sources);
+  const WindingAnswer answer = test::surface_winding(mesh, sources);
   std::ifstream in(folder / truth);
   double wrong = 0, total = 0;
   // Up to one integer, as which part is outside is a convention.
@@ -362,10 +359,11 @@ TEST(SurfaceWindingData, ALoopThatBoundsNothingBesideADisk) {
   Sources disk, meridian;
   meridian.curves = {curves.curves[0]};
   disk.curves = {curves.curves[1]};
-  const WindingAnswer both = winding(mesh, curves), alone = winding(mesh, disk);
+  const WindingAnswer both = test::surface_winding(mesh, curves),
+                      alone = test::surface_winding(mesh, disk);
   EXPECT_EQ(both.region, alone.region);
   EXPECT_EQ((both.region.array() == 1).count(), 60);
-  EXPECT_EQ(winding(mesh, meridian).region, VecXi::Zero(mesh.n_faces()));
+  EXPECT_EQ(test::surface_winding(mesh, meridian).region, VecXi::Zero(mesh.n_faces()));
 }
 
 TEST(SurfaceWindingData, LabelsOfBrokenCurvesAreNearlySo) {

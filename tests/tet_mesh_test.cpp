@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "constants.h"
 #include "domain/tet/tet_locator.h"
 #include "io/tet/tets.h"
 #include "one_call.h"
@@ -18,9 +19,10 @@
 namespace littoral {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
-VecX distance(const TetMesh& mesh, const TetSources& sources, const OptionValues& options = {}) {
+VecX tet_distance(const TetMesh& mesh, const TetSources& sources,
+                  const OptionValues& options = {}) {
   Report report;
   return test::tet_mesh_distance(mesh, sources, AnyMethod::named("signed-heat", options), report);
 }
@@ -66,7 +68,7 @@ TEST(TetLocator, TheBoundaryOfACubeFacesOutward) {
 TEST(TetMeshDistance, IsExactFromAPlaneOfFaces) {
   const int n = 6;
   TetMesh mesh = test::tet_box(n);
-  const VecX phi = distance(mesh, {test::square_at(0.5, n), {}});
+  const VecX phi = tet_distance(mesh, {test::square_at(0.5, n), {}});
   EXPECT_LT((phi - (mesh.points.col(0).array() - 0.5).matrix()).cwiseAbs().maxCoeff(), 1e-3);
 }
 
@@ -80,7 +82,8 @@ TEST(TetMeshDistance, IsExactFromAPlaneBetweenFaces) {
     if (p.minCoeff() > 0 && p.maxCoeff() < 1)
       for (double& x : p) x += u(random);
   for (const char* constraint : {"none", "zero-set", "soft"}) {
-    const VecX phi = distance(mesh, {test::square_at(0.43, 9), {}}, {{"constraint", constraint}});
+    const VecX phi =
+        tet_distance(mesh, {test::square_at(0.43, 9), {}}, {{"constraint", constraint}});
     EXPECT_LT((phi - (mesh.points.col(0).array() - 0.43).matrix()).cwiseAbs().maxCoeff(), 2e-3)
         << constraint;
   }
@@ -117,7 +120,7 @@ TEST(TetMeshDistance, IsZeroAtTheVerticesOfFacesThatAreSources) {
     for (int v : face) low = low && side.points(v, 1) <= 0.5;
     if (low) corner.add_face(other);
   }
-  const VecX phi = distance(mesh, {corner, {}});
+  const VecX phi = tet_distance(mesh, {corner, {}});
   for (int v : used) EXPECT_NEAR(phi[v], 0, 0.01 / n);
   EXPECT_LT(phi[0], -0.2);
   EXPECT_GT(phi[mesh.n_vertices() - 1], 0.3);
@@ -128,7 +131,7 @@ TEST(TetMeshDistance, FromAVertexGrowsByOne) {
   for (const int n : {8, 16}) {
     const TetMesh mesh = test::tet_box(n);
     const int middle = n / 2 * (1 + (n + 1) * (1 + (n + 1)));
-    const VecX phi = distance(mesh, {{}, {middle}});
+    const VecX phi = tet_distance(mesh, {{}, {middle}});
     const VecX exact = (mesh.points.rowwise() - mesh.points.row(middle)).rowwise().norm();
     const double error = (phi - exact).cwiseAbs().mean() / exact.maxCoeff();
     EXPECT_LT(error, 0.05);
@@ -169,13 +172,13 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
   const TetMesh mesh = test::tet_box(n);
   PolygonSoup ball = test::octasphere_soup(2);
   ball.points = (0.3 * ball.points).rowwise() + Eigen::RowVector3d(0.5, 0.45, 0.55);
-  const VecX phi = distance(mesh, {ball, {}});
+  const VecX phi = tet_distance(mesh, {ball, {}});
 
   TetMesh moved = mesh;
   PolygonSoup moved_ball = ball;
   for (MatX3* points : {&moved.points, &moved_ball.points})
     *points = (1024 * *points).rowwise() + Eigen::RowVector3d(4096, -2048, 0);
-  EXPECT_LT((distance(moved, {moved_ball, {}}) / 1024 - phi).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((tet_distance(moved, {moved_ball, {}}) / 1024 - phi).cwiseAbs().maxCoeff(), 1e-5);
 
   TetMesh mixed = mesh;
   std::mt19937 random(5);
@@ -189,13 +192,13 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
       mixed.tets(t, k) = order[static_cast<std::size_t>(mesh.tets(mesh.n_tets() - 1 - t, k))];
     if (t % 2) std::swap(mixed.tets(t, 1), mixed.tets(t, 2));
   }
-  const VecX psi = distance(mixed, {ball, {}});
+  const VecX psi = tet_distance(mixed, {ball, {}});
   for (int v = 0; v < mesh.n_vertices(); ++v)
     EXPECT_NEAR(psi[order[static_cast<std::size_t>(v)]], phi[v], 2e-3);
 
   TetSources inward{ball, {}};
   inward.flip = true;
-  const VecX flipped = distance(mesh, inward);
+  const VecX flipped = tet_distance(mesh, inward);
   EXPECT_LT((flipped + phi).cwiseAbs().maxCoeff(), 1e-3);
 }
 
@@ -205,11 +208,11 @@ TEST(TetMeshDistance, SaysWhatIsWrong) {
   PolygonSoup far = square;
   far.points.array() += 5;
   EXPECT_THAT(test::message_of([&] {
-                distance(mesh, {far, {}});
+                tet_distance(mesh, {far, {}});
               }),
               testing::HasSubstr("no source lies within the tets"));
   EXPECT_THAT(test::message_of([&] {
-                distance(mesh, {square, {1}});
+                tet_distance(mesh, {square, {1}});
               }),
               testing::HasSubstr("not both"));
   EXPECT_THAT(test::message_of([&] {
@@ -220,13 +223,13 @@ TEST(TetMeshDistance, SaysWhatIsWrong) {
   TetMesh flat = mesh;
   flat.points.col(2).setZero();
   EXPECT_THAT(test::message_of([&] {
-                distance(flat, {square, {}});
+                tet_distance(flat, {square, {}});
               }),
               testing::HasSubstr("no volume"));
   TetMesh broken = mesh;
   broken.points(13, 1) = std::nan("");
   EXPECT_THAT(test::message_of([&] {
-                distance(broken, {square, {}});
+                tet_distance(broken, {square, {}});
               }),
               testing::HasSubstr("vertex 13, whose coordinates are not finite"));
 }
@@ -241,7 +244,7 @@ TEST(TetMeshDistanceSlow, OfABallFromItsBoundary) {
     const int corners[3] = {f[0], f[1], f[2]};
     boundary.add_face(corners);
   }
-  const VecX phi = distance(file.mesh, {boundary, {}});
+  const VecX phi = tet_distance(file.mesh, {boundary, {}});
   const double radius = file.mesh.points.maxCoeff() / 2;  // it touches the coordinate planes
   const VecX r = (file.mesh.points.array() - radius).matrix().rowwise().norm();
   VecX error = VecX::Zero(r.size());

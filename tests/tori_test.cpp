@@ -11,13 +11,14 @@
 
 #include "api/space/tori_cloud.h"
 #include "base/parallel.h"
+#include "constants.h"
 #include "littoral/error.h"
 #include "torus_helpers.h"
 
 namespace littoral {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::pi;
 
 /// Distance to a torus around the z axis, outside positive (eq. 5.3).
 double torus_exact(const Vec3& x, double R, double r) {
@@ -43,7 +44,7 @@ MatX3 sphere_points(int n) {
   return points;
 }
 
-ToriDistance fitted(const OrientedPoints& cloud, const TorusFit& fit = {}) {
+ToriDistance tori_fitted(const OrientedPoints& cloud, const TorusFit& fit = {}) {
   Report report;
   return ToriDistance(cloud, fit, {}, report);
 }
@@ -93,7 +94,7 @@ TEST(Tori, FitIsExactOnPlanes) {
     cloud.points.row(i) = a * s + b * t + 0.25 * n;
     cloud.normals.row(i) = n;
   }
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   for (double height : {-0.4, 0.0, 0.02, 0.3}) {
     const Vec3 x = 0.1 * s - 0.2 * t + (0.25 + height) * n;
     const auto [phi, gradient] = tori.at(x);
@@ -110,7 +111,7 @@ TEST(Tori, FitIsExactOnSpheres) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   for (const Torus& torus : tori.tori()) {
     EXPECT_NEAR(torus.k1, -1, 2e-3);  // the ridge pulls curvatures a little towards 0
     EXPECT_NEAR(torus.k2, -1, 2e-3);
@@ -122,7 +123,7 @@ TEST(Tori, FitIsExactOnSpheres) {
 /// Mean error over queries near a torus of radii 1 and 0.4, sampled by n points at random.
 double mean_error_on_torus(int n) {
   std::mt19937 random(11);
-  const ToriDistance tori = fitted(test::torus_cloud(n, random));
+  const ToriDistance tori = tori_fitted(test::torus_cloud(n, random));
   double error = 0;
   const auto at = queries(2000, 12);
   for (const Vec3& x : at) error += std::abs(tori.value(x) - torus_exact(x, 1, test::tube));
@@ -140,7 +141,7 @@ TEST(Tori, GradientIsTheDerivative) {
   cloud.points = sphere_points(200);
   cloud.normals = cloud.points;
   for (int i = 0; i < 200; ++i) cloud.points.row(i) *= 1 + 0.2 * cloud.points(i, 0);
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   int compared = 0;
   for (const Vec3& x : queries(100, 13)) {
     const auto [value, gradient] = tori.at(x);
@@ -187,7 +188,7 @@ TEST(Tori, SidesAreRightFarBehindAcuteEdges) {
     wedge.points.row(static_cast<Eigen::Index>(i)) = points[i];
     wedge.normals.row(static_cast<Eigen::Index>(i)) = normals[i];
   }
-  const ToriDistance tori = fitted(wedge);
+  const ToriDistance tori = tori_fitted(wedge);
   int wrong = 0, far = 0;
   for (const Vec3& q : queries(4000, 17)) {
     const Vec3 x = q + Vec3(0, 0, 0.5);
@@ -212,7 +213,7 @@ TEST(Tori, FlippedPatchesDoNotReachFar) {
       ++flipped;
     }
   ASSERT_GT(flipped, 20);  // more than have a say at a place
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   for (const double x : {1.4, 2.0, 5.0}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
   for (const double x : {0.6, 0.2}) EXPECT_NEAR(tori.value(Vec3(x, 0, 0)), x - 1, 0.02);
 }
@@ -225,9 +226,9 @@ TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {
   const auto q = queries(3000, 14);
   for (int i = 0; i < 3000; ++i) at.row(i) = q[static_cast<std::size_t>(i)];
   set_thread_count(1);
-  const VecX one = evaluate(fitted(cloud), at, nullptr, {});
+  const VecX one = evaluate(tori_fitted(cloud), at, nullptr, {});
   set_thread_count(3);
-  const VecX three = evaluate(fitted(cloud), at, nullptr, {});
+  const VecX three = evaluate(tori_fitted(cloud), at, nullptr, {});
   set_thread_count(0);
   EXPECT_TRUE((one.array() == three.array()).all());
 }
@@ -236,17 +237,17 @@ TEST(Tori, ScaleAndMotionDoNotMatter) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   for (double scale : {1e-3, 1e3}) {
     OrientedPoints other = cloud;
     other.points *= scale;
-    const ToriDistance scaled = fitted(other);
+    const ToriDistance scaled = tori_fitted(other);
     for (const Vec3& x : queries(50, 15))
       EXPECT_NEAR(scaled.value(scale * x) / scale, tori.value(x), 1e-9);
   }
   OrientedPoints flipped = cloud;
   flipped.normals *= -1;
-  const ToriDistance inward = fitted(flipped);
+  const ToriDistance inward = tori_fitted(flipped);
   for (const Vec3& x : queries(50, 16)) EXPECT_NEAR(inward.value(x), -tori.value(x), 1e-9);
 }
 
@@ -254,7 +255,7 @@ TEST(Tori, CloudsOfToriGiveThemBack) {
   OrientedPoints cloud;
   cloud.points = sphere_points(300);
   cloud.normals = cloud.points;
-  const ToriDistance tori = fitted(cloud);
+  const ToriDistance tori = tori_fitted(cloud);
   PolygonSoup file = cloud_of_tori(tori.points(), tori.tori());
   ASSERT_TRUE(has_tori(file));
   const ToriDistance again(file.points, tori_of_cloud(file));
@@ -271,7 +272,7 @@ TEST(Tori, FewDegenerateAndCoincidentPoints) {
   one.points << 1, 2, 3;
   one.normals.resize(1, 3);
   one.normals << 0, 0, 5;  // of any length
-  EXPECT_NEAR(fitted(one).value(Vec3(1.2, 2, 3.5)), 0.5, 1e-12);
+  EXPECT_NEAR(tori_fitted(one).value(Vec3(1.2, 2, 3.5)), 0.5, 1e-12);
 
   OrientedPoints line;  // collinear points with one normal lie on a plane
   line.points.resize(20, 3);
@@ -280,7 +281,7 @@ TEST(Tori, FewDegenerateAndCoincidentPoints) {
     line.points.row(i) << 0.1 * i, 0, 0;
     line.normals.row(i) << 0, 0, 1;
   }
-  EXPECT_NEAR(fitted(line).value(Vec3(0.93, 0.01, 0.05)), 0.05, 1e-6);
+  EXPECT_NEAR(tori_fitted(line).value(Vec3(0.93, 0.01, 0.05)), 0.05, 1e-6);
 
   OrientedPoints many;
   many.points = MatX3::Constant(10000, 3, 2.0);
@@ -296,7 +297,7 @@ TEST(Tori, FewDegenerateAndCoincidentPoints) {
 
 std::string message_for(const OrientedPoints& cloud) {
   try {
-    fitted(cloud);
+    tori_fitted(cloud);
   } catch (const InputError& error) {
     return error.what();
   }

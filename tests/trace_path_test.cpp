@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "constants.h"
 #include "littoral/error.h"
 #include "sources/trace.h"
 #include "test_meshes.h"
@@ -11,9 +12,9 @@
 namespace littoral {
 namespace {
 
-const double pi = std::acos(-1.0);
+using test::pi;
 
-double length(const SurfaceMesh& mesh, const std::vector<SurfacePoint>& path) {
+double path_length(const SurfaceMesh& mesh, const std::vector<SurfacePoint>& path) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
     sum += (mesh.position(path[i + 1]) - mesh.position(path[i])).stableNorm();
@@ -61,7 +62,7 @@ TEST(TracePath, StraightOnThePlane) {
       const auto path = tracer.trace(a, b);
       expect_path(mesh, path, a, b);
       const double straight = (mesh.position(a) - mesh.position(b)).norm();
-      EXPECT_LE(length(mesh, path), straight * (1 + 1e-6) + 1e-12);
+      EXPECT_LE(path_length(mesh, path), straight * (1 + 1e-6) + 1e-12);
     }
   }
 }
@@ -76,11 +77,12 @@ TEST(TracePath, GeodesicOnTheSphere) {
     expect_path(mesh, path, a, b);
     const double arc = std::acos(
         std::clamp(mesh.position(a).normalized().dot(mesh.position(b).normalized()), -1.0, 1.0));
-    EXPECT_LE(length(mesh, path), arc * 1.01 + 1e-9);
-    EXPECT_GE(length(mesh, path), arc * 0.99 - 1e-9);
+    EXPECT_LE(path_length(mesh, path), arc * 1.01 + 1e-9);
+    EXPECT_GE(path_length(mesh, path), arc * 0.99 - 1e-9);
   }
-  EXPECT_NEAR(length(mesh, tracer.trace(SurfacePoint::at_vertex(4), SurfacePoint::at_vertex(5))),
-              pi, 0.01 * pi);
+  EXPECT_NEAR(
+      path_length(mesh, tracer.trace(SurfacePoint::at_vertex(4), SurfacePoint::at_vertex(5))), pi,
+      0.01 * pi);
 }
 
 /// Six sides of [0,1]^3, n x n cells each, vertices shared.
@@ -124,7 +126,7 @@ TEST(TracePath, OppositeCornersOfTheCube) {
     const auto a = SurfacePoint::at_vertex(low), b = SurfacePoint::at_vertex(high);
     const auto path = trace(mesh, a, b);
     expect_path(mesh, path, a, b);
-    EXPECT_NEAR(length(mesh, path), std::sqrt(5.0), 1e-9);
+    EXPECT_NEAR(path_length(mesh, path), std::sqrt(5.0), 1e-9);
   }
 }
 
@@ -155,7 +157,7 @@ TEST(TracePath, BookOfPagesCrossesTheSpine) {
     const auto b = SurfacePoint::at_vertex(vertex(page, 6, 11));
     const auto path = trace(mesh, a, b);
     expect_path(mesh, path, a, b);
-    EXPECT_NEAR(length(mesh, path), std::hypot(15.0 / n, 9.0 / n), 1e-9);
+    EXPECT_NEAR(path_length(mesh, path), std::hypot(15.0 / n, 9.0 / n), 1e-9);
   }
 }
 
@@ -173,12 +175,12 @@ TEST(TracePath, AroundACorner) {
   const SurfaceMesh mesh{std::move(soup)};
   const auto a = SurfacePoint::at_vertex(n), b = SurfacePoint::at_vertex(n * (n + 1));
   const auto diagonal = trace(mesh, a, b);
-  EXPECT_NEAR(length(mesh, diagonal), std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(path_length(mesh, diagonal), std::sqrt(2.0), 1e-9);
   const auto c = SurfacePoint::at_vertex(n + 9 * (n + 1)),
              d = SurfacePoint::at_vertex(9 + n * (n + 1));
   const auto bent = trace(mesh, c, d);
   expect_path(mesh, bent, c, d);
-  EXPECT_NEAR(length(mesh, bent), std::hypot(0.5, 0.05) * 2, 1e-9);
+  EXPECT_NEAR(path_length(mesh, bent), std::hypot(0.5, 0.05) * 2, 1e-9);
 }
 
 TEST(TracePath, DifferentComponentsAreNamed) {
@@ -239,10 +241,10 @@ TEST(TracePath, PropertyDegenerateMeshes) {
       RC_ASSERT(share_face(mesh, path[i], path[i + 1]));
     RC_ASSERT((mesh.position(path.front()) - mesh.position(a)).isZero(1e-12 * size));
     RC_ASSERT((mesh.position(path.back()) - mesh.position(b)).isZero(1e-12 * size));
-    const double there = length(mesh, path) / size;
+    const double there = path_length(mesh, path) / size;
     RC_ASSERT(std::isfinite(there));
     RC_ASSERT(there < 40);
-    const double back = length(mesh, tracer.trace(b, a)) / size;
+    const double back = path_length(mesh, tracer.trace(b, a)) / size;
     RC_ASSERT(std::abs(there - back) <= 0.35 * (there + back));
   }));
 }

@@ -5,6 +5,11 @@
 
 namespace littoral::test {
 
+/// n^3 nodes on the cube of half width `half` around the origin.
+inline Grid box_grid(int n, double half = 1) {
+  return {{n, n, n}, Vec3::Constant(-half), Vec3::Constant(2 * half / (n - 1))};
+}
+
 template <class F>
 Volume sampled(const Grid& grid, const F& f) {
   Volume field{grid, VecX(static_cast<Eigen::Index>(grid.n_nodes())), "distance"};

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "constants.h"
 #include "io/render/picture.h"
 #include "io/render/scene_style.h"
 #include "littoral/error.h"
@@ -14,7 +15,7 @@
 namespace littoral {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 Volume ball(int n) {
   const Grid grid{{n, n, n}, Vec3::Constant(-1), Vec3::Constant(2.0 / (n - 1))};
@@ -49,7 +50,7 @@ TEST(VolumeScene, LevelsAndSwitches) {
   EXPECT_NEAR(known->level, 0.5 * (known->low + known->high), 1e-12);
   EXPECT_EQ(io::make_volume_scene(volume, {.isosurface = false}).triangles.rows(), 200);
   Volume infinite = volume;
-  infinite.values[0] = inf;
+  infinite.values[0] = infinity;
   EXPECT_EQ(io::make_volume_scene(infinite).triangles.rows(), 200);
   EXPECT_TRUE(io::field_style(io::make_volume_scene(infinite)).infinite);
 }
@@ -68,11 +69,11 @@ TEST(VolumeScene, Refuses) {
   const Volume volume = ball(5);
   EXPECT_THROW(io::make_volume_scene(volume, {.axis = 3}), InputError);
   EXPECT_THROW(io::make_volume_scene(volume, {.position = 1.5}), InputError);
-  EXPECT_THROW(io::make_volume_scene(volume, {.level = inf}), InputError);
+  EXPECT_THROW(io::make_volume_scene(volume, {.level = infinity}), InputError);
   Volume bad = volume;
   bad.values[3] = std::nan("");
   EXPECT_THROW(io::make_volume_scene(bad), InputError);
-  bad.values.setConstant(inf);
+  bad.values.setConstant(infinity);
   EXPECT_THROW(io::make_volume_scene(bad), InputError);
 }
 

@@ -28,14 +28,14 @@ MatX3 corners(const std::filesystem::path& path) {
   return Eigen::Map<const MatX3>(x.data(), static_cast<Eigen::Index>(x.size() / 3), 3);
 }
 
-struct Case {
+struct TheirRegions {
   JumpCalculus J;
   VecX curve;
   std::filesystem::path folder;
 };
 
-Case load(const std::string& name, bool clamp) {
-  Case c;
+TheirRegions load(const std::string& name, bool clamp) {
+  TheirRegions c;
   c.folder = test::shared() / "reference/swn" / name;
   const SurfaceMesh mesh(io::read_surface(c.folder / "mesh.obj"));
   Report report;
@@ -53,7 +53,7 @@ Case load(const std::string& name, bool clamp) {
   return c;
 }
 
-WindingNumbers solve(const Case& c, const SurfaceWinding& options = {}) {
+WindingNumbers solve(const TheirRegions& c, const SurfaceWinding& options = {}) {
   Report report;
   return WindingSolver(std::make_shared<const JumpCalculus>(c.J))
       .solve(c.curve, options, {}, report);
@@ -63,7 +63,7 @@ class WindingReference : public testing::TestWithParam<std::string> {};
 
 TEST_P(WindingReference, JumpHarmonicFunctionsAgree) {
   LITTORAL_NEEDS_SHARED("reference/swn");
-  const Case c = load(GetParam(), true);
+  const TheirRegions c = load(GetParam(), true);
   const WindingNumbers ours = solve(c);
   const MatX3 theirs = corners(c.folder / "u_corner.txt");
   ASSERT_EQ(theirs.rows(), c.J.n_faces);
@@ -80,7 +80,7 @@ TEST_P(WindingReference, JumpHarmonicFunctionsAgree) {
 
 TEST_P(WindingReference, LabelsAgree) {
   LITTORAL_NEEDS_SHARED("reference/swn");
-  const Case c = load(GetParam(), false);
+  const TheirRegions c = load(GetParam(), false);
   const WindingNumbers ours = solve(c);
   const std::vector<double> theirs = numbers(c.folder / "label_face.txt");
   double best = 1;
@@ -107,7 +107,7 @@ TEST(WindingReferences, ResidualsAreNoLonger) {
   LITTORAL_NEEDS_SHARED("reference/swn");
   for (const char* name : {"asymmetric-torus", "double-torus"}) {
     SCOPED_TRACE(name);
-    const Case c = load(name, false);
+    const TheirRegions c = load(name, false);
     const SurfaceWinding options;
     const WindingNumbers ours = solve(c, options);
     // Both as jumps of corner values, measured alike.

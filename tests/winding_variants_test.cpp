@@ -16,11 +16,6 @@
 namespace littoral {
 namespace {
 
-WindingAnswer winding(const SurfaceMesh& mesh, const Sources& sources,
-                      const SurfaceWinding& method = {}) {
-  return test::surface_winding(mesh, sources, method);
-}
-
 Curve through_vertices(const std::vector<int>& vertices) {
   Curve curve;
   for (int v : vertices) curve.nodes.push_back(SurfacePoint::at_vertex(v));
@@ -63,9 +58,12 @@ TEST(FreeBoundary, IsNearTheAngleInThePlane) {
   Sources sources;
   sources.curves = {through_vertices(upward(n - 6, 14, 28))};
   const double s = (n - 6.0) / n, a = 14.0 / n, b = 28.0 / n;
-  const double natural = error_of_angle(mesh, winding(mesh, sources), s, a, b);
+  const double natural = error_of_angle(mesh, test::surface_winding(mesh, sources), s, a, b);
   const double free = error_of_angle(
-      mesh, winding(mesh, sources, {.boundary_condition = BoundaryCondition::free}), s, a, b);
+      mesh,
+      test::surface_winding(mesh, sources,
+                            SurfaceWinding{.boundary_condition = BoundaryCondition::free}),
+      s, a, b);
   EXPECT_GT(natural, 0.04);
   EXPECT_LT(free, 0.25 * natural);
 }
@@ -80,7 +78,8 @@ TEST(FreeBoundary, ChangesNothingForCurvesThatBound) {
   // A loop, and a line from boundary to boundary: it bounds relative to it.
   sources.curves = {through_vertices(loop), through_vertices(upward(30, 0, n))};
   for (const BoundaryCondition boundary : {BoundaryCondition::natural, BoundaryCondition::free}) {
-    const WindingAnswer answer = winding(mesh, sources, {.boundary_condition = boundary});
+    const WindingAnswer answer =
+        test::surface_winding(mesh, sources, SurfaceWinding{.boundary_condition = boundary});
     EXPECT_TRUE(answer.nonbounding.empty());
     for (int f = 0; f < mesh.n_faces(); ++f) {
       const int i = f / 2 % n, j = f / 2 / n;
@@ -108,8 +107,8 @@ TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
   for (const int level : {3, 4, 5}) {
     const SurfaceMesh mesh(test::octasphere_soup(level));
     const Sources sources = latitude(0.37);
-    const WindingAnswer answer =
-        winding(mesh, sources, {.formulation = Formulation::nonconforming});
+    const WindingAnswer answer = test::surface_winding(
+        mesh, sources, SurfaceWinding{.formulation = Formulation::nonconforming});
     EXPECT_EQ(answer.cut.mesh.n_vertices(), mesh.n_vertices());
     ASSERT_EQ(answer.bounding.size(), 1u);
     const double h = std::numbers::pi / 2 / (1 << level);
@@ -124,8 +123,8 @@ TEST(NonconformingWinding, ConvergesAwayFromTheCurve) {
         }
       }
     EXPECT_LT(worst, 0.5 * h) << level;  // first order: gradients on the curve are
-    const WindingAnswer back =
-        winding(mesh, sources.reversed(), {.formulation = Formulation::nonconforming});
+    const WindingAnswer back = test::surface_winding(
+        mesh, sources.reversed(), SurfaceWinding{.formulation = Formulation::nonconforming});
     int differ = 0;  // halfway cases may be rounded either way
     for (int f = 0; f < mesh.n_faces(); ++f) differ += back.region[f] != -answer.region[f];
     EXPECT_LT(differ, 0.01 * mesh.n_faces());
@@ -136,7 +135,8 @@ TEST(NonconformingWinding, AlongEdgesBothSidesGetHalf) {
   const SurfaceMesh mesh(test::grid_soup(n, n, 1));
   Sources sources;
   sources.curves = {through_vertices(upward(25, 0, n))};
-  const WindingAnswer answer = winding(mesh, sources, {.formulation = Formulation::nonconforming});
+  const WindingAnswer answer = test::surface_winding(
+      mesh, sources, SurfaceWinding{.formulation = Formulation::nonconforming});
   for (int f = 0; f < mesh.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) {
       const double x = mesh.point(mesh.face(f)[k]).x(), away = x - 25.0 / n;
@@ -158,13 +158,14 @@ TEST(NonconformingWinding, SaysWhatItCannot) {
                         report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].find("bound nothing"), std::string::npos);
-  EXPECT_THROW(
-      winding(mesh, sources, {.formulation = Formulation::nonconforming, .labels = Labels::cut}),
-      UnsupportedError);
-  EXPECT_THROW(
-      winding(mesh, sources,
-              {.formulation = Formulation::dual, .boundary_condition = BoundaryCondition::free}),
-      UnsupportedError);
+  EXPECT_THROW(test::surface_winding(mesh, sources,
+                                     SurfaceWinding{.formulation = Formulation::nonconforming,
+                                                    .labels = Labels::cut}),
+               UnsupportedError);
+  EXPECT_THROW(test::surface_winding(mesh, sources,
+                                     SurfaceWinding{.formulation = Formulation::dual,
+                                                    .boundary_condition = BoundaryCondition::free}),
+               UnsupportedError);
 }
 
 TEST(ResidualPaths, CloseGapsTheShortWay) {
@@ -206,8 +207,9 @@ TEST(ResidualPaths, FindTheSameNonboundingLoops) {
   for (int i = 14; i > 9; --i) patch.push_back(i * nv + 9);
   Sources sources;
   sources.curves = {through_vertices(tube), through_vertices(patch)};
-  const WindingAnswer whole = winding(mesh, sources);
-  const WindingAnswer reduced = winding(mesh, sources, {.residual = Residual::paths});
+  const WindingAnswer whole = test::surface_winding(mesh, sources);
+  const WindingAnswer reduced =
+      test::surface_winding(mesh, sources, SurfaceWinding{.residual = Residual::paths});
   EXPECT_EQ(reduced.numbers.bounding, whole.numbers.bounding);
   EXPECT_EQ(reduced.region, whole.region);
   EXPECT_GE(reduced.numbers.objective, whole.numbers.objective - 1e-12);

@@ -48,18 +48,18 @@ PolygonSoup with_degenerate_faces() {
   return soup;
 }
 
-struct Mesh {
+struct CheckedMesh {
   const char* name;
   PolygonSoup soup;
   MatX3 face_normals{0, 3};  // of voxels
 };
 
-Mesh on(test::Domain domain, const char* name) {
+CheckedMesh on(test::Domain domain, const char* name) {
   test::Shape shape = test::sphere(domain, 10);
   return {name, shape.soup, shape.face_normals};
 }
 
-Operators operators_of(const Mesh& mesh, Report& report) {
+Operators operators_of(const CheckedMesh& mesh, Report& report) {
   const SurfaceMesh surface(mesh.soup);
   if (mesh.face_normals.rows())
     return nodal_operators(voxel_surface(surface, mesh.face_normals, report));
@@ -69,9 +69,9 @@ Operators operators_of(const Mesh& mesh, Report& report) {
   return triangle_operators(intrinsic_triangulation(surface, report));
 }
 
-std::ostream& operator<<(std::ostream& out, const Mesh& mesh) { return out << mesh.name; }
+std::ostream& operator<<(std::ostream& out, const CheckedMesh& mesh) { return out << mesh.name; }
 
-class HeatOperators : public testing::TestWithParam<Mesh> {
+class HeatOperators : public testing::TestWithParam<CheckedMesh> {
  protected:
   HeatOperators()
       : ops(operators_of(GetParam(), report)), L(ops.scalar.L.selfadjointView<Eigen::Lower>()) {}
@@ -140,13 +140,13 @@ TEST_P(HeatOperators, ConnectionLaplacianIsSymmetricAndSemidefinite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, HeatOperators,
-                         testing::Values(Mesh{"grid", test::grid_soup(7, 5)},
-                                         Mesh{"jittered", test::jittered_grid_soup(8, 8, 0.3)},
-                                         Mesh{"sphere", test::octasphere_soup(3)},
-                                         Mesh{"torus", test::torus_soup(18, 9)},
-                                         Mesh{"flipped", some_flipped(test::torus_soup(18, 9))},
-                                         Mesh{"moebius", moebius_soup(24, 4)},
-                                         Mesh{"degenerate", with_degenerate_faces()},
+                         testing::Values(CheckedMesh{"grid", test::grid_soup(7, 5)},
+                                         CheckedMesh{"jittered", test::jittered_grid_soup(8, 8, 0.3)},
+                                         CheckedMesh{"sphere", test::octasphere_soup(3)},
+                                         CheckedMesh{"torus", test::torus_soup(18, 9)},
+                                         CheckedMesh{"flipped", some_flipped(test::torus_soup(18, 9))},
+                                         CheckedMesh{"moebius", moebius_soup(24, 4)},
+                                         CheckedMesh{"degenerate", with_degenerate_faces()},
                                          on(test::Domain::polygons, "polygons"),
                                          on(test::Domain::points, "points"),
                                          on(test::Domain::voxels, "voxels")));

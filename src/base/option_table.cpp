@@ -28,9 +28,7 @@ std::string OptionInfo::range() const {
     case Kind::choice:
       break;
   }
-  std::string text;
-  for (const auto& word : choices) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  return listed(choices);
 }
 
 namespace {
@@ -75,8 +73,7 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text) {
   throw_bad_value(info, text);
 }
 
-std::string instead_of(const std::string& name, const std::vector<std::string>& known,
-                       const std::string& heading) {
+std::string meant(const std::string& name, const std::vector<std::string>& known) {
   // Levenshtein's distance, row by row.
   const auto edits = [&](const std::string& other) {
     std::vector<std::size_t> row(other.size() + 1);
@@ -91,17 +88,25 @@ std::string instead_of(const std::string& name, const std::vector<std::string>& 
     }
     return row.back();
   };
-  std::string nearest, all;
+  std::string nearest;
   std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const std::string& other : known) {
-    all += (all.empty() ? "" : ", ") + other;
+  for (const std::string& other : known)
     if (const std::size_t n = edits(other); n < fewest) {
       fewest = n;
       nearest = other;
     }
-  }
-  return (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + "; " + heading + ": " +
-         (all.empty() ? "none" : all);
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+std::string instead_of(const std::string& name, const std::vector<std::string>& known,
+                       const std::string& heading) {
+  return meant(name, known) + "; " + heading + ": " + (known.empty() ? "none" : listed(known));
 }
 
 void throw_unknown_option(const std::string& name, const std::vector<OptionInfo>& known) {

@@ -22,8 +22,11 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
 /// Throws InputError unless the number is in [low, high].
 void check_option_range(const OptionInfo& info, double value);
-/// "; did you mean 'time-scale'?" where a known name is but a few letters away, then all of them
-/// behind `heading`.
+/// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.
+std::string meant(const std::string& name, const std::vector<std::string>& known);
+/// "a, b, c".
+std::string listed(const std::vector<std::string>& words);
+/// What was meant, then all known names behind `heading`.
 std::string instead_of(const std::string& name, const std::vector<std::string>& known,
                        const std::string& heading);
 /// The same of what has a name: options, methods.

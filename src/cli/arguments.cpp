@@ -56,13 +56,11 @@ std::vector<std::string> expanded_arguments(int argc, char** argv) {
 
 const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
   std::vector<std::string> names;
-  std::string all;
   for (const CLI::App* verb : verbs_of(program)) {
     if (verb->get_name() == name) return *verb;
     names.push_back(verb->get_name());
-    all += (all.empty() ? "" : ", ") + names.back();
   }
-  throw InputError("there is no verb '" + name + "'" + meant(name, names) + "; verbs: " + all);
+  throw InputError("there is no verb '" + name + "'" + instead_of(name, names, "verbs"));
 }
 
 void check_names(const CLI::App& program, const std::vector<std::string>& arguments) {
@@ -76,12 +74,11 @@ void check_names(const CLI::App& program, const std::vector<std::string>& argume
     std::vector<std::string> known;
     for (const CLI::Option* option : verb.get_options())
       for (const std::string& other : option->get_lnames()) known.push_back("--" + other);
-    std::string elsewhere;
+    std::vector<std::string> elsewhere;
     for (const CLI::App* other : verbs_of(program))
-      if (other->get_option_no_throw(name))
-        elsewhere += (elsewhere.empty() ? "" : ", ") + other->get_name();
+      if (other->get_option_no_throw(name)) elsewhere.push_back(other->get_name());
     throw InputError("littoral " + verb.get_name() + " has no option '" + name + "'" +
-                     (elsewhere.empty() ? meant(name, known) : "; it is one of " + elsewhere));
+                     (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)));
   }
 }
 

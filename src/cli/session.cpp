@@ -119,9 +119,7 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(
       [words](const std::string& word) {
         if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
-        std::string all;
-        for (const std::string& known : words) all += (all.empty() ? "" : ", ") + known;
-        return "'" + word + "' is none of " + all + meant(word, words);
+        return "'" + word + "' is none of " + listed(words) + meant(word, words);
       },
       "");
 }

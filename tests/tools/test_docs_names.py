@@ -57,3 +57,12 @@ def test_messages_that_the_docs_explain_are_those_of_the_program() -> None:
         for piece in re.split(r"\.\.\.|\b(?:FILE|NAME|[A-Z])\b:?(?: %)?|\b64\b", message)
     ]
     assert [piece for piece in pieces if len(piece) > 11 and piece not in known] == []
+
+
+def test_fields_of_reports_that_the_docs_name_exist() -> None:
+    page = (ROOT / "docs/reference/report.md").read_text(encoding="utf-8")
+    known = literals()
+    cells = re.findall(r"^\| (`[^|]+) \|", page.split("## Sizes")[1], re.M)
+    names = [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
+    assert len(names) > 40
+    assert [name for name in names if name.lstrip(". ") not in known] == []

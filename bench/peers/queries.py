@@ -1,10 +1,12 @@
 """Times closest points with the sign of the winding number, and winding numbers, against libigl.
 
 usage: queries.py TIMER MESH[:SUBDIVISIONS]... [--queries 100000] [--rounds 3] [--threads 1]
+                  [--without SHARE]
 
 TIMER is littoral_query_timer; MESH an .obj of triangles. Needs NumPy and PyPI's libigl. Both answer
 the same points, drawn evenly from the box of the mesh and a tenth of it around; they take turns,
-answers are compared first, medians are printed as a table in Markdown. libigl decides how many
+answers are compared first, medians are printed as a table in Markdown. --without leaves out the
+faces in that share of the height, so that the surface has a boundary. libigl decides how many
 threads it uses; run the script under `taskset -c 0` for one.
 """
 
@@ -105,6 +107,8 @@ def exact(v: Numbers, f: Faces, q: Numbers) -> Numbers:
 def table(name: str, given: argparse.Namespace, folder: Path) -> None:
     """Compares and times one mesh."""
     v, f = read(name)
+    height = (v[f[:, 0], 1] - v[:, 1].min()) / np.ptp(v[:, 1])
+    f = f[height <= 1 - given.without]
     rows = ["v " + " ".join(repr(float(x)) for x in p) for p in v]
     rows += ["f " + " ".join(str(i + 1) for i in t) for t in f]
     (folder / "m.obj").write_text("\n".join(rows) + "\n")
@@ -159,6 +163,7 @@ def main() -> None:
     parser.add_argument("--queries", type=int, default=100000)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--without", type=float, default=0)
     given = parser.parse_args()
     load = os.getloadavg()[0]
     print(f"{os.cpu_count()} cores, load {load:.1f}, {given.threads} threads of ours")

@@ -118,6 +118,17 @@ TEST(CrossingNumber, BesideFacesAtAnyPlaceAndScale) {
     }
 }
 
+// Triangles with one centre: their size is that of their corners.
+TEST(CrossingNumber, OfOneTriangleOfAnySize) {
+  for (const double scale : {1e-150, 1.0, 1e150}) {
+    MatX3 points(3, 3);
+    points << 1, 0, 0, 0, 1, 0, 0, 0, 1;  // an eighth of the sphere around the origin
+    points *= scale;
+    const MatX3i face = Eigen::RowVector3i(0, 1, 2);
+    EXPECT_NEAR(WindingNumber(points, face)(Vec3::Zero()), 0.125, 1e-14) << scale;
+  }
+}
+
 TEST(CrossingNumber, ALongBoundaryIsSummedOverClusters) {
   PolygonSoup sphere = test::octasphere_soup(5);
   MatX3i faces = triangles_of(sphere);

@@ -74,9 +74,9 @@ void add(Moments& m, const Vec3& centre, const Vec3& a, const Triangle* triangle
 
 }  // namespace
 
-void WindingNumber::set_frame(const MatX3& centres) {
-  if (centres.rows() == 0) return;
-  const Vec3 low = centres.colwise().minCoeff(), high = centres.colwise().maxCoeff();
+void WindingNumber::set_frame(const MatX3& points) {
+  if (points.rows() == 0) return;
+  const Vec3 low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
   origin_ = low + (high - low) / 2;
   const double longest = (high - low).maxCoeff();
   if (longest > 0 && std::isfinite(longest)) unit_ = std::exp2(std::ceil(std::log2(longest)));
@@ -93,12 +93,13 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
     }
     if (finite) triangles.push_back(t);
   }
-  MatX3 centres(triangles.size(), 3);
+  MatX3 centres(triangles.size(), 3), corners(3 * triangles.size(), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [a, b, c] = triangles[i];
     centres.row(i) = a / 3 + b / 3 + c / 3;
+    corners.middleRows(3 * i, 3) << a.transpose(), b.transpose(), c.transpose();
   }
-  set_frame(centres);
+  set_frame(corners);
   Items items;
   items.tree = cluster(centres, leaf_size);
   for (int i : items.tree.order) {

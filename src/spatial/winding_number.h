@@ -60,7 +60,7 @@ class WindingNumber {
     std::vector<Vec3> centres, areas;
   };
 
-  void set_frame(const MatX3& centres);
+  void set_frame(const MatX3& points);
   void build(Items items);
   int add_leaf(const Items& items, const Cluster& cluster);
   int add_node(const Items& items, const std::vector<Moments>& moments, int root);

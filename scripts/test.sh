@@ -123,14 +123,16 @@ stage_sanitize_slow() {
     run_tests asan/tests/littoral_tests --only Slow --limit 7200
 }
 
-# Arrays of all kinds through the module of the Python package.
+# Arrays of all kinds through the module of the Python package: its tests, and cases of fuzz/arrays.py.
 stage_sanitize_package() {
   local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
   with_clang asan --target littoral_package &&
     LD_PRELOAD=$(clang++-14 -print-file-name=libclang_rt.asan-x86_64.so) ASAN_OPTIONS=detect_leaks=0 \
       PYTHONPATH="$PWD/build/asan/python" "$venv/python" -m pytest -q -p no:cacheprovider \
       python/tests/test_arrays.py python/tests/test_surfaces.py python/tests/test_space.py \
-      python/tests/test_operators.py --deselect python/tests/test_surfaces.py::test_many_calls_do_not_grow
+      python/tests/test_operators.py --deselect python/tests/test_surfaces.py::test_many_calls_do_not_grow &&
+    LD_PRELOAD=$(clang++-14 -print-file-name=libclang_rt.asan-x86_64.so) ASAN_OPTIONS=detect_leaks=0 \
+      PYTHONPATH="$PWD/build/asan/python" "$venv/python" -W ignore fuzz/arrays.py 3000
 }
 
 stage_fuzz_long() {

@@ -29,6 +29,12 @@ def as_array(value: Any, name: str) -> Array:
         raise InputError(f"{name}: expected an array, got rows of different lengths") from error
 
 
+def contiguous(array: Array, dtype: npt.DTypeLike) -> Array:
+    """In C order and aligned, as the module reads it; itself where it is both."""
+    out = np.ascontiguousarray(array, dtype=dtype)
+    return out if out.flags.aligned else out.copy()
+
+
 def _described(array: Array) -> str:
     return f"{array.dtype} of shape {array.shape}"
 
@@ -60,12 +66,13 @@ def floats(value: Any, name: str, columns: int | None = None, finite: bool = Tru
         not finite
         and array.dtype == np.float64
         and array.flags.c_contiguous
+        and array.flags.aligned
         and array.ndim == (1 if columns is None else 2)
         and (columns is None or array.shape[1] == columns)
     ):
         return array
     array = _shaped(array, name, columns, "fiub", "real numbers")
-    out = np.ascontiguousarray(array, dtype=np.float64)
+    out = contiguous(array, np.float64)
     if finite and not np.isfinite(out).all():
         first = np.argwhere(~np.isfinite(out))[0]
         at = ", ".join(str(i) for i in first)
@@ -91,7 +98,7 @@ def narrowed(array: Array, name: str) -> Ints:
         if low < limits.min or high > limits.max:
             worst = low if low < limits.min else high
             raise IndexOutOfRange(f"{name}: {worst} does not fit into 32 bits")
-    return np.ascontiguousarray(array, dtype=np.int32)
+    return contiguous(array, np.int32)
 
 
 def check_range(indices: Array, count: int, name: str, of: str) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import Floats, as_array
+from ._arrays import Floats, as_array, contiguous
 from ._errors import InputError
 from ._results import method_takes_kind
 from ._settings import settings
@@ -40,7 +40,7 @@ class Volume:
                 f"values: expected nx x ny x nz numbers, got {array.dtype} {array.shape}"
             )
         grid = _core.Grid(array.shape, triple(origin, "origin"), triple(spacing, "spacing"))
-        self._handle = _core.Volume(grid, np.ascontiguousarray(array.ravel(order="F"), np.float64))
+        self._handle = _core.Volume(grid, contiguous(array.ravel(order="F"), np.float64))
 
     @classmethod
     def _of(cls, core: _core.Volume) -> Volume:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import importlib.util
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import littoral
+from littoral import _arrays
+
+FUZZER = Path(__file__).parents[2] / "fuzz/arrays.py"
 
 V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
 F = np.array([[0, 1, 2], [1, 3, 2]])
@@ -33,6 +39,35 @@ def test_dtypes_orders_and_strides_give_the_same_answer(dtype, index, order, str
     assert field.values.dtype == (np.float32 if dtype == np.float32 else np.float64)
 
 
+def unaligned(array: np.ndarray) -> np.ndarray:
+    out = np.empty(array.nbytes + 1, np.uint8)[1:].view(array.dtype).reshape(array.shape)
+    out[...] = array
+    return out
+
+
+def test_arrays_that_are_not_aligned_are_copied():
+    points, faces = unaligned(V), unaligned(F.astype(np.int32))
+    assert not points.flags.aligned
+    for out in (_arrays.floats(points, "V", 3, finite=False), _arrays.ints(faces, "F", 3)):
+        assert out.flags.aligned and out.flags.c_contiguous
+    assert _arrays.floats(V, "V", 3) is V
+    volume = littoral.Volume(unaligned(np.arange(8.0).reshape(2, 2, 2)))
+    assert volume.values[1, 0, 1] == 5
+
+
+def test_face_chains_are_integers(square):
+    with pytest.raises(TypeError, match="expected integers"):
+        littoral.winding(square, littoral.FaceChain([0.5, 1.5]))
+
+
+def test_cases_of_the_fuzzer():
+    spec = importlib.util.spec_from_file_location("arrays", FUZZER)
+    arrays = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(arrays)
+    outcomes = {arrays.check(arrays.Seeded(seed)) for seed in range(60)}
+    assert outcomes == {"same", "answered", "refused"}
+
+
 def test_lists_and_dlpack_are_taken():
     class OnlyDlpack:
         def __init__(self, array):
@@ -49,6 +84,10 @@ def test_lists_and_dlpack_are_taken():
     np.testing.assert_array_equal(
         littoral.distance((OnlyDlpack(V), OnlyDlpack(F)), points=0), expected
     )
+    vertex = OnlyDlpack(np.array([0]))
+    np.testing.assert_array_equal(littoral.distance((V, F), points=vertex).values, expected)
+    curve = OnlyDlpack(np.array([0, 1]))
+    assert littoral.distance((V, F), curve).values[2] == pytest.approx(1)
 
 
 @pytest.mark.parametrize(

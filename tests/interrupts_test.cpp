@@ -12,7 +12,8 @@ namespace {
 
 std::atomic<int> passed_on{0};
 
-// Under a sanitizer: the token of a call that has ended is not touched by a handler on another thread.
+// Under a sanitizer: the token of a call that has ended is not touched by a handler on another
+// thread.
 TEST(InterruptsOfThreads, ReachTheTokenOfTheCallOrNobody) {
   const auto before = std::signal(SIGINT, [](int) { ++passed_on; });
   std::atomic<bool> done{false};

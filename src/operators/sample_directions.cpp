@@ -125,13 +125,14 @@ class Sampler {
     std::vector<char> smooth(cells.size());
     // As many cells at once as hold about 64 times `grain` nodes: a large one is filled in a while.
     const std::size_t nodes = static_cast<std::size_t>(stride_) * stride_ * stride_;
-    parallel_for(cells.size(), std::clamp<std::size_t>(64 * grain / nodes, 1, grain), [&](std::size_t begin, std::size_t end) {
-      task.checkpoint();
-      for (std::size_t c = begin; c < end; ++c) {
-        smooth[c] = is_smooth(cells[c]) ? 1 : 0;
-        if (smooth[c] != 0) fill(cells[c]);
-      }
-    });
+    parallel_for(cells.size(), std::clamp<std::size_t>(64 * grain / nodes, 1, grain),
+                 [&](std::size_t begin, std::size_t end) {
+                   task.checkpoint();
+                   for (std::size_t c = begin; c < end; ++c) {
+                     smooth[c] = is_smooth(cells[c]) ? 1 : 0;
+                     if (smooth[c] != 0) fill(cells[c]);
+                   }
+                 });
     std::vector<Cell> finer;
     const int half = stride_ / 2;
     for (std::size_t c = 0; c < cells.size(); ++c) {

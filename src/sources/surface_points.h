@@ -21,8 +21,8 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p);
 /// Coordinates may be off by this much, as numbers of six digits are.
 inline constexpr double barycentric_slack = 1e-5;
 
-/// What is wrong with the coordinates of a point on an edge or face, naming the element: not finite,
-/// negative, or a sum that is not 1 (within the slack). Nothing if they are right.
+/// What is wrong with the coordinates of a point on an edge or face, naming the element: not
+/// finite, negative, or a sum that is not 1 (within the slack). Nothing if they are right.
 std::string barycentric_fault(const SurfacePoint& p);
 
 /// Throws that as an InputError.

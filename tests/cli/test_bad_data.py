@@ -56,7 +56,7 @@ FILES = {
 }
 
 CURVES = {
-    "bad_bary.txt": ":2: a point on face 0 has the barycentric coordinate -0.800000, outside [0, 1]",
+    "bad_bary.txt": ":2: a point on face 0 has the barycentric coordinate -0.800000, outside",
     "bad_keyword.txt": ":1: unknown record 'signed_curv'",
     "bad_noheader.txt": ":1: nodes with neither a keyword line",
     "bad_onenode.txt": ":1: signed_curve has 1 nodes, at least 2 are needed",

@@ -116,7 +116,9 @@ TEST(TracePieces, GapsAreTracedAndCounted) {
       report);
   expect_sound(mesh, prepared);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_EQ(report.warnings[0], "3 gaps of curve 1 (file.txt:9) were traced across the mesh");
+  EXPECT_EQ(report.warnings[0],
+            "3 segments of curve 1 (file.txt:9) join nodes that share no face, by a path "
+            "traced over the mesh");
   EXPECT_NEAR(total_length(prepared), 2 * std::acos(-1.0), 0.03 * 2);
   EXPECT_EQ(prepared.nodes[0].front().element, prepared.nodes[0].back().element);  // closed
 }

@@ -57,7 +57,7 @@ struct RunRecord {
 /// the schema.
 std::string run_json(const RunRecord& record, const Report& report);
 /// The same for a run that failed: `kind` is "usage", "input", "unsupported", "io", "solve",
-/// "memory" or "internal".
+/// "memory", "time" or "internal".
 std::string failure_json(const RunRecord& record, const Report& report, const std::string& kind,
                          const std::string& message, int exit_status);
 

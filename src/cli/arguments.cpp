@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/option_table.h"
+#include "cli/input/method_options.h"
 #include "littoral/error.h"
 #include "littoral/methods.h"
 
@@ -25,11 +26,32 @@ std::map<std::string, std::vector<std::string>> options_without_word() {
   return found;
 }
 
+}  // namespace
+
+std::vector<CLI::App*> verbs_of(CLI::App& program) {
+  return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
 std::vector<const CLI::App*> verbs_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App*) { return true; });
 }
 
-}  // namespace
+std::string help_text(CLI::App& program, const std::string& name, bool all) {
+  for (CLI::App* verb : verbs_of(program)) {
+    if (verb->get_name() != name) continue;
+    bool left_out = false;
+    for (CLI::Option* option : verb->get_options())
+      if (!all && option->get_group() == method_options_group) {
+        option->group("");
+        left_out = true;
+      }
+    return verb->help(program.get_name()) +
+           (left_out ? "\nlittoral " + name +
+                           " --help-all adds the options of methods, littoral methods lists them.\n"
+                     : "");
+  }
+  return program.help("", CLI::AppFormatMode::Normal);
+}
 
 std::vector<std::string> expanded_arguments(int argc, char** argv) {
   const auto without_word = options_without_word();

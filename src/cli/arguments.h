@@ -16,7 +16,14 @@ std::vector<std::string> expanded_arguments(int argc, char** argv);
 /// Throws InputError for a verb or an option that there is not, naming the nearest.
 void check_names(const CLI::App& program, const std::vector<std::string>& arguments);
 
+/// All verbs in their order.
+std::vector<CLI::App*> verbs_of(CLI::App& program);
+std::vector<const CLI::App*> verbs_of(const CLI::App& program);
 /// The verb of this name. Throws InputError naming the nearest.
 const CLI::App& verb_named(const CLI::App& program, const std::string& name);
+
+/// What --help says: of the program where there is no verb of this name. The options of methods
+/// are left out unless all are wanted.
+std::string help_text(CLI::App& program, const std::string& verb, bool all);
 
 }  // namespace littoral::cli

@@ -18,6 +18,27 @@ void watch_for_interrupts(const CancelToken& cancel) {
   });
 }
 
+TimeLimit::TimeLimit(const CancelToken& cancel, double seconds) {
+  if (!(seconds > 0)) return;
+  thread_ = std::thread([this, cancel, seconds] {
+    std::unique_lock lock(mutex_);
+    if (ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ending_; }))
+      return;
+    passed_ = true;
+    cancel.cancel();
+  });
+}
+
+TimeLimit::~TimeLimit() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  ended_.notify_all();
+  thread_.join();
+}
+
 void exit_interrupted() {
   static std::atomic<bool> leaving{false};
   if (leaving.exchange(true)) wait_for_the_end();

@@ -7,6 +7,7 @@
 #include <new>
 #include <regex>
 
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
@@ -50,6 +51,7 @@ Status say(cli::Session& session, const CLI::App& program, Status status, const 
 }
 
 int run(cli::Session& session, const CLI::App& program) {
+  const cli::TimeLimit limit(session.cancel, session.time_limit);
   try {
     set_thread_count(session.threads);
     session.job();
@@ -58,6 +60,10 @@ int run(cli::Session& session, const CLI::App& program) {
     if (!std::cout) throw IoError("cannot write to the standard output");
     return done;
   } catch (const Cancelled&) {
+    if (limit.passed())
+      return say(session, program, failed, "time",
+                 "stopped after the time limit of " + number_text(session.time_limit) +
+                     " s; nothing was written");
     cli::exit_interrupted();
   } catch (const InputError& e) {
     return say(session, program, bad_input, "input", e.what());
@@ -84,6 +90,7 @@ int main(int argc, char** argv) {
   CLI::App program("Distance and inside/outside for geometry that is broken.", "littoral");
   program.set_version_flag("--version", "littoral " LITTORAL_VERSION);
   program.require_subcommand(1);
+  program.set_help_all_flag("--help-all", "also the options of methods");
   program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   cli::add_distance(program, session);
   cli::add_pairs(program, session);
@@ -98,16 +105,24 @@ int main(int argc, char** argv) {
   cli::add_methods(program, session);
   cli::add_formats(program, session);
   cli::add_help(program, session);
+  cli::add_completion(program, session);
   cli::add_view(program, session);
   cli::add_render(program, session);
   try {
     std::vector<std::string> arguments = cli::expanded_arguments(argc, argv);
     session.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
-    if (!arguments.empty()) session.record.verb = arguments.front();
+    if (!arguments.empty() && arguments.front().front() != '-')
+      session.record.verb = arguments.front();
     cli::check_names(program, arguments);
     std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
     program.parse(std::move(arguments));
-  } catch (const CLI::Success& request) {  // --help, --version
+  } catch (const CLI::CallForHelp&) {
+    std::cout << cli::help_text(program, session.record.verb, false);
+    return done;
+  } catch (const CLI::CallForAllHelp&) {
+    std::cout << cli::help_text(program, session.record.verb, true);
+    return done;
+  } catch (const CLI::Success& request) {  // --version
     return program.exit(request);
   } catch (const InputError& e) {
     return say(session, program, bad_input, "usage", e.what());

@@ -98,9 +98,21 @@ void add_common_options(CLI::App& verb, Session& session) {
                   "a bar on stderr: auto (if it is a terminal), always, never [default auto]")
       ->check(one_of({"auto", "always", "never"}))
       ->type_name("WHEN");
+  verb.add_option("--time-limit", session.time_limit,
+                  "end with an error after this time, 0 to 1e9; 0: never [seconds; default 0]")
+      ->check(CLI::Validator(
+          [](const std::string& text) -> std::string {
+            try {
+              return parse_number("time-limit", text) >= 0 ? "" : "must not be negative";
+            } catch (const InputError& e) {
+              return e.what();
+            }
+          },
+          ""))
+      ->type_name("S");
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
-  for (const char* name : {"--threads", "--progress", "--verbose", "--quiet"})
+  for (const char* name : {"--threads", "--progress", "--time-limit", "--verbose", "--quiet"})
     verb.get_option(name)->group(common_options_group);
 }
 

@@ -22,6 +22,7 @@ struct Session {
   // options
   std::string progress = "auto";
   int threads = 0;
+  double time_limit = 0;  // [seconds]; 0: none
   bool json = false, verbose = false, quiet = false, flip = false;
   std::optional<int> index_base;
 

@@ -244,9 +244,11 @@ void report_boundary(const PolygonSoup& surface, double level, Report& report) {
     open += !std::binary_search(sides.begin(), sides.end(), std::pair(b, a));
   report.sizes.emplace_back("boundary edges", static_cast<double>(open));
   if (open != 0)
-    report.warn("the surface at level " + number_text(level) +
-                " meets the boundary of the domain and is open there (" + std::to_string(open) +
-                " edges); a larger box avoids that, and closing at the box cuts it off");
+    report.warn(
+        "the surface at level " + number_text(level) +
+        " is open: it meets the boundary of the box or the tets along " + std::to_string(open) +
+        " edges; a larger box (option padding or bounds) avoids that, option clip closes it "
+        "there");
 }
 
 }  // namespace littoral

@@ -42,7 +42,7 @@ class Preparation {
                  const Task& task) {
     const int curve = out_.n_curves++;
     std::vector<SurfacePoint> placed;
-    int gaps = 0, empty_steps = 0;
+    int segments = 0, empty_steps = 0;
     const std::size_t pieces_before = out_.pieces.size();
     try {
       placed.push_back(simplest(mesh_, nodes.front()));
@@ -52,7 +52,7 @@ class Preparation {
         std::vector<SurfacePoint> way{placed.back(), next};
         if (!share_face(mesh_, placed.back(), next)) {
           way = tracer_.trace(placed.back(), next, task);
-          ++gaps;
+          ++segments;
         }
         for (std::size_t k = 1; k < way.size(); ++k) {
           if (!add_piece(curve, is_signed, way[k - 1], way[k])) ++empty_steps;
@@ -63,9 +63,10 @@ class Preparation {
       throw InputError(label + ": " + error.what());
     }
     out_.nodes.push_back(std::move(placed));
-    if (gaps > 0)
-      traced_.add(counted(gaps, "gap of ", "gaps of ") + label + (gaps == 1 ? " was" : " were") +
-                  " traced across the mesh");
+    if (segments > 0)
+      traced_.add(counted(segments, "segment of ", "segments of ") + label +
+                  (segments == 1 ? " joins" : " join") +
+                  " nodes that share no face, by a path traced over the mesh");
     if (empty_steps > 0)
       dropped_.add(counted(empty_steps, "zero-length step of ", "zero-length steps of ") + label +
                    (empty_steps == 1 ? " was" : " were") + " left out");

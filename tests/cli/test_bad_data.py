@@ -108,7 +108,7 @@ def test_nodes_that_share_no_face_are_traced(run: Run, tmp_path: Path) -> None:
     folder = DATA / "curves"
     curve = folder / "bad_nonadjacent.txt"
     result = run("distance", folder / "sphere_cap.obj", "--sources", curve, "-o", "a.txt")
-    assert f"2 gaps of curve 1 ({curve}:2) were traced across the mesh" in result.stderr
+    assert f"2 segments of curve 1 ({curve}:2) join nodes that share no face" in result.stderr
     assert len((tmp_path / "a.txt").read_text().split()) == 642
 
 

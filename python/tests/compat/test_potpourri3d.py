@@ -174,7 +174,7 @@ def test_solvers_are_prepared_once(square, monkeypatch):
 def test_doubts_are_warnings(square, recwarn):
     V, F = arrays(square)
     signed = pp3d.MeshSignedHeatSolver(V, F)
-    with pytest.warns(RuntimeWarning, match="gap of curve 1"):
+    with pytest.warns(RuntimeWarning, match="segment of curve 1"):
         signed.compute_distance([[UP[0], UP[-1]]])
     recwarn.clear()
     signed.compute_distance([UP])

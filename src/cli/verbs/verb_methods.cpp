@@ -77,7 +77,9 @@ void print_verb(const CLI::App& verb) {
   std::cout << "\n## " << verb.get_name() << "\n\n" << verb.get_description() << "\n\n";
   std::cout << "| option | meaning |\n|---|---|\n";
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_group() == method_options_group || option == verb.get_help_ptr()) continue;
+    if (option->get_group() == method_options_group || option == verb.get_help_ptr() ||
+        option == verb.get_help_all_ptr())
+      continue;
     if (is_common(*option)) continue;
     print_option(*option);
   }
@@ -87,7 +89,7 @@ void print_verbs(const CLI::App& program) {
   std::cout << "# Verbs and their options\n\nOptions of methods are [a page of their own]"
                "(support.md), file formats [another](formats.md); "
                "[the command line](../guides/command_line.md) has examples.\n";
-  const auto verbs = program.get_subcommands([](const CLI::App*) { return true; });
+  const auto verbs = verbs_of(program);
   for (const CLI::App* verb : verbs) print_verb(*verb);
   std::cout << "\n## Options of all verbs\n\nBut of those that tell what there is.\n\n"
                "| option | meaning |\n|---|---|\n";
@@ -136,7 +138,7 @@ void add_help(CLI::App& program, Session& session) {
       else if (name->empty())
         std::cout << program.help("", CLI::AppFormatMode::Normal);
       else
-        std::cout << verb_named(program, *name).help(program.get_name());
+        std::cout << help_text(program, verb_named(program, *name).get_name(), false);
     };
   });
 }

@@ -18,6 +18,7 @@ void add_offset(CLI::App& program, Session& session);
 void add_methods(CLI::App& program, Session& session);
 void add_formats(CLI::App& program, Session& session);
 void add_help(CLI::App& program, Session& session);
+void add_completion(CLI::App& program, Session& session);
 void add_view(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
 

@@ -47,8 +47,8 @@ double misaligned_fraction(const Report& report) {
 
 std::string raised_warning(double from, double to, double share_before, double share_after) {
   return "time scale raised from " + in_short(from) + " to " + in_short(to) +
-         ": with the smaller one directions mean nothing on parts of this mesh (the distance fell "
-         "along them on " +
+         ": with the smaller one the heat is lost in round-off on parts of this mesh (the distance "
+         "fell along its directions on " +
          in_short(100 * share_before) + " % of the surface, now on " + in_short(100 * share_after) +
          " %)";
 }

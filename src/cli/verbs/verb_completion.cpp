@@ -1,0 +1,107 @@
+// littoral completion: scripts for shells, made from the verbs and their options.
+
+#include <iostream>
+#include <memory>
+
+#include "cli/arguments.h"
+#include "cli/verbs/verbs.h"
+
+namespace littoral::cli {
+
+namespace {
+
+std::string verb_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* verb : verbs_of(program))
+    names += (names.empty() ? "" : " ") + verb->get_name();
+  return names;
+}
+
+std::string long_options(const CLI::App& verb) {
+  std::string names;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames())
+      names += (names.empty() ? "--" : " --") + name;
+  return names;
+}
+
+/// A case for each verb, as bash and zsh have it.
+std::string option_cases(const CLI::App& program, const std::string& before,
+                         const std::string& after) {
+  std::string text;
+  for (const CLI::App* verb : verbs_of(program))
+    text += "    " + verb->get_name() + ") " + before + long_options(*verb) + after + " ;;\n";
+  return text;
+}
+
+std::string bash_script(const CLI::App& program) {
+  return "_littoral() {\n"
+         "  local word=\"${COMP_WORDS[COMP_CWORD]}\" options=\n"
+         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+         "    COMPREPLY=($(compgen -W \"" +
+         verb_names(program) +
+         "\" -- \"$word\"))\n    return\n  fi\n"
+         "  case \"${COMP_WORDS[1]}\" in\n" +
+         option_cases(program, "options=\"", "\"") +
+         "  esac\n"
+         "  case \"$word\" in\n"
+         "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
+         "    *) COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+         "  esac\n}\n"
+         "complete -o filenames -F _littoral littoral\n";
+}
+
+std::string zsh_script(const CLI::App& program) {
+  return "#compdef littoral\n_littoral() {\n"
+         "  if (( CURRENT == 2 )); then\n    compadd -- " +
+         verb_names(program) +
+         "\n    return\n  fi\n"
+         "  if [[ $words[CURRENT] != -* ]]; then\n    _files\n    return\n  fi\n"
+         "  case $words[2] in\n" +
+         option_cases(program, "compadd -- ", "") + "  esac\n}\ncompdef _littoral littoral\n";
+}
+
+/// Text between single quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text.substr(0, text.find('\n'))) {
+    if (c == '\'' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "'";
+}
+
+std::string fish_script(const CLI::App& program) {
+  std::string text;
+  for (const CLI::App* verb : verbs_of(program)) {
+    text += "complete -c littoral -n __fish_use_subcommand -a " + verb->get_name() + " -d " +
+            quoted(verb->get_description()) + "\n";
+    for (const CLI::Option* option : verb->get_options())
+      for (const std::string& name : option->get_lnames())
+        text += "complete -c littoral -n '__fish_seen_subcommand_from " + verb->get_name() +
+                "' -l " + name + (option->get_items_expected_max() > 0 ? " -r" : "") + " -d " +
+                quoted(option->get_description()) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_completion(CLI::App& program, Session& session) {
+  CLI::App* verb = program.add_subcommand(
+      "completion", "a script that completes verbs, options and files in a shell");
+  auto shell = std::make_shared<std::string>();
+  verb->add_option("SHELL", *shell, "bash, zsh or fish: to be sourced or put where it looks")
+      ->required()
+      ->check(one_of({"bash", "zsh", "fish"}))
+      ->type_name("");
+  verb->callback([=, &program, &session] {
+    session.job = [=, &program] {
+      std::cout << (*shell == "bash"  ? bash_script(program)
+                    : *shell == "zsh" ? zsh_script(program)
+                                      : fish_script(program));
+    };
+  });
+}
+
+}  // namespace littoral::cli

@@ -42,8 +42,8 @@ Sources left_side(const SurfaceMesh& mesh) {
 }
 
 VecX by_name(const SurfaceMesh& mesh, const Sources& sources, OptionValues options,
-             const MatX3* normals = nullptr) {
-  options.emplace_back("tolerance", "1e-4");
+             const MatX3* normals = nullptr, const char* tolerance = "1e-4") {
+  options.emplace_back("tolerance", tolerance);
   Report report;
   VecX u = test::surface_distance(mesh, sources, AnyMethod::named("regularized", options), report,
                                   normals);
@@ -68,17 +68,13 @@ TEST(RegularizedDomains, IntervalOnTets) {
   const TetMesh mesh = test::tet_box(8);
   auto ops = std::make_shared<Operators>();
   ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
-  SourceSystem terms;
-  terms.reached = {1};
-  Triplets rows;
+  KnownDistances side;
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (mesh.points(v, 0) == 0) rows.emplace_back(static_cast<int>(rows.size()), v, 1);
-  terms.A.resize(static_cast<Eigen::Index>(rows.size()), mesh.n_vertices());
-  terms.A.setFromTriplets(rows.begin(), rows.end());
+    if (mesh.points(v, 0) == 0) side.emplace(v, 0);
   const RegularizedSolver method(ops, Regularizer::dirichlet, {}, {});
   for (const double alpha : {0.0, 0.3}) {
     Report report;
-    const VecX u = method.solve(terms, with_alpha(alpha), {}, report);
+    const VecX u = method.solve(side, with_alpha(alpha), {}, report);
     EXPECT_EQ(report.status, "converged");
     for (int v = 0; v < mesh.n_vertices(); ++v)
       EXPECT_NEAR(u[v], test::from_one_end(mesh.points(v, 0), alpha), 0.02) << alpha << " " << v;
@@ -89,15 +85,12 @@ TEST(RegularizedDomains, TetsTendToTheDistance) {
   const TetMesh mesh = test::tet_box(8);
   auto ops = std::make_shared<Operators>();
   ops->scalar = tet_calculus(std::make_shared<const TetOperators>(tet_operators(mesh)));
-  SourceSystem terms;
-  terms.reached = {1};
-  terms.A.resize(1, mesh.n_vertices());
-  terms.A.insert(0, 0) = 1;  // a corner of the cube
+  const KnownDistances corner = {{0, 0}};  // of the cube
   const RegularizedSolver method(ops, Regularizer::dirichlet, {}, {});
   double before = 1e9;
   for (const double alpha : {0.4, 0.1, 0.0}) {
     Report report;
-    const VecX u = method.solve(terms, with_alpha(alpha, 1e-3), {}, report);
+    const VecX u = method.solve(corner, with_alpha(alpha, 1e-3), {}, report);
     double worst = 0;
     for (int v = 0; v < mesh.n_vertices(); ++v)
       worst = std::max(worst, std::abs(u[v] - mesh.points.row(v).norm()));
@@ -107,8 +100,61 @@ TEST(RegularizedDomains, TetsTendToTheDistance) {
   EXPECT_LT(before, 0.2);  // first order in edges of 1/8 at a point
 }
 
+/// A circle of radius 0.3 about the middle of the unit square, between vertices.
+Sources circle_in_the_square() {
+  return test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 200), false);
+}
+double from_circle(const Vec3& x) { return std::abs((x - Vec3(0.5, 0.5, 0)).norm() - 0.3); }
+
+TEST(RegularizedDomains, ACurveBetweenNodesHasItsDistanceOnBothSides) {
+  // Were the interpolated value 0 along the curve, the inside would be 0.4 to 0.7 h too near.
+  for (const int n : {12, 24}) {
+    const SurfaceMesh triangles(test::jittered_grid_soup(n, n, 0.2)), squares(quads(n));
+    for (const auto& [mesh, elements] :
+         {std::pair(&triangles, "linear"), {&triangles, "quadratic"}, {&squares, "linear"}}) {
+      const VecX u = by_name(*mesh, circle_in_the_square(),
+                             {{"alpha", "0"}, {"elements", elements}}, nullptr, "1e-3");
+      for (const bool inside : {true, false}) {
+        const double error = test::mean_error(
+            mesh->points(), u, from_circle,
+            [inside](const Vec3& x) { return ((x - Vec3(0.5, 0.5, 0)).norm() < 0.3) == inside; });
+        EXPECT_LT(error * n, *elements == 'q' ? 0.26 : 0.2) << elements << n << inside;
+      }
+    }
+  }
+}
+
+TEST(RegularizedDomains, ALineThroughFacesIsExact) {
+  // Of gradient at most 1 and at most the distance at the corners of the faces that it crosses,
+  // nothing is larger than the distance; and on these faces that is allowed.
+  const SurfaceMesh mesh(test::grid_soup(12, 12, 1));
+  MatX3 line(2, 3);
+  line << 0, 0.53, 0, 1, 0.53, 0;
+  for (const Regularizer regularizer :
+       {Regularizer::dirichlet, Regularizer::hessian, Regularizer::max_norm}) {
+    const VecX u = solve(mesh, test::space_curve(line, false), with_alpha(0, 1e-5), regularizer).u;
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      EXPECT_NEAR(u[v], std::abs(mesh.point(v).y() - 0.53), 2e-3) << v;
+  }
+}
+
+TEST(RegularizedDomains, SmoothingIsTheSameHoweverAlphaEnters) {
+  // From a line along edges by Alg. 1 and from one just beside it, whose nodes have bounds.
+  const SurfaceMesh mesh(test::grid_soup(12, 12, 1));
+  const double alpha = 0.3;
+  for (const double x : {0.0, 0.02}) {
+    MatX3 line(2, 3);
+    line << x, 0, 0, x, 1, 0;
+    const VecX u = solve(mesh, test::space_curve(line, false), with_alpha(alpha, 1e-5)).u;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      const double y = mesh.point(v).x();
+      EXPECT_NEAR(u[v], y < x ? x - y : test::from_one_end(y, alpha) - x, 6e-3) << x << " " << v;
+    }
+  }
+}
+
 TEST(RegularizedDomains, QuadraticElementsAreRounder) {
-  // Figure S6: from the middle of a coarse disk, linear functions have polygons for isolines.
+  // Figure S6: from a point of a coarse mesh, linear functions have polygons for isolines.
   const SurfaceMesh mesh(test::octasphere_soup(2));
   auto error = [&](const char* elements) {
     const VecX u =

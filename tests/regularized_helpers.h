@@ -32,13 +32,29 @@ inline Solved solve(const SurfaceMesh& mesh, const Sources& sources, const Regul
                     Regularizer regularizer = Regularizer::dirichlet, VecX V = {}) {
   Solved out;
   const Problem p = problem(mesh, sources, out.report);
+  const KnownDistances known =
+      known_distances(p.T, triangle_sources(mesh, p.T, place_sources(mesh, sources, out.report)),
+                      TriangleNodes::corners);
   RegularizerData data;
   data.V = std::move(V);
   if (regularizer == Regularizer::hessian) data.W = curved_hessian(p.T, p.ops->vector);
   if (regularizer == Regularizer::max_norm) data.frames = face_frames(mesh, p.T);
   out.u = RegularizedSolver(p.ops, regularizer, std::move(data), {})
-              .solve(p.terms, options, {}, out.report);
+              .solve(known, options, {}, out.report);
   return out;
+}
+
+/// Mean of |u - exact| over the nodes that `part` names.
+template <class Exact, class Part>
+double mean_error(const MatX3& points, const VecX& u, const Exact& exact, const Part& part) {
+  double sum = 0, count = 0;
+  for (Eigen::Index v = 0; v < points.rows(); ++v) {
+    const Vec3 x = points.row(v);
+    if (!part(x)) continue;
+    sum += std::abs(u[v] - exact(x));
+    ++count;
+  }
+  return sum / count;
 }
 
 inline double residual(const Report& report, const std::string& name) {

@@ -262,10 +262,12 @@ TEST(RegularizedSolver, SourcesInsideFacesAndOnEdges) {
     Sources sources;
     sources.points.push_back(p);
     const Vec3 at = mesh.position(p);
-    const VecX u = solve(mesh, sources, with_alpha(0, 1e-4)).u;
+    const Solved s = solve(mesh, sources, with_alpha(0, 1e-3));
+    EXPECT_EQ(s.report.status, "converged");
     double sum = 0;
-    for (int v = 0; v < mesh.n_vertices(); ++v) sum += std::abs(u[v] - (mesh.point(v) - at).norm());
-    EXPECT_LT(sum / mesh.n_vertices(), 0.04);  // first order at a point, edges of 1/16
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      sum += std::abs(s.u[v] - (mesh.point(v) - at).norm());
+    EXPECT_LT(sum / mesh.n_vertices(), 0.02);  // first order at a point, edges of 1/16
   }
 }
 

@@ -6,25 +6,14 @@
 
 #include "base/option_table.h"
 #include "littoral/error.h"
+#include "sources/known_distances.h"
 #include "sources/surface_points.h"
-#include "sources/triangle_sources.h"
 
 namespace littoral {
 
 namespace {
 
 constexpr double least_spacing = 1e-3;  // many samples in one triangle say nothing more
-
-template <class B>
-Complex on(const TriangleShape& t, const B& b) {
-  return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
-}
-
-double distance_to_segment(Complex x, Complex a, Complex b) {
-  const double length2 = std::norm(b - a);
-  const double s = length2 > 0 ? ((x - a) * std::conj(b - a)).real() / length2 : 0;
-  return std::abs(x - a - std::clamp(s, 0.0, 1.0) * (b - a));
-}
 
 class Builder {
  public:
@@ -45,7 +34,7 @@ class Builder {
     };
     if (std::any_of(before.begin(), before.end(), same)) return;
     before.push_back(b);
-    sources.push_back(std::move(source));
+    sources_.push_back(std::move(source));
   }
 
   /// The point at fraction s of a piece.
@@ -57,35 +46,26 @@ class Builder {
     P2Point<2> point{triangle, {}};
     for (int k = 0; k < 3; ++k) point.b[k] = (1 - s) * piece.a[k] + s * piece.b[k];
     source.where.push_back(point);
-    sources.push_back(std::move(source));
+    sources_.push_back(std::move(source));
   }
 
-  /// Around the pieces of a curve: the nodes of the triangles that hold them, with the distance to
-  /// the nearest piece in the same triangle.
+  /// Pieces of a curve, of which the nodes around it are to know their distance.
   void add_around(std::span<const CurvePiece> pieces) {
     for (const CurvePiece& piece : pieces)
-      for (const TriangleSources::Segment& segment : segments_of(mesh_, T_, piece)) {
-        const int f = segment.triangle;
-        if (f < 0) continue;
-        const TriangleShape shape = T_.shape(f);
-        for (int i = 0; i < P2Shape<2>::nodes; ++i) {
-          const Vec3 b = i < 3 ? P2Shape<2>::corner(i) : P2Shape<2>::middle(i - 3);
-          const int node = i < 3 ? T_.faces(f, i) : T_.n_vertices + T_.side_edge(f, i - 3);
-          const double distance =
-              distance_to_segment(on(shape, b), on(shape, segment.a), on(shape, segment.b));
-          const auto [at, fresh] = around_.try_emplace(node, sources.size());
-          if (fresh) sources.push_back({{{f, b}}, true, distance});
-          P2Source<2>& known = sources[at->second];
-          if (distance < known.distance) known = {{{f, b}}, true, distance};
-        }
-      }
+      for (const TriangleSources::Segment& segment : segments_of(mesh_, T_, piece))
+        around_.push_back(segment);
   }
 
-  std::vector<P2Source<2>> sources;
+  std::vector<P2Source<2>> take() {
+    for (const NodeDistance& at : distances_around(T_, around_, TriangleNodes::corners_and_middles))
+      sources_.push_back({{{at.triangle, at.b}}, true, at.distance});
+    return std::move(sources_);
+  }
 
  private:
+  std::vector<P2Source<2>> sources_;
   std::map<int, std::vector<Vec3>> points_;  // element -> points in it, so that each counts once
-  std::map<int, std::size_t> around_;        // node -> its place among the sources
+  std::vector<TriangleSources::Segment> around_;
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
 };
@@ -130,9 +110,9 @@ std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTria
     else
       out.add_around(curve);
   }
-  if (out.sources.empty())
-    throw InputError("no source lies on a face with three different vertices");
-  return std::move(out.sources);
+  std::vector<P2Source<2>> all = out.take();
+  if (all.empty()) throw InputError("no source lies on a face with three different vertices");
+  return all;
 }
 
 }  // namespace littoral

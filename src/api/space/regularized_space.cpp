@@ -13,33 +13,30 @@
 #include "methods/heat/finalize.h"
 #include "methods/regularized/regularized.h"
 #include "operators/grid.h"
+#include "sources/space_distances.h"
 #include "spatial/winding_number.h"
 
 namespace littoral {
 
 namespace {
 
-/// Distance to the rows (rows x nodes) at which it vanishes, at the nodes, not negative; +inf where
-/// no row is, and listed. With `sign` (1 or -1 at the nodes) the same with that sign, which passes
-/// through zero between nodes. Dirichlet energy of linear
-/// functions, whatever else the options say.
-VecX regularized_in_space(const Calculus& C, const SpMat& rows, const Regularized& options,
-                          const Task& task, Report& report, const VecX* sign = nullptr) {
+/// Distance at the nodes from where it is known, not negative; +inf where nothing is, and listed.
+/// With `sign` (1 or -1 at the nodes) the same with that sign, which passes through zero between
+/// nodes. Dirichlet energy of linear functions, whatever else the options say.
+VecX regularized_in_space(const Calculus& C, const KnownDistances& known,
+                          const Regularized& options, const Task& task, Report& report,
+                          const VecX* sign = nullptr) {
   const auto ops = std::make_shared<Operators>();
   ops->scalar = C;
   const Stopwatch watch(report, "solve");
   const RegularizedSolver method(ops, Regularizer::dirichlet, {}, task,
                                  ConstrainedSystem::Rows::many);
   AdmmState state;
-  const AdmmResult result = method.minimize(rows, options, state, task, sign);
+  const AdmmResult result = method.minimize(known, options, state, task, sign);
   report_admm(result, report);
-  std::vector<char> reached(static_cast<std::size_t>(C.n_components), 0);
-  for (const int i : unknowns_of(rows))
-    if (C.component[static_cast<std::size_t>(i)] >= 0)
-      reached[static_cast<std::size_t>(C.component[static_cast<std::size_t>(i)])] = 1;
   VecX u = sign ? VecX(result.u.cwiseProduct(*sign).cwiseMax(0.0).cwiseProduct(*sign))
                 : VecX(result.u.cwiseMax(0.0));
-  set_unreached(u, C.component, reached, report);
+  set_unreached(u, C.component, method.reached(known), report);
   return u;
 }
 
@@ -77,12 +74,11 @@ VecX on_grid(const SpaceInput& input, const Grid& grid, const Regularized& optio
   check_memory(factor_memory(nodes),
                "a factorization on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
                "use a smaller resolution or another method");
-  const GridRows rows = grid_rows(grid, input.samples.points, input.samples.areas);
-  if (rows.A.rows() == 0) throw InputError("the box holds no sample of the input");
-  // An unsigned distance would have to vanish at all nodes of the cells that hold the surface: the
-  // rows are met by functions that pass through zero there.
+  const NearestSource nearest(input.surface, input.samples);
+  const KnownDistances known = known_distances(grid, nearest, input.samples);
+  if (known.empty()) throw InputError("the box holds no sample of the input");
   const VecX sign = winding_signs(input, grid, task.stage(0.1, "signs"));
-  return regularized_in_space(grid_calculus(grid), rows.A, options, task.stage(0.9, "distance"),
+  return regularized_in_space(grid_calculus(grid), known, options, task.stage(0.9, "distance"),
                               report, &sign);
 }
 
@@ -96,6 +92,9 @@ Method<SpaceDomain> grid_method(const std::string& summary, const std::string& r
       });
 }
 
+const std::vector<Eigen::Vector4d> corners = {Eigen::Vector4d::Unit(0), Eigen::Vector4d::Unit(1),
+                                              Eigen::Vector4d::Unit(2), Eigen::Vector4d::Unit(3)};
+
 template <class S>
 Method<TetDomain> through_tets(const std::string& summary, const std::string& reference,
                                const OptionTable<S>& table) {
@@ -104,9 +103,12 @@ Method<TetDomain> through_tets(const std::string& summary, const std::string& re
       [](const std::shared_ptr<const TetDiscretization>& on, const S&) {
         return [C = std::make_shared<const Calculus>(tet_calculus(on->operators()))](
                    const TetProblem& problem, const S& options, Task& task, Report& report) {
-          const SpMat rows = problem.terms().A;
-          if (rows.rows() == 0) throw InputError("no source vertex belongs to a tet");
-          return regularized_in_space(*C, rows, linear(options), task.stage(0.9, "distance"),
+          const auto vertex = [&mesh = *problem.mesh](int t, int k) { return mesh.tets(t, k); };
+          KnownDistances known;
+          for (const auto& [v, at] : problem.known(corners, vertex, Around::with_neighbours))
+            known.emplace(v, at.distance);
+          if (known.empty()) throw InputError("no source vertex belongs to a tet");
+          return regularized_in_space(*C, known, linear(options), task.stage(0.9, "distance"),
                                       report);
         };
       });

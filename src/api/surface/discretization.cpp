@@ -75,15 +75,27 @@ SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Re
                                               : nodal_operators(*nodal_));
 }
 
+PlacedSources SurfaceDiscretization::placed(const Sources& sources, const Task& task,
+                                            Report& report) const {
+  const SurfaceMesh& mesh = *domain_.mesh;
+  if (T_) return place_sources(domain_, sources, task, report);
+  const SurfaceMesh& refined = *nodal_->refined;
+  return place_sources(domain_, refined,
+                       refined_sources(mesh, refined, nodal_->face_offsets, sources), task, report);
+}
+
 SourceSystem SurfaceDiscretization::system(const Sources& sources, const Task& task,
                                            Report& report) const {
-  const SurfaceMesh& mesh = *domain_.mesh;
-  if (T_) return source_system(mesh, *T_, place_sources(domain_, sources, task, report));
-  const SurfaceMesh& refined = *nodal_->refined;
-  return nodal_source_system(
-      *nodal_,
-      place_sources(domain_, refined, refined_sources(mesh, refined, nodal_->face_offsets, sources),
-                    task, report));
+  const PlacedSources on = placed(sources, task, report);
+  return T_ ? source_system(*domain_.mesh, *T_, on) : nodal_source_system(*nodal_, on);
+}
+
+KnownDistances SurfaceDiscretization::known(const Sources& sources, const Task& task,
+                                            Report& report) const {
+  const PlacedSources on = placed(sources, task, report);
+  if (T_)
+    return known_distances(*T_, triangle_sources(*domain_.mesh, *T_, on), TriangleNodes::corners);
+  return known_distances(*nodal_, triangle_sources(*nodal_->refined, *nodal_->place, on));
 }
 
 SurfaceAnswer SurfaceDiscretization::at_input(const VecX& values) const {

@@ -11,6 +11,7 @@
 #include "domain/mesh/nodal_surface.h"
 #include "operators/calculus.h"
 #include "operators/jump_calculus.h"
+#include "sources/known_distances.h"
 #include "sources/pieces.h"
 #include "sources/source_system.h"
 
@@ -42,12 +43,17 @@ class SurfaceDiscretization {
   const std::shared_ptr<const IntrinsicTriangulation>& triangulation() const { return T_; }
 
   SourceSystem system(const Sources& sources, const Task& task, Report& report) const;
+  /// Distances known at nodes around the sources [units].
+  KnownDistances known(const Sources& sources, const Task& task, Report& report) const;
 
   /// Values at the vertices of the input, which come first among the nodes; a cloud is shown with
   /// triangles.
   SurfaceAnswer at_input(const VecX& values) const;
 
  private:
+  /// On a nodal surface's refined mesh.
+  PlacedSources placed(const Sources& sources, const Task& task, Report& report) const;
+
   SurfaceDomain domain_;
   std::shared_ptr<const IntrinsicTriangulation> T_;
   std::shared_ptr<const NodalSurface> nodal_;  // of all but triangle meshes

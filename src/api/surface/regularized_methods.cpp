@@ -14,9 +14,9 @@
 #include "methods/regularized/regularized.h"
 #include "operators/curved_hessian.h"
 #include "operators/line_field.h"
+#include "operators/p2.h"
 #include "operators/triangles.h"
-#include "sources/p2_sources.h"
-#include "sources/triangle_source_system.h"
+#include "sources/known_distances.h"
 
 namespace littoral {
 
@@ -27,17 +27,16 @@ void localise(VecX& V, const std::vector<std::pair<int, Complex>>& given, double
               std::shared_ptr<const Operators> ops, const IntrinsicTriangulation& T,
               const Task& task) {
   const Calculus& C = ops->scalar;
-  Triplets entries;
-  for (std::size_t i = 0; i < given.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      entries.emplace_back(static_cast<int>(i), T.faces(given[i].first, k), 1.0 / 3);
-  SpMat rows(static_cast<Eigen::Index>(given.size()), T.n_vertices);
-  rows.setFromTriplets(entries.begin(), entries.end());
+  constexpr double third = 1.0 / 3;
+  TriangleSources middles;
+  for (const auto& [f, direction] : given)
+    middles.isolated.inside.push_back({f, {third, third, third}});
+  const KnownDistances known = known_distances(T, middles, TriangleNodes::corners);
   Regularized options;
   options.alpha = 0;
   AdmmState state;
   const VecX d = RegularizedSolver(std::move(ops), Regularizer::dirichlet, {}, task)
-                     .minimize(rows, options, state, task)
+                     .minimize(known, options, state, task)
                      .u;
   const double sigma = width * std::sqrt(C.A.sum());
   for (int f = 0; f < T.n_faces(); ++f) {
@@ -94,20 +93,6 @@ std::shared_ptr<const Operators> operators_for(const IntrinsicTriangulation& T,
   return std::make_shared<const Operators>(std::move(ops));
 }
 
-/// Rows u = 0 at points of quadratic elements.
-SourceSystem quadratic_source_system(const P2Elements<2>& E,
-                                     const std::vector<P2Source<2>>& sources) {
-  std::vector<P2Point<2>> points;
-  SourceSystem terms;
-  terms.reached.assign(static_cast<std::size_t>(E.n_components), 0);
-  for (const P2Source<2>& source : sources) {
-    points.push_back(source.where.front());
-    terms.reached[E.component[E.node[points.back().element][0]]] = 1;
-  }
-  terms.A = p2_interpolation<2>(E, points);
-  return terms;
-}
-
 /// Triangle meshes: directions read and interpolated, elements, one factorization.
 class RegularizedTriangles {
  public:
@@ -137,12 +122,12 @@ class RegularizedTriangles {
     const SurfaceMesh& mesh = *domain_.mesh;
     const PlacedSources placed =
         place_sources(domain_, sources, task.stage(0.02, "placing the sources"), report);
-    const SourceSystem terms =
-        elements_ ? quadratic_source_system(*elements_, p2_sources(mesh, *T_, placed, 0.5))
-                  : source_system(mesh, *T_, placed);
+    const KnownDistances known =
+        known_distances(*T_, triangle_sources(mesh, *T_, placed),
+                        elements_ ? TriangleNodes::corners_and_middles : TriangleNodes::corners);
     const Stopwatch watch(report, "solve");
     const VecX u =
-        method_->solve(terms, options, task.stage(0.98, "alternating directions"), report);
+        method_->solve(known, options, task.stage(0.98, "alternating directions"), report);
     SurfaceAnswer answer{u.head(mesh.n_vertices()), {}};
     if (elements_ && options.subdivide > 1)
       answer.shown =
@@ -174,11 +159,11 @@ class RegularizedNodes {
 
   SurfaceAnswer solve(const Sources& sources, const Regularized& options, Task& task,
                       Report& report) const {
-    const SourceSystem terms =
-        surface_.system(sources, task.stage(0.02, "placing the sources"), report);
+    const KnownDistances known =
+        surface_.known(sources, task.stage(0.02, "placing the sources"), report);
     const Stopwatch watch(report, "solve");
     return surface_.at_input(
-        method_->solve(terms, options, task.stage(0.98, "alternating directions"), report));
+        method_->solve(known, options, task.stage(0.98, "alternating directions"), report));
   }
 
  private:

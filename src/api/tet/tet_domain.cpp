@@ -55,6 +55,25 @@ TetSourceSystem TetProblem::terms() const {
   return tet_source_system(*mesh, *ops, samples, places, nearest);
 }
 
+std::map<int, TetNodeDistance> TetProblem::known(const std::vector<Eigen::Vector4d>& local,
+                                                 const std::function<int(int, int)>& node,
+                                                 Around around) const {
+  if (!vertices.empty()) {
+    std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
+    for (const int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
+    std::map<int, TetNodeDistance> out;
+    for (int t = 0; t < mesh->n_tets(); ++t)
+      for (int k = 0; k < 4 && ops->volumes[t] > 0; ++k)
+        if (wanted[static_cast<std::size_t>(mesh->tets(t, k))] != 0)
+          out.emplace(node(t, k), TetNodeDistance{t, Eigen::Vector4d::Unit(k), 0});
+    return out;
+  }
+  std::vector<TetPoint> solid = places;
+  for (TetPoint& p : solid)
+    if (p.tet >= 0 && !(ops->volumes[p.tet] > 0)) p.tet = -1;
+  return distances_around(*mesh, *locator, surface, samples, solid, local, node, around);
+}
+
 void check_tet_memory(const TetMesh& mesh, const std::string& what, const std::string& remedy) {
   // The factor of the faces' matrix: about 60 numbers a face were seen.
   check_memory(2.1 * mesh.n_tets() * 60 * 16.0, what + std::to_string(mesh.n_tets()) + " tets",
@@ -113,12 +132,12 @@ void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Tas
   placed.samples = input.is_cloud()
                        ? input.samples
                        : sample_faces(input.surface, max_side, again, SamplesPerTriangle::three);
-  const auto locator = locator_.get(
+  placed.locator = locator_.get(
       [&] { return run_interruptible(task, [mesh = mesh_] { return TetLocator(*mesh); }); });
   int outside = 0;
   for (Eigen::Index i = 0; i < placed.samples.size(); ++i) {
     if (i % 1024 == 0) task.checkpoint();
-    placed.places.push_back(locator->locate(placed.samples.points.row(i)));
+    placed.places.push_back(placed.locator->locate(placed.samples.points.row(i)));
     outside += placed.places.back().tet < 0 ? 1 : 0;
   }
   if (outside == placed.samples.size()) throw InputError("no source lies within the tets");

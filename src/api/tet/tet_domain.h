@@ -2,6 +2,7 @@
 // Tet meshes as a domain of methods.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "littoral/tet_sources.h"
 #include "operators/tet_operators.h"
 #include "sources/oriented_points.h"
+#include "sources/space_distances.h"
 #include "sources/tet_source_system.h"
 
 namespace littoral {
@@ -48,15 +50,21 @@ struct TetProblem {
   std::shared_ptr<const TetOperators> ops;
   std::vector<int> vertices;
   PolygonSoup surface;
-  OrientedPoints samples;        // of the surface
-  std::vector<TetPoint> places;  // of the samples
-  double h = 0;                  // between samples
+  OrientedPoints samples;                     // of the surface
+  std::vector<TetPoint> places;               // of the samples
+  std::shared_ptr<const TetLocator> locator;  // of these
+  double h = 0;                               // between samples
 
   /// The tets of some volume that hold sources, each once.
   std::vector<int> tets_with_sources() const;
   /// A row for each vertex of the source or, of a surface, for each vertex next to it, of the
   /// samples nearest to that.
   TetSourceSystem terms() const;
+  /// What is known around the source at nodes of tets of some volume: barycentrics of a tet's
+  /// nodes, and `node(tet, i)`, their numbers. Of vertices, 0 there and nothing else.
+  std::map<int, TetNodeDistance> known(const std::vector<Eigen::Vector4d>& local,
+                                       const std::function<int(int, int)>& node,
+                                       Around around) const;
 };
 
 /// The mesh and its operators, moved and scaled; made once, for any sources.

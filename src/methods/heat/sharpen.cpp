@@ -6,47 +6,12 @@
 #include "base/stopwatch.h"
 #include "solve/direct/definite.h"
 #include "solve/optimization/admm.h"
+#include "solve/optimization/bounded_values.h"
 #include "solve/optimization/pdhg.h"
 
 namespace littoral {
 
 namespace {
-
-/// Constraints on one number a cell after the cells of the gradient, in its first coordinate: at
-/// first nodes that keep their sign and stay within a bound, then rows that vanish.
-class SignedBall : public GradientEnergy {
- public:
-  SignedBall(int dim, Eigen::Index cells, std::vector<int> sign, VecX bound)
-      : dim_(dim), cells_(cells), sign_(std::move(sign)), bound_(std::move(bound)) {}
-
-  void prox(Eigen::Index cell, double, const double* w, double* z) const override {
-    if (cell < cells_) {
-      double length2 = 0;
-      for (int d = 0; d < dim_; ++d) length2 += w[d] * w[d];
-      const double shrink = 1 / std::sqrt(std::max(1.0, length2));
-      for (int d = 0; d < dim_; ++d) z[d] = shrink * w[d];
-      return;
-    }
-    for (int d = 0; d < dim_; ++d) z[d] = 0;
-    const Eigen::Index i = cell - cells_;
-    if (i >= bound_.size()) return;
-    const int sign = sign_[i];
-    z[0] = sign * std::clamp(sign * w[0], 0.0, bound_[i]);
-  }
-  double value(Eigen::Index, const double*) const override { return 0; }
-  double conjugate(Eigen::Index cell, const double* y) const override {
-    return cell < cells_ ? Eigen::Map<const VecX>(y, dim_).norm() : 0;
-  }
-  double gauge(Eigen::Index cell, const double* z) const override {
-    return cell < cells_ ? Eigen::Map<const VecX>(z, dim_).norm() : 0;
-  }
-
- private:
-  int dim_;
-  Eigen::Index cells_;
-  std::vector<int> sign_;
-  VecX bound_;
-};
 
 int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
@@ -98,27 +63,12 @@ VecX distance_to_zero_set(const Calculus& C, const SpRows& G, int dim, const std
   return distance;
 }
 
-/// G, and below it each row of R as the first of `dim` rows.
-SpRows stacked(const SpRows& G, const SpMat& R, int dim) {
-  Triplets entries;
-  entries.reserve(G.nonZeros() + R.nonZeros());
-  for (int r = 0; r < G.outerSize(); ++r)
-    for (SpRows::InnerIterator it(G, r); it; ++it) entries.emplace_back(r, it.col(), it.value());
-  for (int j = 0; j < R.outerSize(); ++j)
-    for (SpMat::InnerIterator it(R, j); it; ++it)
-      entries.emplace_back(G.rows() + dim * it.row(), j, it.value());
-  SpRows both(G.rows() + dim * R.rows(), G.cols());
-  both.setFromTriplets(entries.begin(), entries.end());
-  return both;
-}
-
 /// The rows after the gradient, over h: nodes next to the zero set of phi0, which keep their sign
-/// and stay within `bound`; then rows of the source.
+/// and stay within `bound`; then rows of the source, with the bound 0.
 struct BandRows {
   SpMat R;
-  std::vector<int> sign;  // of the first rows
-  VecX bound;             // of the first rows
-  VecX weight;
+  std::vector<int> sign;
+  VecX bound, weight;
 };
 
 /// A row of the source that touches those nodes is left out: phi0 has its zero set there, and a row
@@ -145,6 +95,8 @@ BandRows band_rows(const Calculus& C, const SpMat& source, int dim, const std::v
     for (SpRows::InnerIterator it(rows, r); it; ++it)
       entries.emplace_back(weight.size(), it.col(), it.value() / C.h);
     weight.push_back(10 * std::pow(C.h, dim));
+    band.sign.push_back(1);
+    bound.push_back(0);
   }
   band.bound = Eigen::Map<const VecX>(bound.data(), bound.size());
   band.weight = Eigen::Map<const VecX>(weight.data(), weight.size());
@@ -182,7 +134,8 @@ VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
   problem.A << C.A, w;
   problem.b = VecX::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) problem.b[i] = s[i] * C.M[i];
-  const SignedBall energy(dim, cells, band.sign, band.bound);
+  const BallQuadraticEnergy ball(dim, 0, 0, VecX());
+  const BoundedEnergy energy(ball, dim, cells, band.sign, band.bound);
   problem.energy = &energy;
   problem.G = stacked(G, band.R, dim);
 

@@ -80,36 +80,6 @@ const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options() {
   return table;
 }
 
-namespace {
-
-/// The rows of each component, in its own nodes (components).
-std::vector<SpMat> split_rows(const SpMat& rows, const Calculus& C,
-                              const std::vector<RegularizedPart>& parts) {
-  std::vector<int> local(C.component.size(), -1);
-  for (const RegularizedPart& part : parts)
-    for (std::size_t i = 0; i < part.nodes.size(); ++i) local[part.nodes[i]] = i;
-  std::vector<Triplets> entries(parts.size());
-  std::vector<int> count(parts.size(), 0);
-  const SpRows by_row = rows;
-  for (int r = 0; r < by_row.outerSize(); ++r) {
-    int c = -1;
-    for (SpRows::InnerIterator it(by_row, r); it; ++it) {
-      if (c < 0) c = C.component[it.col()];
-      if (c >= 0 && C.component[it.col()] == c)
-        entries[c].emplace_back(count[c], local[it.col()], it.value());
-    }
-    if (c >= 0) ++count[c];
-  }
-  std::vector<SpMat> out(parts.size());
-  for (std::size_t c = 0; c < parts.size(); ++c) {
-    out[c].resize(count[c], parts[c].nodes.size());
-    out[c].setFromTriplets(entries[c].begin(), entries[c].end());
-  }
-  return out;
-}
-
-}  // namespace
-
 RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
                                      RegularizerData data, const Task& task,
                                      ConstrainedSystem::Rows expected)
@@ -119,27 +89,33 @@ RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regul
   if (parts_.size() == 1) parts_[0].factor(task);
 }
 
-AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& options,
+AdmmResult RegularizedSolver::minimize(const KnownDistances& known, const Regularized& options,
                                        AdmmState& state, const Task& task, const VecX* sign) const {
-  if (parts_.size() == 1) return parts_[0].minimize(rows, options, state, task, sign);
+  if (parts_.size() == 1) return parts_[0].minimize(known, options, state, task, sign);
   const Calculus& C = ops_->scalar;
-  const std::vector<SpMat> rows_of = split_rows(rows, C, parts_);
+  std::vector<KnownDistances> known_in(parts_.size());  // by the parts' own nodes
+  for (const auto& [i, distance] : known)
+    if (const int c = C.component[i]; c >= 0) {
+      const std::vector<int>& nodes = parts_[c].nodes;
+      const auto at = std::lower_bound(nodes.begin(), nodes.end(), i) - nodes.begin();
+      known_in[c].emplace(at, distance);
+    }
   double nodes = 0;
   for (std::size_t c = 0; c < parts_.size(); ++c)
-    if (rows_of[c].rows() > 0) nodes += static_cast<double>(parts_[c].nodes.size());
+    if (!known_in[c].empty()) nodes += static_cast<double>(parts_[c].nodes.size());
   state.parts.resize(parts_.size());
   AdmmResult all;
   all.converged = true;
   all.u = VecX::Zero(C.M.size());
   Task rest = task;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
-    if (rows_of[c].rows() == 0) continue;
+    if (known_in[c].empty()) continue;
     const std::vector<int>& of_all = parts_[c].nodes;
     const VecX sign_here = sign ? VecX((*sign)(of_all)) : VecX();
     const Task stage =
         rest.stage(static_cast<double>(of_all.size()) / nodes, "alternating directions");
-    AdmmResult one =
-        parts_[c].minimize(rows_of[c], options, state.parts[c], stage, sign ? &sign_here : nullptr);
+    AdmmResult one = parts_[c].minimize(known_in[c], options, state.parts[c], stage,
+                                        sign ? &sign_here : nullptr);
     for (std::size_t i = 0; i < of_all.size(); ++i) all.u[of_all[i]] = one.u[i];
     all.objective += one.objective;
     all.gap = std::max(all.gap, one.gap);
@@ -155,12 +131,21 @@ AdmmResult RegularizedSolver::minimize(const SpMat& rows, const Regularized& opt
   return all;
 }
 
-VecX RegularizedSolver::solve(const SourceSystem& system, const Regularized& options,
+std::vector<char> RegularizedSolver::reached(const KnownDistances& known) const {
+  const Calculus& C = ops_->scalar;
+  std::vector<char> reached(C.n_components, 0);
+  for (const auto& [i, distance] : known)
+    if (C.component[i] >= 0) reached[C.component[i]] = 1;
+  return reached;
+}
+
+VecX RegularizedSolver::solve(const KnownDistances& known, const Regularized& options,
                               const Task& task, Report& report, AdmmState* state) const {
   AdmmState own;
-  const AdmmResult result = minimize(system.A, options, state ? *state : own, task);
+  const AdmmResult result = minimize(known, options, state ? *state : own, task);
   report_admm(result, report);
-  return finalize_field(*ops_, system, result.u.cwiseMax(0.0), report);
+  return finalize_field(ops_->scalar.component, ops_->scalar.n_components, ops_->unit,
+                        reached(known), result.u.cwiseMax(0.0), report);
 }
 
 }  // namespace littoral

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/option_table.h"
 #include "base/task.h"
@@ -11,7 +12,7 @@
 #include "methods/regularized/regularized_part.h"
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
-#include "sources/source_system.h"
+#include "sources/known_distances.h"
 
 namespace littoral {
 
@@ -37,16 +38,20 @@ class RegularizedSolver {
                     RegularizerData data, const Task& task,
                     ConstrainedSystem::Rows expected = ConstrainedSystem::Rows::few);
 
-  /// Distance to the sources at the nodes (nodes) [length of the input], not negative, +inf on
-  /// components that no source reaches: minimises eq. 11 by Alg. 1, on each component by itself.
-  /// `state`: from an earlier solve with the same sources, to start from; left as it is at the end.
-  VecX solve(const SourceSystem& system, const Regularized& options, const Task& task,
+  /// Distance at the nodes (nodes) [length of the input] from where it is known, in units of the
+  /// operators: not negative, +inf on components where nothing is known. Minimises eq. 11 by Alg. 1
+  /// on each component by itself. `state`: from an earlier solve with the same sources, to start
+  /// from; left as it is at the end.
+  VecX solve(const KnownDistances& known, const Regularized& options, const Task& task,
              Report& report, AdmmState* state = nullptr) const;
 
-  /// The same for the rows (rows x nodes) at which u = 0, without units and without infinities.
-  /// `sign`: unless null, 1 or -1 at the nodes, where u is to be as large or as small as it can.
-  AdmmResult minimize(const SpMat& rows, const Regularized& options, AdmmState& state,
+  /// The same without units and without infinities. `sign`: unless null, 1 or -1 at the nodes,
+  /// where u is to be as large or as small as it can.
+  AdmmResult minimize(const KnownDistances& known, const Regularized& options, AdmmState& state,
                       const Task& task, const VecX* sign = nullptr) const;
+
+  /// Components where something is known (components).
+  std::vector<char> reached(const KnownDistances& known) const;
 
   const Operators& operators() const { return *ops_; }
 

@@ -6,7 +6,7 @@
 
 #include "base/index.h"
 #include "littoral/error.h"
-#include "solve/optimization/gradient_energy.h"
+#include "solve/optimization/bounded_values.h"
 
 namespace littoral {
 
@@ -21,6 +21,55 @@ double alpha_of(const Regularized& options, Regularizer regularizer, double meas
   return options.alpha * (regularizer == Regularizer::hessian ? root * root * root : root);
 }
 
+/// What is known as rows: nodes at 0, which are held, then nodes below a bound, which are held by
+/// a penalty and lie in cells of their own.
+struct Held {
+  SpMat rows;  // rows x nodes
+  VecX give;   // rows; 0 where held, the reciprocal of the penalty over rho elsewhere
+
+  // Of the bounds, each in the size of its node's share of the domain:
+  std::vector<int> node, sign;
+  VecX bound, weight, size;
+  SpMat bounded;  // bounds x nodes
+
+  Held(const Calculus& C, const KnownDistances& known, const VecX* signs, int dim) {
+    std::vector<int> at_zero;
+    std::vector<double> distance;
+    for (const auto& [i, d] : known) {
+      if (C.component[i] < 0) continue;
+      if (d <= 1e-9 * std::pow(C.M[i], 1.0 / dim)) {
+        at_zero.push_back(i);
+        continue;
+      }
+      node.push_back(i);
+      sign.push_back(signs && (*signs)[i] < 0 ? -1 : 1);
+      distance.push_back(d);
+    }
+    const Eigen::Index n = index(node.size()), zeros = index(at_zero.size());
+    weight = C.M(node);
+    size = weight.array().pow(1.0 / dim);
+    bound = Eigen::Map<const VecX>(distance.data(), n).cwiseQuotient(size);
+    give = VecX::Zero(zeros + n);
+    give.tail(n) = size.cwiseAbs2().cwiseQuotient(weight);
+    Triplets entries, of_bounds;
+    for (const int i : at_zero) entries.emplace_back(entries.size(), i, 1);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      entries.emplace_back(entries.size(), node[k], 1);
+      of_bounds.emplace_back(k, node[k], 1 / size[k]);
+    }
+    rows.resize(zeros + n, C.M.size());
+    rows.setFromTriplets(entries.begin(), entries.end());
+    bounded.resize(n, C.M.size());
+    bounded.setFromTriplets(of_bounds.begin(), of_bounds.end());
+  }
+
+  VecX within_bounds(VecX u) const {
+    for (std::size_t k = 0; k < node.size(); ++k)
+      u[node[k]] = sign[k] * std::clamp(sign[k] * u[node[k]], 0.0, bound[k] * size[k]);
+    return u;
+  }
+};
+
 /// The part of the objective that is a function of each cell's gradient, with |grad u| <= 1.
 std::unique_ptr<GradientEnergy> cell_energy(Regularizer regularizer, const RegularizerData& data,
                                             double alpha, double beta, int dim) {
@@ -30,6 +79,7 @@ std::unique_ptr<GradientEnergy> cell_energy(Regularizer regularizer, const Regul
     case Regularizer::max_norm:
       return std::make_unique<BallMaxNormEnergy>(alpha, data.frames);
     case Regularizer::dirichlet:
+      return std::make_unique<BallQuadraticEnergy>(dim, alpha, 0, VecX());
     case Regularizer::hessian:
       break;
   }
@@ -109,10 +159,12 @@ void RegularizedPart::factor(const Task& task) const {
   if (regularizer_ != Regularizer::hessian) laplacian(task);
 }
 
-AdmmResult RegularizedPart::minimize(const SpMat& rows, const Regularized& options,
+AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regularized& options,
                                      AdmmState& state, const Task& task, const VecX* sign) const {
   const Calculus& C = *C_;
-  if (rows.nonZeros() == 0) {  // nothing holds it
+  const int dim = C.G.rows / C.A.size();
+  const Held held(C, known, sign, dim);
+  if (held.rows.rows() == 0) {
     AdmmResult nothing;
     nothing.u = VecX::Zero(C.M.size());
     nothing.converged = true;
@@ -124,13 +176,20 @@ AdmmResult RegularizedPart::minimize(const SpMat& rows, const Regularized& optio
     if (C.component[i] < 0) problem.b[i] = 0;
   const double area = problem.b.sum();
   if (sign) problem.b = problem.b.cwiseProduct(*sign);
-  const int dim = C.G.rows / C.A.size();
   const double alpha = alpha_of(options, regularizer_, area, dim);
-  const auto energy = cell_energy(regularizer_, *data_, alpha, options.beta, dim);
-  problem.A = C.A;
+  // Alg. 1: alpha W + rho W_D = (alpha + rho) W_D, so the factor of W_D serves every penalty. With
+  // bounds, which have the penalty rho alone, it does if gradients carry the energy.
+  const bool with_bounds = held.bound.size() > 0;
+  const bool first_algorithm = regularizer_ == Regularizer::dirichlet && !with_bounds;
+  const auto of_gradients =
+      cell_energy(regularizer_, *data_, first_algorithm ? 0 : alpha, options.beta, dim);
+  const BoundedEnergy energy(*of_gradients, dim, C.A.size(), held.sign, held.bound);
+  problem.A.resize(C.A.size() + held.bound.size());
+  problem.A << C.A, held.weight;
   problem.dim = dim;
-  problem.energy = energy.get();
-  problem.G = C.G.matrix();
+  problem.energy = &energy;
+  problem.G = with_bounds ? stacked(C.G.matrix(), held.bounded, dim) : C.G.matrix();
+  if (with_bounds) problem.allowed = [&held](VecX u) { return held.within_bounds(std::move(u)); };
 
   AdmmOptions admm_options;
   admm_options.relative = options.tolerance;
@@ -148,24 +207,19 @@ AdmmResult RegularizedPart::minimize(const SpMat& rows, const Regularized& optio
       if (rho != constrained_rho) {
         constrained = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components,
                                         task, ConstrainedSystem::Rows::many)
-                          .constrain(rows, task);
+                          .constrain(held.rows, task, held.give / rho);
         constrained_rho = rho;
       }
       return constrained.solve(b);
     };
     admm_options.penalty_changes = 8;
-  } else if (regularizer_ == Regularizer::dirichlet) {
-    // Alg. 1: alpha W + rho W_D = (alpha + rho) W_D, so the factor of W_D serves every penalty.
-    constrained = laplacian(task)->constrain(rows, task);
-    if (alpha > 0)
-      problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
-    problem.solve = [&constrained, alpha](const VecX& b, double rho) {
-      return VecX(constrained.solve(b) / (alpha + rho));
-    };
   } else {
-    constrained = laplacian(task)->constrain(rows, task);
-    problem.solve = [&constrained](const VecX& b, double rho) {
-      return VecX(constrained.solve(b) / rho);
+    constrained = laplacian(task)->constrain(held.rows, task, held.give);
+    const double in_quadratic = first_algorithm ? alpha : 0;
+    if (in_quadratic > 0)
+      problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
+    problem.solve = [&constrained, in_quadratic](const VecX& b, double rho) {
+      return VecX(constrained.solve(b) / (in_quadratic + rho));
     };
   }
   return admm(problem, admm_options, state, task);

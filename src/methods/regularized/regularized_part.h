@@ -11,6 +11,7 @@
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
 #include "solve/poisson/constrained_system.h"
+#include "sources/known_distances.h"
 
 namespace littoral {
 
@@ -32,8 +33,8 @@ class RegularizedPart {
   /// Factors, if that has not been done.
   void factor(const Task& task) const;
 
-  /// Eq. 11 with u = 0 in the rows (rows x nodes), without units; as RegularizedSolver::minimize.
-  AdmmResult minimize(const SpMat& rows, const Regularized& options, AdmmState& state,
+  /// Eq. 11 where distances are known, by the part's own nodes; as RegularizedSolver::minimize.
+  AdmmResult minimize(const KnownDistances& known, const Regularized& options, AdmmState& state,
                       const Task& task, const VecX* sign) const;
 
   std::vector<int> nodes;  // of the whole domain; empty: all of them

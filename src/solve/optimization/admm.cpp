@@ -57,7 +57,7 @@ class Admm {
       progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
       if (changes_left > 0 && change_penalty(result, k)) --changes_left;
     }
-    result.u = u_;
+    result.u = allowed();
     return result;
   }
 
@@ -145,22 +145,29 @@ class Admm {
   /// from before it, satisfies P u + D y = b on the allowed directions; so by Fenchel's inequality
   /// -1/2 u^T P u - sum A phi*(y) is a lower bound.
   void evaluate_duality_gap(AdmmResult& r) const {
+    const VecX u = allowed();
+    VecX g = g_;
+    if (p_.allowed) multiply(p_.G, u, g, task_);
     r.largest = 0;
     for (Eigen::Index c = 0; c < p_.A.size(); ++c)
-      r.largest = std::max(r.largest, p_.energy->gauge(c, g_.data() + c * p_.dim));
+      r.largest = std::max(r.largest, p_.energy->gauge(c, g.data() + c * p_.dim));
     const double shrink = 1 / std::max(1.0, r.largest);
-    const double uPu = p_.quadratic ? u_.dot(p_.quadratic(u_)) : 0;
-    const VecX y = state_.rho * (old_w_ + g_ - old_z_), g = shrink * g_;
+    g *= shrink;
+    const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
+    const double uPu = squared(u_);
+    const VecX y = state_.rho * (old_w_ + g_ - old_z_);
     const double phi = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
-    r.objective = 0.5 * shrink * shrink * uPu - shrink * p_.b.dot(u_) + phi;
+    r.objective = 0.5 * shrink * shrink * squared(u) - shrink * p_.b.dot(u) + phi;
     const double bound = -0.5 * uPu - conjugate;
     // Where the constraints leave nothing but 0, the objective is round-off of this size.
     const double least = 1e-12 * p_.b.lpNorm<1>() * p_.length();
     r.gap = (r.objective - bound) / std::max({std::abs(r.objective), least, 1e-300});
   }
+
+  VecX allowed() const { return p_.allowed ? p_.allowed(u_) : u_; }
 
   const SplitProblem& p_;
   const AdmmOptions& o_;

@@ -24,6 +24,8 @@ struct SplitProblem {
   std::function<VecX(const VecX& b, double rho)> solve;  // argmin 1/2 u^T (P + rho G^T A G) u - b^T
                                                          // u over the u that are allowed
   const GradientEnergy* energy = nullptr;
+  std::function<VecX(VecX u)> allowed;  // empty: all u; otherwise the nearest u, in some sense,
+                                        // that meets what `energy` asks beside the gauge
 
   SpRows divergence() const;  // D = G^T A, unknowns x dim cells
   double length() const;      // the dim-th root of the total weight: what penalties scale with

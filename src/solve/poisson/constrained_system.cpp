@@ -52,40 +52,42 @@ ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_
     factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task);
 }
 
-/// Single unknowns by elimination, other rows by a penalty.
-void ConstrainedSystem::constrain_many(const SpMat& A, Constrained& constrained,
+/// Single unknowns by elimination, other rows and those that give by a penalty.
+void ConstrainedSystem::constrain_many(const SpMat& A, const VecX& give, Constrained& constrained,
                                        const Task& task) const {
   const RowMatrix rows = A;
   std::vector<char> fixed(n_components_, 0);
   Triplets others;
-  int n = 0;
+  std::vector<double> weight;  // of the others
+  const double stiff = stiffness * K_->diagonal().mean();
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
     const int c = component_of_row(rows, r, component_);
     if (c < 0) continue;
     fixed[c] = 1;
-    const bool single = holds_one_unknown(rows, r);
+    const bool gives = give.size() > 0 && give[r] > 0;
+    const bool single = !gives && holds_one_unknown(rows, r);
     for (RowMatrix::InnerIterator it(rows, r); it; ++it) {
       if (it.value() == 0) continue;
       if (single)
         constrained.gone_[it.col()] = 1;
       else
-        others.emplace_back(n, it.col(), it.value());
+        others.emplace_back(weight.size(), it.col(), it.value());
     }
-    n += single ? 0 : 1;
+    if (!single) weight.push_back(gives ? 1 / give[r] : stiff);
   }
   constrained.pinned_ = pin_first(component_, fixed, constrained.gone_);
   SpMat K = *K_;
-  if (n > 0) {
-    SpMat stiff(n, K.cols());
-    stiff.setFromTriplets(others.begin(), others.end());
-    K = with_rows(K, stiff, VecX::Constant(n, stiffness * K.diagonal().mean()));
+  if (!weight.empty()) {
+    SpMat penalised(weight.size(), K.cols());
+    penalised.setFromTriplets(others.begin(), others.end());
+    K = with_rows(K, penalised, Eigen::Map<const VecX>(weight.data(), weight.size()));
   }
   constrained.factor_ =
       std::make_shared<const DefiniteSystem>(eliminated(K, constrained.pinned_), task);
 }
 
-ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
-                                                            const Task& task) const {
+ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A, const Task& task,
+                                                            const VecX& give) const {
   const RowMatrix rows = A;
   Constrained constrained;
   constrained.factor_ = factor_;
@@ -93,6 +95,7 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
   constrained.active_.assign(n_components_, 0);
   constrained.gone_.assign(component_.size(), 0);
   constrained.pinned_ = pinned_;
+  constrained.give_ = VecX::Zero(n_components_);
   std::vector<Eigen::Index> rest;
   Triplets gauge, others;
   auto put = [&](Triplets& out, Eigen::Index r, int column) {
@@ -110,11 +113,13 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
     }
     constrained.active_[c] = 1;
     put(gauge, r, c);
+    if (give.size() > 0) constrained.give_[c] = give[r];
   }
   const Eigen::Index n = component_.size();
   constrained.gauge_.resize(n, n_components_);
   if (!factor_ || index(rest.size()) > few_rows) {
-    constrain_many(A, constrained, task);
+    constrained.give_.setZero();
+    constrain_many(A, give, constrained, task);
     return constrained;
   }
   constrained.gauge_.setFromTriplets(gauge.begin(), gauge.end());
@@ -129,7 +134,9 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
   }
   // Responses differ by many orders where thin triangles are, so each row is compared with itself:
   // a row whose unknowns would give way far more if all others were held depends on other rows.
-  const Eigen::MatrixXd S = columns.transpose() * response;
+  Eigen::MatrixXd S = columns.transpose() * response;
+  for (std::size_t i = 0; i < rest.size() && give.size() > 0; ++i)
+    S(index(i), index(i)) += give[rest[i]];
   const VecX stiffness_of = K_->diagonal();
   VecX scale(S.rows());
   for (Eigen::Index i = 0; i < S.rows(); ++i) {
@@ -149,7 +156,7 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A,
 }
 
 /// With the gauge rows alone: what they exert is the sum of b, so that K u = b - a sum(b) has a
-/// solution; then the constant that makes a^T u = 0.
+/// solution; then the constant that makes a^T u = 0, or as much as the row gives under that force.
 VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
   VecX rhs = b;
   VecX sum = VecX::Zero(gauge_.cols());
@@ -164,7 +171,7 @@ VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
   for (Eigen::Index i = 0; i < rhs.size(); ++i)
     if (pinned_[i]) rhs[i] = 0;
   VecX u = factor_->solve_once(rhs);
-  const VecX shift = gauge_.transpose() * u;
+  const VecX shift = gauge_.transpose() * u - give_.cwiseProduct(sum);
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const int c = component_[i];
     if (c < 0 || !active_[c])

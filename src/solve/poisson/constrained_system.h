@@ -37,6 +37,7 @@ class ConstrainedSystem {
     std::vector<char> active_;  // components with a row
     std::vector<char> gone_;    // unknowns held at zero by elimination
     std::vector<char> pinned_;  // unknowns that the factor leaves out: those, and one per gauge
+    VecX give_;                 // components; of the gauge
     SpMat gauge_;               // unknowns x components; a row with sum 1 that fixes each constant
     SpMat rest_;                // unknowns x rows; the other rows
     Eigen::MatrixXd response_;  // unknowns x rows; solutions for them
@@ -46,10 +47,14 @@ class ConstrainedSystem {
   /// Rows (rows x unknowns) whose entries sum to 1. One row a component reuses the factorization
   /// as it is; up to 64 rows more cost a solve each. Beyond, K is factored again: rows that hold
   /// single unknowns are eliminated, the others added as a stiff penalty.
-  Constrained constrain(const SpMat& rows, const Task& task) const;
+  ///
+  /// give: rows, or empty: all 0. A row with give s > 0 is not held: (A u)^2 / (2 s) is added to
+  /// what is minimised.
+  Constrained constrain(const SpMat& rows, const Task& task, const VecX& give = {}) const;
 
  private:
-  void constrain_many(const SpMat& rows, Constrained& constrained, const Task& task) const;
+  void constrain_many(const SpMat& rows, const VecX& give, Constrained& constrained,
+                      const Task& task) const;
 
   std::shared_ptr<const SpMat> K_;
   std::vector<int> component_;

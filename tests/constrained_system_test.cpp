@@ -1,0 +1,66 @@
+// Repeated solves under constraints, against dense ones.
+
+#include "solve/poisson/constrained_system.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+namespace littoral {
+namespace {
+
+/// The Laplacian of two chains of n unknowns, lower triangle.
+SpMat two_chains(int n) {
+  Triplets entries;
+  for (int i = 0; i + 1 < 2 * n; ++i) {
+    if (i == n - 1) continue;
+    entries.emplace_back(i, i, 1);
+    entries.emplace_back(i + 1, i + 1, 1);
+    entries.emplace_back(i + 1, i, -1);
+  }
+  SpMat K(2 * n, 2 * n);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+TEST(ConstrainedSystem, RowsThatGiveAreSprings) {
+  const int n = 60;
+  const SpMat K = two_chains(n);
+  std::vector<int> component(2 * n, 0);
+  std::fill(component.begin() + n, component.end(), 1);
+  VecX b(2 * n);
+  for (int i = 0; i < 2 * n; ++i) b[i] = std::sin(1 + 3 * i);
+  // Springs at every `step`-th unknown: few of them by corrections of one factor, many by another.
+  // The first chain has two held unknowns beside them, or none.
+  for (const int step : {12, 1})
+    for (const bool held : {false, true}) {
+      Triplets rows;
+      std::vector<double> give;
+      const auto add = [&](int i, double s) {
+        rows.emplace_back(static_cast<int>(give.size()), i, 1);
+        give.push_back(s);
+      };
+      for (const int i : {4, 40})
+        if (held) add(i, 0);
+      for (int i = 2; i < 2 * n; i += step)
+        if (!held || (i != 4 && i != 40)) add(i, 0.1 + 0.01 * i);
+      SpMat A(static_cast<Eigen::Index>(give.size()), 2 * n);
+      A.setFromTriplets(rows.begin(), rows.end());
+      const VecX s = Eigen::Map<const VecX>(give.data(), A.rows());
+      const VecX u = ConstrainedSystem(K, component, 2, {}).constrain(A, {}, s).solve(b);
+
+      // [K A^T; A -s] [u; force] = [b; 0]
+      MatX dense = MatX::Zero(2 * n + s.size(), 2 * n + s.size());
+      dense.topLeftCorner(2 * n, 2 * n) = MatX(SpMat(K.selfadjointView<Eigen::Lower>()));
+      dense.bottomLeftCorner(s.size(), 2 * n) = MatX(A);
+      dense.topRightCorner(2 * n, s.size()) = MatX(A).transpose();
+      dense.bottomRightCorner(s.size(), s.size()).diagonal() = -s;
+      VecX rhs = VecX::Zero(dense.rows());
+      rhs.head(2 * n) = b;
+      const VecX expected = dense.fullPivLu().solve(rhs);
+      EXPECT_LT((u - expected.head(2 * n)).cwiseAbs().maxCoeff(), 1e-9) << step << held;
+    }
+}
+
+}  // namespace
+}  // namespace littoral

@@ -11,6 +11,7 @@
 
 #include "api/surface/pairs.h"
 #include "base/parallel.h"
+#include "base/platform/memory.h"
 #include "domain_shapes.h"
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
@@ -39,6 +40,10 @@ PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
   Report report;
   return test::pair_distances(mesh, vertices, AnyMethod::named(method, options), report);
 }
+
+/// How far rows of several sources and a solve of its own may differ, of the largest distance:
+/// round-off, but where an interior point method meets its tolerance from other sides.
+double rows_within(const std::string& method) { return method == "quadratic" ? 1e-4 : 1e-9; }
 
 TEST(AllPairs, CircleWithDirichletEnergy) {
   // On the circle U(x, y) = u(x - y), so the two terms of the energy are alike and the product
@@ -96,11 +101,14 @@ TEST(AllPairs, SymmetricZeroAtHomeAndOfSlopeOne) {
   }
 }
 
-TEST(AllPairs, TendsToTheDistanceAndToFewerViolations) {
+TEST(AllPairs, TendsToTheDistanceAndSmoothingToFewerViolations) {
   const SurfaceMesh mesh(test::octasphere_soup(2));
-  double error = 1e9;
+  double error = 1e9, violations = 0;
   for (const double alpha : {0.2, 0.05, 0.0}) {
     const MatX U = pairs_on(mesh, alpha);
+    const PairStatistics statistics = pair_statistics(U, 4 * std::numbers::pi, {});
+    EXPECT_GT(statistics.violations, violations) << alpha;
+    violations = statistics.violations;
     double worst = 0;
     for (int a = 0; a < mesh.n_vertices(); ++a)
       for (int b = 0; b < mesh.n_vertices(); ++b)
@@ -111,6 +119,7 @@ TEST(AllPairs, TendsToTheDistanceAndToFewerViolations) {
     error = worst;
   }
   EXPECT_LT(error, 0.5);  // first order in an edge length of 0.4
+  EXPECT_LT(violations, 0.1);
 }
 
 TEST(AllPairs, SameWhateverUnitThreadsAndPrecision) {
@@ -156,6 +165,9 @@ TEST(AllPairs, MemoryIsForeseen) {
   bool stated = false;
   for (const auto& [name, value] : report.sizes) stated |= name == "matrices, bytes" && value > 0;
   EXPECT_TRUE(stated);
+  set_memory_limit(1e4);
+  EXPECT_THROW(pairs_on(SurfaceMesh(test::octasphere_soup(1)), options, report), IoError);
+  set_memory_limit(0);
 }
 
 TEST(PairStatistics, CountsWhatIsWrong) {
@@ -218,7 +230,9 @@ TEST(Pairs, EveryMethodGivesTheRowsOfItsSingleSolves) {
                                               AnyMethod::named(method.name), report);
     const double far = alone.maxCoeff();
     EXPECT_EQ(rows(1, 17), 0) << method.name;
-    EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * far) << method.name;
+    EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(),
+              rows_within(method.name) * far)
+        << method.name;
   }
 }
 
@@ -231,7 +245,8 @@ void expect_rows_of_single_solves(const SurfaceDomain& domain, const AnyMethod& 
   EXPECT_EQ(report.domain, domain.kind());
   const Sources source(SurfacePoint::at_vertex(17));
   const VecX alone = solve_once(method, domain, source, {}, report).values;
-  EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(), 0.01 * alone.maxCoeff());
+  EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(),
+            rows_within(method.name()) * alone.maxCoeff());
 }
 
 class PairsOnEveryDomain : public testing::TestWithParam<test::Domain> {};

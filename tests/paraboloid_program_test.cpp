@@ -64,6 +64,28 @@ TEST(ParaboloidProgram, TheGapBoundsTheDistanceFromTheOptimum) {
     EXPECT_TRUE(result.converged);
     EXPECT_LE(std::abs(result.objective - 10), 20 * tolerance * 10);
   }
+  // Of iterates, too, once the dual residual is small: what is missing is at most both together.
+  int seen = 0;
+  for (int most = 1; most < 25; ++most) {
+    const ParaboloidResult r =
+        one_element().solve(two_disks(), VecX::Constant(6, 0.1), {1e-12, most}, {}, Task());
+    if (r.dual_residual > 0.2) continue;
+    EXPECT_LE(10 - r.objective, (r.gap + r.dual_residual) * r.objective + 1e-9) << most;
+    ++seen;
+  }
+  EXPECT_GE(seen, 5);
+}
+
+TEST(ParaboloidProgram, SamplesThatAreStillMissingAreCounted) {
+  // Each round finds that a little less is allowed than the samples so far say.
+  double slope = 1;
+  const ParaboloidResult result = solved(two_disks(), 1e-9, [&](const VecX&, double) {
+    Program::Point p = point(0, 1, 2);
+    p.g[0] *= slope += 0.1;
+    return std::vector<Program::Inserted>{{0, p, 1}};
+  });
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.missing, 1U);
 }
 
 TEST(ParaboloidProgram, InsertedSamplesHold) {

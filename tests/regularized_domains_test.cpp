@@ -167,6 +167,21 @@ TEST(RegularizedDomains, QuadraticElementsAreRounder) {
   EXPECT_LT(error("quadratic"), 0.6 * error("linear"));
 }
 
+TEST(RegularizedDomains, GradientsAtCornersOfQuadraticElementsAreReported) {
+  for (const double scale : {1.0, 1e3}) {
+    PolygonSoup soup = test::octasphere_soup(2);
+    soup.points *= scale;
+    Report report;
+    test::surface_answer(SurfaceMesh(soup), test::vertex_points({4}),
+                         Regularized{.elements = Elements::quadratic}, report);
+    const double between = test::residual(report, "largest gradient over 1");
+    const double corners = test::residual(report, "largest gradient over 1, at corners");
+    EXPECT_LT(between, 0.2);
+    EXPECT_GT(corners, between);
+    EXPECT_LT(corners, 3);
+  }
+}
+
 TEST(RegularizedDomains, QuadraticElementsShowWhatIsBetween) {
   const SurfaceMesh mesh(test::octasphere_soup(1));
   Report report;

@@ -93,6 +93,17 @@ std::shared_ptr<const Operators> operators_for(const IntrinsicTriangulation& T,
   return std::make_shared<const Operators>(std::move(ops));
 }
 
+/// How much over 1 the largest gradient at a corner is: the limit holds at the middles of sides.
+double longest_at_corners(const P2Elements<2>& E, const VecX& u) {
+  double longest = 1;
+  for (int f = 0; f < E.n_elements(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const double slope = E.gradient(u, f, P2Shape<2>::corner(k)).norm() / E.unit;
+      if (std::isfinite(slope)) longest = std::max(longest, slope);
+    }
+  return longest - 1;
+}
+
 /// Triangle meshes: directions read and interpolated, elements, one factorization.
 class RegularizedTriangles {
  public:
@@ -128,6 +139,9 @@ class RegularizedTriangles {
     const Stopwatch watch(report, "solve");
     const VecX u =
         method_->solve(known, options, task.stage(0.98, "alternating directions"), report);
+    if (elements_)
+      report.residuals.emplace_back("largest gradient over 1, at corners",
+                                    longest_at_corners(*elements_, u));
     SurfaceAnswer answer{u.head(mesh.n_vertices()), {}};
     if (elements_ && options.subdivide > 1)
       answer.shown =

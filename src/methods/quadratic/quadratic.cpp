@@ -121,7 +121,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
     field.unit[index(c)] = parts_[c]->part.scale * E.unit;
   ComponentValues iterations("interior point"), gap("duality gap"), residual("constraints"),
       dual("dual constraints");
-  double samples = 0;
+  double samples = 0, missing = 0;
   bool converged = true;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
     if (of_part[c].empty()) {
@@ -152,6 +152,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
     residual.add(component, result.primal_residual);
     dual.add(component, result.dual_residual);
     samples += static_cast<double>(result.samples);
+    missing += static_cast<double>(result.missing);
   }
   iterations.report_sum(report.iterations);
   gap.report_worst(report.residuals);
@@ -160,6 +161,9 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   report.sizes.emplace_back("samples", samples);
   if (!converged) {
     report.status = "not converged";
+    if (missing > 0)
+      report.warn("between samples the constraint is still violated at " + number_text(missing) +
+                  " points, after the last round of insertion");
     report.warn("the solver stopped at a relative duality gap of " + number_text(gap.worst()) +
                 " and residuals of " + number_text(std::max(residual.worst(), dual.worst())));
   }

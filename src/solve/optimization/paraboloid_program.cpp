@@ -83,7 +83,7 @@ class Run {
       if (merit < best_merit || done) std::tie(best, best_merit) = std::pair(now, merit);
       // Dips show early; what is missing in the end is put in where there was still room for it.
       const bool early = rounds == 0 && std::max(now.gap, now.dual_residual) < 1e-2;
-      if (insert && rounds < 8 && (early || done)) {
+      if (insert && rounds < most_rounds && (early || done)) {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
         ++rounds;
@@ -96,6 +96,10 @@ class Run {
           continue;
         }
       }
+      if (insert && done && rounds == most_rounds) {
+        best.missing = insert(x_, 1).size();
+        best.converged = best.missing == 0;
+      }
       if (done || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
       if (!step()) break;
     }
@@ -104,7 +108,8 @@ class Run {
   }
 
  private:
-  static constexpr int correctors = 2;  // of Gondzio's, at most, where steps are short
+  static constexpr int most_rounds = 8;  // of insertion
+  static constexpr int correctors = 2;   // of Gondzio's, at most, where steps are short
 
   At at(const Row& r, const Local& x) const {
     return At(r, rows_.points[r.point], program_.transform[r.element], x);
@@ -367,7 +372,7 @@ class Run {
   const Program& program_;
   const ParaboloidOptions options_;
   const Task& task_;
-  std::vector<double> weight_;  // elements; of mean 1 over the rows
+  std::vector<double> weight_;  // elements; over their mean over the rows, at least 1
   double total_weight_ = 0;     // rows
   ParaboloidRows<K, D> rows_;
   RefinedCholesky normal_;

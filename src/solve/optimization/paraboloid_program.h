@@ -69,6 +69,7 @@ struct ParaboloidResult {
   double primal_residual = gap;  // largest |s - g(x)|, relative to tau
   double dual_residual = gap;    // |r^T x| / objective, r what the dual constraints lack
   std::size_t samples = 0;       // in the end, with those that were inserted
+  std::size_t missing = 0;       // that would be inserted after the last round: not converged
 };
 
 /// Primal-dual interior-point method with Mehrotra's predictor and corrector. One symbolic

@@ -53,6 +53,36 @@ double circle_error(const SurfaceMesh& mesh, const VecX& phi) {
   return sum / mesh.n_vertices();
 }
 
+TEST(Sharpen, EveryComponentIsAProblemOfItsOwn) {
+  // The same square twice, one a thousand times smaller: both as each alone.
+  const double small = 1e-3;
+  const PolygonSoup one = test::jittered_grid_soup(12, 12, 0.3);
+  const int n = one.n_vertices();
+  PolygonSoup both = one;
+  both.points.conservativeResize(2 * n, 3);
+  both.points.bottomRows(n) = small * one.points;
+  both.points.bottomRows(n).col(0).array() += 3;
+  for (const int v : one.corners) both.corners.push_back(v + n);
+  for (int f = 0; f < one.n_faces(); ++f) both.face_offsets.push_back(both.face_offsets.back() + 3);
+  const SurfaceMesh mesh(both), alone(one);
+  Sources sources, own;
+  for (const int first : {0, n}) {
+    Curve& curve = sources.curves.emplace_back();
+    for (int j = 0; j <= 12; ++j)
+      curve.nodes.push_back(SurfacePoint::at_vertex(first + 6 + 13 * j));
+  }
+  own.curves = {sources.curves[0]};
+  const SignedHeat method{.sharpen = Sharpening::on};
+  Report report, other;
+  const VecX phi = test::surface_distance(mesh, sources, method, report);
+  const VecX expected = test::surface_distance(alone, own, method, other);
+  const double range = expected.cwiseAbs().maxCoeff();
+  EXPECT_GT(range, 0.4);
+  EXPECT_LT((phi.head(n) - expected).cwiseAbs().maxCoeff(), 0.03 * range);
+  EXPECT_LT((phi.tail(n) / small - expected).cwiseAbs().maxCoeff(), 0.1 * range);
+  EXPECT_EQ(report.status, "converged");
+}
+
 TEST(Sharpen, StrongDiffusionEndsAtSlopeOne) {
   // Figure 15: t = 100 h^2.
   const SurfaceMesh mesh(test::jittered_grid_soup(24, 24, 0.3));

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/component_values.h"
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "solve/direct/definite.h"
 #include "solve/optimization/admm.h"
@@ -107,24 +110,26 @@ BandRows band_rows(const Calculus& C, const SpMat& source, int dim, const std::v
 
 constexpr Eigen::Index most_for_a_factor = 60'000;  // nodes in space; a factor grows like n^(4/3)
 
-}  // namespace
+struct Sharpened {
+  VecX phi;
+  AdmmResult result;
+};
 
-VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
-             const SharpenOptions& options, const Task& task, Report& report) {
-  const Calculus& C = ops.scalar;
-  const Stopwatch watch(report, "sharpen");
+Sharpened sharpened(const Calculus& C, double unit, const SpMat& source,
+                    const std::vector<char>& reached, const VecX& phi0,
+                    const SharpenOptions& options, const Task& task) {
   const Eigen::Index n = C.M.size(), cells = C.A.size();
   const int dim = C.G.rows / cells;
-  const std::vector<int> s = signs_of(C, system.reached, phi0);
+  const std::vector<int> s = signs_of(C, reached, phi0);
   std::vector<char> gone(n, 0);
   VecX start(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int c = C.component[i];
-    gone[i] = c < 0 || !system.reached[c];
-    start[i] = gone[i] ? 0 : phi0[i] / ops.unit;
+    gone[i] = c < 0 || !reached[c];
+    start[i] = gone[i] ? 0 : phi0[i] / unit;
   }
   const SpRows G = C.G.matrix();
-  const BandRows band = band_rows(C, system.A, dim, s, distance_to_zero_set(C, G, dim, s, start));
+  const BandRows band = band_rows(C, source, dim, s, distance_to_zero_set(C, G, dim, s, start));
   const VecX& w = band.weight;
   const Eigen::Index extra = w.size();
 
@@ -168,17 +173,117 @@ VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
     };
     result = admm(problem, admm_options, state, task);
   }
-  report.iterations.emplace_back("sharpening", result.iterations);
-  report.residuals.emplace_back("sharpening, primal", result.primal);
-  report.residuals.emplace_back("sharpening, dual", result.dual);
-  if (!result.converged) {
-    report.status = "not converged";
-    report.warn("sharpening stopped after " + std::to_string(result.iterations) +
-                " iterations above the tolerance");
-  }
   VecX out = phi0;
   for (Eigen::Index i = 0; i < n; ++i)
-    if (!gone[i]) out[i] = s[i] * std::max(0.0, s[i] * result.u[i]) * ops.unit;
+    if (!gone[i]) out[i] = s[i] * std::max(0.0, s[i] * result.u[i]) * unit;
+  return {std::move(out), result};
+}
+
+/// One component of a domain by itself: its nodes, and its operators and rows of the source on
+/// them.
+struct Part {
+  std::vector<int> nodes;
+  Calculus C;
+  SpMat source;
+};
+
+template <class Matrix>
+Matrix restricted(const Matrix& all, const std::vector<int>& row, Eigen::Index rows,
+                  const std::vector<int>& col, Eigen::Index cols) {
+  Triplets entries;
+  for (Eigen::Index o = 0; o < all.outerSize(); ++o)
+    for (typename Matrix::InnerIterator it(all, o); it; ++it)
+      if (row[it.row()] >= 0 && col[it.col()] >= 0)
+        entries.emplace_back(row[it.row()], col[it.col()], it.value());
+  Matrix out(rows, cols);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+Part part_of(const Calculus& C, const SpRows& G, const SpMat& source, int component) {
+  const Eigen::Index cells = C.A.size();
+  const int dim = C.G.rows / cells;
+  Part part;
+  std::vector<int> node(C.M.size(), -1);
+  for (Eigen::Index i = 0; i < C.M.size(); ++i)
+    if (C.component[i] == component) {
+      node[i] = int_size(part.nodes);
+      part.nodes.push_back(i);
+    }
+  std::vector<int> row(G.rows(), -1), source_row(source.rows(), -1);
+  std::vector<double> A;
+  for (Eigen::Index c = 0; c < cells; ++c) {
+    bool mine = false;
+    for (Eigen::Index r = dim * c; r < dim * (c + 1); ++r)
+      for (SpRows::InnerIterator it(G, r); it; ++it) mine = mine || node[it.col()] >= 0;
+    if (!mine) continue;
+    for (int d = 0; d < dim; ++d) row[dim * c + d] = dim * int_size(A) + d;
+    A.push_back(C.A[c]);
+  }
+  int rows = 0;
+  const SpRows by_row = source;
+  for (int r = 0; r < by_row.rows(); ++r)
+    for (SpRows::InnerIterator it(by_row, r); it; ++it)
+      if (node[it.col()] >= 0 && source_row[r] < 0) source_row[r] = rows++;
+  const Eigen::Index n = index(part.nodes.size());
+  Calculus& own = part.C;
+  own.A = Eigen::Map<const VecX>(A.data(), index(A.size()));
+  own.M.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) own.M[i] = C.M[part.nodes[i]];
+  own.L = restricted(C.L, node, n, node, n);
+  own.component.assign(n, 0);
+  own.n_components = 1;
+  // Nodes are as far apart as cells of the same shape and the part's own size have them.
+  own.h = C.h * std::pow((own.A.mean()) / C.A.mean(), 1.0 / dim);
+  const SpRows gradient = restricted(G, row, dim * own.A.size(), node, n);
+  own.G.rows = gradient.rows();
+  own.G.cols = gradient.cols();
+  own.G.matrix = [gradient] { return gradient; };
+  part.source = restricted(source, source_row, rows, node, n);
+  return part;
+}
+
+}  // namespace
+
+VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
+             const SharpenOptions& options, const Task& whole, Report& report) {
+  const Calculus& C = ops.scalar;
+  const Stopwatch watch(report, "sharpen");
+  Task task = whole;
+  VecX out = phi0;
+  ComponentValues iterations("sharpening"), primal("sharpening, primal"), dual("sharpening, dual");
+  int stopped = 0;
+  const auto take = [&](int c, const AdmmResult& result) {
+    iterations.add(c, result.iterations);
+    primal.add(c, result.primal);
+    dual.add(c, result.dual);
+    stopped += !result.converged;
+  };
+  if (C.n_components == 1) {
+    Sharpened all = sharpened(C, ops.unit, system.A, system.reached, phi0, options, task);
+    out = std::move(all.phi);
+    take(0, all.result);
+  } else {
+    const SpRows G = C.G.matrix();
+    for (int c = 0; c < C.n_components; ++c) {
+      if (!system.reached[c]) continue;
+      const Part part = part_of(C, G, system.A, c);
+      VecX start(index(part.nodes.size()));
+      for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = phi0[part.nodes[i]];
+      const Sharpened own = sharpened(part.C, ops.unit, part.source, {1}, start, options,
+                                      task.stage(1.0 / C.n_components, "sharpening"));
+      for (Eigen::Index i = 0; i < start.size(); ++i) out[part.nodes[i]] = own.phi[i];
+      take(c, own.result);
+    }
+  }
+  iterations.report_worst(report.iterations);
+  primal.report_worst(report.residuals);
+  dual.report_worst(report.residuals);
+  if (stopped > 0) {
+    report.status = "not converged";
+    report.warn("sharpening stopped after " + std::to_string(static_cast<int>(iterations.worst())) +
+                " iterations above the tolerance");
+  }
   return out;
 }
 

@@ -21,7 +21,8 @@ struct SharpenOptions {
 /// source: at the nodes of such cells 0 <= sign(phi0) phi <= the distance from that zero set. phi0:
 /// nodes [length of the input], where the iteration starts; +inf where no source reaches, which
 /// stays. Operators of surfaces, tets and grids alike; in space, many nodes are solved for by
-/// multigrid, a few steps in each iteration, instead of a factor.
+/// multigrid, a few steps in each iteration, instead of a factor. Every component is a
+/// problem of its own: norms, tolerances and iterations.
 VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
              const SharpenOptions& options, const Task& task, Report& report);
 

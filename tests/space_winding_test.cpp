@@ -6,7 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "api/space/sdf.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 #include "space_helpers.h"
 #include "spatial/winding_number.h"
 #include "test_meshes.h"
@@ -43,6 +45,33 @@ TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
         std::max(worst, std::abs(winding(q) - winding_number_brute_force(soup.points, faces, q)));
   }
   EXPECT_LT(worst, 1e-3);
+}
+
+TEST(WindingNumber, SmoothedIsTheConvolutionWithAGaussian) {
+  // Of a ball, in closed form: the share of a normal variable about the point that falls into it.
+  const double sigma = 0.15, root = sigma * std::sqrt(2.0), pi = std::acos(-1.0);
+  const PolygonSoup ball = test::octasphere_soup(5);
+  std::vector<double> radii;
+  MatX3 queries(26, 3);
+  for (int i = 0; i < 26; ++i) {
+    const double r = 0.06 * (i + 0.5), a = 0.4 * i;
+    radii.push_back(r);
+    queries.row(i) << r * std::cos(a) * 0.6, r * std::sin(a) * 0.6, r * 0.8;
+  }
+  Report report;
+  const VecX smooth = query_winding(ball, queries, {}, {}, report, sigma);
+  for (int i = 0; i < 26; ++i) {
+    const double r = radii[i], out = (r - 1) / root, in = (r + 1) / root;
+    const double exact =
+        0.5 * (std::erf(in) - std::erf(out)) -
+        sigma / (r * std::sqrt(2 * pi)) * (std::exp(-out * out) - std::exp(-in * in));
+    EXPECT_NEAR(smooth[i], exact, 3e-3) << r;
+  }
+  // Five deviations away nothing has changed, and at a vertex it is finite.
+  const VecX sharp = query_winding(ball, queries.topRows(3), {}, {}, report);
+  EXPECT_LT((smooth.head(3) - sharp).cwiseAbs().maxCoeff(), 3e-3);
+  EXPECT_NEAR(query_winding(ball, ball.points.topRows(1), {}, {}, report, sigma)[0], 0.44, 0.02);
+  EXPECT_THROW(query_winding(ball, queries, {}, {}, report, 1e-9), InputError);
 }
 
 TEST(WindingNumber, CountsNestedAndFarSurfaces) {

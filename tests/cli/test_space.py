@@ -323,3 +323,37 @@ def test_interrupt_stops_soon(cube: Path, tmp_path: Path) -> None:
     assert time.monotonic() - start < 1
     assert process.returncode == 130
     assert not list(tmp_path.glob("*.vti"))
+
+
+def test_winding_numbers_as_a_volume(run: Run, cube: Path, tmp_path: Path) -> None:
+    (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n1,0,0\n1.3,0,0\n3,0,0\n")
+    run("winding", cube, "--points", "points.csv", "--smoothing", 0.1, "-o", "a.csv")
+    assert [row[0] for row in rows(tmp_path / "a.csv")] == pytest.approx([1, 0.5, 0, 0], abs=0.01)
+    grid = ("--resolution", 24)
+    run("sdf", cube, "--field", "winding", *grid, "-o", "w.npy", "-o", "w.obj")
+    run("sdf", cube, "--field", "winding", "--smoothing", 0.1, *grid, "-o", "s.obj")
+    assert (tmp_path / "w.npy").stat().st_size > 24**3
+    # The surface at 1/2 is the cube, and faces outward.
+    for name in ("w.obj", "s.obj"):
+        result = run("sdf", name, "--method", "closest-point", *grid, "-o", "d.obj", "--json")
+        assert result.returncode == 0
+        run("query", name, "--points", "points.csv", "-o", "b.csv")
+        assert [row[0] for row in rows(tmp_path / "b.csv")] == pytest.approx(
+            [-1, 0, 0.3, 2], abs=0.1
+        )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--field", "winding", "--domain", "tets"), "field winding"),
+        (("--field", "winding", "--method", "signed-heat"), "field winding"),
+        (("--field", "winding", "--offset", "1"), "field winding"),
+        (("--field", "winding", "--smoothing", "1e-9"), "too small"),
+        (("--smoothing", "0.1"), "--field winding"),
+    ],
+)
+def test_what_does_not_go_with_winding(
+    run: Run, cube: Path, arguments: tuple[str, ...], words: str
+) -> None:
+    assert words in run("sdf", "cube.obj", *arguments, "-o", "a.vti", status=2).stderr

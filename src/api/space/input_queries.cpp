@@ -1,5 +1,6 @@
 #include "api/space/input_queries.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +9,9 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/triangulate.h"
+#include "littoral/error.h"
 #include "spatial/morton_order.h"
+#include "spatial/smoothed_winding.h"
 
 namespace littoral {
 
@@ -83,6 +86,37 @@ NearestPoints NearestOnInput::at(const MatX3& queries, const Task& task) const {
     out.distances[i] = nearest.distance;
   });
   return out;
+}
+
+VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, double sigma,
+                      const MatX3& queries, Task task, Report& report) {
+  const Frame frame(bounding_box(input));
+  const double deviation = sigma / frame.unit;
+  if (!(deviation > 0 && std::isfinite(deviation)))
+    throw InputError("option smoothing must be positive and finite");
+  // Sides of half a deviation: about so many samples.
+  double area = 0;
+  const MatX3i triangles = triangles_of(triangulate(input));
+  const MatX3 points = frame.local(input.points);
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    const auto corner = [&](int k) { return Vec3(points.row(triangles(f, k))); };
+    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  if (!(area / (deviation * deviation) < (1 << 20)))
+    throw InputError("option smoothing: " + std::to_string(sigma) +
+                     " is too small for a surface of this size; without it winding numbers are "
+                     "exact");
+  const OrientedPoints s = make_input({input, orientation.flip, orientation.estimate_normals},
+                                      frame, deviation / 2, task, report)
+                               .samples;
+  report.sizes.emplace_back("samples", static_cast<double>(s.size()));
+  const SmoothedWindingNumber winding(s.points, s.normals, s.areas, deviation);
+  const Stopwatch watch(report, "evaluate");
+  const MatX3 local = frame.local(queries);
+  VecX values(queries.rows());
+  visit_queries(local, task.stage(0.9, "winding number"),
+                [&](int i) { values[i] = winding(local.row(i)); });
+  return values;
 }
 
 WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orientation, Task task,

@@ -33,6 +33,11 @@ class NearestOnInput {
   std::unique_ptr<const PointTree> cloud_;
 };
 
+/// Winding numbers around a surface or oriented cloud at points (queries x 3), convolved with a
+/// Gaussian of deviation `sigma` [length].
+VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, double sigma,
+                      const MatX3& queries, Task task, Report& report);
+
 /// Generalized winding numbers around a surface or oriented cloud; immutable.
 class WindingOfInput {
  public:

@@ -138,14 +138,29 @@ VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceR
 }
 
 VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
-                   Task task, Report& report) {
+                   Task task, Report& report, double smoothing) {
   check_queries(queries);
-  report.method = "winding number";
+  report.method = smoothing > 0 ? "regularized winding number" : "winding number";
   report.domain = "set of points";
   report.sizes.emplace_back("queries", static_cast<double>(queries.rows()));
-  const WindingOfInput winding(input, {request.flip, request.estimate_normals}, task, report);
+  const Orientation orientation{request.flip, request.estimate_normals};
+  if (smoothing > 0) return smoothed_winding(input, orientation, smoothing, queries, task, report);
+  const WindingOfInput winding(input, orientation, task, report);
   const Stopwatch watch(report, "evaluate");
   return winding.at(queries, task.stage(0.9, "winding number"));
+}
+
+VecX grid_winding(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
+                  Task task, Report& report, double smoothing) {
+  check_grid(grid);
+  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  Eigen::Index row = 0;
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i) nodes.row(row++) = grid.point(i, j, k);
+  VecX values = query_winding(input, nodes, request, task, report, smoothing);
+  report.domain = "grid";
+  return values;
 }
 
 PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request, Task task,

@@ -75,9 +75,15 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& i
 void check_queries(const MatX3& queries, Eigen::Index first = 0);
 
 /// Generalized winding number (queries) at points (queries x 3): 1 inside, 0 outside of a closed
-/// surface. Of the request, only flip and estimate_normals count. Throws as query_distance.
+/// surface. Of the request, only flip and estimate_normals count. `smoothing` > 0 convolves it with
+/// a Gaussian of that deviation [length]; points of clouds should be closer together. Throws as
+/// query_distance.
 VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,
-                   Task task, Report& report);
+                   Task task, Report& report, double smoothing = 0);
+
+/// The same at the nodes of a grid.
+VecX grid_winding(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
+                  Task task, Report& report, double smoothing = 0);
 
 /// The tori that method tori fits to the input, as a cloud that later calls take as it is
 /// (api/space/tori_cloud.h). Throws as query_distance.

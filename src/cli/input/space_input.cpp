@@ -213,6 +213,15 @@ CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::s
       ->type_name("FILE");
 }
 
+void add_smoothing_option(CLI::App& verb, double& smoothing, const std::string& when) {
+  verb.add_option("--smoothing", smoothing,
+                  when +
+                      ": regularized winding number, convolved with a Gaussian of this deviation "
+                      "[length; default 0, none]")
+      ->check(CLI::Range(0.0, 1e300).description(""))
+      ->type_name("S");
+}
+
 io::PointTable read_queries(const std::string& file) {
   const io::Format& format =
       io::format_to_read(std::filesystem::path(file).extension().string(), file,

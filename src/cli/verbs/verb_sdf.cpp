@@ -22,8 +22,9 @@ const io::Kinds space_outputs = {Kind::volume, Kind::tets, Kind::surface, Kind::
 
 struct SdfArguments {
   SpaceArguments space;
-  std::string levels = "0";
+  std::string levels, field = "distance";
   std::vector<double> level_values;
+  double smoothing = 0;
   std::vector<std::string> out;
   double band = 0;
   bool clip = false;
@@ -31,6 +32,17 @@ struct SdfArguments {
   std::string tets = "lattice";
   TetFilling tetgen;
 };
+
+/// Winding numbers fall outward, so that their negatives have surfaces that face outward.
+std::vector<Isosurface> winding_surfaces(Volume volume, std::vector<double> levels, bool clip,
+                                         Session& session) {
+  volume.values = -volume.values;
+  for (double& level : levels) level = -level;
+  std::vector<Isosurface> surfaces =
+      isosurfaces(volume, levels, clip, session.report, session.task());
+  for (Isosurface& surface : surfaces) surface.level = -surface.level;
+  return surfaces;
+}
 
 std::vector<Isosurface> isosurfaces_of(const Volume& volume, const TetField& tets,
                                        const std::vector<double>& levels, bool clip,
@@ -52,6 +64,8 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
     return io::write_volume(file, volume, {.band = arguments.band});
   if (io::is_written_as(file, {Kind::tets}))
     return write_tet_result(file, tets.mesh, tets.values, input, session.report);
+  if (io::is_written_as(file, {Kind::surface}) && arguments.field == "winding")
+    return write_isosurfaces({file}, winding_surfaces(volume, levels, arguments.clip, session));
   if (io::is_written_as(file, {Kind::surface}))
     return write_isosurfaces({file}, isosurfaces_of(volume, tets, levels, arguments.clip, session));
   io::VolumeView view;
@@ -59,6 +73,13 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
   io::Scene scene = io::make_volume_scene(volume, view);
   io::describe(scene, title_of(input), session.report);
   io::write_scene(file, scene);
+}
+
+void check_field(const SdfArguments& arguments) {
+  if (arguments.field == "winding" && arguments.domain == "tets")
+    throw UnsupportedError("option field winding is for grids");
+  if (arguments.field != "winding" && arguments.smoothing > 0)
+    throw InputError("option smoothing goes with --field winding");
 }
 
 void run_sdf(SdfArguments& arguments, Session& session) {
@@ -70,15 +91,29 @@ void run_sdf(SdfArguments& arguments, Session& session) {
     throw InputError("option tets goes with --domain tets");
   if (arguments.clip && arguments.domain == "tets")
     throw UnsupportedError("option clip is for grids: the cube of the tets is larger than the box");
-  check_lengths("level", arguments.levels);
+  if (arguments.field != "winding" && !arguments.levels.empty())
+    check_lengths("level", arguments.levels);
+  check_field(arguments);
   const CsgShapes shapes = read_shapes(arguments.space, session);
   const InputSize size = [&] { return longest_side(shapes); };
-  arguments.level_values = parse_lengths("level", arguments.levels, size);
+  if (arguments.levels.empty()) arguments.levels = arguments.field == "winding" ? "0.5" : "0";
+  arguments.level_values = arguments.field == "winding"
+                               ? parse_numbers("level", arguments.levels)
+                               : parse_lengths("level", arguments.levels, size);
   Volume volume;
   volume.grid = choose_grid(shapes, grid_request(arguments.space, size));
   session.reading = false;
   TetField tets;
-  if (arguments.domain == "tets") {
+  if (arguments.field == "winding") {
+    const Shape& shape = shapes.all.front();
+    if (shapes.all.size() != 1 || shape.field || shapes.csg.offset != 0 ||
+        !shape.request.method.name().empty() || !arguments.space.method.options.empty())
+      throw InputError(
+          "option field winding takes one mesh, soup or cloud, no method and no offset");
+    volume.values = grid_winding(shape.surface, volume.grid, shape.request, session.task(),
+                                 session.report, arguments.smoothing);
+    volume.name = "winding";
+  } else if (arguments.domain == "tets") {
     if (shapes.all.size() != 1 || shapes.all.front().field || shapes.csg.offset != 0)
       throw InputError("option domain tets takes one mesh, soup or cloud");
     const Shape& shape = shapes.all.front();
@@ -92,7 +127,7 @@ void run_sdf(SdfArguments& arguments, Session& session) {
     volume.values = grid_distance(shapes, volume.grid, session.task(), session.report);
   }
   session.record.grid = volume.grid;
-  session.record.values = {range_of("distance", volume.values)};
+  session.record.values = {range_of(volume.name, volume.values)};
   finish(arguments.out, session.task(), session,
          [&](const std::string& file) { write_distance(file, arguments, volume, tets, session); });
 }
@@ -110,6 +145,12 @@ void add_sdf(CLI::App& program, Session& session) {
                         ", the surface at --level as " + io::written_extensions({Kind::surface}) +
                         ", or " + io::written_extensions({Kind::page, Kind::picture}));
   add_grid_options(verb, arguments->space);
+  verb.add_option("--field", arguments->field,
+                  "distance, or winding, the generalized winding number: 1 inside, 0 outside "
+                  "[default distance]")
+      ->check(CLI::IsMember({"distance", "winding"}).description(""))
+      ->type_name("WORD");
+  add_smoothing_option(verb, arguments->smoothing, "of --field winding");
   verb.add_option("--domain", arguments->domain,
                   "where to solve: a grid, or tets that are small near the input only; volumes "
                   "are sampled from these [default grid]")
@@ -126,7 +167,7 @@ void add_sdf(CLI::App& program, Session& session) {
       ->type_name("S");
   verb.add_option("--level", arguments->levels,
                   std::string("levels of surfaces, separated by commas [") + length_unit_text +
-                      "; default 0]")
+                      "; default 0; of winding a number, default 0.5]")
       ->type_name("L[,L...]");
   verb.add_flag("--clip", arguments->clip, "close surfaces along the box where they leave it");
   verb.add_option("--band", arguments->band,

@@ -25,6 +25,7 @@ struct WindingArguments {
   std::vector<std::string> sources, out;
   NamedSources named;
   MethodArguments method;
+  double smoothing = 0;
 };
 
 void write_regions(const std::string& file, const WindingArguments& arguments,
@@ -52,7 +53,8 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   const PolygonSoup input = io::read_surface(arguments.domain);
   const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
-  const VecX values = query_winding(input, queries.points, request, session.task(), session.report);
+  const VecX values = query_winding(input, queries.points, request, session.task(), session.report,
+                                    arguments.smoothing);
   session.record.values = {range_of("winding", values)};
   finish(arguments.out, session.task(), session, [&](const std::string& file) {
     write_at_points(file, queries, {{"winding"}, values});
@@ -64,6 +66,7 @@ void run_winding(WindingArguments& arguments, Session& session) {
     run_at_points(arguments, session);
     return;
   }
+  if (arguments.smoothing > 0) throw InputError("option smoothing goes with --points");
   check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
     throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj");
@@ -110,6 +113,7 @@ void add_winding(CLI::App& program, Session& session) {
   add_points_option(
       verb, arguments->points,
       "winding numbers in space, to " + io::written_extensions(query_outputs) + ", at: ");
+  add_smoothing_option(verb, arguments->smoothing, "with --points");
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions(region_outputs) +
                         "; tables have labels of faces, .obj homogeneous texture coordinates, "

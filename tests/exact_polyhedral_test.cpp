@@ -226,5 +226,19 @@ TEST(ExactPolyhedral, ReferenceDistances) {
   }
 }
 
+TEST(ExactPolyhedral, ACurveReachesAVertexThatLiesOnAnEdge) {
+  // The vertex of a face without area, in the middle of a square's diagonal: the last step of the
+  // curve there has no length, but leads from the edge to the vertex.
+  PolygonSoup soup;
+  soup.points.resize(5, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 0;
+  test::add_triangle(soup, 0, 1, 2);
+  test::add_triangle(soup, 0, 2, 3);
+  test::add_triangle(soup, 0, 2, 4);
+  Sources sources;
+  sources.curves.push_back({{SurfacePoint::at_vertex(1), SurfacePoint::at_vertex(4)}, false, ""});
+  EXPECT_EQ(test::exact(SurfaceMesh(soup), sources)[4], 0);
+}
+
 }  // namespace
 }  // namespace littoral

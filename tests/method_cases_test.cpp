@@ -33,7 +33,8 @@ void run(unsigned long first, unsigned long count) {
     const fuzz::Outcome outcome = fuzz::run_case(given, choose, 60);
     ++counts[outcome.kind];
     if (outcome.kind == Kind::broke_down)
-      std::printf("seed %lu: %s\n", seed, outcome.error.c_str());
+      std::printf("seed %lu: %s\n%s", seed, outcome.error.c_str(),
+                  std::getenv("LITTORAL_CASES_VERBOSE") ? description(given).c_str() : "");
     if (outcome.failures.empty()) continue;
     ++failed;
     std::string what;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,25 @@ TEST(SpaceSamples, FacesKeepAreaAndVectorArea) {
   }
   EXPECT_EQ(sample_faces(box, never, report).size(), 12);
   EXPECT_LT(sample_faces(box, 0.7, report).areas.maxCoeff(), 0.7 * 0.7 / 2);
+}
+
+TEST(SpaceSamples, PartsOfANeedleHaveAreaOrAreLeftOut) {
+  // Corners on a line but for rounding, which leaves nothing of some parts; and one with area.
+  PolygonSoup needle;
+  needle.points.resize(23, 3);
+  needle.points.row(0) << 0, 0, 1;
+  needle.points.row(1) << -0.50000000000000044, -0.86602540378443837, 0;
+  needle.points.row(2) << 1, 0, 0;
+  needle.add_face(std::array{0, 1, 2});
+  for (int v = 3; v < 23; ++v) {
+    needle.points.row(v) << -0.25000000000000022, -0.43301270189221919 + 5.6e-17 * (v - 13), 0.5;
+    needle.add_face(std::array{0, 1, v});
+  }
+  for (const double side : {0.4, 0.2, 0.1, 0.05}) {
+    Report report;
+    for (const auto count : {SamplesPerTriangle::one, SamplesPerTriangle::three})
+      EXPECT_GT(sample_faces(needle, side, report, count).areas.minCoeff(), 0);
+  }
 }
 
 TEST(SpaceSamples, SpacingIsTheSideOfEvenTriangles) {

@@ -74,6 +74,7 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
     refine(t, max_side, [&](const Triangle& part) {
       const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
       const double area = (part[1] - part[0]).cross(part[2] - part[0]).stableNorm() / 2;
+      if (!(area > 0)) return;  // of a needle, by rounding
       if (count == SamplesPerTriangle::one) {
         points.push_back(middle);
         normals.emplace_back(twice / norm);

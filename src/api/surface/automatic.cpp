@@ -4,6 +4,7 @@
 // whole first, which settles the sides; then distance to all of that is measured by what is most
 // accurate, and takes its sign from the sides.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -112,6 +113,15 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat
     const std::string name = r.method;
     SurfaceAnswer answer = heat->solve(sources, t, r);
     r.method = name;
+    const auto is_signed = [](const auto& curve) { return curve.is_signed; };
+    if (std::none_of(sources.curves.begin(), sources.curves.end(), is_signed) &&
+        std::none_of(sources.space_curves.begin(), sources.space_curves.end(), is_signed)) {
+      answer.values = answer.values.cwiseMax(0.0);
+      if (answer.shown) {
+        VecX& shown = answer.shown->scalars.at("distance");
+        shown = shown.cwiseMax(0.0);
+      }
+    }
     return answer;
   };
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -39,7 +40,7 @@ TEST(DiscontinuousDistance, LeavesIntegrableFieldsAlone) {
     Y[2 * f + 1] = -d.y();
   }
   EXPECT_LT(edge_curl(J, Y).cwiseAbs().maxCoeff(), 1e-9);
-  const DiscontinuousField field = integrate_discontinuous(J, Y, 1, 0, {}, report);
+  const DiscontinuousField field = integrate_discontinuous(J, T.faces, Y, {}, 1, 0, {}, report);
   EXPECT_LT(field.objective, 1e-9);
   const double shift = field.phi(0, 0) * T.unit - mesh.point(T.faces(0, 0)).x();
   for (int f = 0; f < J.n_faces; ++f)
@@ -83,6 +84,226 @@ TEST(DiscontinuousDistance, ALoopThatBoundsNothingGetsDistanceToBothSides) {
   EXPECT_LT(plain.maxCoeff(), 0.75 * half);
   // Few vertices are torn: one ring of the tube, more or less.
   EXPECT_LT(torn.shown->n_vertices() - mesh.n_vertices(), 3 * nv);
+}
+
+/// Pages of n x n squares of one unit that share the spine x = 0.
+PolygonSoup book(int pages, int n) {
+  PolygonSoup soup;
+  soup.points.resize((n + 1) * (1 + pages * n), 3);
+  const auto vertex = [n](int page, int i, int j) {
+    return i == 0 ? j : (n + 1) * (1 + page * n + i - 1) + j;
+  };
+  for (int page = 0; page < pages; ++page)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const double angle = 2 * std::acos(-1.0) * page / pages, x = double(i) / n;
+        soup.points.row(vertex(page, i, j)) << x * std::cos(angle), x * std::sin(angle),
+            double(j) / n;
+      }
+  for (int page = 0; page < pages; ++page)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j),
+                           vertex(page, i + 1, j + 1));
+        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1),
+                           vertex(page, i, j + 1));
+      }
+  return soup;
+}
+
+TEST(DiscontinuousDistance, OneConstantForAllPagesOfABook) {
+  // From the middle line of one page: 1/2 at the spine, seen from every page, and more beyond.
+  constexpr int n = 10;
+  const SurfaceMesh mesh(book(3, n));
+  std::vector<int> line;
+  for (int j = 0; j <= n; ++j) line.push_back((n + 1) * (n / 2) + j);
+  for (const double smoothing : {0.0, 1.0}) {
+    const SurfaceAnswer torn =
+        distance(mesh, vertex_loop(line),
+                 {.constraint = Constraint::none, .discontinuous = true, .smoothing = smoothing});
+    const VecX& phi = torn.shown->scalars.at("distance");
+    for (int v = 0; v < torn.shown->n_vertices(); ++v) {
+      const Vec3 x = torn.shown->points.row(v);
+      const double from_spine = std::hypot(x.x(), x.y());
+      const bool on_first = std::abs(x.y()) < 1e-9 && x.x() > -1e-9;
+      EXPECT_NEAR(std::abs(phi[v]), on_first ? std::abs(from_spine - 0.5) : 0.5 + from_spine, 0.03)
+          << x.transpose();
+    }
+  }
+}
+
+TEST(DiscontinuousDistance, GoesOnBeyondAPinch) {
+  // Two squares that share a corner: from a side of one across it, through the corner, on.
+  constexpr int n = 8;
+  PolygonSoup soup = test::jittered_grid_soup(n, n, 0);
+  const int before = soup.n_vertices();
+  const PolygonSoup other = soup;
+  soup.points.conservativeResize(2 * before - 1, 3);
+  const int shared = before - 1;  // at (1, 1)
+  for (int v = 1; v < before; ++v)
+    soup.points.row(before - 1 + v) = other.points.row(v) + soup.points.row(shared);
+  for (int f = 0; f < other.n_faces(); ++f) {
+    const auto c = other.face(f);
+    const auto at = [&](int v) { return v == 0 ? shared : before - 1 + v; };
+    test::add_triangle(soup, at(c[0]), at(c[1]), at(c[2]));
+  }
+  const SurfaceMesh mesh(soup);
+  std::vector<int> line;
+  for (int v = 0; v < before; ++v)
+    if (soup.points(v, 0) == 0) line.push_back(v);
+  ASSERT_EQ(line.size(), n + 1U);
+  const Vec3 along = mesh.point(line[1]) - mesh.point(line[0]);
+  if (along.y() > 0) std::reverse(line.begin(), line.end());  // left is where x grows
+  const SurfaceAnswer torn = distance(mesh, vertex_loop(line), {.discontinuous = true});
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    const Vec3 x = mesh.point(v);
+    const double exact = v < before ? x.x() : 1 + std::hypot(x.x() - 1, x.y() - 1);
+    // Heat bends along the sides of the corner.
+    if (v < before || std::min(x.x(), x.y()) > 1.3) {
+      EXPECT_NEAR(torn.values[v], exact, 0.1) << x.transpose();
+    }
+  }
+}
+
+TEST(DiscontinuousDistance, FewerJumpsWhereTheFieldDoesNotIntegrate) {
+  // Two strips of squares that slide along their common line, one up and one down: the jump is
+  // there whatever it costs. Of the edges beside, those that cost less by eq. 16 take it.
+  constexpr int n = 8;
+  const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const JumpCalculus J = jump_calculus(T);
+  VecX Y(2 * J.n_faces);
+  for (int f = 0; f < J.n_faces; ++f) {
+    const Vec3 middle =
+        (mesh.point(T.faces(f, 0)) + mesh.point(T.faces(f, 1)) + mesh.point(T.faces(f, 2))) / 3;
+    const Vec3 d = (mesh.point(T.faces(f, 1)) - mesh.point(T.faces(f, 0))).normalized();
+    const double y = middle.x() < 0.5 ? 1 : -1;
+    Y[2 * f] = y * d.y();  // <(0, y), d>, and <(0, y), d turned left>
+    Y[2 * f + 1] = y * d.x();
+  }
+  const VecX curl = edge_curl(J, Y);
+  const DiscontinuousField field = integrate_discontinuous(J, T.faces, Y, {}, 1, 0, {}, report);
+  double total = 0;
+  for (int e = 0; e < J.n_edges; ++e) {
+    const double x0 = mesh.point(T.edges(e, 0)).x(), x1 = mesh.point(T.edges(e, 1)).x();
+    const bool between = J.interior(e) && x0 == 0.5 && x1 == 0.5;
+    EXPECT_NEAR(curl[e], between ? 2 : 0, 1e-12);
+    if (!between) {
+      EXPECT_NEAR(field.jump[e], 0, 1e-9);
+    }
+    total += J.length[e] * std::exp(-curl[e]) * std::abs(field.jump[e]);
+  }
+  // |phi_left - phi_right| = |2 y - c|, least in the sum for c = 1: the mean of |2 y - 1| over the
+  // middles of n edges is 1/2, of length 1 in all.
+  EXPECT_NEAR(total, std::exp(-2.0) * 0.5 / T.unit / T.unit, 1e-9);
+  EXPECT_NEAR(field.objective, total, 1e-9);
+}
+
+TEST(DiscontinuousDistance, ConstraintAndPenaltyApplyOrAreRefused) {
+  // One straight line in a square and a shorter one beside it, turned the other way: without
+  // constraint only the mean along both is 0.
+  const SurfaceMesh mesh(test::jittered_grid_soup(20, 20, 0.2));
+  Sources sources;
+  MatX3 one(2, 3), two(2, 3);
+  one << 0.3, 0.02, 0, 0.3, 0.98, 0;
+  two << 0.6, 0.05, 0, 0.6, 0.6, 0;
+  sources.space_curves = {{one, true, ""}, {two, true, ""}};
+  const auto largest = [&](const SignedHeat& options) {
+    const VecX phi = distance(mesh, sources, options).values;
+    double most = 0;
+    for (int v = 0; v < mesh.n_vertices(); ++v) {
+      const Vec3 x = mesh.point(v);
+      if (std::abs(x.x() - 0.3) < 0.03 || (std::abs(x.x() - 0.6) < 0.03 && x.y() < 0.6))
+        most = std::max(most, std::abs(phi[v]));
+    }
+    return most;
+  };
+  const double free = largest({.constraint = Constraint::none, .discontinuous = true});
+  const double held = largest({.discontinuous = true});
+  const double weak = largest({.soft = 1e-6, .discontinuous = true});
+  EXPECT_GT(free, 0.1);
+  EXPECT_LT(held, 0.05);
+  EXPECT_GT(weak, 0.1);
+  EXPECT_THROW(largest({.constraint = Constraint::level_sets, .discontinuous = true}),
+               UnsupportedError);
+}
+
+/// Values of the split surface by the face and corner they belong to.
+double torn_value(const SurfaceAnswer& torn, int face, int k) {
+  return torn.shown->scalars.at("distance")[torn.shown->face(face)[k]];
+}
+
+TEST(DiscontinuousDistance, TheCoreOfAMoebiusBand) {
+  // Figures 13 and 14: a curve without two sides on a surface without orientation. Beside it the
+  // distance is that across the band; where its sides come back exchanged the distance jumps from
+  // -d to d, along one line across the band.
+  constexpr int nu = 60, nw = 8;
+  constexpr double half_width = 0.16;
+  PolygonSoup soup;
+  soup.points.resize(nu * (nw + 1), 3);
+  const auto across = [&](int j) { return half_width * (2.0 * j / nw - 1); };
+  const auto vertex = [&](int i, int j) {
+    return i < nu ? i * (nw + 1) + j : (i - nu) * (nw + 1) + nw - j;
+  };
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j <= nw; ++j) {
+      const double u = 2 * std::acos(-1.0) * i / nu, s = 1 + across(j) * std::cos(u / 2);
+      soup.points.row(vertex(i, j)) << s * std::cos(u), s * std::sin(u),
+          across(j) * std::sin(u / 2);
+    }
+  for (int i = 0; i < nu; ++i)
+    for (int j = 0; j < nw; ++j) {
+      test::add_triangle(soup, vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1));
+      test::add_triangle(soup, vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+    }
+  const SurfaceMesh mesh(soup);
+  std::vector<int> core;
+  for (int i = 0; i <= nu; ++i) core.push_back(vertex(i, nw / 2));
+  Report report;
+  const SurfaceAnswer torn = test::surface_answer(
+      mesh, vertex_loop(core), SignedHeat{.discontinuous = true, .jump_threshold = 0.5}, report);
+  double error = 0;
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int j = mesh.face(f)[k] % (nw + 1);
+      const double phi = torn_value(torn, f, k), exact = std::abs(across(j));
+      error += std::abs(std::abs(phi) - exact) / (3 * mesh.n_faces());
+    }
+  EXPECT_LT(error, 0.1 * half_width);
+  double jumps = 0;
+  for (const auto& [name, value] : report.sizes)
+    if (name == "jump_length") jumps = value;
+  EXPECT_GT(jumps, 0.5 * half_width);
+  EXPECT_LT(jumps, 4 * half_width);
+}
+
+TEST(DiscontinuousDistance, InconsistentPartsOfOneCurve) {
+  // Figure 14, bottom: a circle in the plane, one half drawn the other way. Each side of each half
+  // keeps its sign and distance near it, which no continuous function can.
+  constexpr int n = 40;
+  const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.2));
+  Sources sources;
+  for (const int half : {0, 1}) {
+    MatX3 arc(31, 3);
+    for (int i = 0; i <= 30; ++i) {
+      const double a = std::acos(-1.0) * (half ? 2 - i / 30.0 : i / 30.0);
+      arc.row(i) << 0.5 + 0.25 * std::cos(a), 0.5 + 0.25 * std::sin(a), 0;
+    }
+    sources.space_curves.push_back({arc, true, ""});
+  }
+  const SurfaceAnswer torn = distance(mesh, sources, {.discontinuous = true});
+  double error = 0;
+  int count = 0;
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 x = mesh.point(mesh.face(f)[k]) - Vec3(0.5, 0.5, 0);
+      const double exact = (0.25 - x.norm()) * (x.y() > 0 ? 1 : -1);
+      if (std::abs(x.y()) < 0.1 || std::abs(exact) > 0.2) continue;
+      error += std::abs(torn_value(torn, f, k) - exact);
+      ++count;
+    }
+  EXPECT_LT(error / count, 0.02);
 }
 
 TEST(DiscontinuousDistance, LeavesOutWhatBoundsNothing) {

@@ -179,3 +179,24 @@ def test_help_shows_ranges_and_defaults(run: Run) -> None:
         assert word in text
     assert run("--version").stdout.startswith("littoral ")
     assert "render" in run("--help").stdout
+
+
+def test_tables_of_distance_that_jumps_have_the_inputs_vertices(
+    run: Run, mesh: Path, tmp_path: Path
+) -> None:
+    # Half of the curve turned round: the distance jumps, and meshes are split there.
+    lines = ["signed_curve", *(f"v {5 + 11 * j}" for j in range(6))]
+    lines += ["signed_curve", *(f"v {5 + 11 * j}" for j in range(10, 4, -1))]
+    (tmp_path / "two.txt").write_text("\n".join(lines) + "\n")
+    words = ("distance", mesh, "--sources", "two.txt", "--method", "signed-heat", "--discontinuous")
+    files = ("a.csv", "a.txt", "a.npy", "a.ply")
+    run(*words, *(word for file in files for word in ("-o", file)))
+    # Up to three steps left of the curve's ends the distance is that to its left.
+    found = values(tmp_path / "a.txt")
+    assert len(found) == 121
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 122
+    assert found[3] == pytest.approx(0.2, abs=0.05)
+    assert found[3 + 110] == pytest.approx(-0.2, abs=0.05)
+    assert b"element vertex 121" not in (tmp_path / "a.ply").read_bytes()
+    level = (*words, "--constraint", "level-sets", "-o", "b.txt")
+    assert "constraint" in run(*level, status=2).stderr

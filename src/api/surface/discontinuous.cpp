@@ -8,33 +8,92 @@
 #include "littoral/error.h"
 #include "methods/heat/discontinuous.h"
 #include "methods/heat/finalize.h"
+#include "methods/heat/time_scale.h"
+#include "sources/triangle_sources.h"
 
 namespace littoral {
 
+namespace {
+
+/// Sources where phi is to be 0, for constraint zero-set or a penalty; none for constraint none.
+std::vector<HeldPoint> held_points(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                                   const PlacedSources& placed, const SignedHeat& options) {
+  // Ten times what the jumps round a face may save.
+  constexpr double hold = 10;
+  const double h = T.mean_edge_length;
+  const double by_length = options.soft > 0 ? options.soft / h : hold;
+  std::vector<HeldPoint> held;
+  if (options.soft == 0 && options.constraint == Constraint::none) return held;
+  const TriangleSources on = triangle_sources(mesh, T, placed);
+  for (const TriangleSources::Segment& s : on.segments) {
+    const TriangleShape shape = T.shape(s.triangle);
+    HeldPoint middle{s.triangle, {}, 0};
+    Complex along = 0;
+    for (int k = 0; k < 3; ++k) {
+      middle.b[k] = 0.5 * (s.a[k] + s.b[k]);
+      along += (s.b[k] - s.a[k]) * shape.p[k];
+    }
+    middle.weight = by_length * std::abs(along);
+    held.push_back(middle);
+  }
+  for (const PointInFace& p : on.isolated.inside) held.push_back({p.face, p.b, by_length * h});
+  std::vector<char> at_vertex(T.n_vertices, 0);
+  for (const int v : on.isolated.vertices) at_vertex[v] = 1;
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      if (!at_vertex[T.faces(f, k)]) continue;
+      HeldPoint corner{f, {}, by_length * h};
+      corner.b[k] = 1;
+      held.push_back(corner);
+    }
+  return held;
+}
+
+/// One value a vertex, the mean of its corners'.
+VecX vertex_means(const IntrinsicTriangulation& T, const MatX3& phi) {
+  VecX mean = VecX::Zero(T.n_vertices), count = mean;
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      mean[T.faces(f, k)] += phi(f, k);
+      count[T.faces(f, k)] += 1;
+    }
+  return mean.cwiseQuotient(count.cwiseMax(1));
+}
+
+}  // namespace
+
 SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                     const Operators& ops, const SourceSystem& terms,
-                                     const SignedHeatSolver& method, const SignedHeat& options,
-                                     Task& task, Report& report) {
-  const VecX Y = [&] {
+                                     const Operators& ops, const PlacedSources& placed,
+                                     const SourceSystem& terms, const SignedHeatSolver& method,
+                                     const SignedHeat& options, Task& task, Report& report) {
+  VecX Y = [&] {
     const Stopwatch watch(report, "diffuse");
     return method.directions(terms, options, task.stage(0.3, "diffuse"), report);
   }();
   const Stopwatch watch(report, "integrate");
   const JumpCalculus J = jump_calculus(T);
+  const std::vector<HeldPoint> held = held_points(mesh, T, placed, options);
   const double h = T.mean_edge_length, jump_threshold = options.jump_threshold * h;
-  DiscontinuousField field = integrate_discontinuous(
-      J, Y, jump_threshold, options.smoothing * h * h, task.stage(0.7, "integrate"), report);
-
-  // One value a vertex, their mean; zero in the mean along the sources.
-  VecX mean = VecX::Zero(T.n_vertices), count = mean;
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      mean[T.faces(f, k)] += field.phi(f, k);
-      count[T.faces(f, k)] += 1;
+  const Task integrating = task.stage(0.7, "integrate");
+  DiscontinuousField field;
+  VecX mean;
+  std::vector<char> reached = method.reached_pieces(terms, options);
+  do {
+    Report r;
+    field = integrate_discontinuous(J, T.faces, Y, held, jump_threshold, options.smoothing * h * h,
+                                    integrating, r);
+    mean = vertex_means(T, field.phi);
+    if (!method.add_across_pinches(mean, reached, Y, integrating, report)) {
+      report.merge(r);
+      break;
     }
-  mean = mean.cwiseQuotient(count.cwiseMax(1));
+  } while (true);
+  report.residuals.emplace_back(misaligned_area_fraction, misaligned_fraction(J, field.phi, Y));
+  warn_misaligned(report);
+
+  // Without zero along the sources, zero in the mean along them.
   VecX shifted = mean;
-  shift_to_mean_zero(ops.scalar, terms, shifted);
+  if (held.empty()) shift_to_mean_zero(ops.scalar, terms, shifted);
   SurfaceAnswer result{finalize_field(ops, terms, shifted, report), {}};
 
   Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Constant(mesh.n_faces(), 3, -1);

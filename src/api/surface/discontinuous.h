@@ -4,15 +4,18 @@
 #include "api/surface/surface_domain.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/heat/signed_heat.h"
+#include "sources/pieces.h"
 
 namespace littoral {
 
 /// Distance that jumps: the mean of the values that meet at each vertex, and the surface split
-/// where they differ. The report gets the length along which it is split and the certified gap.
+/// where they differ. Constraint zero-set holds the value at the sources by a large penalty, `soft`
+/// gives another, both on absolute values. The report gets the length along which it is split and
+/// the certified gap.
 SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                     const Operators& ops, const SourceSystem& terms,
-                                     const SignedHeatSolver& method, const SignedHeat& options,
-                                     Task& task, Report& report);
+                                     const Operators& ops, const PlacedSources& placed,
+                                     const SourceSystem& terms, const SignedHeatSolver& method,
+                                     const SignedHeat& options, Task& task, Report& report);
 
 /// The sources without the parts of signed curves that bound nothing. Throws InputError if nothing
 /// remains.

@@ -38,6 +38,8 @@ void check_options(const std::string& kind, const SignedHeat& options) {
     throw InputError(
         "option sharpen makes a continuous distance and does not go with option discontinuous");
   if (options.discontinuous) needs_triangles(kind, "discontinuous");
+  if (options.discontinuous && options.constraint == Constraint::level_sets)
+    throw UnsupportedError("option discontinuous goes with constraint zero-set or none");
   if (options.sharpen == Sharpening::quadratic) needs_triangles(kind, "sharpen quadratic");
   if (options.bounding_only) needs_triangles(kind, "bounding-only");
   if (options.intrinsic_delaunay) needs_triangles(kind, "intrinsic-delaunay");
@@ -200,9 +202,12 @@ class SignedHeatOnSurface {
       const Stopwatch watch(report, "factor");
       return factors->at(options.time_scale, needed, task.stage(0.5, "factoring"));
     }();
-    if (options.discontinuous)
+    if (options.discontinuous) {
+      Report quiet;  // they have been placed before
       return discontinuous_distance(*surface_.domain().mesh, *surface_.plain().triangulation(), ops,
-                                    terms, *first, options, task, report);
+                                    place_sources(surface_.domain(), sources, task, quiet), terms,
+                                    *first, options, task, report);
+    }
     const std::function<VecX(const SignedHeatSolver&, const Task&, Report&)> solve =
         [&](const SignedHeatSolver& heat, const Task& stage, Report& r) {
           return heat.solve(terms, options, stage, r);

@@ -126,6 +126,10 @@ void measure_on_surface(const DistanceArguments& arguments, Session& session) {
           result.scalars["confidence"] = answer.confidence;
         if (mesh.n_faces() == 0 && io::is_written_as(file, {Kind::field}))
           result = cloud_with(result, mesh);
+        else if (answer.shown && io::is_written_as(file, {Kind::table})) {  // of the input
+          result = mesh.soup();
+          result.scalars = {{"distance", answer.values}};
+        }
         write_result(file, result, "distance", arguments.domain, session.report,
                      [&](io::Scene& scene) { io::add_sources(scene, mesh, sources); });
       });

@@ -144,17 +144,34 @@ VecX SignedHeatSolver::directions(const SourceSystem& system, const SignedHeat& 
   const Calculus& C = ops_->scalar;
   const VectorDiffusion& V = ops_->vector;
   const VecX X0 = system.X0 + system.X0_points;
-  if (options.preserve_normals) return heat_->diffuse_prescribed(V, normalize(X0), task, report).Y;
-  if (!by_gradient(system, options)) return heat_->diffuse(V, X0, task, report).Y;
-  CellField X = no_field(C.A.size());
-  scalar_heat_->add_nearest(C, system, 1, X, task, report);
-  set_near(C, system, X.Y);
-  return X.Y;
+  const VecX Y = [&] {
+    if (options.preserve_normals)
+      return heat_->diffuse_prescribed(V, normalize(X0), task, report).Y;
+    if (!by_gradient(system, options)) return heat_->diffuse(V, X0, task, report).Y;
+    CellField X = no_field(C.A.size());
+    scalar_heat_->add_nearest(C, system, 1, X, task, report);
+    set_near(C, system, X.Y);
+    return X.Y;
+  }();
+  if (!(Y.cwiseAbs().maxCoeff() > 0))
+    report.warn("the normals of the sources cancel everywhere; the distance is zero");
+  return Y;
+}
+
+std::vector<char> SignedHeatSolver::reached_pieces(const SourceSystem& system,
+                                                   const SignedHeat& options) const {
+  const VectorDiffusion& V = ops_->vector;
+  const bool vectors = needed_diffusions(system, options).vectors;
+  std::vector<char> reached(V.n_pieces, vectors ? 0 : 1);  // scalar heat reaches all
+  for (int i = 0; i < V.n; ++i)
+    if (V.piece[i] >= 0 &&
+        !(system.X0.segment<2>(2 * i).isZero(0) && system.X0_points.segment<2>(2 * i).isZero(0)))
+      reached[V.piece[i]] = 1;
+  return reached;
 }
 
 VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& options, Task task,
                              Report& report) const {
-  const VectorDiffusion& V = ops_->vector;
   const Diffusions needed = needed_diffusions(system, options);
   if ((needed.vectors && !heat_) || (needed.scalars && !scalar_heat_))
     throw UnsupportedError("signed-heat was not prepared for sources of this kind");
@@ -165,13 +182,7 @@ VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& optio
     const Stopwatch watch(report, "diffuse");
     Y = directions(system, options, heat_stage, report);
   }
-  if (!(Y.cwiseAbs().maxCoeff() > 0))
-    report.warn("the normals of the sources cancel everywhere; the distance is zero");
-  std::vector<char> reached(V.n_pieces, needed.vectors ? 0 : 1);  // scalar heat reaches all
-  for (int i = 0; i < V.n; ++i)
-    if (V.piece[i] >= 0 &&
-        !(system.X0.segment<2>(2 * i).isZero(0) && system.X0_points.segment<2>(2 * i).isZero(0)))
-      reached[V.piece[i]] = 1;
+  std::vector<char> reached = reached_pieces(system, options);
 
   const Stopwatch watch(report, "integrate");
   const bool near = needed.scalars && !system.d0.isZero(0);

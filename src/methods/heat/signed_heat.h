@@ -54,12 +54,18 @@ class SignedHeatSolver {
   VecX directions(const SourceSystem& system, const SignedHeat& options, const Task& task,
                   Report& report) const;
 
+  /// Pieces (of the vector dofs) that heat of the sources reaches.
+  std::vector<char> reached_pieces(const SourceSystem& system, const SignedHeat& options) const;
+
+  /// Directions Y (2 cells) beyond nodes by which pieces that no heat has reached hang on others,
+  /// given phi (nodes) [units]; false, and nothing changed, if there are none.
+  bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
+                          Report& report) const;
+
  private:
   VecX integrate(const SourceSystem& system, const VecX& Y, const SignedHeat& options,
                  const Task& task, Report& report) const;
   double factor_megabytes() const;
-  bool add_across_pinches(const VecX& phi, std::vector<char>& reached, VecX& Y, const Task& task,
-                          Report& report) const;
 
   void factor_heat(double time_scale, Diffusions diffusions, Task& task);
 

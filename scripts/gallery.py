@@ -44,6 +44,50 @@ def mixed(n: int) -> str:
     return json.dumps({"curves": curves, "points": [{"v": corner}]})
 
 
+def band(nu: int, nw: int) -> str:
+    """A Moebius band and its core, as OBJ."""
+
+    def vertex(i: int, j: int) -> int:
+        return 1 + (i * (nw + 1) + j if i < nu else nw - j)
+
+    rows = []
+    for i in range(nu):
+        u = 2 * math.pi * i / nu
+        for j in range(nw + 1):
+            t = 0.35 * (2 * j / nw - 1)
+            s = 1 + t * math.cos(u / 2)
+            rows.append(f"v {s * math.cos(u)} {t * math.sin(u / 2)} {s * math.sin(u)}")
+    for i in range(nu):
+        for j in range(nw):
+            a, b, c = vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)
+            rows += [f"f {a} {b} {c}", f"f {a} {c} {vertex(i, j + 1)}"]
+    core = " ".join(str(vertex(i, nw // 2)) for i in range(nu + 1))
+    return "\n".join([*rows, f"l {core}"]) + "\n"
+
+
+def torus(nu: int, nv: int) -> str:
+    """A torus and a loop round its tube, as OBJ."""
+    rows = []
+    for i in range(nu):
+        for j in range(nv):
+            u, v = 2 * math.pi * i / nu, 2 * math.pi * j / nv
+            s = 1 + 0.35 * math.cos(v)
+            rows.append(f"v {s * math.cos(u)} {0.35 * math.sin(v)} {s * math.sin(u)}")
+    for i in range(nu):
+        for j in range(nv):
+            k, m = (i + 1) % nu, (j + 1) % nv
+            a, b, c, d = (1 + p * nv + q for p, q in ((i, j), (k, j), (k, m), (i, m)))
+            rows += [f"f {a} {c} {b}", f"f {a} {d} {c}"]
+    loop = " ".join(str(1 + nu // 4 * nv + j % nv) for j in range(nv + 1))
+    return "\n".join([*rows, f"l {loop}"]) + "\n"
+
+
+def joined(sources: Path) -> str:
+    """All lines of a file of sources as one signed curve."""
+    words = [line.split() for line in sources.read_text().splitlines()]
+    return "signed_curve\nl " + " ".join(v for row in words if row[:1] == ["l"] for v in row[1:])
+
+
 def rows_for_knitting(obj: Path) -> str:
     """Directions for rows of knitting: round the legs of the cow, as `f I x y z`."""
     points: list[list[float]] = []
@@ -199,6 +243,10 @@ def main(program: str, shared: Path) -> None:
         data = ROOT / "examples" / "data"
         picture("spot-jersey", data / "spot.obj", data / "spot-jersey.txt")
         heat = "--method", "signed-heat"
+        for name, text in ("moebius-core", band(120, 14)), ("torus-loop", torus(90, 32)):
+            (work / "shape.obj").write_text(text)
+            jumps = [program, "distance", str(work / "shape.obj"), *heat, "--discontinuous"]
+            subprocess.run([*jumps, "--quiet", "-o", str(out / f"{name}.png")], check=True)
         sharp = *heat, "--time-scale", "400", "--sharpen"
         picture("sharpened", data / "spot.obj", data / "spot-jersey.txt", *sharp)
         sure = str(work / "sure.ply")
@@ -234,7 +282,9 @@ def main(program: str, shared: Path) -> None:
         levels = *heat, "--constraint", "level-sets"
         picture("bumpy-sphere", bumpy, bumpy.with_suffix(".txt"), *levels)
         moebius = curves / "mobius-orientable-curve.obj"
-        picture("moebius", moebius, moebius.with_suffix(".txt"))
+        once = work / "moebius.txt"  # the file has parts, one of them reversed by hand
+        once.write_text(joined(moebius.with_suffix(".txt")))
+        picture("moebius", moebius, once)
         loops = str(curves / "DoubleTorusWithBrokenLoops.obj")
         regions = out / "regions.png"
         subprocess.run([program, "winding", loops, "--quiet", "-o", str(regions)], check=True)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -72,36 +73,164 @@ TEST(HeatTopology, TwoMeridiansBoundHalfATorus) {
     }
 }
 
+/// A Moebius band of nu x nw squares about the unit circle, seam at the last of the nu.
+struct MoebiusBand {
+  int nu = 120, nw = 8;
+  double half_width = 0.16;
+
+  double across(int j) const { return half_width * (2.0 * j / nw - 1); }
+  /// i counts twice round: on the second round the band is upside down.
+  int vertex(int i, int j) const {
+    const int round = i / nu % 2;
+    return i % nu * (nw + 1) + (round == 0 ? j : nw - j);
+  }
+  PolygonSoup soup(bool polygons = false) const {
+    PolygonSoup soup;
+    soup.points.resize(nu * (nw + 1), 3);
+    for (int i = 0; i < nu; ++i)
+      for (int j = 0; j <= nw; ++j) {
+        const double u = turn * i / nu, s = 1 + across(j) * std::cos(u / 2);
+        soup.points.row(i * (nw + 1) + j) << s * std::cos(u), s * std::sin(u),
+            across(j) * std::sin(u / 2);
+      }
+    for (int i = 0; i < nu; ++i)
+      for (int j = 0; j < nw; ++j) {
+        const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
+                  d = vertex(i, j + 1);
+        if (polygons) {
+          soup.add_face(std::vector<int>{a, b, c, d});
+        } else {
+          test::add_triangle(soup, a, b, c);
+          test::add_triangle(soup, a, c, d);
+        }
+      }
+    return soup;
+  }
+  Curve curve(int from, int to, int j) const {
+    std::vector<int> vertices;
+    for (int i = from; i <= to; ++i) vertices.push_back(vertex(i, j));
+    return curve_at(vertices);
+  }
+};
+
 TEST(HeatTopology, OpenCurveOnAMoebiusBand) {
-  // Along a third of the core: beside it distance is the way across the band, with opposite signs
-  // on the two sides although the band has one side only.
-  const int nu = 120, nw = 8;
-  const double half_width = 0.16;
-  PolygonSoup soup;
-  soup.points.resize(nu * (nw + 1), 3);
-  auto across = [&](int j) { return half_width * (2.0 * j / nw - 1); };
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j <= nw; ++j) {
-      const double u = turn * i / nu, s = 1 + across(j) * std::cos(u / 2);
-      soup.points.row(i * (nw + 1) + j) << s * std::cos(u), s * std::sin(u),
-          across(j) * std::sin(u / 2);
-    }
-  auto vertex = [&](int i, int j) { return i < nu ? i * (nw + 1) + j : nw - j; };
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nw; ++j) {
-      test::add_triangle(soup, vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1));
-      test::add_triangle(soup, vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1));
-    }
-  const SurfaceMesh mesh(soup);
-  std::vector<int> core;
-  for (int i = 20; i <= 60; ++i) core.push_back(vertex(i, nw / 2));
+  // Along half of the core and across the seam: beside it distance is the way across the band, with
+  // opposite signs on the two sides although the band has one side only.
+  const MoebiusBand band;
+  const SurfaceMesh mesh(band.soup());
   Sources sources;
-  sources.curves = {curve_at(core)};
+  sources.curves = {band.curve(90, 150, band.nw / 2)};
   Report report;
   const VecX phi = test::signed_heat(mesh, sources, with(Constraint::zero_set), report);
   ASSERT_TRUE(phi.allFinite());
-  for (int i = 26; i <= 54; ++i)
-    for (int j = 0; j <= nw; ++j) EXPECT_NEAR(phi[vertex(i, j)], across(j), 0.02) << i << " " << j;
+  for (int i = 96; i <= 144; ++i)
+    for (int j = 0; j <= band.nw; ++j)
+      EXPECT_NEAR(phi[band.vertex(i, j)], band.across(j), 0.02) << i << " " << j;
+  EXPECT_EQ(report.warnings.size(), 1U);
+}
+
+TEST(HeatTopology, ACurveTwiceRoundAMoebiusBand) {
+  // It divides the band into a narrower Moebius band and an annulus with the boundary, whose sign
+  // is one and the same all round. Drawn at once, in parts of one edge each, and through faces.
+  const MoebiusBand band{60};
+  const SurfaceMesh mesh(band.soup());
+  const int quarter = 3 * band.nw / 4;
+  std::vector<Sources> all(3);
+  all[0].curves = {band.curve(0, 2 * band.nu, quarter)};
+  for (int i = 0; i < 2 * band.nu; ++i) all[1].curves.push_back(band.curve(i, i + 1, quarter));
+  for (int i = 0; i <= 2 * band.nu; ++i)
+    for (int side = 0; side < 2 && i + side <= 2 * band.nu; ++side) {
+      // Half way between two rows, over every edge that goes across.
+      const bool upside_down = i >= band.nu && i < 2 * band.nu;
+      const int from = band.vertex(i, quarter - (upside_down ? 0 : 1));
+      const int e = mesh.find_edge(
+          side ? from : band.vertex(i, quarter - 1),
+          side ? band.vertex(i + 1, quarter - (upside_down ? 1 : 0)) : band.vertex(i, quarter));
+      if (i == 0 && side == 0) all[2].curves.emplace_back();
+      all[2].curves[0].nodes.push_back(SurfacePoint::on_edge(e, 0.5));
+    }
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const AnyMethod& method :
+         {AnyMethod(SignedHeat{}), AnyMethod(FastMarching{}), AnyMethod(Automatic{}),
+          AnyMethod(SignedHeat{.intrinsic_delaunay = true}),
+          AnyMethod(Quadratic{.is_signed = true})}) {
+      Report report;
+      const VecX phi = test::surface_distance(mesh, all[k], method, report);
+      const double at = band.across(quarter) - (k == 2 ? band.half_width / band.nw : 0);
+      for (int i = 0; i < band.nu; ++i)
+        for (int j = 0; j <= band.nw; ++j) {
+          const double expected = std::abs(band.across(j)) - at;
+          ASSERT_NEAR(phi[band.vertex(i, j)], expected, 0.03)
+              << "curve " << k << ", " << report.method << " at " << i << " " << j;
+        }
+    }
+}
+
+TEST(HeatTopology, ACurveAlongTheSeamOfAMoebiusBand) {
+  // Straight across the band where the faces on both sides lie on the same side of their edge, and
+  // elsewhere. It bounds nothing, so that the distance is flattened; its signs are as drawn.
+  const MoebiusBand band{60};
+  const SurfaceMesh mesh(band.soup());
+  for (const int at : {0, 30})
+    for (const bool reversed : {false, true})
+      for (const AnyMethod& method : {AnyMethod(SignedHeat{}), AnyMethod(FastMarching{}),
+                                      AnyMethod(SignedHeat{.intrinsic_delaunay = true}),
+                                      AnyMethod(Quadratic{.is_signed = true})}) {
+        Sources sources;
+        Curve& curve = sources.curves.emplace_back();
+        for (int j = 0; j <= band.nw; ++j)
+          curve.nodes.push_back(SurfacePoint::at_vertex(band.vertex(at, j)));
+        if (reversed) sources = sources.reversed();
+        Report report;
+        const VecX phi = test::surface_distance(mesh, sources, method, report);
+        for (const int away : {2, 5, 9})
+          for (int j = 0; j <= band.nw; ++j) {
+            // Left of travel is where i falls, as the faces after either column say.
+            const double least = 0.2 * turn * away / band.nu, sign = reversed ? -1 : 1;
+            EXPECT_LT(sign * phi[band.vertex(at + away, j)], -least)
+                << report.method << " " << at << " " << j;
+            EXPECT_GT(sign * phi[band.vertex(at + 2 * band.nu - away, j)], least)
+                << report.method << " " << at << " " << j;
+          }
+      }
+}
+
+TEST(HeatTopology, RegionsOnAMoebiusBand) {
+  const MoebiusBand band;
+  const SurfaceMesh mesh(band.soup());
+  Sources sources;
+  sources.curves = {band.curve(0, 2 * band.nu, 3 * band.nw / 4)};
+  for (const Formulation formulation : {Formulation::primal, Formulation::dual}) {
+    Report report;
+    const WindingAnswer answer = solve_once<WindingDomain>(
+        SurfaceWinding{.formulation = formulation}, {domain_of(mesh).mesh}, sources, {}, report);
+    EXPECT_TRUE(answer.nonbounding.empty());
+    const int inner = answer.region[band.nw], outer = answer.region[0];  // of the first column
+    EXPECT_EQ(std::abs(inner - outer), 1);
+    for (int f = 0; f < mesh.n_faces(); ++f) {
+      const int j = f / 2 % band.nw;
+      EXPECT_EQ(answer.region[f], j < band.nw / 4 || j >= 3 * band.nw / 4 ? outer : inner) << f;
+    }
+  }
+}
+
+TEST(HeatTopology, TheCoreOfAMoebiusBandHasOneSide) {
+  const MoebiusBand band;
+  const SurfaceMesh mesh(band.soup());
+  Sources sources;
+  sources.curves = {band.curve(0, band.nu, band.nw / 2)};
+  Report report;
+  test::signed_heat(mesh, sources, {}, report);
+  ASSERT_EQ(report.warnings.size(), 2U);
+  EXPECT_NE(report.warnings[1].find("sides exchanged"), std::string::npos);
+}
+
+TEST(HeatTopology, SidesAreWarnedOfOnlyWhereTheyMatter) {
+  const MoebiusBand band;
+  const SurfaceMesh mesh(band.soup());
+  Report report;
+  test::signed_heat(mesh, test::vertex_points({7}), {}, report);
+  EXPECT_TRUE(report.warnings.empty());
 }
 
 /// A unit cube of n x n squares a side, its least corner at `at`; equal positions share a vertex.

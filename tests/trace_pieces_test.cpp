@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -244,6 +246,33 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
     const double length = total_length(prepared);
     RC_ASSERT(std::abs(total_length(again) - length) <= 1e-12 * length);  // added in another order
   }));
+}
+
+TEST(Pieces, WhatLiesInFacesWithoutSurfaceIsNamed) {
+  // A square of two triangles and a face that repeats a vertex, with an edge of its own.
+  PolygonSoup soup;
+  soup.points.resize(5, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0;
+  for (const auto& [a, b, c] : {std::array{0, 1, 2}, std::array{0, 2, 3}, std::array{1, 4, 4}})
+    test::add_triangle(soup, a, b, c);
+  const SurfaceMesh mesh(soup);
+  Sources sources;
+  Curve& curve = sources.curves.emplace_back();
+  for (const int v : {3, 0, 1, 4}) curve.nodes.push_back(SurfacePoint::at_vertex(v));
+  Curve& still = sources.curves.emplace_back();
+  for (const int v : {2, 2}) still.nodes.push_back(SurfacePoint::at_vertex(v));
+  sources.points = {SurfacePoint::at_vertex(4)};
+  Report report;
+  const PlacedSources placed = place_sources(mesh, sources, report);
+  EXPECT_EQ(placed.pieces.size(), 2U);
+  const auto warned = [&](const std::string& text) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const auto& warning) {
+      return warning.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(warned("1 piece of curve 1 in faces that repeat a vertex was left out"));
+  EXPECT_TRUE(warned("curve 2 has no length"));
+  EXPECT_TRUE(warned("point source 1 lies on vertex 4"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void glue(const IntrinsicTriangulation& T, JumpCalculus& J) {
     if (count[e] > 2) {
       sides = {};
       J.manifold[e] = 0;
-    } else if (count[e] > 0 && !left(sides[0]) && (count[e] == 1 || left(sides[1]))) {
+    } else if (count[e] > 0 && !left(sides[0])) {  // where the two disagree the first decides
       std::swap(sides[0], sides[1]);
     }
   }

@@ -60,7 +60,9 @@ std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& repo
 
 ConformingCurves conform(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces) {
   std::vector<CutSegment> segments;
-  for (const CurvePiece& piece : pieces) segments.push_back({piece.face, piece.a, piece.b});
+  for (const CurvePiece& piece : pieces)
+    segments.push_back(
+        {piece.face, piece.left ? piece.a : piece.b, piece.left ? piece.b : piece.a});
   CutMesh cut = cut_mesh(mesh, segments);
   VecX times = count_edges(cut);
   if (halve_lonely(cut, times, segments)) {

@@ -20,8 +20,8 @@ std::vector<CurvePiece> pieces_with_sides(const PlacedSources& sources);
 /// The same, with a warning that counts the others. Throws InputError if none remains.
 std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& report);
 
-/// Signed curves as a chain of edges. Parts of one edge that no other follows are halved, because
-/// ends of curves carry no jump.
+/// Signed curves as a chain of edges, each to the right of where phi > 0 as its first face lies.
+/// Parts of one edge that no other follows are halved, because ends of curves carry no jump.
 ConformingCurves conform(const SurfaceMesh& mesh, const std::vector<CurvePiece>& pieces);
 
 }  // namespace littoral

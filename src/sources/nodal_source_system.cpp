@@ -25,13 +25,14 @@ class NodeDofs : public VectorDofs {
   void add_signed(const CurvePiece& piece, std::vector<DofVector>& out) const override {
     // N at a node is the left normal n x tangent, in the node's tangent plane (section 8.5).
     const Vec3 along = at(piece.face, piece.b) - at(piece.face, piece.a);
+    const Vec3 left = piece.left ? along : Vec3(-along);  // of which
     const auto corners = mesh_.face(piece.face);
     for (int k = 0; k < 3; ++k)
       for (Row it(S_.P, corners[k]); it; ++it) {
         const double weight = 0.5 * (piece.a[k] + piece.b[k]) * it.value();
         if (weight == 0) continue;
         const TangentFrame frame(S_.normals.row(it.col()));
-        out.emplace_back(it.col(), weight * frame.coordinates(frame.n.cross(along)));
+        out.emplace_back(it.col(), weight * frame.coordinates(frame.n.cross(left)));
       }
   }
 

@@ -1,9 +1,11 @@
 #include "sources/pieces.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "littoral/error.h"
+#include "sources/carry_sides.h"
 #include "sources/project_curves.h"
 #include "sources/trace.h"
 
@@ -20,7 +22,7 @@ class Notes {
   void report_to(Report& report) const {
     for (const std::string& text : texts_) report.warn(text);
     if (count_ > shown)
-      report.warn("the same holds for " + std::to_string(count_ - shown) + " more curves");
+      report.warn("the same holds for " + std::to_string(count_ - shown) + " more sources");
   }
 
  private:
@@ -44,6 +46,7 @@ class Preparation {
     std::vector<SurfacePoint> placed;
     int segments = 0, empty_steps = 0;
     const std::size_t pieces_before = out_.pieces.size();
+    lost_ = 0;
     try {
       placed.push_back(simplest(mesh_, nodes.front()));
       for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -67,6 +70,10 @@ class Preparation {
       traced_.add(counted(segments, "segment of ", "segments of ") + label +
                   (segments == 1 ? " joins" : " join") +
                   " nodes that share no face, by a path traced over the mesh");
+    if (lost_ > 0)
+      dropped_.add(counted(lost_, "piece of ", "pieces of ") + label +
+                   " in faces that repeat a vertex" + (lost_ == 1 ? " was" : " were") +
+                   " left out");
     if (empty_steps > 0)
       dropped_.add(counted(empty_steps, "zero-length step of ", "zero-length steps of ") + label +
                    (empty_steps == 1 ? " was" : " were") + " left out");
@@ -77,6 +84,11 @@ class Preparation {
   void add_point(const SurfacePoint& point, std::size_t number) {
     try {
       out_.points.push_back(simplest(mesh_, point));
+      const std::vector<int> faces = faces_at(mesh_, out_.points.back());
+      if (std::none_of(faces.begin(), faces.end(),
+                       [&](int f) { return has_distinct_corners(mesh_, f); }))
+        dropped_.add("point source " + std::to_string(number) + " lies on " + element_name(point) +
+                     ", whose faces all repeat a vertex: no distance is measured from it");
     } catch (const InputError& error) {
       throw InputError("point source " + std::to_string(number) + ": " + error.what());
     }
@@ -103,6 +115,10 @@ class Preparation {
     if (!(piece.length > 0)) return false;
     piece.edge = common_edge(mesh_, from, to);
     piece.face = piece.edge >= 0 ? face_beside(piece.edge) : common_face(mesh_, from, to);
+    if (!has_distinct_corners(mesh_, piece.face)) {  // counts as no surface
+      ++lost_;
+      return true;
+    }
     piece.a = barycentrics_in(mesh_, from, piece.face).value();
     piece.b = barycentrics_in(mesh_, to, piece.face).value();
     out_.pieces.push_back(piece);
@@ -118,6 +134,7 @@ class Preparation {
   const SurfaceMesh& mesh_;
   Tracer tracer_;
   PlacedSources out_;
+  int lost_ = 0;  // pieces of the curve that faces with repeated vertices hold
   Notes traced_, dropped_, vanished_;
 };
 
@@ -130,7 +147,7 @@ std::string curve_label(std::size_t index, const std::string& origin) {
 }  // namespace
 
 PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
-                            const Task& task) {
+                            const Task& task, SidesBy sides) {
   if (!sources.chains.empty())
     throw UnsupportedError(
         (sources.chains[0].origin.empty() ? "" : sources.chains[0].origin + ": ") +
@@ -159,7 +176,9 @@ PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Rep
   }
   for (std::size_t i = 0; i < sources.points.size(); ++i)
     preparation.add_point(sources.points[i], i + 1);
-  return preparation.finish(report);
+  PlacedSources placed = preparation.finish(report);
+  if (sides == SidesBy::faces) carry_sides(mesh, placed, report);
+  return placed;
 }
 
 }  // namespace littoral

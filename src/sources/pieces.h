@@ -14,7 +14,8 @@ namespace littoral {
 /// A straight part of a curve inside one face or along one edge, in the direction of travel.
 struct CurvePiece {
   int curve = 0;                   // row of PlacedSources::nodes
-  bool is_signed = true;           // phi > 0 to the left of travel
+  bool is_signed = true;           // has sides: phi > 0 on one, < 0 on the other
+  bool left = true;                // phi > 0 to the left of travel as `face` lies, or to the right
   int face = 0;                    // contains the piece; along an edge, one of the edge's faces
   std::array<double, 3> a{}, b{};  // start and end: barycentrics in `face`, in its corner order
   int edge = -1;                   // the edge the piece runs along (third barycentric exactly 0)
@@ -29,6 +30,10 @@ struct PlacedSources {
   int n_curves = 0;                              // = nodes.size()
 };
 
+/// What tells left from right: faces, from which sides are carried along curves
+/// (sources/carry_sides.h), or normals that the surface has besides.
+enum class SidesBy { faces, normals };
+
 /// Traces gaps across the mesh, projects space curves onto it and cuts all curves into pieces.
 ///
 /// Surface curves come first, in order, then space curves (one split between components counts as
@@ -37,6 +42,6 @@ struct PlacedSources {
 /// index is out of range, a curve has fewer than two nodes or spans two components (naming curve
 /// and element), or nothing remains.
 PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Report& report,
-                            const Task& task = {});
+                            const Task& task = {}, SidesBy sides = SidesBy::faces);
 
 }  // namespace littoral

@@ -105,6 +105,7 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
     CurvePiece piece = kept.pieces[s.id];
     piece.face = s.edge >= 0 ? out.mesh.edge_faces(s.edge)[0] : s.face;
     piece.edge = s.edge;
+    if (s.mirrored) piece.left = !piece.left;
     piece.length *= s.to - s.from;
     const auto a = barycentrics_in(out.mesh, nodes[s.a], piece.face),
                b = barycentrics_in(out.mesh, nodes[s.b], piece.face);

@@ -26,8 +26,8 @@ class EdgeDofs : public VectorDofs {
     const int f = T_.triangle_of_face[piece.face];
     const TriangleShape t = T_.shape(f);
     const Complex tangent = at(t, piece.b) - at(t, piece.a);
-    const Complex N =
-        Complex(0, 1) * tangent;  // already times its length, to the left in this frame
+    // Already times its length. A frame's imaginary axis is to the left.
+    const Complex N = Complex(0, piece.left ? 1 : -1) * tangent;
     for (int k = 0; k < 3; ++k)
       if (piece.edge < 0 || T_.side_edge(f, k) == piece.edge)
         out.emplace_back(T_.side_edge(f, k), T_.face_to_edge(t, f, k, N));

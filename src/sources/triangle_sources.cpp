@@ -1,8 +1,11 @@
 #include "sources/triangle_sources.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <tuple>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "sources/surface_points.h"
 
@@ -22,7 +25,16 @@ std::vector<PointInFace> triangles_around(const SurfaceMesh& mesh, const Intrins
 std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
                                                   const IntrinsicTriangulation& T,
                                                   const CurvePiece& piece) {
-  if (piece.edge < 0) return {{T.triangle_of_face[piece.face], piece.a, piece.b, piece.is_signed}};
+  std::vector<TriangleSources::Segment> all;
+  const auto add = [&](int t, const std::array<double, 3>& a, const std::array<double, 3>& b,
+                       bool left) {
+    all.push_back({t, left ? a : b, left ? b : a, piece.is_signed});
+  };
+  const int own = T.triangle_of_face[piece.face];
+  if (piece.edge < 0) {
+    add(own, piece.a, piece.b, piece.left);
+    return all;
+  }
   const auto corners = mesh.face(piece.face);
   auto on_edge = [&](const std::array<double, 3>& b) {
     double head = 0;
@@ -30,13 +42,18 @@ std::vector<TriangleSources::Segment> segments_of(const SurfaceMesh& mesh,
       if (corners[k] == mesh.edges()(piece.edge, 1)) head = b[k];
     return simplest(mesh, SurfacePoint::on_edge(piece.edge, head));
   };
+  // Do two triangles disagree about the sides of the edge?
+  auto seam = [&](int t) {
+    for (int k = 0; k < 3 && t >= 0; ++k)
+      if (T.side_edge(t, k) == piece.edge) return T.seam(t, k) != 0;
+    return false;
+  };
   const SurfacePoint p = on_edge(piece.a), q = on_edge(piece.b);
-  std::vector<TriangleSources::Segment> all;
   for (int face : mesh.edge_faces(piece.edge)) {
     const int t = T.triangle_of_face[face];
     if (t < 0) continue;
     const auto a = barycentrics_in(mesh, p, face), b = barycentrics_in(mesh, q, face);
-    if (a && b) all.push_back({t, *a, *b, piece.is_signed});
+    if (a && b) add(t, *a, *b, !piece.is_signed || piece.left == (seam(t) == seam(own)));
   }
   return all;
 }
@@ -78,6 +95,26 @@ TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTrian
   return out;
 }
 
+/// Nodes of curves that are no ends of their pieces, where a step without length leads to another
+/// element at the same place.
+void add_other_nodes(const SurfaceMesh& mesh, const PlacedSources& sources,
+                     std::vector<Numbered>& nodes) {
+  std::map<int, int> first;  // curve -> its first piece
+  for (int i = int_size(sources.pieces) - 1; i >= 0; --i) first[sources.pieces[i].curve] = i;
+  const auto key = [&](const SurfacePoint& given) {
+    const SurfacePoint p = simplest(mesh, given);
+    return std::tuple(static_cast<int>(p.on), p.element,
+                      p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
+  };
+  std::set<std::tuple<int, int, std::array<double, 3>>> known;
+  for (const Numbered& n : nodes) known.insert(key(n.point));
+  for (const auto& [c, piece] : first) {
+    if (c >= int_size(sources.nodes)) continue;  // pieces alone were given
+    for (const SurfacePoint& p : sources.nodes[c])
+      if (known.insert(key(p)).second) nodes.push_back({p, piece});
+  }
+}
+
 }  // namespace
 
 TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
@@ -96,6 +133,7 @@ TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangu
     for (const auto& b : {piece.a, piece.b})
       nodes.push_back({SurfacePoint::in_face(piece.face, b[0], b[1], b[2]), source});
   }
+  add_other_nodes(mesh, sources, nodes);
   for (std::size_t i = 0; i < sources.points.size(); ++i)
     isolated.push_back({sources.points[i], static_cast<int>(sources.pieces.size() + i)});
   out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);

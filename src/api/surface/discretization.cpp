@@ -34,7 +34,8 @@ PlacedSources place_sources(const SurfaceDomain& domain, const SurfaceMesh& on,
   const SurfaceMesh& mesh = *domain.mesh;
   PlacedSources placed = [&] {
     const Stopwatch watch(report, "sources");
-    return place_sources(on, sources, report, task);
+    const bool faces = domain.kind() == "triangle mesh" || domain.kind() == "polygon mesh";
+    return place_sources(on, sources, report, task, faces ? SidesBy::faces : SidesBy::normals);
   }();
   report.sizes.emplace_back("vertices", mesh.n_vertices());
   report.sizes.emplace_back("faces", mesh.n_faces());

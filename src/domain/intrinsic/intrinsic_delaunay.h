@@ -19,6 +19,7 @@ struct CurveNetwork {
     double from = 0, to = 1;   // part of that
     int a = 0, b = 0;          // end points, into `nodes`
     int face = -1, edge = -1;  // that it lies in, or along
+    bool mirrored = false;     // along an edge whose first face now calls left what was right
   };
   std::vector<SurfacePoint> nodes;
   std::vector<Segment> segments;

@@ -75,6 +75,7 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   T.edge_use.assign(T.n_edges(), 0);
   std::vector<int> new_edge(edges.size(), -1), first_side_sign(edges.size(), 0),
       first_left(edges.size());
+  std::vector<char> mirrored(edges.size(), 0);
   for (int f = 0; f < T.n_faces(); ++f) {
     T.triangle_of_face.push_back(f);
     for (int k = 0; k < 3; ++k) {
@@ -89,6 +90,8 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
       if (first_side_sign[e] == 0) {
         first_side_sign[e] = faces[f].side_sign[k];
         first_left[e] = T.along(f, k);
+        const int left = T.edges(E, 0) == edges[e].tail ? T.along(f, k) : -T.along(f, k);
+        mirrored[e] = left != faces[f].side_sign[k];
       } else if (T.along(f, k) !=
                  (faces[f].side_sign[k] == first_side_sign[e] ? first_left[e] : -first_left[e])) {
         T.seam(f, k) = 1;
@@ -112,7 +115,10 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   for (auto* lists : {&in_face_, &on_edge_})
     for (auto& list : *lists)
       for (CurveNetwork::Segment& s : list) {
-        if (s.edge >= 0) s.edge = new_edge[s.edge];
+        if (s.edge >= 0) {
+          s.mirrored = mirrored[s.edge] != 0;
+          s.edge = new_edge[s.edge];
+        }
         out.curves.segments.push_back(s);
       }
   std::sort(

@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "domain/mesh/edge_sides.h"
+#include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -87,55 +88,6 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
                 " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
 }
 
-/// Flips orientations within patches of manifold edges until neighbours agree; the majority of area
-/// keeps its own. Returns false for patches that cannot agree, leaving them as given.
-void orient(IntrinsicTriangulation& T, const EdgeSides& sides, Report& report) {
-  T.orientation.assign(T.n_faces(), 0);
-  int flipped = 0, nonorientable_patches = 0;
-  std::vector<int> patch;
-  for (int seed = 0; seed < T.n_faces(); ++seed) {
-    if (T.orientation[seed]) continue;
-    patch.assign(1, seed);
-    T.orientation[seed] = 1;
-    bool orientable = true;
-    double kept_area = 0, flipped_area = 0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const int f = patch[i];
-      const double area = area_of_lengths(T.length(f, 0), T.length(f, 1), T.length(f, 2));
-      (T.orientation[f] > 0 ? kept_area : flipped_area) += area;
-      for (int k = 0; k < 3; ++k) {
-        const auto at = sides.at(T.side_edge(f, k));
-        if (at.size() != 2) continue;
-        const TriangleSide& g = at[0].face == f && at[0].k == k ? at[1] : at[0];
-        const int wanted = -T.orientation[f] * T.along(f, k) * T.along(g.face, g.k);
-        if (!T.orientation[g.face]) {
-          T.orientation[g.face] = static_cast<std::int8_t>(wanted);
-          patch.push_back(g.face);
-        } else if (T.orientation[g.face] != wanted) {
-          orientable = false;
-        }
-      }
-    }
-    const bool reverse = flipped_area > kept_area;
-    if (!orientable) ++nonorientable_patches;
-    for (int f : patch) {
-      if (!orientable)
-        T.orientation[f] = 1;
-      else if (reverse)
-        T.orientation[f] = static_cast<std::int8_t>(-T.orientation[f]);
-      if (T.orientation[f] < 0) ++flipped;
-    }
-  }
-  if (flipped)
-    report.warn(std::to_string(flipped) +
-                " faces are oriented against the majority of their neighbours; the left side of a "
-                "curve follows the majority");
-  if (nonorientable_patches)
-    report.warn(
-        "the surface is not orientable: the left side of a curve follows the orientation "
-        "of each face it crosses");
-}
-
 /// Unit vector from side k of f into the face, in space; zero if the face is degenerate.
 Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, int k) {
   const Vec3 a = mesh.point(T.faces(f, k)) / T.unit,
@@ -190,7 +142,10 @@ IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& 
   take_faces(mesh, T, report);
   measure(mesh, T, report);
   const EdgeSides sides = edge_sides(T);
-  orient(T, sides, report);
+  const FaceOrientation oriented = face_orientation(mesh);
+  T.orientation.resize(T.n_faces());
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    if (const int t = T.triangle_of_face[f]; t >= 0) T.orientation[t] = oriented.sign[f];
   mark_seams(mesh, T, sides);
   find_components(T);
   return T;

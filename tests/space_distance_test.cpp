@@ -116,7 +116,7 @@ TEST(SpaceDistanceSlow, FarAwayNothingUnderflows) {
 TEST(SpaceDistanceSlow, MovesAndScalesWithTheInput) {
   const PolygonSoup torus = test::off_centre_torus();
   const Grid grid = test::cube_grid(17, 1.2);
-  for (const char* method : {"completed", "signed-heat", "winding", "planar"}) {
+  for (const char* method : {"auto", "signed-heat", "winding", "planar"}) {
     const VecX base = on_grid(torus, grid, method);
     for (const double scale : {1e-3, 1.0, 1e3}) {
       PolygonSoup moved = torus;
@@ -195,7 +195,7 @@ TEST(SpaceDistance, SaysWhatIsWrong) {
   EXPECT_THAT(choose([](GridOptions& g) { g.resolution = 1000000; }), HasSubstr("resolution"));
   const MatX3 query = MatX3::Zero(1, 3);
   EXPECT_THAT(message_of([&] { ask(box, query, "signed-heat"); }),
-              HasSubstr("not on a set of points, on which there are: completed, winding"));
+              HasSubstr("not on a set of points, on which there are: auto, winding"));
   EXPECT_THAT(message_of([&] { ask(box, query, "magic"); }), HasSubstr("unknown method"));
   EXPECT_THAT(message_of([&] { ask(box, MatX3::Constant(1, 3, std::nan("")), "winding"); }),
               HasSubstr("query point 0"));

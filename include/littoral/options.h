@@ -195,11 +195,12 @@ struct TetQuadratic {
 
 // ---------------------------------------------------------------------------- in space
 
-/// Distance to the nearest point of a surface and of patches over its holes, negative inside: the
-/// default for surfaces in space. Exact around closed ones.
-/// After Barill et al.: Fast Winding Numbers for Soups and Clouds (2018).
-struct Completed {
-  static constexpr const char* method = "completed";
+/// The default: an input is completed where it has holes, then distance is measured to it and to
+/// what completes it, negative inside. Exact around closed surfaces. Surfaces are completed where
+/// their winding number is half way, clouds by the zero set of the tori that fit them.
+/// After Barill et al.: Fast Winding Numbers for Soups and Clouds (2018), and Feng (2026).
+struct SpaceAutomatic {
+  static constexpr const char* method = "auto";
 };
 
 /// How values at the source are held in space: not, at zero, or pulled towards zero. Level sets of

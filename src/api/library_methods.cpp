@@ -44,7 +44,7 @@ std::vector<Method<TetDomain>> library_methods() {
 
 template <>
 std::vector<Method<SpaceDomain>> library_methods() {
-  return all_of<SpaceDomain>({completed_methods, space_heat_methods, closest_point_methods,
+  return all_of<SpaceDomain>({automatic_space_methods, space_heat_methods, closest_point_methods,
                               convolutional_methods, tori_methods, regularized_space_methods});
 }
 

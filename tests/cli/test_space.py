@@ -63,7 +63,7 @@ def test_sdf_writes_volumes_surfaces_and_a_report(run: Run, cube: Path, tmp_path
     names = [x for e in ("vti", "npy", "nrrd", "obj", "png") for x in ("-o", "a." + e)]
     result = run("sdf", "cube.obj", "--resolution", 24, "--level", "0,0.2", "--json", *names)
     report = json.loads(result.stdout)
-    assert report["method"] == "completed"
+    assert report["method"] == "auto"
     assert report["domain"] == "grid"
     assert report["sizes"]["nodes"] == 24**3
     info = json.loads(run("info", "a.obj", "--json").stdout)
@@ -157,18 +157,18 @@ def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -
     run("query", "tori.ply", "--points", "q.csv", "--flip", "-o", "c.csv")
     assert rows(tmp_path / "c.csv")[1][0] == pytest.approx(-outside[0], abs=1e-9)
     report = run("query", "ball.xyz", "--points", "q.csv", "--json", "-o", "a.csv").stdout
-    assert json.loads(report)["method"] == "tori"
+    assert json.loads(report)["method"] == "auto"
     run("fit-tori", "ball.xyz", "-o", "tori.obj", status=2)
 
 
 def test_tori_fitted_in_other_ways(run: Run, ball: Path, tmp_path: Path) -> None:
     for options in (["--fit", "learned"], ["--single"], ["--drop-outliers"]):
-        run("query", "ball.xyz", "--points", "q.csv", *options, "-o", "a.csv")
+        run("query", "ball.xyz", "--points", "q.csv", "--method", "tori", *options, "-o", "a.csv")
         middle, outside = rows(tmp_path / "a.csv")
         assert middle[0] == pytest.approx(-1, abs=2e-3)
         assert outside[0] == pytest.approx(2, abs=1e-2)
     (tmp_path / "w.txt").write_text("littoral-torus-fit 1\n24 8\n0 0 nan")
-    ask = ["query", "ball.xyz", "--points", "q.csv", "-o", "a.csv"]
+    ask = ["query", "ball.xyz", "--points", "q.csv", "--method", "tori", "-o", "a.csv"]
     failed = run(*ask, "--fit", "learned", "--weights", "w.txt", status=2)
     assert "w.txt: not the weights of a torus fit: 'nan' is no number" in failed.stderr
     run(*ask, "--weights", "w.txt", status=2)

@@ -52,7 +52,7 @@ struct Sdf::Impl {
 namespace {
 
 bool answers_anywhere(const AnyMethod& method) {
-  const auto& domains = Registry<SpaceDomain>::instance().find(method.name())->info.domains;
+  const auto& domains = chosen_method<SpaceDomain>(method)->info.domains;
   return std::find(domains.begin(), domains.end(), SpaceDomain{}.kind()) != domains.end();
 }
 
@@ -62,8 +62,6 @@ Sdf made_of(CsgShapes shapes, const Context& context) {
   bool anywhere = true;
   for (Shape& shape : impl->shapes.all) {
     if (shape.field) continue;
-    if (shape.request.method.name().empty())
-      shape.request.method = method_for_points(shape.surface);
     check_method<SpaceDomain>(shape.request.method);
     anywhere = anywhere && answers_anywhere(shape.request.method);
   }

@@ -68,7 +68,7 @@ void describe(const CsgShapes& shapes, Report& report) {
 Shape shape_at_level(const Volume& volume, double level) {
   Shape shape;
   shape.surface = level_points(volume, level, {});
-  shape.request.method = method_for_points(shape.surface);
+  shape.request.method = Tori{};
   return shape;
 }
 
@@ -115,9 +115,7 @@ SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Re
     Task part = task.stage(0.9 / static_cast<double>(n), "distance");
     Report spare;
     if (!shape.field) {
-      SpaceRequest request = shape.request;
-      request.method = method_for_points(shape.surface, request.method);
-      values[s] = grid_distance(shape.surface, grid, request, part, part_of(report, spare, s));
+      values[s] = grid_distance(shape.surface, grid, shape.request, part, part_of(report, spare, s));
     } else {
       values[s] = evaluate(*field_of(shape), grid, part);
     }

@@ -1,9 +1,8 @@
-// Signed heat through tets that fill the box of a grid.
+#include "api/space/filling.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "api/space/space_domain.h"
 #include "api/tet/tet_domain.h"
 #include "base/run_interruptible.h"
 #include "base/stopwatch.h"
@@ -20,26 +19,35 @@ namespace {
 constexpr double growth = 8;         // of tetgen's tets, from the input to the box
 constexpr double margin = 1.0 / 64;  // in spacings: nodes on the box must lie within tets
 
+double longest_side(const Grid& grid) {
+  return (grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1) - grid.origin).maxCoeff();
+}
+
+/// As small as the grid's cells near the points.
+std::shared_ptr<const TetLattice> lattice_about(const MatX3& points, const Grid& grid,
+                                                const Task& task, Report& report) {
+  const double side = longest_side(grid), spacing = grid.spacing.minCoeff();
+  const int depth = std::clamp(static_cast<int>(std::lround(std::log2(side / spacing))), 1, 16);
+  auto lattice = run_interruptible(task, [origin = grid.origin, side, depth, points] {
+    return TetLattice(origin, side, depth, points);
+  });
+  report.sizes.emplace_back("tets", lattice->mesh().n_tets());
+  report.sizes.emplace_back("vertices", lattice->mesh().n_vertices());
+  return lattice;
+}
+
 SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
                             const SpaceSignedHeat& options, Task& task, Report& report) {
   const Frame frame(box_on_grid(sources.soup, grid));
   const Grid local = frame.local(grid);
-  const double spacing = local.spacing.minCoeff();
-  const SpaceInput input = make_input(sources, frame, spacing, task, report);
+  const SpaceInput input = make_input(sources, frame, local.spacing.minCoeff(), task, report);
   const OrientedPoints& source = input.samples;
 
   Task building = task.stage(0.1, "building tets");
-  const double side =
-      (local.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1) - local.origin).maxCoeff();
-  const int depth = std::clamp(static_cast<int>(std::lround(std::log2(side / spacing))), 1, 16);
-  const auto shared =
-      run_interruptible(building, [origin = local.origin, side, depth, p = source.points] {
-        return TetLattice(origin, side, depth, p);
-      });
+  const double side = longest_side(local);
+  const auto shared = lattice_about(source.points, local, building, report);
   const TetLattice& lattice = *shared;
   const TetMesh& mesh = lattice.mesh();
-  report.sizes.emplace_back("tets", mesh.n_tets());
-  report.sizes.emplace_back("vertices", mesh.n_vertices());
   check_tet_memory(mesh, "a lattice of ", "use a smaller resolution");
   const auto ops = run_interruptible(building, [shared] { return tet_operators(shared->mesh()); });
   std::vector<TetPoint> places;
@@ -79,23 +87,15 @@ VecX at_nodes(const TetMesh& mesh, const VecX& values, const Grid& grid, const T
   });
 }
 
-SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const TetFilling& filling,
-                           const SpaceSignedHeat& options, Task& task, Report& report) {
-  const PolygonSoup& soup = sources.soup;
-  if (soup.n_faces() == 0)
+/// Tets whose faces include a surface of triangles in the grid's frame.
+TetMesh tetgen_about(const PolygonSoup& surface, const Grid& grid, const TetFilling& filling,
+                     const Task& task, Report& report) {
+  if (surface.n_faces() == 0)
     throw UnsupportedError("a cloud has no faces for tetgen to keep; a lattice takes clouds");
-  const Frame frame(box_on_grid(soup, grid));
-  const Grid local = frame.local(grid);
-  const double spacing = local.spacing.minCoeff();
-  PolygonSoup surface;
-  surface.points = frame.local(soup.points);
-  surface.face_offsets = soup.face_offsets;
-  surface.corners = soup.corners;
-  surface = triangulate(surface);
-
+  const double spacing = grid.spacing.minCoeff();
   io::TetgenRequest run;
-  run.low = local.origin.array() - margin * spacing;
-  run.high = local.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1).array() + margin * spacing;
+  run.low = grid.origin.array() - margin * spacing;
+  run.high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1).array() + margin * spacing;
   run.fine = spacing;
   run.coarse = growth * spacing;
   run.program = filling.program;
@@ -103,12 +103,23 @@ SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const 
   const Box box = bounding_box(surface);
   if ((box.low.array() <= run.low.array()).any() || (box.high.array() >= run.high.array()).any())
     throw InputError("tetgen needs a box that holds the whole input; a lattice does not");
+  const Stopwatch watch(report, "tetgen");
+  return io::run_tetgen(surface, run, task);
+}
 
-  TetMesh mesh;
-  {
-    const Stopwatch watch(report, "tetgen");
-    mesh = io::run_tetgen(surface, run, task.stage(0.3, "waiting for tetgen"));
-  }
+SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const TetFilling& filling,
+                           const SpaceSignedHeat& options, Task& task, Report& report) {
+  const PolygonSoup& soup = sources.soup;
+  const Frame frame(box_on_grid(soup, grid));
+  const Grid local = frame.local(grid);
+  PolygonSoup surface;
+  surface.points = frame.local(soup.points);
+  surface.face_offsets = soup.face_offsets;
+  surface.corners = soup.corners;
+  surface = triangulate(surface);
+
+  TetMesh mesh =
+      tetgen_about(surface, local, filling, task.stage(0.3, "waiting for tetgen"), report);
   const TetDomain domain{std::make_shared<const TetMesh>(std::move(mesh))};
   Report inner;
   const VecX values =
@@ -123,6 +134,16 @@ SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const 
 }
 
 }  // namespace
+
+TetMesh filled(const SpaceInput& input, const Grid& grid, const TetFilling& filling, Task task,
+               Report& report) {
+  if (filling.by == TetFilling::By::lattice)
+    return lattice_about(input.samples.points, grid, task, report)->mesh();
+  TetMesh mesh = tetgen_about(input.surface, grid, filling, task, report);
+  report.sizes.emplace_back("tets", mesh.n_tets());
+  report.sizes.emplace_back("vertices", mesh.n_vertices());
+  return mesh;
+}
 
 Method<SpaceDomain> heat_filling_method(MethodInfo info) {
   return make_method<SpaceDomain>(

@@ -132,6 +132,10 @@ PolygonSoup join_isosurfaces(const std::vector<Isosurface>& surfaces) {
     const PolygonSoup& s = shell.surface;
     all.points.middleRows(used, s.points.rows()) = s.points;
     level.segment(used, s.points.rows()).setConstant(shell.level);
+    for (const auto& [name, values] : s.scalars) {
+      all.scalars[name].conservativeResize(points);
+      all.scalars[name].segment(used, s.points.rows()) = values;
+    }
     for (int f = 0; f < s.n_faces(); ++f) {
       std::vector<int> face(s.face(f).begin(), s.face(f).end());
       for (int& v : face) v += static_cast<int>(used);

@@ -97,9 +97,9 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
     report.warn(name + "half of the surface is nearer than " + short_text(median) + ", and " +
                 short_text(100 * off / total) +
                 " % of it is more than a tenth off what was asked; use a larger resolution" +
-                (report.method == Completed::method
+                (report.method == SpaceAutomatic::method
                      ? ""
-                     : std::string(", and method ") + Completed::method + " for exact distances"));
+                     : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));
   }
 }
 

@@ -16,35 +16,13 @@ namespace littoral {
 
 namespace {
 
-SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const AnyMethod& method,
-                  const SpaceRequest& request, const Task& task, Report& report) {
-  return solve_once<SpaceDomain>(method, domain, {input, request.flip, request.estimate_normals},
-                                 task, report);
-}
-
-/// The default where the choice names none, with the option values of the choice.
-AnyMethod chosen_or(const AnyMethod& fallback, const AnyMethod& chosen) {
-  if (!chosen.name().empty()) return chosen;
-  const auto& all = Registry<SpaceDomain>::instance();
-  check_options_of_default(all.find(fallback.name())->info, chosen, all.infos());
-  return AnyMethod::named(fallback.name(), chosen.values());
+SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const SpaceRequest& request,
+                  const Task& task, Report& report) {
+  return solve_once<SpaceDomain>(request.method, domain,
+                                 {input, request.flip, request.estimate_normals}, task, report);
 }
 
 }  // namespace
-
-AnyMethod method_for_points(const PolygonSoup& input) {
-  if (input.n_faces() == 0) return Tori{};
-  return Completed{};
-}
-
-AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen) {
-  return chosen_or(method_for_points(input), chosen);
-}
-
-AnyMethod method_on_grid(const PolygonSoup& input, const SpaceDomain& domain) {
-  if (input.n_faces() == 0 || domain.tets) return SpaceSignedHeat{};
-  return Completed{};
-}
 
 void check_queries(const MatX3& queries, Eigen::Index first) {
   for (Eigen::Index i = 0; i < queries.rows(); ++i)
@@ -110,22 +88,18 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
 
 SpaceAnswer grid_answer(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                         Task task, Report& report) {
-  const SpaceDomain domain{grid, {}};
-  return solve(input, domain, chosen_or(method_on_grid(input, domain), request.method), request,
-               task, report);
+  return solve(input, {grid, {}}, request, task, report);
 }
 
 SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFilling& filling,
                          const SpaceRequest& request, Task task, Report& report) {
-  const SpaceDomain domain{grid, filling};
-  return solve(input, domain, chosen_or(method_on_grid(input, domain), request.method), request,
-               task, report);
+  return solve(input, {grid, filling}, request, task, report);
 }
 
 std::shared_ptr<const PointwiseDistance> pointwise_distance(const PolygonSoup& input,
                                                             const SpaceRequest& request, Task task,
                                                             Report& report) {
-  return solve(input, {}, method_for_points(input, request.method), request, task, report).function;
+  return solve(input, {}, request, task, report).function;
 }
 
 VecX query_distance(const PolygonSoup& input, const MatX3& queries, const SpaceRequest& request,

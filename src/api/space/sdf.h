@@ -18,23 +18,10 @@ namespace littoral {
 
 /// How an input is measured from: by which method, and from which side.
 struct SpaceRequest {
-  AnyMethod method;               // none: as method_on_grid and method_for_points say
+  AnyMethod method;               // none: SpaceAutomatic
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
 };
-
-/// The method that answers at points where none is named: tori for clouds, otherwise the surface is
-/// completed and then measured.
-AnyMethod method_for_points(const PolygonSoup& input);
-inline constexpr const char* method_for_points_text = "tori for point clouds, otherwise completed";
-/// The same where the choice names none, with the option values of the choice.
-AnyMethod method_for_points(const PolygonSoup& input, const AnyMethod& chosen);
-
-/// The method for one input on a grid where none is named: signed heat for clouds and through tets,
-/// otherwise the surface is completed and then measured.
-AnyMethod method_on_grid(const PolygonSoup& input, const SpaceDomain& domain);
-inline constexpr const char* method_on_grid_text =
-    "completed; signed-heat for point clouds and through tets";
 
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,

@@ -51,7 +51,7 @@ struct SpaceDomain {
 template <>
 std::vector<Method<SpaceDomain>> library_methods();
 // Its families:
-std::vector<Method<SpaceDomain>> completed_methods();
+std::vector<Method<SpaceDomain>> automatic_space_methods();
 std::vector<Method<SpaceDomain>> space_heat_methods();
 std::vector<Method<SpaceDomain>> closest_point_methods();
 std::vector<Method<SpaceDomain>> convolutional_methods();

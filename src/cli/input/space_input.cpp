@@ -1,5 +1,6 @@
 #include "cli/input/space_input.h"
 
+#include "api/space/input_queries.h"
 #include "api/space/volume_meaning.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -16,8 +17,8 @@ void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
 }
 
-void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& fallback) {
-  add_methods(verb, texts.method, Registry<SpaceDomain>::instance().infos(), fallback);
+void add_space_method(CLI::App& verb, SpaceArguments& texts) {
+  add_methods(verb, texts.method, Registry<SpaceDomain>::instance().infos());
 }
 
 namespace {
@@ -52,7 +53,7 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) 
     group(add_repeated_option(verb, name, *files, what + kinds))->type_name("FILE");
   group(verb.add_option("--operand-method", texts.operand_method,
                         "of the shapes after INPUT [default: as --method where that is given, "
-                        "otherwise tori for clouds, completed for all else]"))
+                        "otherwise auto]"))
       ->type_name("NAME");
   const std::string unit = std::string(" [") + length_unit_text + "; default 0]";
   group(verb.add_option("--blend", texts.blend,
@@ -63,6 +64,22 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) 
                           "move the surface outward, or if negative inward" + unit))
         ->type_name("D");
   add_meaning_options(verb, texts);
+}
+
+void add_confidence_option(CLI::App& verb, bool& confidence) {
+  verb.add_flag("--confidence", confidence,
+                "also how sure inside and outside are, 0 to 1, by the winding number of INPUT");
+}
+
+VecX confidence_at(const CsgShapes& shapes, const MatX3& points, const Session& session) {
+  const Shape& input = shapes.all.front();
+  if (!shapes.plain() || input.field)
+    throw InputError("option confidence is for one mesh, soup or cloud");
+  Report ignored;  // the distance's holds the same
+  const Task task = session.task();
+  const WindingOfInput winding(input.surface,
+                               {input.request.flip, input.request.estimate_normals}, task, ignored);
+  return winding.confidence(points, task);
 }
 
 void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
@@ -179,7 +196,7 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
     Shape& shape = shapes.all[s];
     const std::string name = !texts.operand_method.empty() ? texts.operand_method
                              : !texts.method.name.empty()  ? texts.method.name
-                                                          : method_for_points(shape.surface).name();
+                                                          : std::string(SpaceAutomatic::method);
     shape.request = {AnyMethod::named(name, known_options(name, texts.method.options)),
                      session.flip, texts.estimate_normals && shape.surface.n_faces() == 0};
     check_method<SpaceDomain>(shape.request.method);

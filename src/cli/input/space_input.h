@@ -31,11 +31,16 @@ struct SpaceArguments {
 void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
                      const io::Kinds& kinds = {io::Kind::surface, io::Kind::cloud,
                                                io::Kind::volume});
-/// Adds --method and the methods' options; `fallback` says what is used without.
-void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& fallback);
+/// Adds --method and the methods' options.
+void add_space_method(CLI::App& verb, SpaceArguments& texts);
 /// Adds what makes one shape of several, and --redistance. The verb `offset` has offsets of its
 /// own.
 void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset = true);
+/// Adds --confidence.
+void add_confidence_option(CLI::App& verb, bool& confidence);
+/// How sure inside and outside are at points (n x 3), 0 to 1. Throws InputError unless there is one
+/// input.
+VecX confidence_at(const CsgShapes& shapes, const MatX3& points, const Session& session);
 /// Adds --resolution, --spacing, --bounds and --padding.
 void add_grid_options(CLI::App& verb, SpaceArguments& texts);
 

@@ -14,7 +14,7 @@ struct QueryArguments {
   SpaceArguments space;
   std::string points;
   std::vector<std::string> out;
-  bool gradient = false;
+  bool gradient = false, confidence = false;
 };
 
 void run_query(QueryArguments& arguments, Session& session) {
@@ -33,6 +33,12 @@ void run_query(QueryArguments& arguments, Session& session) {
     table.columns.conservativeResize(Eigen::NoChange, 4);
     table.columns.rightCols(3) = gradients;
   }
+  if (arguments.confidence) {
+    const Eigen::Index last = table.columns.cols();
+    table.names.push_back("confidence");
+    table.columns.conservativeResize(Eigen::NoChange, last + 1);
+    table.columns.col(last) = confidence_at(shapes, queries, session);
+  }
   finish(arguments.out, session.task(), session,
          [&](const std::string& file) { write_at_points(file, queries, table); });
 }
@@ -49,7 +55,8 @@ void add_query(CLI::App& program, Session& session) {
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions(query_outputs));
   verb.add_flag("--gradient", arguments->gradient, "also the gradient");
-  add_space_method(verb, arguments->space, method_for_points_text);
+  add_confidence_option(verb, arguments->confidence);
+  add_space_method(verb, arguments->space);
   add_shape_options(verb, arguments->space);
   add_json_option(verb, session);
 }

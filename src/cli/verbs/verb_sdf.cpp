@@ -1,5 +1,8 @@
 // littoral sdf: signed distance in space around a mesh, soup or point cloud.
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 
 #include "api/space/isosurfaces.h"
@@ -27,7 +30,7 @@ struct SdfArguments {
   double smoothing = 0;
   std::vector<std::string> out;
   double band = 0;
-  bool clip = false;
+  bool clip = false, confidence = false;
   std::string domain = "grid";
   std::string tets = "lattice";
   TetFilling tetgen;
@@ -56,18 +59,40 @@ std::vector<Isosurface> isosurfaces_of(const Volume& volume, const TetField& tet
   return surfaces;
 }
 
-void write_distance(const std::string& file, const SdfArguments& arguments, const Volume& volume,
-                    const TetField& tets, Session& session) {
+/// The vertices of a surface with the confidence there.
+void add_confidence(std::vector<Isosurface>& surfaces, const CsgShapes& shapes, Session& session) {
+  for (Isosurface& each : surfaces)
+    each.surface.scalars["confidence"] = confidence_at(shapes, each.surface.points, session);
+}
+
+MatX3 nodes_of(const Grid& grid) {
+  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i)
+        nodes.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
+  return nodes;
+}
+
+void write_distance(const std::string& file, const SdfArguments& arguments, const CsgShapes& shapes,
+                    const Volume& volume, const TetField& tets, Session& session) {
   const std::vector<double> levels = arguments.level_values;
   const std::string& input = arguments.space.input;
-  if (io::is_written_as(file, {Kind::volume}))
-    return io::write_volume(file, volume, {.band = arguments.band});
+  if (io::is_written_as(file, {Kind::volume})) {
+    io::VolumeWriteOptions options{.band = arguments.band};
+    if (arguments.confidence)
+      options.more.emplace_back("confidence", confidence_at(shapes, nodes_of(volume.grid), session));
+    return io::write_volume(file, volume, options);
+  }
   if (io::is_written_as(file, {Kind::tets}))
     return write_tet_result(file, tets.mesh, tets.values, input, session.report);
-  if (io::is_written_as(file, {Kind::surface}) && arguments.field == "winding")
-    return write_isosurfaces({file}, winding_surfaces(volume, levels, arguments.clip, session));
-  if (io::is_written_as(file, {Kind::surface}))
-    return write_isosurfaces({file}, isosurfaces_of(volume, tets, levels, arguments.clip, session));
+  if (io::is_written_as(file, {Kind::surface})) {
+    auto surfaces = arguments.field == "winding"
+                        ? winding_surfaces(volume, levels, arguments.clip, session)
+                        : isosurfaces_of(volume, tets, levels, arguments.clip, session);
+    if (arguments.confidence) add_confidence(surfaces, shapes, session);
+    return write_isosurfaces({file}, surfaces);
+  }
   io::VolumeView view;
   view.level = levels.front();
   io::Scene scene = io::make_volume_scene(volume, view);
@@ -82,11 +107,22 @@ void check_field(const SdfArguments& arguments) {
     throw InputError("option smoothing goes with --field winding");
 }
 
+bool holds_confidence(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".vti" || io::is_written_as(file, {Kind::field});
+}
+
 void run_sdf(SdfArguments& arguments, Session& session) {
   check_outputs(arguments.out, space_outputs);
   for (const std::string& file : arguments.out)
     if (arguments.domain != "tets" && io::is_written_as(file, {Kind::tets}))
       throw InputError(file + " holds tets: they are there with --domain tets");
+  for (const std::string& file : arguments.out)
+    if (arguments.confidence && !holds_confidence(file))
+      throw InputError(file + " holds one number a node: confidence is written to .vti, and with "
+                       "the surface at --level to formats with numbers at vertices");
   if (arguments.tets != "lattice" && arguments.domain != "tets")
     throw InputError("option tets goes with --domain tets");
   if (arguments.clip && arguments.domain == "tets")
@@ -129,7 +165,7 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   session.record.grid = volume.grid;
   session.record.values = {range_of(volume.name, volume.values)};
   finish(arguments.out, session.task(), session,
-         [&](const std::string& file) { write_distance(file, arguments, volume, tets, session); });
+         [&](const std::string& file) { write_distance(file, arguments, shapes, volume, tets, session); });
 }
 
 }  // namespace
@@ -174,9 +210,8 @@ void add_sdf(CLI::App& program, Session& session) {
                   "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
       ->check(CLI::Range(0.0, 1e6).description(""))
       ->type_name("W");
-  add_space_method(
-      verb, arguments->space,
-      std::string(method_on_grid_text) + "; of several shapes " + method_for_points_text);
+  add_confidence_option(verb, arguments->confidence);
+  add_space_method(verb, arguments->space);
   add_shape_options(verb, arguments->space);
   add_json_option(verb, session);
 }

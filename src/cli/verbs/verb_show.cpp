@@ -122,7 +122,7 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
   verb.add_flag("--estimate-normals", texts.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
-  add_space_method(verb, texts.space, method_for_points_text);
+  add_space_method(verb, texts.space);
   add_shape_options(verb, texts.space);
   add_grid_options(verb, texts.space);
   for (CLI::Option* option : verb.get_options())

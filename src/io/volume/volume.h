@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "littoral/volume.h"
 
@@ -28,6 +30,8 @@ Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
                          const std::string& name, const std::string& field = "");
 
 struct VolumeWriteOptions {
+  /// .vti: more values at the same nodes, by name.
+  std::vector<std::pair<std::string, VecX>> more{};
   /// .vdb: half width of the band of values kept about zero, in the largest spacing; beyond it only
   /// the sign is stored. 0 keeps all values.
   double band = 0;

@@ -371,7 +371,7 @@ Volume read_vti(std::string_view bytes, const std::string& name, const std::stri
   return VtiReader(bytes, name, field).read();
 }
 
-void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {
+void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {
   const Grid& g = volume.grid;
   std::string extent;
   for (int k = 0; k < 3; ++k) extent += (k ? " 0 " : "0 ") + std::to_string(g.n[k] - 1);
@@ -383,11 +383,22 @@ void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<ImageData WholeExtent=\""
       << extent << "\" Origin=\"" << triple(g.origin) << "\" Spacing=\"" << triple(g.spacing)
       << "\">\n<Piece Extent=\"" << extent << "\">\n<PointData Scalars=\"" << name
-      << "\">\n<DataArray type=\"Float64\" Name=\"" << name
-      << "\" NumberOfComponents=\"1\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n"
-         "</ImageData>\n<AppendedData encoding=\"raw\">\n_";
-  store_little(out, static_cast<std::uint64_t>(8 * volume.values.size()));
-  store_numbers(out, volume.values);
+      << "\">\n";
+  std::size_t offset = 0;
+  const auto describe = [&](const std::string& field) {
+    out << "<DataArray type=\"Float64\" Name=\"" << xml_text(field)
+        << "\" NumberOfComponents=\"1\" format=\"appended\" offset=\"" << offset << "\"/>\n";
+    offset += 8 * (1 + static_cast<std::size_t>(volume.values.size()));
+  };
+  describe(volume.name);
+  for (const auto& [field, values] : options.more) describe(field);
+  out << "</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
+  const auto store = [&](const VecX& values) {
+    store_little(out, static_cast<std::uint64_t>(8 * values.size()));
+    store_numbers(out, values);
+  };
+  store(volume.values);
+  for (const auto& [field, values] : options.more) store(values);
   out << "\n</AppendedData>\n</VTKFile>\n";
 }
 

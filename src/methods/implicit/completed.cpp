@@ -82,7 +82,7 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
 
 }  // namespace
 
-CompletedDistance::Bounding CompletedDistance::settle_sides(const MatX3& points,
+CompletedSurface::Bounding CompletedSurface::settle_sides(const MatX3& points,
                                                             const MatX3i& faces, bool as_given,
                                                             const Task& task, Report& report) {
   const Stopwatch watch(report, "sides");
@@ -127,7 +127,7 @@ CompletedDistance::Bounding CompletedDistance::settle_sides(const MatX3& points,
   return {faces, std::move(boundary)};
 }
 
-CompletedDistance::CompletedDistance(const MatX3& points, const MatX3i& faces, double spacing,
+CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, double spacing,
                                      bool as_given, const Task& task, Report& report)
     : winding_(points, MatX3i(0, 3)) {
   const auto [bounding, boundary] = settle_sides(points, faces, as_given, task, report);
@@ -159,11 +159,11 @@ CompletedDistance::CompletedDistance(const MatX3& points, const MatX3i& faces, d
   }
 }
 
-bool CompletedDistance::is_inside(const Vec3& x) const {
+bool CompletedSurface::is_inside(const Vec3& x) const {
   return sides_.inside(winding_(x, closed_ ? accuracy_closed : accuracy_open)) > 0;
 }
 
-DistanceSample CompletedDistance::at(const Vec3& x) const {
+DistanceSample CompletedSurface::at(const Vec3& x) const {
   const NearestPoint foot = bvh_->closest_point(x);
   const double sign = is_inside(x) ? -1 : 1;
   DistanceSample out;
@@ -175,13 +175,13 @@ DistanceSample CompletedDistance::at(const Vec3& x) const {
   return out;
 }
 
-double CompletedDistance::value_after(const Vec3& x, int& last) const {
+double CompletedSurface::value_after(const Vec3& x, int& last) const {
   const NearestPoint foot = bvh_->closest_point(x, last);
   last = foot.face;
   return is_inside(x) ? -foot.distance : foot.distance;
 }
 
-VecX CompletedDistance::at_nodes(const Grid& grid, const Task& task, Report& report) const {
+VecX CompletedSurface::at_nodes(const Grid& grid, const Task& task, Report& report) const {
   VecX values(grid.n_nodes());
   const std::size_t rows = std::size_t(grid.n[1]) * grid.n[2];
   const double reach = (closed_ ? 1 + 1e-9 : 1.5) * grid.spacing[0] + 1.5 * patch_.finest;

@@ -17,6 +17,15 @@
 
 namespace littoral {
 
+/// Distance to an input and to what completes it, negative inside.
+class CompletedDistance : public PointwiseDistance {
+ public:
+  /// At the nodes of a grid. May report where the sign is doubtful.
+  virtual VecX at_nodes(const Grid& grid, const Task& task, Report& report) const = 0;
+  /// Over holes; none where the input is closed.
+  virtual const LevelPatch& patch() const = 0;
+};
+
 /// Distance to the nearest point of a surface and of the patches over its holes, negative inside:
 /// exact around closed surfaces.
 ///
@@ -24,22 +33,20 @@ namespace littoral {
 /// where it equals 1/2 away from the surface (`level_patch`), so the distance vanishes where the
 /// sign changes. Closed surfaces need none. What the surface's own winding number says about its
 /// orientation is reported, with warnings where the sign is doubtful.
-class CompletedDistance final : public PointwiseDistance {
+class CompletedSurface final : public CompletedDistance {
  public:
   /// points: n x 3, about unit size; faces: m x 3, with finite corners and an area; spacing: of the
   /// places that will be asked, patches are as fine; as_given: inside is behind the normals even
   /// where the surface encloses the other side.
-  CompletedDistance(const MatX3& points, const MatX3i& faces, double spacing, bool as_given,
-                    const Task& task, Report& report);
+  CompletedSurface(const MatX3& points, const MatX3i& faces, double spacing, bool as_given,
+                   const Task& task, Report& report);
 
   DistanceSample at(const Vec3& x) const override;
   double value_after(const Vec3& x, int& last) const override;
 
-  /// At the nodes of a grid. Reports where the sign changes without a surface between two nodes.
-  VecX at_nodes(const Grid& grid, const Task& task, Report& report) const;
-
-  /// Over holes; none where the surface is closed.
-  const LevelPatch& patch() const { return patch_; }
+  /// Reports where the sign changes without a surface between two nodes.
+  VecX at_nodes(const Grid& grid, const Task& task, Report& report) const override;
+  const LevelPatch& patch() const override { return patch_; }
 
  private:
   /// The faces that bound, oriented, and where they end.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,56 @@ TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirections) {
   EXPECT_NEAR(misaligned_fraction(C, x, Y), 1.0 / 32, 1e-12);
   Y.segment<2>(0).setZero();  // not reached: not counted
   EXPECT_EQ(misaligned_fraction(C, x, Y), 0);
+}
+
+TEST(HeatTimeScale, ShareOfCellsWhoseGradientIsNoUnitVector) {
+  const SurfaceMesh mesh(test::grid_soup(4, 4));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const Calculus C = triangle_operators(T).scalar;
+  const VecX x = mesh.points().col(0) / T.unit;
+  const VecX Y = C.G.apply(x);
+  const auto share = [&](double slope) {
+    Report said;
+    report_gradient(C, slope * x, Y, said);
+    EXPECT_EQ(said.residuals.back().first, off_unit_area_fraction);
+    return said.residuals.back().second;
+  };
+  EXPECT_EQ(share(1), 0);
+  EXPECT_EQ(share(1.2), 0);
+  EXPECT_EQ(share(0.7), 1);
+  EXPECT_EQ(share(1.3), 1);
+  EXPECT_EQ(share(-1), 0);  // the other measure's matter
+}
+
+TEST(HeatTimeScale, WarnsWhereTheGradientIsNoUnitVector) {
+  // The side of a hexagonal prism, of two triangles a side.
+  PolygonSoup side;
+  side.points.resize(12, 3);
+  for (int i = 0; i < 6; ++i) {
+    const double a = std::acos(-1.0) * i / 3;
+    side.points.row(i) << std::cos(a), std::sin(a), 0;
+    side.points.row(6 + i) << std::cos(a), std::sin(a), 10;
+    const int next = (i + 1) % 6;
+    test::add_triangle(side, i, next, 6 + next);
+    test::add_triangle(side, i, 6 + next, 6 + i);
+  }
+  const auto warned = [](const Report& report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& w) {
+      return w.find("off unit length") != std::string::npos;
+    });
+  };
+  const SurfaceMesh needles(side), even(test::octasphere_soup(4));
+  const Sources sources = test::vertex_points({0});
+  for (const char* method : {"signed-heat", "unsigned-heat"}) {
+    SCOPED_TRACE(method);
+    Report bad, good;
+    const VecX values = test::surface_distance(needles, sources, AnyMethod::named(method), bad);
+    EXPECT_GT(mean_error(values, exact(needles, sources)), 0.02);
+    EXPECT_TRUE(warned(bad));
+    test::surface_distance(even, sources, AnyMethod::named(method), good);
+    EXPECT_FALSE(warned(good));
+  }
 }
 
 TEST(TimeScale, OfCurvesIsLargerOnFinerMeshesUpToFourTimes) {

@@ -41,8 +41,8 @@ class SDF(Reported):
     """Signed distance around a surface, soup or oriented cloud: negative inside [length].
 
     `SDF(V, F)`: vertices x 3 and faces; `SDF(P, N)`: points x 3 and normals x 3; `SDF(mesh)`: what
-    `as_surface` takes. method: of `littoral.methods()["Distance in space"]`; without one, tori for
-    clouds, and surfaces are completed over their holes, then measured. flip reverses all normals;
+    `as_surface` takes. method: of `littoral.methods()["Distance in space"]`; without one, "auto":
+    what has holes is completed over them, then measured. flip reverses all normals;
     estimate_normals makes those of a cloud, without which there is an InputError. Callable at
     points, from several threads. Points that are not n x 3 or 3 finite real numbers raise TypeError
     or InputError.

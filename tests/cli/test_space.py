@@ -71,6 +71,42 @@ def test_sdf_writes_volumes_surfaces_and_a_report(run: Run, cube: Path, tmp_path
     assert info["boundary_edges"] == 0
 
 
+def test_confidence_stands_beside_the_distance(run: Run, cube: Path, tmp_path: Path) -> None:
+    # A cube without its top: sure at the bottom, less so where the top would be.
+    lines = (tmp_path / "cube.obj").read_text().splitlines()
+    faces = [line for line in lines if line.startswith("f")]
+    corners = [tuple(map(float, line.split()[1:4])) for line in lines if line.startswith("v ")]
+    top = max(z for _, _, z in corners)
+    low = [f for f in faces if any(corners[int(c.split("/")[0]) - 1][2] < top for c in f.split()[1:])]
+    assert len(low) < len(faces)
+    (tmp_path / "open.obj").write_text("\n".join([x for x in lines if x not in faces] + low))
+    middle = [sum(c[k] for c in corners) / len(corners) for k in range(3)]
+    bottom = min(z for _, _, z in corners)
+    points = [(middle[0], middle[1], top), (middle[0], middle[1], bottom - 0.3 * (top - bottom))]
+    (tmp_path / "p.csv").write_text("x,y,z\n" + "\n".join(",".join(map(str, p)) for p in points))
+    asked = ["query", "open.obj", "--points", "p.csv", "--confidence"]
+    run(*asked, "-o", "a.csv")
+    assert (tmp_path / "a.csv").read_text().splitlines()[0] == "distance,confidence"
+    gap, below = rows(tmp_path / "a.csv")
+    assert gap[1] < 0.2
+    assert below[1] > 0.6
+    run(*asked, "--gradient", "-o", "a.csv")
+    assert [row[4] for row in rows(tmp_path / "a.csv")] == [gap[1], below[1]]
+
+    sdf = ["sdf", "open.obj", "--resolution", 12, "--confidence"]
+    run(*sdf, "-o", "a.vti", "-o", "a.ply")
+    text = (tmp_path / "a.vti").read_bytes()
+    assert b'Name="confidence"' in text
+    assert b"property double confidence" in (tmp_path / "a.ply").read_bytes()
+    run("contour", "a.vti", "--field", "confidence", "--level", 0.5, "-o", "b.obj")
+    run("sdf", "open.obj", "--resolution", 12, "-o", "c.vti")
+    run("contour", "a.vti", "--level", 0, "-o", "b.obj")
+    run("contour", "c.vti", "--level", 0, "-o", "c.obj")
+    assert (tmp_path / "b.obj").read_bytes() == (tmp_path / "c.obj").read_bytes()
+    assert ".vti" in run(*sdf, "-o", "a.npy", status=2).stderr
+    assert "one mesh" in run(*asked, "--unite", "cube.obj", "-o", "a.csv", status=2).stderr
+
+
 def test_what_is_doubtful_is_said(run: Run, cube: Path, tmp_path: Path) -> None:
     sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"
     (tmp_path / "sheet.obj").write_text(sheet)
@@ -147,7 +183,8 @@ def ball(tmp_path: Path) -> Path:
 
 
 def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -> None:
-    run("query", "ball.xyz", "--points", "q.csv", "--gradient", "-o", "a.csv")
+    asked = ["query", "ball.xyz", "--points", "q.csv"]
+    run(*asked, "--method", "tori", "--gradient", "-o", "a.csv")
     middle, outside = rows(tmp_path / "a.csv")
     assert middle[0] == pytest.approx(-1, abs=1e-3)
     assert outside == pytest.approx([2, 1, 0, 0], abs=1e-2)
@@ -156,7 +193,8 @@ def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -
     assert rows(tmp_path / "b.csv")[1] == pytest.approx(outside, abs=1e-9)
     run("query", "tori.ply", "--points", "q.csv", "--flip", "-o", "c.csv")
     assert rows(tmp_path / "c.csv")[1][0] == pytest.approx(-outside[0], abs=1e-9)
-    report = run("query", "ball.xyz", "--points", "q.csv", "--json", "-o", "a.csv").stdout
+    report = run(*asked, "--json", "-o", "d.csv").stdout
+    assert rows(tmp_path / "d.csv")[1][0] == pytest.approx(2, abs=1e-2)
     assert json.loads(report)["method"] == "auto"
     run("fit-tori", "ball.xyz", "-o", "tori.obj", status=2)
 

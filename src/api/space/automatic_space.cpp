@@ -16,11 +16,11 @@ namespace littoral {
 
 namespace {
 
-constexpr double around_cloud = 0.15;      // of its longest side: what completes it may bulge
-constexpr double coarsest = 1.0 / 48, finest = 1.0 / 96;  // cells of its own grid, of that side
-constexpr double room = 2;                 // cells about the cloud that a given grid must have
+constexpr double around_cloud = 0.15;  // of its longest side: what completes it may bulge
+constexpr double coarsest = 1.0 / 32, finest = 1.0 / 96;  // cells of its own grid, of that side
+constexpr double room = 2;  // cells about the cloud that a given grid must have
 
-/// The grid itself where it holds the cloud, otherwise one that does.
+/// The grid itself where it holds the cloud, otherwise one that does, coarse where there is none.
 Grid grid_about(const MatX3& points, const Grid* given, double spacing) {
   const Vec3 low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
   const double longest = (high - low).maxCoeff();
@@ -32,7 +32,8 @@ Grid grid_about(const MatX3& points, const Grid* given, double spacing) {
       return *given;
   }
   Grid grid;
-  const double h = std::clamp(spacing, finest * longest, coarsest * longest);
+  const double h =
+      given ? std::clamp(spacing, finest * longest, coarsest * longest) : coarsest * longest;
   const double margin = around_cloud * longest;
   grid.spacing.setConstant(h);
   for (int a = 0; a < 3; ++a) {
@@ -105,9 +106,9 @@ SpaceAnswer through_tets(const Grid& grid, const TetFilling& filling, const Spac
   const Stopwatch watch(report, "evaluate");
   SpaceAnswer answer;
   answer.at_nodes = distance->at_nodes(local, task.stage(0.6, "distance"), report) * frame.unit;
-  answer.tets = {{frame.global(mesh.points), mesh.tets},
-                 evaluate(*distance, mesh.points, nullptr, task.stage(0.9, "distance")) *
-                     frame.unit};
+  answer.tets = {
+      {frame.global(mesh.points), mesh.tets},
+      evaluate(*distance, mesh.points, nullptr, task.stage(0.9, "distance")) * frame.unit};
   answer.completion = completion_of(*distance, frame);
   return answer;
 }

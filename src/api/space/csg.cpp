@@ -115,7 +115,8 @@ SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Re
     Task part = task.stage(0.9 / static_cast<double>(n), "distance");
     Report spare;
     if (!shape.field) {
-      values[s] = grid_distance(shape.surface, grid, shape.request, part, part_of(report, spare, s));
+      values[s] =
+          grid_distance(shape.surface, grid, shape.request, part, part_of(report, spare, s));
     } else {
       values[s] = evaluate(*field_of(shape), grid, part);
     }

@@ -94,12 +94,13 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
   if (asked == 0 || !(total > 0)) return;
   if (std::abs(median - asked) > median_allowed * asked || off > far_off_share * total) {
     report.status = "uncertain";
-    report.warn(name + "half of the surface is nearer than " + short_text(median) + ", and " +
-                short_text(100 * off / total) +
-                " % of it is more than a tenth off what was asked; use a larger resolution" +
-                (report.method == SpaceAutomatic::method
-                     ? ""
-                     : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));
+    report.warn(
+        name + "half of the surface is nearer than " + short_text(median) + ", and " +
+        short_text(100 * off / total) +
+        " % of it is more than a tenth off what was asked; use a larger resolution" +
+        (report.method == SpaceAutomatic::method
+             ? ""
+             : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));
   }
 }
 

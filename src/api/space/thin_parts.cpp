@@ -31,10 +31,10 @@ int sides_at(const Vec3& x, const Grid& grid, const VecX& values) {
   }
   int sides = 0;
   for (int c = 0; c < 8; ++c)
-    sides |= values[index(grid.node(cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)))] <
-                     0
-                 ? 1
-                 : 2;
+    sides |=
+        values[index(grid.node(cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2)))] < 0
+            ? 1
+            : 2;
   return sides;
 }
 

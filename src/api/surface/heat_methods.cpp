@@ -222,6 +222,7 @@ class SignedHeatOnSurface {
       phi = solve(*first, solving, report);
       warn_misaligned(report);
     }
+    if (options.sharpen == Sharpening::off) warn_off_unit(surface_.domain().kind(), report);
     if (options.sharpen == Sharpening::quadratic) {
       const auto elements =
           elements_.get([&] { return QuadraticOnSurface(surface_.domain(), report); });
@@ -268,14 +269,16 @@ class UnsignedHeatOnSurface {
           return heat.solve(problem.terms, stage, r);
         };
     const Task solving = task.stage(0.4, "solving");
+    VecX phi;
     if (rises) {
       const std::function<std::shared_ptr<const UnsignedHeatSolver>(double, const Task&)> longer =
           [&](double scale, const Task& stage) { return factors->longer(scale, stage); };
-      return surface_.at_input(
-          solve_raising(first, longer, options.time_scale, solve, solving, report));
+      phi = solve_raising(first, longer, options.time_scale, solve, solving, report);
+    } else {
+      phi = solve(*first, solving, report);
+      warn_misaligned(report);
     }
-    const VecX phi = solve(*first, solving, report);
-    warn_misaligned(report);
+    warn_off_unit(surface_.domain().kind(), report);
     return surface_.at_input(phi);
   }
 

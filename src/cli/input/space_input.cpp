@@ -71,14 +71,14 @@ void add_confidence_option(CLI::App& verb, bool& confidence) {
                 "also how sure inside and outside are, 0 to 1, by the winding number of INPUT");
 }
 
-VecX confidence_at(const CsgShapes& shapes, const MatX3& points, const Session& session) {
+VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& session) {
   const Shape& input = shapes.all.front();
   if (!shapes.plain() || input.field)
     throw InputError("option confidence is for one mesh, soup or cloud");
   Report ignored;  // the distance's holds the same
   const Task task = session.task();
-  const WindingOfInput winding(input.surface,
-                               {input.request.flip, input.request.estimate_normals}, task, ignored);
+  const WindingOfInput winding(input.surface, {input.request.flip, input.request.estimate_normals},
+                               task, ignored);
   return winding.confidence(points, task);
 }
 
@@ -196,7 +196,7 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
     Shape& shape = shapes.all[s];
     const std::string name = !texts.operand_method.empty() ? texts.operand_method
                              : !texts.method.name.empty()  ? texts.method.name
-                                                          : std::string(SpaceAutomatic::method);
+                                                           : std::string(SpaceAutomatic::method);
     shape.request = {AnyMethod::named(name, known_options(name, texts.method.options)),
                      session.flip, texts.estimate_normals && shape.surface.n_faces() == 0};
     check_method<SpaceDomain>(shape.request.method);

@@ -40,7 +40,7 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset =
 void add_confidence_option(CLI::App& verb, bool& confidence);
 /// How sure inside and outside are at points (n x 3), 0 to 1. Throws InputError unless there is one
 /// input.
-VecX confidence_at(const CsgShapes& shapes, const MatX3& points, const Session& session);
+VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& session);
 /// Adds --resolution, --spacing, --bounds and --padding.
 void add_grid_options(CLI::App& verb, SpaceArguments& texts);
 

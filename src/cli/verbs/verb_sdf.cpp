@@ -81,7 +81,8 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
   if (io::is_written_as(file, {Kind::volume})) {
     io::VolumeWriteOptions options{.band = arguments.band};
     if (arguments.confidence)
-      options.more.emplace_back("confidence", confidence_at(shapes, nodes_of(volume.grid), session));
+      options.more.emplace_back("confidence",
+                                confidence_at(shapes, nodes_of(volume.grid), session));
     return io::write_volume(file, volume, options);
   }
   if (io::is_written_as(file, {Kind::tets}))
@@ -111,7 +112,8 @@ bool holds_confidence(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".vti" || io::is_written_as(file, {Kind::field});
+  if (io::is_written_as(file, {Kind::volume})) return extension == ".vti";
+  return io::is_written_as(file, {Kind::surface}) && io::is_written_as(file, {Kind::field});
 }
 
 void run_sdf(SdfArguments& arguments, Session& session) {
@@ -121,7 +123,8 @@ void run_sdf(SdfArguments& arguments, Session& session) {
       throw InputError(file + " holds tets: they are there with --domain tets");
   for (const std::string& file : arguments.out)
     if (arguments.confidence && !holds_confidence(file))
-      throw InputError(file + " holds one number a node: confidence is written to .vti, and with "
+      throw InputError(file +
+                       " holds one number a node: confidence is written to .vti, and with "
                        "the surface at --level to formats with numbers at vertices");
   if (arguments.tets != "lattice" && arguments.domain != "tets")
     throw InputError("option tets goes with --domain tets");
@@ -164,8 +167,9 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   }
   session.record.grid = volume.grid;
   session.record.values = {range_of(volume.name, volume.values)};
-  finish(arguments.out, session.task(), session,
-         [&](const std::string& file) { write_distance(file, arguments, shapes, volume, tets, session); });
+  finish(arguments.out, session.task(), session, [&](const std::string& file) {
+    write_distance(file, arguments, shapes, volume, tets, session);
+  });
 }
 
 }  // namespace

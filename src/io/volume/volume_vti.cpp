@@ -378,27 +378,22 @@ void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions
   const auto triple = [](const Vec3& v) {
     return exact_text(v[0]) + " " + exact_text(v[1]) + " " + exact_text(v[2]);
   };
-  const std::string name = xml_text(volume.name);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<ImageData WholeExtent=\""
       << extent << "\" Origin=\"" << triple(g.origin) << "\" Spacing=\"" << triple(g.spacing)
-      << "\">\n<Piece Extent=\"" << extent << "\">\n<PointData Scalars=\"" << name
+      << "\">\n<Piece Extent=\"" << extent << "\">\n<PointData Scalars=\"" << xml_text(volume.name)
       << "\">\n";
-  std::size_t offset = 0;
-  const auto describe = [&](const std::string& field) {
-    out << "<DataArray type=\"Float64\" Name=\"" << xml_text(field)
-        << "\" NumberOfComponents=\"1\" format=\"appended\" offset=\"" << offset << "\"/>\n";
-    offset += 8 * (1 + static_cast<std::size_t>(volume.values.size()));
-  };
-  describe(volume.name);
-  for (const auto& [field, values] : options.more) describe(field);
+  const std::uint64_t bytes = 8 * g.n_nodes();
+  for (std::size_t f = 0; f <= options.more.size(); ++f)
+    out << "<DataArray type=\"Float64\" Name=\""
+        << xml_text(f == 0 ? volume.name : options.more[f - 1].first)
+        << "\" NumberOfComponents=\"1\" format=\"appended\" offset=\"" << f * (8 + bytes)
+        << "\"/>\n";
   out << "</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
-  const auto store = [&](const VecX& values) {
-    store_little(out, static_cast<std::uint64_t>(8 * values.size()));
-    store_numbers(out, values);
-  };
-  store(volume.values);
-  for (const auto& [field, values] : options.more) store(values);
+  for (std::size_t f = 0; f <= options.more.size(); ++f) {
+    store_little(out, bytes);
+    store_numbers(out, f == 0 ? volume.values : options.more[f - 1].second);
+  }
   out << "\n</AppendedData>\n</VTKFile>\n";
 }
 

@@ -193,8 +193,7 @@ VecX SignedHeatSolver::solve(const SourceSystem& system, const SignedHeat& optio
   };
   VecX phi = integrated();
   while (add_across_pinches(phi, reached, Y, poisson_stage, report)) phi = integrated();
-  report.residuals.emplace_back(misaligned_area_fraction,
-                                misaligned_fraction(ops_->scalar, phi, Y));
+  report_gradient(ops_->scalar, phi, Y, report);
   report.sizes.emplace_back("factor_mb", factor_megabytes());
   return finalize_field(*ops_, system, phi, report);
 }

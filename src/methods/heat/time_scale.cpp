@@ -1,6 +1,7 @@
 #include "methods/heat/time_scale.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "methods/heat/signed_heat.h"
@@ -9,6 +10,10 @@ namespace littoral {
 
 namespace {
 
+constexpr double off_unit_by = 0.25;
+// Points on 65 meshes, of which this says "more" for 37 of 130 answers: their mean errors are 1.5 %
+// of the range and more, half of them above 3.5 %; all of 5 % and more are among them.
+constexpr double remarkable_off_unit = 0.08;
 constexpr double remarkable_share = 0.02;  // of cells, for sources that may have gaps
 
 std::string in_short(double x) {
@@ -26,16 +31,50 @@ double automatic_time_scale(const SourceSystem& system, const Operators& ops) {
   return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
 }
 
-double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y) {
+namespace {
+
+struct Shares {
+  double against = 0, off_unit = 0;
+};
+
+Shares gradient_shares(const Calculus& C, const VecX& phi, const VecX& Y) {
   const VecX g = C.G.apply(phi);
-  double against = 0, all = 0;
+  double against = 0, off_unit = 0, all = 0;
   for (Eigen::Index c = 0; c < C.A.size(); ++c) {
     const auto y = Y.segment<2>(2 * c);
     if (y.isZero(0)) continue;  // no source reaches it
     all += C.A[c];
-    if (!(y.dot(g.segment<2>(2 * c)) > 0)) against += C.A[c];
+    const auto gradient = g.segment<2>(2 * c);
+    if (!(y.dot(gradient) > 0)) against += C.A[c];
+    if (!(std::abs(gradient.norm() - 1) <= off_unit_by)) off_unit += C.A[c];
   }
-  return all > 0 ? against / all : 0;
+  if (!(all > 0)) return {};
+  return {against / all, off_unit / all};
+}
+
+}  // namespace
+
+double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y) {
+  return gradient_shares(C, phi, Y).against;
+}
+
+void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report) {
+  const Shares shares = gradient_shares(C, phi, Y);
+  report.residuals.emplace_back(misaligned_area_fraction, shares.against);
+  report.residuals.emplace_back(off_unit_area_fraction, shares.off_unit);
+}
+
+void warn_off_unit(const std::string& kind, Report& report) {
+  double share = 0;
+  for (const auto& [name, value] : report.residuals)
+    if (name == off_unit_area_fraction) share = value;
+  if (share <= remarkable_off_unit) return;
+  const bool triangles = kind == "triangle mesh" || kind == "polygon mesh";
+  report.warn("the gradient of the distance is more than a quarter off unit length on " +
+              in_short(100 * share) + " % of the surface: the distance is not right there. " +
+              (triangles ? "Method auto measures exactly; otherwise finer or more even triangles "
+                           "help, as by option intrinsic-delaunay"
+                         : "A finer surface helps"));
 }
 
 double misaligned_fraction(const Report& report) {

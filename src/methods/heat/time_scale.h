@@ -31,6 +31,16 @@ inline constexpr const char* misaligned_area_fraction = "misaligned area fractio
 /// it was integrated from. Meshes of a few thousand cells and more stay below tolerable_share, but
 /// for curves with gaps; directions that mean nothing give several times as much.
 double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y);
+
+/// The other measure of how good an answer is, which needs no other answer: the share of the
+/// measure of the same cells where the gradient's length is more than a quarter off 1.
+inline constexpr const char* off_unit_area_fraction = "area fraction with gradient off unit length";
+/// Reports both.
+void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report);
+/// Warns, with what to do, where the gradient of an answer is off unit length on more of the
+/// surface than meshes and sources for which the method is right have shown. `kind` is the
+/// domain's.
+void warn_off_unit(const std::string& kind, Report& report);
 inline constexpr double tolerable_share = 0.005;
 /// What is asked for on a mesh that has shown more: half-way, directions may be smooth and wrong.
 inline constexpr double settled_share = 0.001;

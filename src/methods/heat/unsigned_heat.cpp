@@ -49,8 +49,7 @@ VecX UnsignedHeatSolver::solve(const SourceSystem& system, Task task, Report& re
   const VecX b = C.divergence(X.Y - C.G.apply(system.d0));
   const VecX psi = poisson_->solve_levels(
       b, {system.A, std::vector<int>(system.group.size(), 0), {1}}, poisson_stage, report);
-  report.residuals.emplace_back(misaligned_area_fraction,
-                                misaligned_fraction(C, system.d0 + psi, X.Y));
+  report_gradient(C, system.d0 + psi, X.Y, report);
   return finalize_field(*ops_, system, (system.d0 + psi).cwiseMax(0.0), report);
 }
 

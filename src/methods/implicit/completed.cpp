@@ -82,9 +82,9 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
 
 }  // namespace
 
-CompletedSurface::Bounding CompletedSurface::settle_sides(const MatX3& points,
-                                                            const MatX3i& faces, bool as_given,
-                                                            const Task& task, Report& report) {
+CompletedSurface::Bounding CompletedSurface::settle_sides(const MatX3& points, const MatX3i& faces,
+                                                          bool as_given, const Task& task,
+                                                          Report& report) {
   const Stopwatch watch(report, "sides");
   winding_ = WindingNumber(points, faces);
   const SideCensus census = side_census(points, faces, winding_);
@@ -128,7 +128,7 @@ CompletedSurface::Bounding CompletedSurface::settle_sides(const MatX3& points,
 }
 
 CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, double spacing,
-                                     bool as_given, const Task& task, Report& report)
+                                   bool as_given, const Task& task, Report& report)
     : winding_(points, MatX3i(0, 3)) {
   const auto [bounding, boundary] = settle_sides(points, faces, as_given, task, report);
   task.checkpoint(0.3);

@@ -17,12 +17,15 @@ namespace littoral {
 
 namespace {
 
-constexpr double beyond = 1.5;      // spacings from all points: what lies there is completion
+// Spacings from all points beyond which the zero set is completion, and beyond which the tori do
+// not say how far it is: their values are never less than the nearest point's distance by more
+// than a spacing.
+constexpr double completing = 1.5, measuring = 0.75;
 constexpr double clean_enough = 0.03;  // spacings of noise, below which tori measure better
-constexpr double noise_margin = 4;  // deviations by which the nearest of many points is too near
-constexpr double half = 0.5;        // of the grid's spacing: triangles are no farther off
-constexpr double hardly = 0.01;     // of it
-constexpr double much = 0.05;       // of the zero set's edges on the box
+constexpr double noise_margin = 4;     // deviations by which the nearest of many points is too near
+constexpr double half = 0.5;           // of the grid's spacing: triangles are no farther off
+constexpr double hardly = 0.01;        // of it
+constexpr double much = 0.05;          // of the zero set's edges on the box
 
 MatX3 normals_of_tori(const std::vector<Torus>& tori) {
   MatX3 normals(index(tori.size()), 3);
@@ -73,8 +76,7 @@ CompletedCloud::CompletedCloud(std::unique_ptr<const ToriDistance> tori, const G
   values_ = grid_values(grid, stages.stage(0.7, "zero set"),
                         [&](const Vec3& x, int& last) { return tori_->value_after(x, last); });
   Report unheard;  // open at the box: said below
-  const PolygonSoup zero =
-      isosurface(grid, values_, 0, {}, unheard, stages.stage(0.2, "zero set"));
+  const PolygonSoup zero = isosurface(grid, values_, 0, {}, unheard, stages.stage(0.2, "zero set"));
   std::vector<double> spacings;
   for (const Torus& t : tori_->tori()) spacings.push_back(t.rho);
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
@@ -82,10 +84,14 @@ CompletedCloud::CompletedCloud(std::unique_ptr<const ToriDistance> tori, const G
   report.sizes.emplace_back("noise, in spacings of the points", noise_ / *middle);
   if (zero.n_faces() == 0) return;
   const MatX3i all = triangles_of(zero);
-  take_patch(zero.points, all, report);
-  const bool clean = noise_ < clean_enough * *middle;
-  const MatX3& corners = clean ? patch_.points : zero.points;
-  faces_ = clean ? patch_.faces : all;
+  patch_ = patch_beyond(completing, zero.points, all);
+  report.sizes.emplace_back("completed share of the zero set",
+                            patch_.area / patch_beyond(-1, zero.points, all).area);
+  LevelPatch measured;
+  clean_ = noise_ < clean_enough * *middle;
+  if (clean_) measured = patch_beyond(measuring, zero.points, all);
+  const MatX3& corners = clean_ ? measured.points : zero.points;
+  faces_ = clean_ ? measured.faces : all;
   if (faces_.rows() > 0) {
     bvh_ = std::make_unique<TriangleBvh>(corners, faces_);
     measure_triangles(corners);
@@ -115,23 +121,21 @@ void CompletedCloud::measure_triangles(const MatX3& corners) {
   });
 }
 
-void CompletedCloud::take_patch(const MatX3& corners, const MatX3i& faces, Report& report) {
+LevelPatch CompletedCloud::patch_beyond(double spacings, const MatX3& corners,
+                                        const MatX3i& faces) const {
+  LevelPatch patch;
   std::vector<int> far;
-  double total = 0;
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const Vec3 a = corners.row(faces(f, 0)), b = corners.row(faces(f, 1)),
                c = corners.row(faces(f, 2));
-    const double area = (b - a).cross(c - a).norm() / 2;
-    total += area;
     const Neighbour nearest = points_.nearest((a + b + c) / 3);
-    if (nearest.squared_distance <=
-        std::pow(beyond * tori_->tori()[static_cast<std::size_t>(nearest.point)].rho, 2))
-      continue;
+    const double rho = tori_->tori()[static_cast<std::size_t>(nearest.point)].rho;
+    if (!(nearest.squared_distance > spacings * spacings * rho * rho)) continue;
     far.push_back(static_cast<int>(f));
-    patch_.area += area;
+    patch.area += (b - a).cross(c - a).norm() / 2;
   }
   std::vector<int> number(static_cast<std::size_t>(corners.rows()), -1), used;
-  patch_.faces.resize(index(far.size()), 3);
+  patch.faces.resize(index(far.size()), 3);
   for (std::size_t i = 0; i < far.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const int v = faces(far[i], k);
@@ -139,11 +143,11 @@ void CompletedCloud::take_patch(const MatX3& corners, const MatX3i& faces, Repor
         number[static_cast<std::size_t>(v)] = static_cast<int>(used.size());
         used.push_back(v);
       }
-      patch_.faces(index(i), k) = number[static_cast<std::size_t>(v)];
+      patch.faces(index(i), k) = number[static_cast<std::size_t>(v)];
     }
-  patch_.points = corners(used, Eigen::all);
-  patch_.finest = spacing_;
-  report.sizes.emplace_back("completed share of the zero set", total > 0 ? patch_.area / total : 0);
+  patch.points = corners(used, Eigen::all);
+  patch.finest = spacing_;
+  return patch;
 }
 
 CompletedCloud::Foot CompletedCloud::foot_of(const Vec3& x, double tori, int last) const {
@@ -166,11 +170,11 @@ CompletedCloud::Foot CompletedCloud::foot_of(const Vec3& x, double tori, int las
   const double off = linear + bubble * (at_centres_[nearest.face] - mean);
   if (std::abs(off) < half * spacing_) foot.off = off;  // otherwise the tori jump there
   const double measured = foot.distance + (tori < 0 ? -foot.off : foot.off);
-  const double margin = noise_margin * noise_ + hardly * spacing_;
-  // Tori are no farther than the nearest point, so that it need not be looked for.
-  foot.by_tori =
-      measured > std::abs(tori) + margin &&
-      measured > std::sqrt(points_.nearest(x).squared_distance) + margin;
+  // Tori are no farther than the nearest point, which need not be looked for then. Noisy ones are
+  // too near.
+  const double margin = clean_ ? 0 : noise_margin * noise_ + hardly * spacing_;
+  foot.by_tori = measured > std::abs(tori) + margin &&
+                 (clean_ || measured > std::sqrt(points_.nearest(x).squared_distance) + margin);
   return foot;
 }
 

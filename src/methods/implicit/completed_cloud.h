@@ -34,25 +34,27 @@ class CompletedCloud final : public CompletedDistance {
 
  private:
   struct Foot {
-    double tori = 0;             // their value at x
-    double distance = 0;         // of the triangles
-    double off = 0;              // the zero set, from the nearest of these
-    Vec3 point = Vec3::Zero();   // on it
+    double tori = 0;            // their value at x
+    double distance = 0;        // of the triangles
+    double off = 0;             // the zero set, from the nearest of these
+    Vec3 point = Vec3::Zero();  // on it
     int face = -1;
     bool by_tori = true;  // nothing else knows
   };
   void measure_triangles(const MatX3& corners);
-  void take_patch(const MatX3& corners, const MatX3i& faces, Report& report);
+  /// The triangles more than so many spacings from all points.
+  LevelPatch patch_beyond(double spacings, const MatX3& corners, const MatX3i& faces) const;
   Foot foot_of(const Vec3& x, double tori, int last) const;
   double combined(const Foot& foot) const;
 
   std::unique_ptr<const ToriDistance> tori_;
   PointTree points_;
-  double spacing_;  // of the grid
-  double noise_;    // of the points
+  double spacing_;      // of the grid
+  double noise_;        // of the points
+  bool clean_ = false;  // the noise is no matter
   Grid grid_;
-  VecX values_;    // of the tori at its nodes
-  MatX3i faces_;   // of their zero set, as far as it is measured to
+  VecX values_;                   // of the tori at its nodes
+  MatX3i faces_;                  // of their zero set, as far as it is measured to
   VecX at_corners_, at_centres_;  // of these: values of the tori
   std::unique_ptr<TriangleBvh> bvh_;
   LevelPatch patch_;

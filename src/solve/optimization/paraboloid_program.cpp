@@ -79,11 +79,10 @@ class Run {
       // Round-off leaves a dual residual of some 1e-6 where the solution is not unique.
       now.converged = now.gap < options_.tolerance && now.primal_residual < options_.tolerance &&
                       now.dual_residual < 10 * options_.tolerance;
-      const bool done = now.converged;
-      if (merit < best_merit || done) std::tie(best, best_merit) = std::pair(now, merit);
+      if (merit < best_merit || now.converged) std::tie(best, best_merit) = std::pair(now, merit);
       // Dips show early; what is missing in the end is put in where there was still room for it.
       const bool early = rounds == 0 && std::max(now.gap, now.dual_residual) < 1e-2;
-      if (insert && rounds < most_rounds && (early || done)) {
+      if (insert && rounds < most_rounds && (early || now.converged)) {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
         ++rounds;
@@ -96,11 +95,9 @@ class Run {
           continue;
         }
       }
-      if (insert && done && rounds == most_rounds) {
-        best.missing = insert(x_, 1).size();
-        best.converged = best.missing == 0;
-      }
-      if (done || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
+      if (insert && now.converged && rounds == most_rounds) best.missing = insert(x_, 1).size();
+      if (best.missing > 0) best.converged = false;
+      if (now.converged || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
       if (!step()) break;
     }
     best.samples = rows_.row.size() - program_.caps.size();
@@ -108,8 +105,7 @@ class Run {
   }
 
  private:
-  static constexpr int most_rounds = 8;  // of insertion
-  static constexpr int correctors = 2;   // of Gondzio's, at most, where steps are short
+  static constexpr int most_rounds = 8, correctors = 2;  // of insertion; of Gondzio's, where steps
 
   At at(const Row& r, const Local& x) const {
     return At(r, rows_.points[r.point], program_.transform[r.element], x);

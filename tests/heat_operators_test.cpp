@@ -139,17 +139,17 @@ TEST_P(HeatOperators, ConnectionLaplacianIsSymmetricAndSemidefinite) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, HeatOperators,
-                         testing::Values(CheckedMesh{"grid", test::grid_soup(7, 5)},
-                                         CheckedMesh{"jittered", test::jittered_grid_soup(8, 8, 0.3)},
-                                         CheckedMesh{"sphere", test::octasphere_soup(3)},
-                                         CheckedMesh{"torus", test::torus_soup(18, 9)},
-                                         CheckedMesh{"flipped", some_flipped(test::torus_soup(18, 9))},
-                                         CheckedMesh{"moebius", moebius_soup(24, 4)},
-                                         CheckedMesh{"degenerate", with_degenerate_faces()},
-                                         on(test::Domain::polygons, "polygons"),
-                                         on(test::Domain::points, "points"),
-                                         on(test::Domain::voxels, "voxels")));
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, HeatOperators,
+    testing::Values(CheckedMesh{"grid", test::grid_soup(7, 5)},
+                    CheckedMesh{"jittered", test::jittered_grid_soup(8, 8, 0.3)},
+                    CheckedMesh{"sphere", test::octasphere_soup(3)},
+                    CheckedMesh{"torus", test::torus_soup(18, 9)},
+                    CheckedMesh{"flipped", some_flipped(test::torus_soup(18, 9))},
+                    CheckedMesh{"moebius", moebius_soup(24, 4)},
+                    CheckedMesh{"degenerate", with_degenerate_faces()},
+                    on(test::Domain::polygons, "polygons"), on(test::Domain::points, "points"),
+                    on(test::Domain::voxels, "voxels")));
 
 class NodalPlane : public testing::TestWithParam<test::Domain> {};
 

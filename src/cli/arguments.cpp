@@ -99,8 +99,9 @@ void check_names(const CLI::App& program, const std::vector<std::string>& argume
     std::vector<std::string> elsewhere;
     for (const CLI::App* other : verbs_of(program))
       if (other->get_option_no_throw(name)) elsewhere.push_back(other->get_name());
-    throw InputError("littoral " + verb.get_name() + " has no option '" + name + "'" +
-                     (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)));
+    throw InputError(
+        "littoral " + verb.get_name() + " has no option '" + name + "'" +
+        (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)));
   }
 }
 

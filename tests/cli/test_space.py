@@ -77,7 +77,9 @@ def test_confidence_stands_beside_the_distance(run: Run, cube: Path, tmp_path: P
     faces = [line for line in lines if line.startswith("f")]
     corners = [tuple(map(float, line.split()[1:4])) for line in lines if line.startswith("v ")]
     top = max(z for _, _, z in corners)
-    low = [f for f in faces if any(corners[int(c.split("/")[0]) - 1][2] < top for c in f.split()[1:])]
+    low = [
+        f for f in faces if any(corners[int(c.split("/")[0]) - 1][2] < top for c in f.split()[1:])
+    ]
     assert len(low) < len(faces)
     (tmp_path / "open.obj").write_text("\n".join([x for x in lines if x not in faces] + low))
     middle = [sum(c[k] for c in corners) / len(corners) for k in range(3)]

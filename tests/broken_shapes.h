@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "domain/mesh/triangulate.h"
 #include "spatial/boundary_edges.h"
+#include "spatial/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

@@ -12,11 +12,11 @@
 #include "api/space/sdf.h"
 #include "base/parallel.h"
 #include "broken_shapes.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 #include "littoral/space.h"
 #include "space_helpers.h"
 #include "spatial/closest_on_triangle.h"
+#include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 
 namespace littoral {

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <set>
 
-#include "domain/mesh/triangulate.h"
 #include "heat_helpers.h"
 #include "io/read.h"
 #include "littoral/error.h"
 #include "one_call.h"
 #include "shared_data.h"
 #include "sources/retriangulate_sources.h"
+#include "spatial/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral {

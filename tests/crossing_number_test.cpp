@@ -6,8 +6,8 @@
 #include <random>
 
 #include "brute_force.h"
-#include "domain/mesh/triangulate.h"
 #include "space_helpers.h"
+#include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 #include "test_meshes.h"
 

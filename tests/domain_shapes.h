@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "domain/mesh/triangulate.h"
 #include "domain/volume/voxels.h"
 #include "one_call.h"
+#include "spatial/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

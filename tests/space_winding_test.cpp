@@ -7,9 +7,9 @@
 #include <random>
 
 #include "api/space/sdf.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 #include "space_helpers.h"
+#include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 #include "test_meshes.h"
 

@@ -7,9 +7,9 @@
 #include <random>
 
 #include "brute_force.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 #include "spatial/triangle_bvh.h"
+#include "spatial/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "domain/mesh/triangulate.h"
+#include "spatial/triangulate.h"
 #include "test_meshes.h"
 
 namespace littoral {

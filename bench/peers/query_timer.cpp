@@ -13,10 +13,10 @@
 #include <memory>
 
 #include "base/parallel.h"
-#include "domain/mesh/triangulate.h"
 #include "io/read.h"
 #include "methods/implicit/closest_point.h"
 #include "spatial/morton_order.h"
+#include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 
 namespace {

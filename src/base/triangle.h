@@ -16,6 +16,10 @@ struct TriangleShape {
   std::array<double, 3> cot;    // cotangent at each corner (eq. 5)
   std::array<Complex, 3> p;     // corner positions
   std::array<Complex, 3> side;  // unit vector of side k
+
+  Complex at(const std::array<double, 3>& b) const {  // barycentric
+    return b[0] * p[0] + b[1] * p[1] + b[2] * p[2];
+  }
 };
 
 /// Area by Kahan's ordering of Heron's formula, accurate for needles; lengths must satisfy the

@@ -5,9 +5,9 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 #include "spatial/triangle_bvh.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <set>
 
-#include "domain/mesh/triangulate.h"
 #include "operators/grid.h"
 #include "solve/direct/definite.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

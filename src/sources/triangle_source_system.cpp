@@ -10,10 +10,6 @@ namespace littoral {
 
 namespace {
 
-Complex at(const TriangleShape& t, const std::array<double, 3>& b) {
-  return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
-}
-
 class EdgeDofs : public VectorDofs {
  public:
   EdgeDofs(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) : mesh_(mesh), T_(T) {}
@@ -25,7 +21,7 @@ class EdgeDofs : public VectorDofs {
   void add_signed(const CurvePiece& piece, std::vector<DofVector>& out) const override {
     const int f = T_.triangle_of_face[piece.face];
     const TriangleShape t = T_.shape(f);
-    const Complex tangent = at(t, piece.b) - at(t, piece.a);
+    const Complex tangent = t.at(piece.b) - t.at(piece.a);
     // Already times its length. A frame's imaginary axis is to the left.
     const Complex N = Complex(0, piece.left ? 1 : -1) * tangent;
     for (int k = 0; k < 3; ++k)
@@ -50,7 +46,7 @@ class EdgeDofs : public VectorDofs {
   void add_beside(const CurvePiece& piece, int f, const std::array<double, 3>& a,
                   const std::array<double, 3>& b, std::vector<SidedContribution>& out) const {
     const TriangleShape t = T_.shape(f);
-    const Complex start = at(t, a), along = at(t, b) - start;
+    const Complex start = t.at(a), along = t.at(b) - start;
     const double length = std::abs(along);
     if (!(length > 0)) return;
     for (int k = 0; k < 3; ++k) {

@@ -16,10 +16,6 @@ namespace littoral {
 
 namespace {
 
-Complex at(const TriangleShape& t, const std::array<double, 3>& b) {
-  return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
-}
-
 /// Adds vectors to X0 and forgets what cancels: a curve and its reverse leave exactly nothing.
 class Measure {
  public:
@@ -141,7 +137,7 @@ void add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
       system.near.push_back(place.face);
       for (int k = 0; k < 3; ++k) {
         double& d = system.d0[T.faces(place.face, k)];
-        d = std::min(d, std::abs(t.p[k] - at(t, place.b)));
+        d = std::min(d, std::abs(t.p[k] - t.at(place.b)));
       }
     }
   }

@@ -6,11 +6,11 @@
 #include "api/tet/tet_domain.h"
 #include "base/run_interruptible.h"
 #include "base/stopwatch.h"
-#include "domain/mesh/triangulate.h"
 #include "domain/tet/tet_lattice.h"
-#include "domain/volume/grid_values.h"
 #include "io/tet/tetgen.h"
 #include "methods/heat/signed_heat_tets.h"
+#include "spatial/grid_values.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -8,10 +8,10 @@
 #include "api/space/space_input.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
 #include "spatial/morton_order.h"
 #include "spatial/smoothed_winding.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -8,11 +8,11 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/options.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/morton_order.h"
 #include "spatial/triangle_bvh.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -8,12 +8,12 @@
 #include "api/tet/tet_domain.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
-#include "domain/volume/grid_values.h"
 #include "littoral/error.h"
 #include "methods/heat/finalize.h"
 #include "methods/regularized/regularized.h"
 #include "operators/grid.h"
 #include "sources/space_distances.h"
+#include "spatial/grid_values.h"
 #include "spatial/winding_number.h"
 
 namespace littoral {

@@ -8,9 +8,9 @@
 #include "api/space/input_queries.h"
 #include "api/space/tori_cloud.h"
 #include "base/stopwatch.h"
-#include "domain/volume/grid_values.h"
 #include "littoral/error.h"
 #include "methods/tori/tori.h"
+#include "spatial/grid_values.h"
 
 namespace littoral {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "domain/volume/grid_values.h"
+#include "spatial/grid_values.h"
 
 namespace littoral {
 

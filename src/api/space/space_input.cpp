@@ -7,8 +7,8 @@
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_normals.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

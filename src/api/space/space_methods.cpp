@@ -4,7 +4,6 @@
 #include "api/space/tori_cloud.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
-#include "domain/mesh/triangulate.h"
 #include "io/read.h"
 #include "littoral/error.h"
 #include "methods/heat/sharpen.h"
@@ -12,6 +11,7 @@
 #include "methods/implicit/closest_point.h"
 #include "methods/implicit/convolutional_distance.h"
 #include "methods/tori/tori.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

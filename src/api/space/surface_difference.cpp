@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "api/space/input_queries.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

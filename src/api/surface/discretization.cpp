@@ -3,12 +3,12 @@
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_surface.h"
 #include "domain/mesh/polygon_surface.h"
-#include "domain/mesh/triangulate.h"
 #include "operators/nodal.h"
 #include "operators/triangles.h"
 #include "sources/nodal_source_system.h"
 #include "sources/refined_sources.h"
 #include "sources/triangle_source_system.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -13,9 +13,9 @@
 #include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "contour/isosurface.h"
-#include "domain/mesh/triangulate.h"
 #include "io/write.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral::cli {
 

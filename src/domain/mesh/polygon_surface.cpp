@@ -4,8 +4,8 @@
 
 #include "base/dense_decompositions.h"
 #include "base/index.h"
-#include "domain/mesh/triangulate.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

@@ -9,9 +9,9 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "contour/isosurface.h"
-#include "domain/mesh/triangulate.h"
-#include "domain/volume/grid_values.h"
 #include "spatial/boundary_edges.h"
+#include "spatial/grid_values.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 

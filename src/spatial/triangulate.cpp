@@ -1,4 +1,4 @@
-#include "domain/mesh/triangulate.h"
+#include "spatial/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

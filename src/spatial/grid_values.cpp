@@ -1,4 +1,4 @@
-#include "domain/volume/grid_values.h"
+#include "spatial/grid_values.h"
 
 #include "base/parallel.h"
 

@@ -244,7 +244,8 @@ void expect_rows_of_single_solves(const SurfaceDomain& domain, const AnyMethod& 
   EXPECT_EQ(rows(1, 17), 0);
   EXPECT_EQ(report.domain, domain.kind());
   const Sources source(SurfacePoint::at_vertex(17));
-  const VecX alone = solve_once(method, domain, source, {}, report).values;
+  VecX alone = solve_once(method, domain, source, {}, report).values;
+  alone[17] = 0;  // a mean over corners where jumps end at it
   EXPECT_LT((rows.row(1).transpose() - alone).cwiseAbs().maxCoeff(),
             rows_within(method.name()) * alone.maxCoeff());
 }

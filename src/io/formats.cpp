@@ -24,7 +24,7 @@ const std::vector<Format>& formats() {
       {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc},
       {.extension = ".xyz", .about = "rows x y z, or x y z and a normal", .read_cloud = read_xyz},
       {.extension = ".pcd", .about = "Point Cloud Library, text or uncompressed binary: points, normals", .read_cloud = read_pcd},
-      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .read_volume = read_vti, .write_volume = write_vti},
+      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti},
       {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd},
       {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3", .no_box = true, .read_volume = read_npy_volume, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy},
       {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3", .read_volume = read_npz_volume, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz},

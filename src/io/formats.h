@@ -30,8 +30,9 @@ using Kinds = std::vector<Kind>;
 struct Format {
   std::string_view extension;  // ".obj"
   std::string_view about;
-  bool lines = false;   // a surface's lines are kept, so that it can hold sources
-  bool no_box = false;  // of a volume, origin and spacing are not kept
+  bool lines = false;        // a surface's lines are kept, so that it can hold sources
+  bool no_box = false;       // of a volume, origin and spacing are not kept
+  bool more_values = false;  // of a volume, several values at each node are written
 
   PolygonSoup (*read_surface)(std::string_view bytes, const std::string& name) = nullptr;
   PolygonSoup (*read_cloud)(std::string_view bytes, const std::string& name) = nullptr;

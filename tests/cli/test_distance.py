@@ -174,7 +174,7 @@ def test_failed_write_keeps_the_old_file(run: Run, mesh: Path, tmp_path: Path) -
 
 
 def test_help_shows_ranges_and_defaults(run: Run) -> None:
-    text = run("distance", "--help").stdout
+    text = run("distance", "--help-all").stdout
     for word in ("--time-scale", "default zero-set", "multiple of h^2", "--preserve-normals"):
         assert word in text
     assert run("--version").stdout.startswith("littoral ")

@@ -101,7 +101,7 @@ def test_errors_are_clear(run: Run, cube: str, tmp_path: Path) -> None:
     def error(*words: object, status: int = 2) -> str:
         return run("distance", cube, *words, status=status).stderr
 
-    assert "--sources FILE, --vertex I or --boundary" in error("-o", "d.vtk")
+    assert "--sources FILE, --vertex I, --at X,Y,Z or --boundary" in error("-o", "d.vtk")
     assert "there is no vertex 125" in error("--vertex", 125, "-o", "d.vtk")
     assert "not both" in error("--vertex", 0, "--sources", "half.obj", "-o", "d.vtk")
     unknown = error("--vertex", 0, "--method", "winding", "-o", "d.vtk")

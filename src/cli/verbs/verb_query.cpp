@@ -37,7 +37,7 @@ void run_query(QueryArguments& arguments, Session& session) {
     const Eigen::Index last = table.columns.cols();
     table.names.push_back("confidence");
     table.columns.conservativeResize(Eigen::NoChange, last + 1);
-    table.columns.col(last) = confidence_at(shapes, queries, session);
+    table.columns.col(last) = confidence_at(shapes, queries.points, session);
   }
   finish(arguments.out, session.task(), session,
          [&](const std::string& file) { write_at_points(file, queries, table); });

@@ -1,8 +1,5 @@
 // littoral sdf: signed distance in space around a mesh, soup or point cloud.
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 
 #include "api/space/isosurfaces.h"
@@ -109,11 +106,8 @@ void check_field(const SdfArguments& arguments) {
 }
 
 bool holds_confidence(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (io::is_written_as(file, {Kind::volume})) return extension == ".vti";
-  return io::is_written_as(file, {Kind::surface}) && io::is_written_as(file, {Kind::field});
+  if (!io::is_written_as(file, {Kind::volume})) return io::is_written_as(file, {Kind::field});
+  return io::format_to_write(file, {Kind::volume}).more_values;
 }
 
 void run_sdf(SdfArguments& arguments, Session& session) {

@@ -30,7 +30,7 @@ Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
                          const std::string& name, const std::string& field = "");
 
 struct VolumeWriteOptions {
-  /// .vti: more values at the same nodes, by name.
+  /// More values at the same nodes, by name, where the format holds them (`more_values`).
   std::vector<std::pair<std::string, VecX>> more{};
   /// .vdb: half width of the band of values kept about zero, in the largest spacing; beyond it only
   /// the sign is stored. 0 keeps all values.

@@ -160,8 +160,7 @@ TEST_F(IoWrite, FieldsAsText) {
   write_field(folder_ / "a.txt", small_field(), "a,b");
   EXPECT_EQ(read_bytes(folder_ / "a.txt"), "0.33333333333333331\ninf\n-2\n");
   write_field(folder_ / "a.csv", small_field(), "a,b");
-  EXPECT_EQ(read_bytes(folder_ / "a.csv"),
-            "vertex,\"a,b\"\n0,0.3333333333333333\n1,inf\n2,-2\n");
+  EXPECT_EQ(read_bytes(folder_ / "a.csv"), "vertex,\"a,b\"\n0,0.3333333333333333\n1,inf\n2,-2\n");
 }
 
 TEST_F(IoWrite, FieldsAsNpy) {

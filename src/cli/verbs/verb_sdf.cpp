@@ -117,9 +117,10 @@ void run_sdf(SdfArguments& arguments, Session& session) {
       throw InputError(file + " holds tets: they are there with --domain tets");
   for (const std::string& file : arguments.out)
     if (arguments.confidence && !holds_confidence(file))
-      throw InputError(file +
-                       " holds one number a node: confidence is written to .vti, and with "
-                       "the surface at --level to formats with numbers at vertices");
+      throw InputError(
+          file +
+          " holds one number a node: confidence is written to VTK image data, and with "
+          "the surface at --level to formats with numbers at vertices");
   if (arguments.tets != "lattice" && arguments.domain != "tets")
     throw InputError("option tets goes with --domain tets");
   if (arguments.clip && arguments.domain == "tets")

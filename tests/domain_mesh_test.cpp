@@ -37,6 +37,17 @@ TEST(SurfaceMesh, KeepsNonmanifoldEdgesAndIsolatedVertices) {
   EXPECT_EQ(mesh.n_components(), 1);
 }
 
+TEST(SurfaceMesh, TakesAnyNumbersForEdges) {
+  PolygonSoup soup;
+  soup.points = MatX3::Random(4, 3);
+  test::add_triangle(soup, 0, 1, 2);
+  test::add_triangle(soup, 2, 1, 3);
+  const SurfaceMesh mesh(std::move(soup), {900, 7, 8, 7, 1000, 9});
+  EXPECT_EQ(mesh.n_edges(), 5);
+  EXPECT_EQ(mesh.side_edge(0, 1), mesh.side_edge(1, 0));
+  EXPECT_EQ(mesh.edge_faces(mesh.side_edge(1, 1)).size(), 1u);
+}
+
 TEST(SurfaceMesh, NamesTheVertexThatIsNotFinite) {
   PolygonSoup soup = test::grid_soup(2, 2);
   soup.points(4, 1) = std::nan("");

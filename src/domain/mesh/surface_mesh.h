@@ -22,8 +22,8 @@ class SurfaceMesh {
   /// used by a face is not finite (naming it). Unused non-finite vertices are allowed.
   explicit SurfaceMesh(PolygonSoup soup);
   /// The same with the edges given: sides are one edge if their numbers in `edge_of_side` (per
-  /// corner, any numbers from 0 below that of corners) are the same, so that several edges may join
-  /// two vertices. No face may have two sides with the same ends.
+  /// corner, any numbers from 0) are the same, so that several edges may join two vertices. No face
+  /// may have two sides with the same ends.
   SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side);
 
   int n_vertices() const { return soup_.n_vertices(); }

@@ -13,19 +13,22 @@ namespace {
 
 // Only the first thread writes to these, and only it has them: nested calls leave the outer one's.
 std::atomic<const CancelToken*> raised_by_interrupt{nullptr};
-struct sigaction handler_before = {};
+struct sigaction action_before = {};  // for the first thread alone
+// Where the signal went before: one of these, or nowhere. A handler may begin on another thread
+// when the call that set them has ended and the next one sets them again.
+std::atomic<void (*)(int, siginfo_t*, void*)> before_with_info{nullptr};
+std::atomic<void (*)(int)> before_alone{nullptr};
 // Handlers that may be looking at these: a signal may be handled on any thread.
 std::atomic<int> handlers_inside{0};
 
 void raise_and_pass_on(int signal, siginfo_t* info, void* context) {
   ++handlers_inside;
   if (const CancelToken* token = raised_by_interrupt.load()) token->cancel();
-  const struct sigaction before = handler_before;
   --handlers_inside;
-  if (before.sa_flags & SA_SIGINFO)
-    before.sa_sigaction(signal, info, context);
-  else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN)
-    before.sa_handler(signal);
+  if (const auto with_info = before_with_info.load())
+    with_info(signal, info, context);
+  else if (const auto alone = before_alone.load())
+    alone(signal);
 }
 
 bool on_first_thread() { return ::syscall(SYS_gettid) == ::getpid(); }
@@ -36,9 +39,11 @@ CancelOnInterrupt::CancelOnInterrupt(const CancelToken& token) : token_(token) {
   if (!on_first_thread() || raised_by_interrupt.load()) return;
   struct sigaction before = {};
   if (sigaction(SIGINT, nullptr, &before) != 0) return;
-  const bool has_handler = (before.sa_flags & SA_SIGINFO) != 0 || before.sa_handler != SIG_IGN;
-  if (!has_handler) return;
-  handler_before = before;
+  const bool with_info = (before.sa_flags & SA_SIGINFO) != 0;
+  if (!with_info && before.sa_handler == SIG_IGN) return;
+  before_with_info = with_info ? before.sa_sigaction : nullptr;
+  before_alone = with_info || before.sa_handler == SIG_DFL ? nullptr : before.sa_handler;
+  action_before = before;
   raised_by_interrupt = &token_;
   struct sigaction action = {};
   action.sa_sigaction = raise_and_pass_on;
@@ -49,7 +54,7 @@ CancelOnInterrupt::CancelOnInterrupt(const CancelToken& token) : token_(token) {
 
 CancelOnInterrupt::~CancelOnInterrupt() {
   if (!active_) return;
-  sigaction(SIGINT, &handler_before, nullptr);
+  sigaction(SIGINT, &action_before, nullptr);
   raised_by_interrupt = nullptr;
   while (handlers_inside > 0) std::this_thread::yield();  // on other threads, for a moment
 }

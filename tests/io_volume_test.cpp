@@ -198,8 +198,13 @@ TEST(ReadNpy, RowMajorArraysAndOtherTypes) {
   for (const char* header :
        {"{'descr': '<f8', 'fortran_order': True, 'shape': (8,), }",
         "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2, 2), }",
+        "{'descr': '<i4', 'fortran_order': False, 'shape': (), }",
         "{'descr': '|u1', 'fortran_order': True, 'shape': (9999999999, 1, 1), }"})
     EXPECT_THROW(io::read_volume_bytes(npy(header, bytes), ".npy", "a"), InputError);
+  EXPECT_THROW(  // not a byte for its one number
+      io::read_volume_bytes(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (), }", ""),
+                            ".npy", "a"),
+      InputError);
   EXPECT_THROW(
       io::read_volume_bytes(
           npy("{'descr': '<c8', 'fortran_order': True, 'shape': (1, 1, 1), }", bytes), ".npy", "a"),

@@ -86,6 +86,7 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
       throw InputError(name + ": the shape has more numbers than the file holds");
     count *= static_cast<std::size_t>(n);
   }
+  if (count > most) throw InputError(name + ": a number without its bytes");  // shape ()
   const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
   return {header->shape, header->fortran,
           load_numbers(bytes.substr(header->data), kind, count, order)};

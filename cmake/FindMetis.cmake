@@ -1,18 +1,4 @@
-# METIS 5 with 32-bit indices. Defines Metis::Metis: the system's, or a static library of the sources in
-# Metis_SOURCE_DIR (without GKlib's regular expressions, which are under the LGPL).
-if(Metis_SOURCE_DIR AND NOT TARGET Metis::Metis)
-  file(GLOB metis_sources ${Metis_SOURCE_DIR}/GKlib/*.c ${Metis_SOURCE_DIR}/libmetis/*.c)
-  list(FILTER metis_sources EXCLUDE REGEX gkregex)
-  add_library(metis STATIC ${metis_sources})
-  target_include_directories(metis PRIVATE ${Metis_SOURCE_DIR}/GKlib ${Metis_SOURCE_DIR}/libmetis)
-  target_include_directories(metis SYSTEM PUBLIC ${Metis_SOURCE_DIR}/include)
-  target_compile_definitions(metis PRIVATE _GNU_SOURCE)
-  target_compile_options(metis PRIVATE -w)
-  add_library(Metis::Metis INTERFACE IMPORTED)
-  target_link_libraries(Metis::Metis INTERFACE metis)
-  set(Metis_FOUND TRUE)
-  return()
-endif()
+# METIS 5 with 32-bit indices. Defines Metis::Metis.
 find_path(Metis_INCLUDE_DIR metis.h)
 find_library(Metis_LIBRARY metis)
 include(FindPackageHandleStandardArgs)

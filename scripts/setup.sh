@@ -6,7 +6,6 @@
 #   scripts/setup.sh aarch64 test, and what compiles and runs programs for 64-bit ARM
 #   scripts/setup.sh python  the Python environment in build/venv alone
 #   scripts/setup.sh docs    python, and what reads the headers for the site
-#   scripts/setup.sh zig     python, and what `make wheel` needs for an old glibc (for 64-bit ARM: aarch64 too)
 # Does nothing, quickly, when all of it is there. Works as root or through sudo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -102,18 +101,6 @@ python_environment() {
   echo "$stamp" >build/venv/stamp
 }
 
-# Zig's compiler, and METIS as the source package PyMetis brings it: Debian's needs glibc 2.29.
-zig_compiler() {
-  local pip="build/venv/bin/python -m pip --disable-pip-version-check" metis=build/zig/metis
-  build/venv/bin/python -c 'import ziglang' 2>/dev/null || $pip install --quiet ziglang==0.17.1
-  if [ ! -d "$metis" ]; then
-    mkdir -p build/zig/source
-    $pip download --quiet --no-deps --no-binary pymetis -d build/zig/source pymetis==2023.1.1
-    tar -xzf build/zig/source/PyMetis-*.tar.gz -C build/zig/source
-    mv build/zig/source/PyMetis-*/src/metis "$metis"
-  fi
-}
-
 case "${1:-}" in
   build) install_packages "${build_packages[@]}" $(node_packages) ;;
   test)
@@ -136,10 +123,5 @@ case "${1:-}" in
     install_packages python3-venv doxygen
     python_environment
     ;;
-  zig)
-    install_packages python3-venv
-    python_environment
-    zig_compiler
-    ;;
-  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python|docs|zig" ;;
+  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python|docs" ;;
 esac

@@ -86,35 +86,10 @@ TEST(DiscontinuousDistance, ALoopThatBoundsNothingGetsDistanceToBothSides) {
   EXPECT_LT(torn.shown->n_vertices() - mesh.n_vertices(), 3 * nv);
 }
 
-/// Pages of n x n squares of one unit that share the spine x = 0.
-PolygonSoup book(int pages, int n) {
-  PolygonSoup soup;
-  soup.points.resize((n + 1) * (1 + pages * n), 3);
-  const auto vertex = [n](int page, int i, int j) {
-    return i == 0 ? j : (n + 1) * (1 + page * n + i - 1) + j;
-  };
-  for (int page = 0; page < pages; ++page)
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) {
-        const double angle = 2 * std::acos(-1.0) * page / pages, x = double(i) / n;
-        soup.points.row(vertex(page, i, j)) << x * std::cos(angle), x * std::sin(angle),
-            double(j) / n;
-      }
-  for (int page = 0; page < pages; ++page)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j),
-                           vertex(page, i + 1, j + 1));
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1),
-                           vertex(page, i, j + 1));
-      }
-  return soup;
-}
-
 TEST(DiscontinuousDistance, OneConstantForAllPagesOfABook) {
   // From the middle line of one page: 1/2 at the spine, seen from every page, and more beyond.
   constexpr int n = 10;
-  const SurfaceMesh mesh(book(3, n));
+  const SurfaceMesh mesh(test::book_soup(3, n, 2 * std::acos(-1.0) / 3));
   std::vector<int> line;
   for (int j = 0; j <= n; ++j) line.push_back((n + 1) * (n / 2) + j);
   for (const double smoothing : {0.0, 1.0}) {

@@ -89,33 +89,9 @@ TEST(DualWinding, ACutAcrossAMoebiusBandBoundsNothing) {
   }
 }
 
-/// Three square pages that meet along one edge, n x n quads each.
-PolygonSoup square_book(int n) {
-  PolygonSoup soup;
-  soup.points.resize(3 * (n + 1) * (n + 1), 3);
-  const auto vertex = [&](int page, int i, int j) {
-    return i == 0 ? j : (page * (n + 1) + i) * (n + 1) + j;  // i = 0: the spine
-  };
-  soup.points.setZero();
-  for (int page = 0; page < 3; ++page) {
-    const Vec3 out(std::cos(2.1 * page), std::sin(2.1 * page), 0);
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j)
-        soup.points.row(vertex(page, i, j)) = (i * out + j * Vec3::UnitZ()).transpose() / n;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j),
-                           vertex(page, i + 1, j + 1));
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1),
-                           vertex(page, i, j + 1));
-      }
-  }
-  return soup;
-}
-
 TEST(DualWinding, ChainsSayWhichPagesOfABookDiffer) {
   constexpr int n = 6;
-  const SurfaceMesh mesh(square_book(n));
+  const SurfaceMesh mesh(test::book_soup(3, n, 2.1));
   // At the spine, page 2 is above pages 0 and 1.
   Sources sources;
   for (int j = 0; j < n; ++j) {

@@ -133,4 +133,26 @@ inline PolygonSoup torus_soup(int nu, int nv, double R = 1, double r = 0.4) {
   return soup;
 }
 
+/// Pages of n x n squares of one unit that share the spine x = y = 0, `turn` radians from one to
+/// the next, two triangles a square, page after page. Vertices are numbered along the spine first.
+inline PolygonSoup book_soup(int pages, int n, double turn) {
+  PolygonSoup soup;
+  soup.points.resize((n + 1) * (1 + pages * n), 3);
+  const auto vertex = [n](int page, int i, int j) {
+    return i == 0 ? j : (n + 1) * (1 + page * n + i - 1) + j;
+  };
+  for (int page = 0; page < pages; ++page)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        soup.points.row(vertex(page, i, j)) << std::cos(turn * page) * i / n,
+            std::sin(turn * page) * i / n, double(j) / n;
+  for (int page = 0; page < pages; ++page)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j), vertex(page, i + 1, j + 1));
+        add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1), vertex(page, i, j + 1));
+      }
+  return soup;
+}
+
 }  // namespace littoral::test

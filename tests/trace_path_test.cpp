@@ -133,25 +133,10 @@ TEST(TracePath, OppositeCornersOfTheCube) {
 TEST(TracePath, BookOfPagesCrossesTheSpine) {
   // Five half planes meeting in one line: a nonmanifold edge strip.
   const int n = 12, pages = 5;
-  PolygonSoup soup;
-  soup.points.resize((n + 1) * (1 + pages * n), 3);
-  auto vertex = [&](int page, int i, int j) {
+  const auto vertex = [n](int page, int i, int j) {
     return i == 0 ? j : (n + 1) * (1 + page * n + i - 1) + j;
   };
-  for (int page = 0; page < pages; ++page)
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j)
-        soup.points.row(vertex(page, i, j)) << std::cos(page) * i / n, std::sin(page) * i / n,
-            double(j) / n;
-  for (int page = 0; page < pages; ++page)
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j),
-                           vertex(page, i + 1, j + 1));
-        test::add_triangle(soup, vertex(page, i, j), vertex(page, i + 1, j + 1),
-                           vertex(page, i, j + 1));
-      }
-  const SurfaceMesh mesh{std::move(soup)};
+  const SurfaceMesh mesh{test::book_soup(pages, n, 1)};
   for (int page = 1; page < pages; ++page) {
     const auto a = SurfacePoint::at_vertex(vertex(0, 9, 2));
     const auto b = SurfacePoint::at_vertex(vertex(page, 6, 11));

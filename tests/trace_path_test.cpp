@@ -133,7 +133,7 @@ TEST(TracePath, OppositeCornersOfTheCube) {
 TEST(TracePath, BookOfPagesCrossesTheSpine) {
   // Five half planes meeting in one line: a nonmanifold edge strip.
   const int n = 12, pages = 5;
-  const auto vertex = [n](int page, int i, int j) {
+  const auto vertex = [](int page, int i, int j) {
     return i == 0 ? j : (n + 1) * (1 + page * n + i - 1) + j;
   };
   const SurfaceMesh mesh{test::book_soup(pages, n, 1)};

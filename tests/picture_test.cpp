@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/parallel.h"
+#include "io/render/raster.h"
 #include "io/render/scene_style.h"
 #include "littoral/error.h"
 #include "test_meshes.h"
@@ -117,6 +118,30 @@ TEST(Picture, LinesKeepTheirWidthWhateverTheScale) {
   EXPECT_EQ(count[0], count[2]);
 }
 
+// On a plane with uneven triangles the slope at vertices is that of the field, also where it turns.
+TEST(Picture, SlopesAtVerticesAreTheFieldsOwn) {
+  PolygonSoup soup = test::grid_soup(6, 6);
+  for (Eigen::Index v = 0; v < soup.points.rows(); ++v)
+    soup.points(v, 1) += 0.03 * std::sin(40.0 * static_cast<double>(v));
+  const io::Scene scene = io::make_scene(soup);
+  const VecX linear = 1.0 * scene.points.col(0) + 2.0 * scene.points.col(1);
+  const auto tensors = io::slope_tensors(scene.points, scene.triangles, linear, 2.0);
+  const Eigen::Matrix<double, 1, 6> expected{{4, 16, 0, 8, 0, 0}};  // per radius: times 2 squared
+  EXPECT_LT((tensors.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-9);
+  const VecX kink = (scene.points.col(0).array() - 0.5).abs();
+  const auto turned = io::slope_tensors(scene.points, scene.triangles, kink, 1.0);
+  for (Eigen::Index v = 0; v < turned.rows(); ++v) EXPECT_NEAR(turned(v, 0), 1, 1e-9);
+}
+
+TEST(Picture, RegionsHaveColoursOfTheirOwn) {
+  io::Scene scene = square_scene();
+  scene.field_name = "region";
+  scene.values = scene.points.col(0).unaryExpr([](double x) { return x < 0.45 ? -1.0 : 1.0; });
+  const io::Image image = io::draw_picture(scene, small());
+  EXPECT_LT(difference(pixel(image, 0.35, 0.5), io::region_colour(-1)), 8);
+  EXPECT_LT(difference(pixel(image, 0.65, 0.5), io::region_colour(1)), 8);
+}
+
 TEST(Picture, SourcesAreVisibleInFrontAndHiddenBehind) {
   io::Scene scene = io::make_scene(test::octasphere_soup(4));
   io::PictureOptions options = small();
@@ -136,12 +161,21 @@ TEST(Picture, SourcesAreVisibleInFrontAndHiddenBehind) {
   EXPECT_EQ(count_like(image, io::unsigned_colour), 0);
 }
 
-TEST(Picture, InfiniteValuesAreGrey) {
+TEST(Picture, InfiniteValuesAreHatchedGrey) {
   io::Scene scene = square_scene();
   for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
     if (scene.points(v, 0) > 0.6) scene.values[v] = std::numeric_limits<double>::infinity();
   }
-  EXPECT_LE(difference(pixel(io::draw_picture(scene, small()), 0.8, 0.5), io::infinite_colour), 2);
+  const io::Image hatched = io::draw_picture(scene, small());
+  int light = 0, dark = 0;
+  for (int i = 0; i < 36; ++i) {
+    const io::Rgb colour = pixel(hatched, 0.7 + 0.004 * i, 0.5);
+    EXPECT_LE(std::abs(int{colour[0]} - int{colour[2]}), 6);
+    light += difference(colour, io::infinite_colour) <= 4;
+    dark += difference(colour, {108, 108, 108}) <= 4;
+  }
+  EXPECT_GT(light, 12);
+  EXPECT_GT(dark, 3);
   scene.values.resize(0);
   EXPECT_LE(difference(pixel(io::draw_picture(scene, small()), 0.8, 0.5), io::plain_colour), 2);
 }

@@ -7,9 +7,12 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "constants.h"
+#include "io/render/camera.h"
+#include "io/render/picture.h"
 #include "io/render/scene_style.h"
 #include "littoral/error.h"
 #include "test_meshes.h"
@@ -70,6 +73,7 @@ TEST(Scene, PolygonsBecomeFansThatRememberTheirSides) {
   const io::Scene scene = io::make_scene(soup);
   ASSERT_EQ(scene.triangles.rows(), 4);
   EXPECT_EQ(scene.inner_sides, (std::vector<unsigned char>{4, 5, 1, 0}));
+  EXPECT_EQ(scene.faces, (std::vector<int>{0, 0, 0, 1}));
   EXPECT_EQ(scene.values.size(), 5);
   EXPECT_TRUE(io::make_scene(test::grid_soup(2, 2)).inner_sides.empty());
 }
@@ -88,6 +92,24 @@ TEST(Scene, SourcesAreAdded) {
   EXPECT_NEAR(scene.curves[0].points(1, 0), 0.25, 1e-15);
   ASSERT_EQ(scene.source_points.rows(), 1);
   EXPECT_EQ(scene.source_points.row(0), mesh.points().row(8));
+  EXPECT_EQ(scene.nodes, io::SceneNodes::faces);
+  io::Scene refined = io::make_scene(test::grid_soup(3, 3));
+  io::add_sources(refined, mesh, sources);
+  EXPECT_EQ(refined.nodes, io::SceneNodes::none);  // its vertices are not the mesh's
+}
+
+TEST(Scene, OtherScalarsAreFurtherFields) {
+  PolygonSoup soup = test::grid_soup(2, 2);
+  soup.scalars["distance"] = soup.points.col(0);
+  soup.scalars["weight"] = VecX::Ones(9);
+  soup.scalars["confidence"] = VecX::Constant(9, 0.5);
+  soup.scalars["broken"] = VecX::Constant(9, std::nan(""));
+  const io::Scene scene = io::make_scene(soup);
+  ASSERT_EQ(scene.more.size(), 1u);
+  EXPECT_EQ(scene.more[0].name, "confidence");
+  const io::FieldStyle style = io::field_style(scene, scene.more[0]);
+  EXPECT_EQ(style.colour_low, 0);
+  EXPECT_EQ(style.colour_high, 1);
 }
 
 TEST(Scene, CheckNamesWhatIsWrong) {
@@ -108,6 +130,13 @@ TEST(Scene, CheckNamesWhatIsWrong) {
   refused([](io::Scene& s) { s.levels = {0, infinity}; });
   refused([](io::Scene& s) { s.isolines = -1; });
   refused([](io::Scene& s) { s.inner_sides = {1}; });
+  refused([](io::Scene& s) { s.faces = {1}; });
+  refused([](io::Scene& s) { s.more = {{"short", VecX::Zero(3)}}; });
+  refused([](io::Scene& s) {
+    io::Scene other = s;
+    other.isolines = -1;
+    s.beside = std::make_shared<const io::Scene>(other);
+  });
 }
 
 TEST(SceneStyle, NiceSpacing) {
@@ -142,6 +171,46 @@ TEST(SceneStyle, SignedFieldsDivergeAboutZero) {
   EXPECT_EQ(io::colour_position(style, style.high), 1);
   scene.values.setConstant(infinity);
   EXPECT_FALSE(io::field_style(scene).present);
+}
+
+TEST(SceneStyle, IntegersNameRegionsUnlessTheyAreADistance) {
+  io::Scene scene = sphere_scene();
+  scene.values = scene.points.col(0).unaryExpr([](double x) { return std::round(2 * x); });
+  io::FieldStyle style = io::field_style(scene);
+  EXPECT_TRUE(style.discrete);
+  EXPECT_EQ(style.spacing, 0);
+  EXPECT_EQ(io::value_colour(style, 1), io::region_colour(1));
+  scene.colour_map = io::ColourMap::viridis;  // asked for: values like others
+  EXPECT_FALSE(io::field_style(scene).discrete);
+  scene.colour_map = io::ColourMap::automatic;
+  scene.field_name = "distance";
+  EXPECT_FALSE(io::field_style(scene).discrete);
+  scene.field_name = "region";
+  scene.values.setZero();
+  EXPECT_TRUE(io::field_style(scene).discrete);
+  scene.values[0] = 0.5;
+  EXPECT_FALSE(io::field_style(scene).discrete);
+  std::set<io::Rgb> colours;
+  for (long k = -4; k <= 4; ++k) colours.insert(io::region_colour(k));
+  EXPECT_EQ(colours.size(), 9u);
+  EXPECT_EQ(io::region_colour(1), io::region_colour(9));
+}
+
+// Maps that are told apart by lightness alone serve those who see few colours.
+TEST(SceneStyle, SequentialMapsGetSteadilyLighterOrDarker) {
+  for (const io::ColourMap map :
+       {io::ColourMap::sequential, io::ColourMap::viridis, io::ColourMap::cividis,
+        io::ColourMap::grey, io::ColourMap::heat}) {
+    const auto& colours = io::colour_map(map);
+    const auto light = [&](int i) {
+      const io::Rgb& c = colours[static_cast<std::size_t>(i)];
+      return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    };
+    const double way = light(255) > light(0) ? 1 : -1;
+    EXPECT_GT(way * (light(255) - light(0)), 120) << io::colour_map_name(map);
+    for (int i = 8; i < 256; i += 8)
+      EXPECT_GT(way * (light(i) - light(i - 8)), 0) << io::colour_map_name(map) << ' ' << i;
+  }
 }
 
 TEST(SceneStyle, FlatSurfacesAreSeenFaceOnTheRightWayUp) {
@@ -186,12 +255,38 @@ TEST(SceneStyle, MarksFollowTheCurves) {
 TEST_F(PageTest, HoldsTheScene) {
   io::Scene scene = sphere_scene();
   scene.facts = {{"faces", "2048"}};
+  scene.warnings = {"something is odd"};
+  scene.more = {{"confidence", VecX::Constant(scene.points.rows(), 0.25)}};
   const auto page = written(scene);
+  EXPECT_EQ(page["format"], "littoral scene");
+  EXPECT_EQ(page["version"], 1);
   EXPECT_EQ(page["facts"][0][1], "2048");
-  EXPECT_EQ(page["positions"].get<std::string>().size(), (scene.points.size() * 4u + 2) / 3 * 4);
-  EXPECT_EQ(page["triangles"].get<std::string>().size(), (scene.triangles.size() * 4u + 2) / 3 * 4);
-  EXPECT_EQ(page["field"]["low"], -1.0);
-  EXPECT_EQ(page["field"]["spacing"], io::nice_spacing(-1, 1, 20));
+  EXPECT_EQ(page["warnings"][0], "something is odd");
+  const auto& surface = page["surface"];
+  EXPECT_EQ(surface["positions"].get<std::string>().size(), (scene.points.size() * 4u + 2) / 3 * 4);
+  EXPECT_EQ(surface["triangles"].get<std::string>().size(),
+            (scene.triangles.size() * 4u + 2) / 3 * 4);
+  EXPECT_EQ(surface["nodes"], "none");
+  ASSERT_EQ(page["fields"].size(), 2u);
+  EXPECT_EQ(page["fields"][0]["low"], -1.0);
+  EXPECT_EQ(page["fields"][0]["spacing"], io::nice_spacing(-1, 1, 20));
+  EXPECT_EQ(page["fields"][0]["map"], "diverging");
+  EXPECT_EQ(page["fields"][1]["name"], "confidence");
+  EXPECT_FALSE(page.contains("beside"));
+}
+
+TEST_F(PageTest, TwoResultsShareAFrameThatHoldsBoth) {
+  io::Scene scene = sphere_scene(), other = sphere_scene();
+  other.points.rowwise() += Eigen::RowVector3d(3, 0, 0);
+  other.curves.clear();
+  other.source_points.resize(0, 3);
+  scene.beside = std::make_shared<const io::Scene>(other);
+  const auto page = written(scene);
+  EXPECT_EQ(page["frame"], page["beside"]["frame"]);
+  const double centre = page["frame"]["centre"][0], radius = page["frame"]["radius"];
+  EXPECT_LE(centre - radius, -1);
+  EXPECT_GE(centre + radius, 4);
+  EXPECT_LT(radius, 4);
 }
 
 TEST_F(PageTest, TextCannotEscapeIntoThePage) {
@@ -211,7 +306,9 @@ TEST_F(PageTest, ExtremeScalesStayFinite) {
     scene.source_points *= scale;
     scene.points *= scale;
     scene.values *= scale;
-    EXPECT_GT(written(scene)["field"]["spacings"].size(), 5u);
+    const auto field = written(scene)["fields"][0];
+    EXPECT_GT(field["spacing"], 0.0);
+    EXPECT_EQ(field["high"].get<double>(), scene.values.maxCoeff());
   }
 }
 
@@ -219,6 +316,28 @@ TEST_F(PageTest, RefusesBadScenesAndPaths) {
   EXPECT_THROW(io::write_page(path, io::Scene{}), InputError);
   EXPECT_FALSE(fs::exists(path));
   EXPECT_THROW(io::write_page("/nonexistent-folder/page.html", sphere_scene()), IoError);
+}
+
+// What a picture shows at vertices in sight, for the browser's test to compare the page with.
+nlohmann::json picture_colours(io::Scene scene) {
+  scene.curves.clear();
+  scene.source_points.resize(0, 3);
+  const io::PictureOptions options{.width = 640, .height = 640, .colour_bar = false};
+  const io::Image image = io::draw_picture(scene, options);
+  const double margin = 0.04 * 640 + 4;
+  const io::Camera camera =
+      io::fit_camera(scene, options, {margin, margin, 640 - margin, 640 - margin});
+  const Vec3 eye = io::scene_frame(scene).towards_eye;
+  nlohmann::json seen = nlohmann::json::array();
+  for (Eigen::Index v = 0; v < scene.points.rows(); v += 3) {
+    const Vec3 p = scene.points.row(v);
+    if (p.dot(eye) < 0.5) continue;
+    const Vec3 at = camera.project(p);
+    const auto i =
+        3 * static_cast<std::size_t>(static_cast<int>(at[1]) * 640 + static_cast<int>(at[0]));
+    seen.push_back({v, image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+  }
+  return seen;
 }
 
 // The page that viewer/test opens in a browser; see there.
@@ -230,8 +349,11 @@ TEST_F(PageTest, WritesThePageForTheBrowserTest) {
   scene.facts = {{"method", "test <img src=x onerror=window.smuggled=1>"},
                  {"vertex", std::to_string(vertex)},
                  {"value", io::label_text(scene.values[vertex])}};
+  scene.nodes = io::SceneNodes::faces;
+  scene.warnings = {"a <b>warning</b>"};
   const char* out = std::getenv("LITTORAL_PAGE_OUT");
   io::write_page(out ? fs::path(out) : path, scene);
+  if (out) std::ofstream(std::string(out) + ".json") << picture_colours(scene);
   EXPECT_GT(fs::file_size(out ? fs::path(out) : path), 100'000u);
 }
 

@@ -56,13 +56,13 @@ TEST(VolumeScene, LevelsAndSwitches) {
 }
 
 TEST(VolumeScene, PagesGetAThinnedCopyOfTheSameBox) {
-  const Grid grid{{130, 5, 2}, Vec3(1, 2, 3), Vec3(0.01, 0.1, 0.2)};
+  const Grid grid{{300, 5, 2}, Vec3(1, 2, 3), Vec3(0.01, 0.1, 0.2)};
   const auto plane = [](const Vec3& p) { return 2 * p[0] - p[1] + p[2] - 2; };
   const auto thin = io::make_volume_scene(test::sampled(grid, plane)).volume->thin;
-  EXPECT_EQ(thin.grid.n, (std::array<int, 3>{64, 5, 2}));
+  EXPECT_EQ(thin.grid.n, (std::array<int, 3>{256, 5, 2}));
   const Volume exact = test::sampled(thin.grid, plane);
   EXPECT_LT((thin.values - exact.values).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_NEAR(thin.grid.point(63, 4, 1)[0], grid.point(129, 4, 1)[0], 1e-12);
+  EXPECT_NEAR(thin.grid.point(255, 4, 1)[0], grid.point(299, 4, 1)[0], 1e-12);
 }
 
 TEST(VolumeScene, Refuses) {

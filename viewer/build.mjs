@@ -4,6 +4,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { bundleOptions } from "./bundle.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = resolve(process.argv[2] ?? "dist");
@@ -11,16 +12,9 @@ const modules = resolve(process.argv[3] ?? join(here, "node_modules"));
 const esbuild = createRequire(join(modules, "any.js"))("esbuild");
 
 const bundle = await esbuild.build({
-  entryPoints: [join(here, "src/main.js")],
-  bundle: true,
-  minify: true,
-  write: false,
-  format: "iife",
-  target: "es2020",
-  charset: "ascii",
-  legalComments: "inline",
+  ...bundleOptions(esbuild),
+  entryPoints: [join(here, "src/main.ts")],
   nodePaths: [modules],
-  logLevel: "warning",
 });
 const script = bundle.outputFiles[0].text;
 if (/<\/script/i.test(script)) throw new Error("the bundle would end its own script element");

@@ -3,6 +3,7 @@
 // and "value" (the field there); its title tries to smuggle in a script.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
+import { readFileSync } from "node:fs";
 import { assertAlone, changed as changedPixels, openPage, openResult } from "./browser.mjs";
 
 const shown = await openResult("PAGE");
@@ -32,8 +33,11 @@ test("title and facts are plain text", async () => {
 test("the read-out gives the value under the cursor", async () => {
   const vertex = Number(await fact("vertex")), value = Number(await fact("value"));
   const at = await page.evaluate((v) => littoral.project(v), vertex);
-  const picked = await page.evaluate(({ x, y }) => littoral.pick(x, y), at);
-  assert.ok(Math.abs(picked - value) < 2e-3, `${picked} is not ${value}`);
+  const picked = await page.evaluate(({ x, y }) => littoral.pick(x, y).value, at);
+  assert.ok(Math.abs(picked - value) < 2e-4, `${picked} is not ${value}`);
+  const view = await page.locator("#view").boundingBox();
+  at.x += view.x;
+  at.y += view.y;
   await page.mouse.move(at.x, at.y);
   await page.waitForSelector("#readout:not([hidden])");
   const text = await page.textContent("#readout");
@@ -42,8 +46,38 @@ test("the read-out gives the value under the cursor", async () => {
   await page.waitForSelector("#readout", { state: "hidden" });
 });
 
+test("a click pins the place and copies it as a line of a source file", async () => {
+  const vertex = Number(await fact("vertex")), at = await page.evaluate((v) => littoral.project(v), vertex);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.click("#view", { position: { x: at.x, y: at.y } });
+  await page.waitForSelector("#pin:not([hidden])");
+  await page.waitForFunction(() => /copied/.test(document.getElementById("pin-text").textContent));
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), `v ${vertex}`);
+  assert.match(await page.textContent("#pin-text"), new RegExp(`^x .*\\nv ${vertex}`, "s"));
+  await page.focus("#view");
+  await page.keyboard.press("Escape");
+  assert.ok(await page.isHidden("#pin"));
+});
+
+test("the page has the colours of the picture", async () => {
+  const seen = JSON.parse(readFileSync(`${process.env.PAGE}.json`, "utf8"));
+  await page.click("#sources");
+  const { places, bytes, width, height } = await page.evaluate((vertices) => {
+    const gl = littoral.view.renderer.getContext();
+    return { places: vertices.map((v) => littoral.project(v)), bytes: Array.from(littoral.pixels()), width: gl.drawingBufferWidth, height: gl.drawingBufferHeight };
+  }, seen.map(([v]) => v));
+  await page.click("#sources");
+  const apart = seen.map(([, ...rgb], i) => {
+    const at = 4 * (Math.floor(places[i].x) + width * (height - 1 - Math.floor(places[i].y)));
+    return Math.max(...rgb.map((c, k) => Math.abs(c - bytes[at + k])));
+  }).sort((a, b) => a - b);
+  console.log(`${apart.length} vertices: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
+  assert.ok(apart.length > 60 && apart[apart.length >> 1] <= 4, `${apart[apart.length >> 1]}`);
+  assert.ok(apart[Math.floor(0.7 * apart.length)] <= 12, "seven of ten are alike; lines fall on the others");
+});
+
 test("toggles and slider change the picture and back", async () => {
-  for (const id of ["isolines", "sources", "wireframe"]) {
+  for (const id of ["isolines", "sources", "wireframe", "flat"]) {
     const count = await changed(() => page.click(`#${id}`));
     assert.ok(count > 20, `${id} changed ${count} pixels`);
     assert.equal(await changed(async () => { await page.click(`#${id}`); await page.click(`#${id}`); }), 0);
@@ -60,9 +94,9 @@ test("mouse, wheel and keys move the view; reset brings it back", async () => {
   await page.evaluate(() => { window.start = littoral.pixels(); });
   const moves = {
     drag: async () => {
-      await page.mouse.move(450, 300);
+      await page.mouse.move(550, 300);
       await page.mouse.down();
-      await page.mouse.move(520, 330, { steps: 4 });
+      await page.mouse.move(620, 330, { steps: 4 });
       await page.mouse.up();
     },
     wheel: () => page.mouse.wheel(0, -200),
@@ -90,6 +124,12 @@ test("nothing is drawn while nothing changes", async () => {
 test("the picture can be saved", async () => {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
   assert.match(download.suggestedFilename(), /^[\w.-]+\.png$/);
+});
+
+test("warnings stand before all else, as text", async () => {
+  assert.match(await page.textContent("#warnings"), /a <b>warning<\/b>/);
+  const [warning, controls] = await Promise.all(["#warnings", "#controls"].map((id) => page.locator(id).boundingBox()));
+  assert.ok(warning.y < controls.y);
 });
 
 test("labels for those who cannot see", async () => {

@@ -5,14 +5,16 @@ import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
 import { assertAlone, changed, drag as dragOn, openResult } from "./browser.mjs";
-import { kth, makeTree } from "../src/tori-tree.js";
+import { load } from "./scenes.mjs";
 
-const shown = await openResult("TRACE_PAGE", { viewport: { width: 320, height: 260 } }, 300000);
+const { kth, makeTree } = await load("tori-tree.ts");
+
+const shown = await openResult("TRACE_PAGE", { viewport: { width: 720, height: 260 } }, 60000);
 const { page } = shown;
 const reference = JSON.parse(readFileSync(`${process.env.TRACE_PAGE}.json`, "utf8"));
 after(() => shown.close());
 
-const settled = () => page.waitForFunction(() => window.littoral.settled(), null, { timeout: 300000 });
+const settled = () => page.waitForFunction(() => window.littoral.settled(), null, { timeout: 60000 });
 const drag = (id, value) => dragOn(page, id, value);
 
 test("the k-th smallest is that", () => {
@@ -50,7 +52,7 @@ test("leaves list the nearest points", () => {
 
 test("rays meet what the library's rays meet", async () => {
   const { n, frame, t } = reference;
-  const seen = await page.evaluate(([f, size]) => Array.from(littoral.tracer.look(...f.slice(0, 4), size)), [frame, n]);
+  const seen = await page.evaluate(([f, size]) => Array.from(littoral.tracer.traceRays(...f.slice(0, 4), size)), [frame, n]);
   let hits = 0, differ = 0, worst = 0, sum = 0;
   for (let i = 0; i < n * n; ++i) {
     const here = seen[4 * i];
@@ -69,6 +71,25 @@ test("rays meet what the library's rays meet", async () => {
   assert.ok(worst < 0.05, `worst ${worst}`);
 });
 
+test("while it refines it says so, and nothing is black", async () => {
+  await settled();
+  assert.ok(await page.isHidden("#hint"));
+  await page.focus("#view");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForSelector("#hint:not([hidden])");
+  assert.match(await page.textContent("#hint"), /Tracing the cloud/);
+  const black = await page.evaluate(() => {
+    const bytes = littoral.pixels();
+    let count = 0;
+    for (let i = 0; i < bytes.length; i += 4) if (bytes[i] + bytes[i + 1] + bytes[i + 2] < 60) ++count;
+    return count / (bytes.length / 4);
+  });
+  assert.ok(black < 0.01, `${black} of the picture`);
+  await page.keyboard.press("r");
+  await settled();
+  assert.ok(await page.isHidden("#hint"));
+});
+
 test("at rest the whole picture is traced, with the hole", async () => {
   await settled();
   const counts = await page.evaluate(() => {
@@ -81,7 +102,7 @@ test("at rest the whole picture is traced, with the hole", async () => {
 });
 
 test("offset and cut change the picture; it settles again", async () => {
-  const low = await page.evaluate(() => littoral.volume.state.level);
+  const low = await page.evaluate(() => littoral.volume.level);
   assert.ok(await changed(page, () => drag("level", Math.round(1000 * low + 60))) > 200);
   await settled();
   assert.ok(Number(await page.textContent("#level-text")) > 0.02);

@@ -12,14 +12,14 @@ const drag = (id, value) => dragOn(page, id, value);
 
 // Least and greatest distance of the surface's points from the origin, in the volume's unit.
 const radii = () => page.evaluate(() => {
-  const { shell } = littoral.volume, p = shell.geometry.getAttribute("position").array;
+  const p = littoral.volume.positions;
   let low = Infinity, high = 0;
   for (let i = 0; i < p.length; i += 3) {
     const r = Math.hypot(p[i], p[i + 1], p[i + 2]) * Math.sqrt(3);  // the page's unit is half the diagonal
     low = Math.min(low, r);
     high = Math.max(high, r);
   }
-  return { low, high, triangles: littoral.volume.triangleCount() };
+  return { low, high, triangles: littoral.volume.triangleCount };
 });
 
 test("the surface is the sphere", async () => {
@@ -44,6 +44,9 @@ test("slice, axis, cut and surface change the picture", async () => {
   assert.ok((await changed(page, () => page.click("#cut"))) > 200);
   assert.ok((await changed(page, () => page.click("#shell"))) > 200);
   assert.ok((await changed(page, () => page.click("#isolines"))) > 200);
+  await page.click("#isolines");
+  await page.click("#shell");
+  await page.click("#cut");
 });
 
 test("the read-out gives the distance on the slice", async () => {
@@ -51,9 +54,74 @@ test("the read-out gives the distance on the slice", async () => {
   await drag("slice", 500);
   const value = await page.evaluate(() => {
     const box = document.getElementById("view").getBoundingClientRect();
-    return littoral.pick(box.width / 2, box.height / 2);
+    return littoral.pick(box.width / 2 - 40, box.height / 2)?.value ?? null;
   });
   assert.ok(value !== null && value >= -0.61 && value < 1.2, `${value}`);
+});
+
+test("the slice can be tilted, and dragged by its handles", async () => {
+  await page.selectOption("#axis", "tilted");
+  const state = () => page.evaluate(() => ({ normal: littoral.volume.normal, offset: littoral.volume.offset }));
+  const error = () => page.evaluate(() => {
+    // The slice holds the field: its values are the distances of its points.
+    const g = littoral.volume.slice.geometry, p = g.getAttribute("position").array, t = g.getAttribute("t").array;
+    const { low, high } = littoral.view.scene.fields[0];
+    let worst = 0;
+    for (let i = 0; i < t.length; ++i) {
+      const q = [0, 1, 2].map((k) => p[3 * i + k] * Math.sqrt(3));
+      if (q.some((x) => Math.abs(x) > 1)) continue;
+      worst = Math.max(worst, Math.abs(low + t[i] * (high - low) - (Math.hypot(...q) - 0.6)));
+    }
+    return worst;
+  });
+  const before = await state();
+  assert.ok(before.normal.filter((x) => Math.abs(x) > 0.1).length === 3);
+  assert.ok((await error()) < 0.02, "the tilted slice shows the field");
+  const pull = async (id, dx, dy) => {
+    const box = await page.locator(id).boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + dx, box.y + box.height / 2 + dy, { steps: 3 });
+    await page.mouse.up();
+  };
+  await pull("#slice-tilt", 40, -30);
+  const tilted = await state();
+  assert.ok(Math.hypot(...tilted.normal.map((x, k) => x - before.normal[k])) > 0.05, "the handle tilts");
+  const [from, to] = await Promise.all(["#slice-move", "#slice-tilt"].map((id) => page.locator(id).boundingBox()));
+  await pull("#slice-move", 0.5 * (to.x - from.x), 0.5 * (to.y - from.y));
+  assert.ok(Math.abs((await state()).offset - tilted.offset) > 0.03, "the other moves");
+  assert.ok((await error()) < 0.02);
+  await page.focus("#slice-move");
+  const at = (await state()).offset;
+  await page.keyboard.press("ArrowLeft");
+  assert.notEqual((await state()).offset, at);
+  await page.waitForFunction(() => /slice=/.test(location.hash));
+});
+
+test("the clipping box cuts", async () => {
+  await page.click("#box summary");
+  assert.ok((await changed(page, () => drag("box-x-high", 55))) > 200);
+  assert.ok((await changed(page, () => drag("box-x-high", 100))) > 200);
+});
+
+test("the surface has no specks: what lies beside each other looks alike", async () => {
+  await page.selectOption("#axis", "z");
+  await drag("slice", 0);
+  await drag("level", 500);
+  const specks = await page.evaluate(() => {
+    for (const id of ["isolines"]) if (document.getElementById(id).checked) document.getElementById(id).click();
+    littoral.volume.slice.visible = false;
+    const bytes = littoral.pixels(), gl = littoral.view.renderer.getContext(), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+    littoral.volume.slice.visible = true;
+    let count = 0;
+    const at = (x, y) => bytes[4 * (x + w * y)];
+    for (let y = 1; y + 1 < h; ++y) for (let x = 1; x + 1 < w; ++x) {
+      const around = [at(x - 1, y), at(x + 1, y), at(x, y - 1), at(x, y + 1)];
+      if (Math.max(...around) - Math.min(...around) < 6 && Math.abs(at(x, y) - around[0]) > 14) ++count;
+    }
+    return count;
+  });
+  assert.equal(specks, 0);
 });
 
 test("labels, no errors, no requests", async () => {

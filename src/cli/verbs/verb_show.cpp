@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "api/space/traced_scene.h"
 #include "api/tet/tet_boundary.h"
@@ -41,14 +42,13 @@ struct TraceArguments {
 };
 
 const std::vector<std::pair<std::string, io::ColourMap>> colour_maps = {
-    {"auto", io::ColourMap::automatic},
-    {"sequential", io::ColourMap::sequential},
-    {"diverging", io::ColourMap::diverging},
-    {"grey", io::ColourMap::grey},
-    {"heat", io::ColourMap::heat}};
+    {"auto", io::ColourMap::automatic},      {"sequential", io::ColourMap::sequential},
+    {"diverging", io::ColourMap::diverging}, {"grey", io::ColourMap::grey},
+    {"heat", io::ColourMap::heat},           {"viridis", io::ColourMap::viridis},
+    {"cividis", io::ColourMap::cividis}};
 
 struct ShowArguments {
-  std::string in, out, field;
+  std::string in, beside, out, field;
   std::vector<std::string> sources;
   io::PictureOptions picture;
   VolumeViewArguments volume;
@@ -89,9 +89,11 @@ void add_style_options(CLI::App& verb, ShowArguments& arguments) {
       ->type_name("AXIS");
   std::vector<std::string> names;
   for (const auto& [name, map] : colour_maps) names.push_back(name);
-  style(verb.add_option("--colour-map", arguments.colour_map,
-                        "sequential, diverging, grey, heat, or auto: diverging where values are "
-                        "negative somewhere [default auto]"))
+  style(verb.add_option(
+            "--colour-map", arguments.colour_map,
+            "sequential, diverging, grey, heat, viridis, cividis, or auto: diverging where "
+            "values are negative somewhere, regions in colours of their own "
+            "[default auto]"))
       ->check(one_of(names))
       ->type_name("NAME");
   style(verb.add_option("--colour-range", arguments.colour_range,
@@ -178,6 +180,7 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
   io::Scene scene =
       io::make_scene(cloud ? cloud_triangles(soup, session.report, session.task()) : soup, field);
   if (!field.empty()) scene.field_name = field;
+  scene.nodes = cloud ? io::SceneNodes::vertices : io::SceneNodes::faces;
   if (!arguments.sources.empty()) {
     const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);
     io::add_sources(scene, mesh, read_all_sources(arguments.sources, mesh, session));
@@ -188,9 +191,12 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
 /// The boundary, which --slice cuts open.
 io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
-  return scene_of(view.position.empty() ? boundary_of(file)
-                                        : cut_open(file, view.axis_number(), view.slice_at()),
-                  arguments, session);
+  io::Scene scene =
+      scene_of(view.position.empty() ? boundary_of(file)
+                                     : cut_open(file, view.axis_number(), view.slice_at()),
+               arguments, session);
+  scene.nodes = io::SceneNodes::none;  // those of the boundary are numbered anew
+  return scene;
 }
 
 io::Scene scene_of(const Volume& volume, const ShowArguments& arguments, Session&) {
@@ -215,6 +221,14 @@ io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) 
   io::Scene scene = read_scene_of(arguments, for_page, session);
   io::describe(scene, title_of(arguments.in), session.report);
   set_style(scene, arguments);
+  if (!arguments.beside.empty()) {
+    ShowArguments other = arguments;
+    other.in = std::exchange(other.beside, "");
+    io::Scene second = read_scene_of(other, for_page, session);
+    second.title = title_of(other.in);
+    set_style(second, other);
+    scene.beside = std::make_shared<const io::Scene>(std::move(second));
+  }
   io::check_scene(scene);
   session.reading = false;
   session.task().checkpoint();
@@ -281,6 +295,9 @@ void add_view(CLI::App& program, Session& session) {
   auto arguments = std::make_shared<ShowArguments>();
   CLI::App& verb = add_show_verb(program, session, arguments, view, "view",
                                  "a page that shows a result in a browser, also offline");
+  verb.add_option("BESIDE", arguments->beside,
+                  "a second result, shown beside the first with the same camera; on the same "
+                  "surface also their difference");
   verb.add_option("-o,--output", arguments->out,
                   "the page: " + io::written_extensions({io::Kind::page}) +
                       "; without it the page is served on 127.0.0.1 until Ctrl-C")

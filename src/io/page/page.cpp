@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -16,6 +17,8 @@ namespace littoral::io {
 namespace {
 
 using nlohmann::json;
+
+constexpr int scene_version = 1;  // viewer/src/scene.ts refuses others
 
 std::string base64(const void* data, std::size_t size) {
   static constexpr char digits[] =
@@ -59,36 +62,59 @@ class Packer {
   std::vector<float> items_;
 };
 
-json field_json(const Scene& scene, const FieldStyle& style) {
-  json field;
-  field["name"] = scene.field_name;
-  field["present"] = style.present;
-  field["diverging"] = style.diverging;
-  field["infinite"] = style.infinite;
-  for (const auto& [key, value] : {std::pair{"low", style.low},
-                                   {"high", style.high},
-                                   {"colourLow", style.colour_low},
-                                   {"colourHigh", style.colour_high},
-                                   {"spacing", style.spacing}}) {
-    field[key] = value;
+// Values as 0..1 between the least and the greatest; infinite ones as +inf.
+std::string values_text(const VecX& values, const FieldStyle& style) {
+  const double half = 0.5 * style.high - 0.5 * style.low;
+  std::vector<float> parts;
+  parts.reserve(static_cast<std::size_t>(values.size()));
+  for (const double value : values) {
+    const double t = half > 0 ? (0.5 * value - 0.5 * style.low) / half : 0;
+    parts.push_back(std::isfinite(value) ? static_cast<float>(std::clamp(t, 0.0, 1.0))
+                                         : std::numeric_limits<float>::infinity());
   }
-  field["levels"] = scene.levels;
-  // The slider's stops: the same choice of spacing that pictures make, from few lines to many.
-  std::vector<double> spacings;
-  for (double count = 2; count < 300; count *= 1.2) {
-    const double step = nice_spacing(style.low, style.high, count);
-    if (step > 0 && (spacings.empty() || step < spacings.back())) spacings.push_back(step);
+  return base64(parts);
+}
+
+json style_json(const std::string& name, const FieldStyle& style) {
+  return {{"name", name},
+          {"at", "vertex"},
+          {"diverging", style.diverging},
+          {"discrete", style.discrete},
+          {"infinite", style.infinite},
+          {"map", colour_map_name(style.map)},
+          {"low", style.low},
+          {"high", style.high},
+          {"colourLow", style.colour_low},
+          {"colourHigh", style.colour_high},
+          {"spacing", style.spacing},
+          {"levels", json::array()}};
+}
+
+std::string weights_text(const VecX& weights) {
+  std::vector<unsigned char> bytes;
+  for (const double w : weights) bytes.push_back(static_cast<unsigned char>(std::lround(255 * w)));
+  return base64(bytes);
+}
+
+json fields_json(const Scene& scene) {
+  json fields = json::array();
+  const FieldStyle style = field_style(scene);
+  if (scene.volume || scene.values.size()) {
+    json field = style_json(scene.field_name, style);
+    field["levels"] = scene.levels;
+    if (!scene.volume) field["values"] = values_text(scene.values, style);
+    if (!scene.volume && scene.weights.size() && (scene.weights.array() != 1).any())
+      field["weights"] = weights_text(scene.weights);
+    fields.push_back(field);
   }
-  field["spacings"] = spacings;
-  field["ticks"] = nice_ticks(style.low, style.high, nice_spacing(style.low, style.high, 7));
-  std::vector<std::string> labels;
-  for (const double tick : field["ticks"].get<std::vector<double>>()) {
-    labels.push_back(label_text(tick));
+  if (scene.volume) return fields;
+  for (const SceneField& more : scene.more) {
+    const FieldStyle other = field_style(scene, more);
+    json field = style_json(more.name, other);
+    field["values"] = values_text(more.values, other);
+    fields.push_back(field);
   }
-  field["labels"] = labels;
-  const auto& map = colour_map(style.map);
-  field["colours"] = base64(map.data(), map.size() * sizeof(Rgb));
-  return field;
+  return fields;
 }
 
 json sources_json(const Scene& scene, const SceneFrame& frame) {
@@ -173,53 +199,82 @@ json trace_json(const SceneTrace& trace, const SceneFrame& frame, const FieldSty
           {"range", style.high / frame.radius - style.low / frame.radius}};
 }
 
-json scene_json(const Scene& all) {
+json surface_json(const Scene& scene, const SceneFrame& frame, SceneNodes nodes) {
+  static_assert(sizeof(int) == sizeof(std::uint32_t));
+  Packer positions(frame);
+  for (Eigen::Index v = 0; v < scene.points.rows(); ++v) positions.add(scene.points.row(v));
+  json surface;
+  surface["positions"] = positions.text();
+  surface["triangles"] = base64(scene.triangles.data(),
+                                static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
+  if (!scene.inner_sides.empty()) surface["innerSides"] = base64(scene.inner_sides);
+  if (!scene.faces.empty()) surface["faces"] = base64(scene.faces);
+  surface["nodes"] = nodes == SceneNodes::faces      ? "faces"
+                     : nodes == SceneNodes::vertices ? "vertices"
+                                                     : "none";
+  return surface;
+}
+
+json pairs_json(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  json list = json::array();
+  for (const auto& [key, value] : pairs) list.push_back({key, value});
+  return list;
+}
+
+// The ball about two frames, seen as the first one is.
+SceneFrame joined(const SceneFrame& a, const SceneFrame& b) {
+  SceneFrame frame = a;
+  const Vec3 across = b.centre - a.centre;
+  const double apart = across.norm();
+  if (apart + b.radius <= a.radius * (1 + 1e-9)) return frame;
+  if (apart + a.radius <= b.radius) {
+    frame.centre = b.centre;
+    frame.radius = b.radius;
+    return frame;
+  }
+  frame.radius = 0.5 * (apart + a.radius + b.radius);
+  frame.centre = a.centre + (frame.radius - a.radius) / apart * across;
+  return frame;
+}
+
+/// What is drawn as triangles, and places the view: of a volume its box.
+Scene drawn_part(const Scene& scene) { return scene.volume ? box_of(scene) : Scene{}; }
+
+json part_json(const Scene& all, const Scene& box, const SceneFrame& frame) {
   const FieldStyle style = field_style(all);
-  const Scene box = all.volume ? box_of(all) : Scene{};
-  const Scene& scene = all.volume ? box : all;
-  const SceneFrame frame = scene_frame(scene);
+  const auto triple = [](const Vec3& v) { return json{v[0], v[1], v[2]}; };
   json page;
   page["title"] = all.title;
-  page["facts"] = json::array();
-  for (const auto& [key, value] : all.facts) page["facts"].push_back({key, value});
-  page["centre"] = {frame.centre[0], frame.centre[1], frame.centre[2]};
-  page["radius"] = frame.radius;
-  page["towardsEye"] = {frame.towards_eye[0], frame.towards_eye[1], frame.towards_eye[2]};
-  page["up"] = {frame.up[0], frame.up[1], frame.up[2]};
-  page["field"] = field_json(all, style);
+  page["facts"] = pairs_json(all.facts);
+  page["options"] = pairs_json(all.options);
+  page["warnings"] = all.warnings;
+  page["frame"] = {{"centre", triple(frame.centre)},
+                   {"radius", frame.radius},
+                   {"towardsEye", triple(frame.towards_eye)},
+                   {"up", triple(frame.up)}};
+  page["surface"] =
+      surface_json(all.volume ? box : all, frame, all.volume ? SceneNodes::none : all.nodes);
+  page["fields"] = fields_json(all);
   page["sources"] = sources_json(all, frame);
   if (all.volume) page["volume"] = volume_json(*all.volume, frame, style);
   if (all.volume && all.trace && all.trace->tori.rows() > 0)
     page["trace"] = trace_json(*all.trace, frame, style);
   page["plainColour"] = plain_colour;
   page["infiniteColour"] = infinite_colour;
+  return page;
+}
 
-  Packer positions(frame);
-  for (Eigen::Index v = 0; v < scene.points.rows(); ++v) positions.add(scene.points.row(v));
-  page["positions"] = positions.text();
-  static_assert(sizeof(int) == sizeof(std::uint32_t));
-  page["triangles"] = base64(scene.triangles.data(),
-                             static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
-  page["innerSides"] = base64(scene.inner_sides);
-  if (style.present && !all.volume) {
-    // Values as 0..1 between the least and the greatest; infinite ones as +inf.
-    const double half = 0.5 * style.high - 0.5 * style.low;
-    std::vector<float> values;
-    values.reserve(static_cast<std::size_t>(scene.values.size()));
-    for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
-      const double value = scene.values[v];
-      const double t = half > 0 ? (0.5 * value - 0.5 * style.low) / half : 0;
-      values.push_back(std::isfinite(value) ? static_cast<float>(std::min(1.0, std::max(0.0, t)))
-                                            : std::numeric_limits<float>::infinity());
-    }
-    page["values"] = base64(values);
-    if (scene.weights.size() && (scene.weights.array() != 1).any()) {
-      std::vector<unsigned char> weights;
-      for (const double w : scene.weights)
-        weights.push_back(static_cast<unsigned char>(std::lround(255 * w)));
-      page["weights"] = base64(weights);
-    }
-  }
+// docs/reference/scene.md
+json scene_json(const Scene& scene) {
+  const Scene box = drawn_part(scene);
+  SceneFrame frame = scene_frame(scene.volume ? box : scene);
+  const Scene* beside = scene.beside.get();
+  const Scene other = beside ? drawn_part(*beside) : Scene{};
+  if (beside) frame = joined(frame, scene_frame(beside->volume ? other : *beside));
+  json page = part_json(scene, box, frame);
+  if (beside) page["beside"] = part_json(*beside, other, frame);
+  page["format"] = "littoral scene";
+  page["version"] = scene_version;
   return page;
 }
 

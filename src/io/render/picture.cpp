@@ -42,7 +42,9 @@ ColourBar plan_bar(const PictureOptions& options, const FieldStyle& style, doubl
   bar.width = 1.4 * bar.text_size;
   bar.top = 0.2 * height;
   bar.bottom = 0.8 * height;
-  bar.ticks = nice_ticks(style.low, style.high, nice_spacing(style.low, style.high, 7));
+  bar.ticks = style.discrete
+                  ? nice_ticks(style.low, style.high, 1)  // the regions
+                  : nice_ticks(style.low, style.high, nice_spacing(style.low, style.high, 7));
   if (bar.ticks.empty()) bar.ticks.push_back(style.low);
   double widest = 0;
   for (const double tick : bar.ticks) {
@@ -53,7 +55,24 @@ ColourBar plan_bar(const PictureOptions& options, const FieldStyle& style, doubl
   return bar;
 }
 
+// Regions: a box of its colour for each number, the least below.
+void draw_regions(Image& image, const ColourBar& bar, const FieldStyle& style) {
+  const auto n = static_cast<double>(bar.ticks.size());
+  const double step = std::min(2 * bar.text_size, (bar.bottom - bar.top) / n);
+  const double middle = 0.5 * (bar.top + bar.bottom), right = bar.left + bar.width;
+  for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
+    const double bottom = middle + (0.5 * n - static_cast<double>(i)) * step;
+    const double top = bottom - 0.8 * step;
+    for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
+      draw_line(image, bar.left, y + 0.5, right, y + 0.5, 1, value_colour(style, bar.ticks[i]));
+    if (step < 1.1 * bar.text_size && i % 4 != 0) continue;
+    draw_number(image, right + 0.8 * bar.text_size, 0.5 * (top + bottom) - 0.5 * bar.text_size,
+                bar.text_size, label_text(bar.ticks[i]), ink);
+  }
+}
+
 void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
+  if (style.discrete) return draw_regions(image, bar, style);
   const double half = 0.5 * style.high - 0.5 * style.low;
   const auto height_of = [&](double value) {
     const double t = half > 0 ? (0.5 * value - 0.5 * style.low) / half : 0.5;
@@ -63,8 +82,7 @@ void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
   for (int y = top; y < bottom; ++y) {
     const double t = (bar.bottom - (y + 0.5)) / (bar.bottom - bar.top);
     const double value = (1 - t) * style.low + t * style.high;
-    const Rgb colour = colour_map(
-        style.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style, value)))];
+    const Rgb colour = value_colour(style, value);
     draw_line(image, bar.left + 1, y + 0.5, bar.left + bar.width - 1, y + 0.5, 1, colour);
   }
   const double right = bar.left + bar.width;

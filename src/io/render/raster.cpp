@@ -62,6 +62,36 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
   return normals;
 }
 
+Eigen::Matrix<double, Eigen::Dynamic, 6> slope_tensors(const MatX3& points, const MatX3i& triangles,
+                                                       const VecX& values, double length_scale) {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> sum;
+  sum.setZero(points.rows(), 6);
+  VecX weight = VecX::Zero(points.rows());
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Vec3 a = points.row(triangles(t, 0));
+    const Vec3 u = (Vec3(points.row(triangles(t, 1))) - a) / length_scale;
+    const Vec3 v = (Vec3(points.row(triangles(t, 2))) - a) / length_scale;
+    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
+    const double area2 = uu * vv - uv * uv;
+    const double p = values[triangles(t, 1)] - values[triangles(t, 0)];
+    const double q = values[triangles(t, 2)] - values[triangles(t, 0)];
+    const double area = u.cross(v).norm();
+    if (!(area > 0)) continue;
+    Vec3 g = Vec3::Zero();
+    if (area2 > 1e-14 * uu * vv && std::isfinite(p) && std::isfinite(q))
+      g = ((vv * p - uv * q) * u + (uu * q - uv * p) * v) / area2;
+    for (int k = 0; k < 3; ++k) {
+      const int i = triangles(t, k);
+      sum.row(i) += area * Eigen::Matrix<double, 1, 6>{{g[0] * g[0], g[1] * g[1], g[2] * g[2],
+                                                        g[0] * g[1], g[0] * g[2], g[1] * g[2]}};
+      weight[i] += area;
+    }
+  }
+  for (Eigen::Index i = 0; i < sum.rows(); ++i)
+    if (weight[i] > 0) sum.row(i) /= weight[i];
+  return sum;
+}
+
 float brightness(const Camera& camera, const Vec3& normal, double x, double y) {
   const Vec3 eye =
       Vec3((camera.cx - x) / camera.focal, (y - camera.cy) / camera.focal, 1).normalized();
@@ -83,6 +113,8 @@ SurfaceRaster::SurfaceRaster(const Scene& scene, const Camera& camera, const Fie
         }
       });
   normals_ = unsigned_normals(scene.points, scene.triangles, camera.radius);
+  if (style.present && !style.discrete)
+    slopes_ = slope_tensors(scene.points, scene.triangles, scene.values, camera.radius);
 
   const int bands = (height + rows - 1) / rows;
   const auto touched = [&](Eigen::Index t) {
@@ -199,9 +231,13 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   const Vec3 normal = camera_.to_eye * smooth.normalized();
   const float lit = brightness(camera_, normal, x, y);
 
-  if (!style_.present) {
-    return as_vector(scene_.values.size() ? infinite_colour : plain_colour) * lit;
-  }
+  const auto unreachable = [&] {  // hatched, so that it is no colour of the map
+    const double stripe = (x - y) / (9 * scale_);
+    const float shade = stripe - std::floor(stripe) < 0.3 ? 0.72f : 1.f;
+    return Eigen::Vector3f(as_vector(infinite_colour) * (lit * shade));
+  };
+  if (!style_.present)
+    return scene_.values.size() ? unreachable() : Eigen::Vector3f(as_vector(plain_colour) * lit);
   // How much the corners count in the field; they count alike in a face without one that does.
   double counts[3] = {1, 1, 1}, total = 0;
   if (scene_.weights.size())
@@ -214,9 +250,9 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   double value = 0;
   for (int k = 0; k < 3; ++k)
     if (counts[k] > 0) value += counts[k] * b[k] / total * scene_.values[v[k]];
-  if (!std::isfinite(value)) return as_vector(infinite_colour) * lit;
-  Eigen::Vector3f colour = as_vector(colour_map(
-      style_.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style_, value)))]);
+  if (!std::isfinite(value)) return unreachable();
+  Eigen::Vector3f colour = as_vector(value_colour(style_, value));
+  if (style_.discrete) return colour * lit;
   // Slope of the value per sample: value = N / D with N = sum c b v, D = sum c b linear in the
   // picture, where corners count c.
   double slope_x = 0, slope_y = 0;
@@ -227,13 +263,51 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
     slope_x -= (c[1] - a[1]) * rest;
     slope_y += (c[0] - a[0]) * rest;
   }
+  double slope = std::hypot(slope_x, slope_y);
+  // Where gradients at vertices are known, the slope is interpolated from them: then it is the same
+  // on both sides of an edge, and lines have no seam there. At creases and corners of weight, the
+  // triangle's.
+  const double part[3] = {b[0] / weight, b[1] / weight, b[2] / weight};
+  double known = 0;
+  for (int k = 0; k < 3; ++k) {
+    known += part[k] * normals_.row(v[k]).squaredNorm();
+    if (counts[k] < 0.999) known = -1e9;
+  }
+  if (known > 0) slope += known * known * (mean_slope(t, part, smooth.normalized(), x, y) - slope);
   bool zero = false;
-  const auto ink = static_cast<float>(line_strength(value, std::hypot(slope_x, slope_y), zero));
+  const auto ink = static_cast<float>(line_strength(value, slope, zero));
   const float luminance = colour.dot(Eigen::Vector3f(0.30f, 0.59f, 0.11f));
   colour *= lit;
   const Eigen::Vector3f line =
       zero || luminance > 90 ? Eigen::Vector3f(18, 20, 28) : Eigen::Vector3f(235, 238, 245);
   return colour + ink * (line - colour);
+}
+
+double SurfaceRaster::mean_slope(int t, const double* part, const Vec3& normal, double x,
+                                 double y) const {
+  Eigen::Matrix<double, 6, 1> m = Eigen::Matrix<double, 6, 1>::Zero();
+  Vec3 place = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int v = scene_.triangles(t, k);
+    m += part[k] * slopes_.row(v).transpose();
+    place += part[k] * scene_.points.row(v).transpose();
+  }
+  // The places of the tangent plane one sample to the right and one down, relative to this one, in
+  // units of the radius.
+  const Vec3 from = (place - camera_.eye()) / camera_.radius;
+  double facing = normal.dot(from);
+  facing = (facing < 0 ? -1 : 1) * std::max(std::abs(facing), 0.08 * from.norm());
+  const double depth = camera_.project(place)[2];
+  const Vec3 here = camera_.unproject(x, y, depth);
+  double sum = 0;
+  for (const Vec3& there :
+       {camera_.unproject(x + 1, y, depth), camera_.unproject(x, y + 1, depth)}) {
+    const Vec3 step = (there - here) / camera_.radius;
+    const Vec3 d = step - from * (normal.dot(step) / facing);
+    sum += m[0] * d[0] * d[0] + m[1] * d[1] * d[1] + m[2] * d[2] * d[2] +
+           2 * (m[3] * d[0] * d[1] + m[4] * d[0] * d[2] + m[5] * d[1] * d[2]);
+  }
+  return std::sqrt(std::max(0.0, sum));
 }
 
 double SurfaceRaster::line_strength(double value, double slope, bool& zero) const {

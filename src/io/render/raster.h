@@ -38,6 +38,7 @@ class SurfaceRaster {
  private:
   void cover(int t, Band& band, std::vector<int>& owner) const;
   Eigen::Vector3f shade(int t, double x, double y) const;
+  double mean_slope(int t, const double* part, const Vec3& normal, double x, double y) const;
   double line_strength(double value, double slope, bool& zero) const;
 
   const Scene& scene_;
@@ -45,8 +46,9 @@ class SurfaceRaster {
   FieldStyle style_;
   std::vector<double> levels_;
   double scale_;
-  MatX3 screen_;   // vertices x 3, see Camera::project
-  MatX3 normals_;  // vertices x 3, either sign
+  MatX3 screen_;                                     // vertices x 3, see Camera::project
+  MatX3 normals_;                                    // vertices x 3, either sign
+  Eigen::Matrix<double, Eigen::Dynamic, 6> slopes_;  // slope_tensors, per radius
   std::vector<int> band_offsets_, band_triangles_;
 };
 
@@ -73,5 +75,12 @@ class MarkRaster {
 /// the sign that agrees with the largest face at the vertex. Unit, or zero where there is no area
 /// and on creases, where faces keep their own normals.
 MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double length_scale);
+
+/// At each vertex the mean of g g^T over its triangles, by area, where g is the gradient of a field
+/// that is linear on them: xx, yy, zz, xy, xz, yz. The slope across a line of the picture is then
+/// the same on both sides of an edge, and opposite gradients do not cancel. Triangles without area
+/// or with a value that is not finite count as 0.
+Eigen::Matrix<double, Eigen::Dynamic, 6> slope_tensors(const MatX3& points, const MatX3i& triangles,
+                                                       const VecX& values, double length_scale);
 
 }  // namespace littoral::io

@@ -11,6 +11,13 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("scene: " + what); }
 
+void check_values(const VecX& values, Eigen::Index n) {
+  if (values.size() != n)
+    refuse(std::to_string(values.size()) + " values for " + std::to_string(n) + " vertices");
+  for (Eigen::Index v = 0; v < n; ++v)
+    if (std::isnan(values[v])) refuse("the value of vertex " + std::to_string(v) + " is NaN");
+}
+
 }  // namespace
 
 Scene make_scene(const PolygonSoup& soup, const std::string& field) {
@@ -21,6 +28,10 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
   if (const auto it = soup.scalars.find("weight"); it != soup.scalars.end() && field != "weight")
     if (scene.values.size() && it->second.minCoeff() >= 0 && it->second.maxCoeff() <= 1)
       scene.weights = it->second;
+  for (const auto& [name, values] : soup.scalars)
+    if (name != field && name != "weight" && values.size() == soup.points.rows() &&
+        !values.hasNaN())
+      scene.more.push_back({name, values});
   Eigen::Index count = 0;
   bool polygons = false;
   for (int f = 0; f < soup.n_faces(); ++f) {
@@ -36,6 +47,7 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
     for (std::size_t k = 2; k < face.size(); ++k, ++t) {
       scene.triangles.row(t) << face[0], face[k - 1], face[k];
       if (!polygons) continue;
+      scene.faces.push_back(f);
       const int first = k > 2 ? 1 : 0, last = k + 1 < face.size() ? 4 : 0;
       scene.inner_sides[static_cast<std::size_t>(t)] = static_cast<unsigned char>(first | last);
     }
@@ -44,6 +56,8 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
 }
 
 void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) {
+  if (scene.points.rows() == mesh.n_vertices())
+    scene.nodes = mesh.n_faces() > 0 ? SceneNodes::faces : SceneNodes::vertices;
   for (const Curve& curve : sources.curves) {
     SceneCurve shown{MatX3(static_cast<Eigen::Index>(curve.nodes.size()), 3), curve.is_signed};
     for (std::size_t i = 0; i < curve.nodes.size(); ++i) {
@@ -71,14 +85,14 @@ void describe(Scene& scene, const std::string& title, const Report& report) {
   for (const auto& [name, size] : report.sizes)
     if (size == std::floor(size)) facts.emplace_back(name, number_text(size));  // counts
   facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
-  facts.insert(facts.end(), report.options.begin(), report.options.end());
   double seconds = 0;
   for (const auto& [stage, time] : report.timings) seconds += time;
   char text[32];
   std::snprintf(text, sizeof text, "%.2f s", seconds);
   facts.emplace_back("time", text);
-  for (const auto& warning : report.warnings) facts.emplace_back("warning", warning);
   scene.facts = std::move(facts);
+  scene.options.insert(scene.options.end(), report.options.begin(), report.options.end());
+  scene.warnings.insert(scene.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
 void check_scene(const Scene& scene) {
@@ -100,12 +114,12 @@ void check_scene(const Scene& scene) {
       static_cast<Eigen::Index>(scene.inner_sides.size()) != scene.triangles.rows()) {
     refuse("inner_sides must have one entry a triangle");
   }
-  if (scene.values.size() != 0 && scene.values.size() != n) {
-    refuse(std::to_string(scene.values.size()) + " values for " + std::to_string(n) + " vertices");
+  if (!scene.faces.empty() &&
+      static_cast<Eigen::Index>(scene.faces.size()) != scene.triangles.rows()) {
+    refuse("faces must have one entry a triangle");
   }
-  for (Eigen::Index v = 0; v < scene.values.size(); ++v) {
-    if (std::isnan(scene.values[v])) refuse("the value of vertex " + std::to_string(v) + " is NaN");
-  }
+  if (scene.values.size() != 0) check_values(scene.values, n);
+  for (const SceneField& field : scene.more) check_values(field.values, n);
   if (scene.weights.size() != 0 && (scene.weights.size() != n || !(scene.weights.minCoeff() >= 0 &&
                                                                    scene.weights.maxCoeff() <= 1)))
     refuse("weights must be between 0 and 1, one a vertex");
@@ -117,6 +131,7 @@ void check_scene(const Scene& scene) {
     if (!std::isfinite(level)) refuse("an isoline level is not finite");
   }
   if (scene.isolines < 0) refuse("the number of isolines is negative");
+  if (scene.beside) check_scene(*scene.beside);
 }
 
 }  // namespace littoral::io

@@ -54,17 +54,29 @@ struct SceneTrace {
 };
 
 /// The colours of values; automatic: sequential, or diverging where values are negative somewhere.
-enum class ColourMap { automatic, sequential, diverging, grey, heat };
+enum class ColourMap { automatic, sequential, diverging, grey, heat, viridis, cividis };
+
+/// A further field of a scene's surface, for pages to choose.
+struct SceneField {
+  std::string name;
+  VecX values;  // as those of the scene
+};
+
+/// What numbers of vertices and faces name: places of the input, its vertices alone, or nothing.
+enum class SceneNodes { none, vertices, faces };
 
 /// Everything on show. All texts are plain UTF-8; pages escape them.
 struct Scene {
   MatX3 points{0, 3};      // vertices x 3; those of triangles must be finite
   MatX3i triangles{0, 3};  // triangles x 3
   std::vector<unsigned char>
-      inner_sides;  // triangles: bit k set if side k is inside a polygon; or empty
-  VecX values;      // vertices, may be infinite, never NaN; or empty: no field
+      inner_sides;         // triangles: bit k set if side k is inside a polygon; or empty
+  std::vector<int> faces;  // triangles: the face each is a part of; or empty: as numbered
+  SceneNodes nodes = SceneNodes::none;
+  VecX values;   // vertices, may be infinite, never NaN; or empty: no field
   VecX weights;  // vertices, 0..1: values are interpolated as sum b w v / sum b w; or empty: all 1
   std::string field_name = "distance";
+  std::vector<SceneField> more;  // further fields
   std::vector<SceneCurve> curves;
   MatX3 source_points{0, 3};   // isolated source points x 3
   std::vector<double> levels;  // isolines at these values; empty: evenly spaced ones
@@ -75,22 +87,26 @@ struct Scene {
   std::shared_ptr<const SceneVolume> volume;  // the triangles are then a slice and a surface
   std::shared_ptr<const SceneTrace> trace;    // beside the triangles
   std::string title;
-  std::vector<std::pair<std::string, std::string>> facts;  // shown as a table
+  std::vector<std::pair<std::string, std::string>> facts, options;  // shown as tables
+  std::vector<std::string> warnings;                                // shown before them
+  std::shared_ptr<const Scene> beside;  // pages show it beside this one, with the same camera
 };
 
 /// A scene of a surface: polygons cut into fans, the soup's scalar `field` as values where it has
-/// one, its scalar "weight" as weights.
+/// one, its scalar "weight" as weights, other scalars without NaN as further fields.
 Scene make_scene(const PolygonSoup& soup, const std::string& field = "distance");
 
 /// Adds the sources of a problem on `mesh`; nodes of one curve are joined by straight segments.
+/// Where the scene shows the vertices of the mesh, its nodes are from then on those of the mesh.
 void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources);
 
-/// The title, and facts about the run that made the scene before and after those it has.
+/// The title, facts about the run that made the scene before and after those it has, its options
+/// and its warnings.
 void describe(Scene& scene, const std::string& title, const Report& report);
 
 /// Throws InputError naming the element if the scene has no triangle, a triangle refers to a vertex
-/// that is missing or not finite, there is not one value per vertex, a value is NaN, or a source,
-/// level or isoline count is not finite or negative.
+/// that is missing or not finite, there is not one value per vertex in each field, a value is NaN,
+/// or a source, level or isoline count is not finite or negative; or for the scene beside it.
 void check_scene(const Scene& scene);
 
 /// Writes one HTML file that shows the scene in a browser, from disk and offline. Throws what

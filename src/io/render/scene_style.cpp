@@ -59,76 +59,142 @@ std::array<Rgb, 256> blend(const std::vector<Stop>& stops) {
 }  // namespace
 
 const std::array<Rgb, 256>& colour_map(ColourMap map) {
-  static const std::array<Rgb, 256> two = blend({{0, 28, 52, 120},
-                                                 {0.22, 52, 118, 190},
-                                                 {0.40, 150, 196, 226},
-                                                 {0.5, 246, 244, 238},
-                                                 {0.60, 246, 196, 138},
-                                                 {0.78, 222, 116, 48},
-                                                 {1, 132, 38, 16}});
-  static const std::array<Rgb, 256> one = blend({{0, 254, 248, 205},
-                                                 {0.25, 168, 219, 170},
-                                                 {0.5, 74, 168, 178},
-                                                 {0.75, 52, 106, 164},
-                                                 {1, 48, 44, 112}});
-  static const std::array<Rgb, 256> grey = blend({{0, 245, 245, 245}, {1, 40, 40, 40}});
-  static const std::array<Rgb, 256> heat = blend({{0, 20, 12, 30},
-                                                  {0.35, 130, 24, 60},
-                                                  {0.65, 226, 92, 32},
-                                                  {0.85, 248, 186, 60},
-                                                  {1, 255, 252, 220}});
+#define MAP(name, ...)                                             \
+  case ColourMap::name: {                                          \
+    static const std::array<Rgb, 256> made = blend({__VA_ARGS__}); \
+    return made;                                                   \
+  }
+#define REGIONS(...)
   switch (map) {
-    case ColourMap::diverging:
-      return two;
-    case ColourMap::grey:
-      return grey;
-    case ColourMap::heat:
-      return heat;
+#include "io/render/colour_maps.inc"
     case ColourMap::automatic:
-    case ColourMap::sequential:
       break;
   }
-  return one;
+#undef MAP
+#undef REGIONS
+  return colour_map(ColourMap::sequential);
 }
 
-FieldStyle field_style(const Scene& scene) {
-  FieldStyle style;
-  if (scene.values.size() == 0) return style;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (Eigen::Index i = 0; i < scene.triangles.size(); ++i) {
-    const double value = scene.values[scene.triangles.data()[i]];
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    } else {
-      style.infinite = true;
-    }
+const char* colour_map_name(ColourMap map) {
+#define MAP(name, ...)  \
+  case ColourMap::name: \
+    return #name;
+#define REGIONS(...)
+  switch (map) {
+#include "io/render/colour_maps.inc"
+    case ColourMap::automatic:
+      break;
   }
-  if (scene.volume) {
-    low = scene.volume->low;
-    high = scene.volume->high;
+#undef MAP
+#undef REGIONS
+  return "sequential";
+}
+
+Rgb region_colour(long number) {
+#define MAP(...)
+#define REGIONS(...) static const std::vector<Stop> regions = {__VA_ARGS__};
+#include "io/render/colour_maps.inc"
+#undef MAP
+#undef REGIONS
+  const auto n = static_cast<long>(regions.size()) - 1;
+  const long i = number == 0 ? 0 : number > 0 ? 1 + (number - 1) % n : n - (-number - 1) % n;
+  const Stop& stop = regions[static_cast<std::size_t>(i)];
+  const auto byte = [](int c) { return static_cast<unsigned char>(c); };
+  return {byte(stop.r), byte(stop.g), byte(stop.b)};
+}
+
+Rgb value_colour(const FieldStyle& style, double value) {
+  if (style.discrete) return region_colour(std::lround(value));
+  return colour_map(
+      style.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style, value)))];
+}
+
+namespace {
+
+// Which values a field takes on the triangles.
+FieldStyle range_of_field(const Scene& scene, const VecX& values) {
+  FieldStyle style;
+  style.low = std::numeric_limits<double>::infinity();
+  style.high = -style.low;
+  if (values.size() == 0) return style;
+  style.discrete = true;
+  for (Eigen::Index i = 0; i < scene.triangles.size(); ++i) {
+    const double value = values[scene.triangles.data()[i]];
+    if (!std::isfinite(value)) {
+      style.infinite = true;
+      continue;
+    }
+    style.low = std::min(style.low, value);
+    style.high = std::max(style.high, value);
+    style.discrete = style.discrete && value == std::rint(value) && std::abs(value) < 1e6;
+  }
+  return style;
+}
+
+// Integers are regions unless they are a distance; one number alone is one only by its name.
+bool are_regions(const FieldStyle& style, const std::string& name) {
+  constexpr double most = 255;
+  if (!style.discrete || style.high - style.low > most) return false;
+  return name == "region" || (style.high > style.low && name != "distance");
+}
+
+void choose_colours(FieldStyle& style, ColourMap wanted) {
+  // A trace of negative values, as a solver leaves around zero, does not make a signed field.
+  const double reach = std::max(std::abs(style.low), std::abs(style.high));
+  style.diverging =
+      wanted == ColourMap::automatic ? style.low < -0.01 * reach : wanted == ColourMap::diverging;
+  style.map = wanted != ColourMap::automatic ? wanted
+              : style.diverging              ? ColourMap::diverging
+                                             : ColourMap::sequential;
+  style.colour_low = style.diverging ? -reach : style.low;
+  style.colour_high = style.diverging ? reach : style.high;
+  if (!style.diverging && style.low < 0.2 * style.high) style.colour_low = std::min(0.0, style.low);
+}
+
+}  // namespace
+
+FieldStyle field_style(const Scene& scene) {
+  FieldStyle style = range_of_field(scene, scene.values);
+  if (scene.values.size() && scene.volume) {
+    style.low = scene.volume->low;
+    style.high = scene.volume->high;
     style.infinite = scene.volume->infinite;
   }
-  if (low > high) return style;
+  const bool infinite = style.infinite;
+  if (style.low > style.high) {
+    style = {};
+    style.infinite = infinite;
+    return style;
+  }
   style.present = true;
-  style.low = low;
-  style.high = high;
-  // A trace of negative values, as a solver leaves around zero, does not make a signed field.
-  const double reach = std::max(std::abs(low), std::abs(high));
-  style.diverging = scene.colour_map == ColourMap::automatic
-                        ? low < -0.01 * reach
-                        : scene.colour_map == ColourMap::diverging;
-  style.map = scene.colour_map != ColourMap::automatic ? scene.colour_map
-              : style.diverging                        ? ColourMap::diverging
-                                                       : ColourMap::sequential;
-  style.colour_low = style.diverging ? -reach : low;
-  style.colour_high = style.diverging ? reach : high;
-  if (!style.diverging && low < 0.2 * high) style.colour_low = std::min(0.0, low);
+  style.discrete = !scene.volume && scene.colour_map == ColourMap::automatic &&
+                   are_regions(style, scene.field_name);
+  choose_colours(style, scene.colour_map);
   if (scene.colour_range) {
     style.colour_low = (*scene.colour_range)[0];
     style.colour_high = (*scene.colour_range)[1];
   }
-  if (scene.levels.empty()) style.spacing = nice_spacing(low, high, scene.isolines);
+  if (scene.levels.empty() && !style.discrete)
+    style.spacing = nice_spacing(style.low, style.high, scene.isolines);
+  return style;
+}
+
+FieldStyle field_style(const Scene& scene, const SceneField& field) {
+  FieldStyle style = range_of_field(scene, field.values);
+  if (style.low > style.high) {
+    FieldStyle none;
+    none.infinite = style.infinite;
+    return none;
+  }
+  style.present = true;
+  style.discrete = are_regions(style, field.name);
+  choose_colours(style, ColourMap::automatic);
+  if (field.name == "confidence") {
+    style.colour_low = 0;
+    style.colour_high = 1;
+  }
+  if (!style.discrete && field.name != "confidence")
+    style.spacing = nice_spacing(style.low, style.high, scene.isolines);
   return style;
 }
 

@@ -37,12 +37,25 @@ struct FieldStyle {
   double low = 0, high = 0;  // least and greatest finite value on the triangles
   double colour_low = 0, colour_high = 0;  // ends of the colour map
   double spacing = 0;                      // of even isolines; 0: none, or explicit levels
+  bool discrete = false;                   // integers that name regions, in colours of their own
 };
 
+/// The style of a scene's field.
 FieldStyle field_style(const Scene& scene);
+/// The style of another field of the same surface.
+FieldStyle field_style(const Scene& scene, const SceneField& field);
 
-/// The colours (256) of a map, from low to high.
+/// The colours (256) of a map, from low to high, as in colour_maps.inc; not of automatic.
 const std::array<Rgb, 256>& colour_map(ColourMap map);
+
+/// The name of a map in colour_maps.inc.
+const char* colour_map_name(ColourMap map);
+
+/// The colour of a region by its number.
+Rgb region_colour(long number);
+
+/// The colour of a finite value.
+Rgb value_colour(const FieldStyle& style, double value);
 
 /// Position of a finite value in the colour map, 0..1.
 double colour_position(const FieldStyle& style, double value);

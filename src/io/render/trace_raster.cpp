@@ -10,10 +10,7 @@ namespace littoral::io {
 TraceRaster::TraceRaster(const Scene& scene, const Camera& camera, const FieldStyle& style,
                          int samples)
     : trace_(scene.trace.get()), camera_(camera), samples_(samples) {
-  const Rgb rgb = trace_ && style.present
-                      ? colour_map(style.map)[static_cast<std::size_t>(
-                            std::lround(255 * colour_position(style, trace_->level)))]
-                      : plain_colour;
+  const Rgb rgb = trace_ && style.present ? value_colour(style, trace_->level) : plain_colour;
   colour_ = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 

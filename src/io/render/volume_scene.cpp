@@ -12,7 +12,7 @@ namespace littoral::io {
 
 namespace {
 
-constexpr int page_nodes = 64;  // along the longest axis
+constexpr int page_nodes = 256;  // along the longest axis
 
 // Every node of fewer, spread over the same box.
 Volume thinned(const Volume& volume) {

@@ -18,7 +18,7 @@ struct VolumeView {
 /// A scene with the slice through the nodes nearest to the position, and the part of the isosurface
 /// at larger coordinates along the axis, on the side of the eye: the slice would hide the rest.
 /// Where values are not all finite there is no isosurface. Pages also get the volume itself, at
-/// most 64 nodes along an axis, to move through. Throws InputError for a grid of fewer than two
+/// most 256 nodes along an axis, to move through. Throws InputError for a grid of fewer than two
 /// nodes along an axis, a position outside the box, or a level that is not finite.
 Scene make_volume_scene(const Volume& volume, const VolumeView& view = {});
 

@@ -1,6 +1,6 @@
 // Sphere tracing of blended tori, as in the library: methods/tori/torus.h, methods/tori/tori.cpp (eq. 5.1 with
 // shifted exponents) and methods/implicit/sphere_trace.cpp, in single precision.
-import { lightFunction } from "./surface.js";
+import { lightFunction } from "./shaders";
 
 /// Of both passes: a rectangle over the whole picture.
 export const screenVertex = `
@@ -27,6 +27,7 @@ uniform vec3 origin, spacing;  // of the grid
 uniform vec3 centre;       // of the octree
 uniform float halfSide;
 uniform vec3 low, high;    // nothing is outside
+uniform vec4 cut;          // nor where cut.xyz . place > cut.w
 uniform float level, steepness, tolerance;
 uniform vec3 eye;
 uniform mat3 rays;         // columns: right, up, ahead, for place in [-1, 1]^2
@@ -141,6 +142,10 @@ void main() {
   vec3 one = (low - eye) / ray, two = (high - eye) / ray;
   vec3 near = min(one, two), far = max(one, two);
   float t = max(max(near.x, near.y), max(near.z, 0.0)), end = min(far.x, min(far.y, far.z));
+  float along = dot(cut.xyz, ray), room = cut.w - dot(cut.xyz, eye);
+  if (along > 0.0) end = min(end, room / along);
+  else if (along < 0.0) t = max(t, room / along);
+  else if (room < 0.0) return;
   if (!(t < end)) return;
   float here = field(eye + t * ray) - level;
   bool hit = false;
@@ -185,7 +190,7 @@ uniform mat4 view, toScreen;
 void main() {
   ivec2 size = textureSize(hits, 0);
   vec4 hit = texelFetch(hits, min(ivec2((0.5 * place + 0.5) * vec2(size)), size - 1), 0);
-  if (hit.x < 0.0) discard;
+  if (!(hit.x > 0.0)) discard;  // nothing there, or not traced yet
   vec3 x = eye + hit.x * normalize(rays[0] * place.x + rays[1] * place.y + rays[2]);
   vec3 seen = (view * vec4(x, 1.0)).xyz, n = mat3(view) * hit.yzw;
   if (dot(n, seen) > 0.0) n = -n;

@@ -1,9 +1,12 @@
 // Sources: tubes (dashed where unsigned), arrow heads along signed curves, spheres at points.
 import * as THREE from "three";
+import type { SourceMarks } from "./scene";
+
+type Place = (i: number, matrix: THREE.Matrix4) => void;
 
 const up = new THREE.Vector3(0, 1, 0);
 
-function instances(geometry, material, count, place) {
+function instances(geometry: THREE.BufferGeometry, material: THREE.Material, count: number, place: Place) {
   const mesh = new THREE.InstancedMesh(geometry, material, count);
   const matrix = new THREE.Matrix4();
   for (let i = 0; i < count; ++i) {
@@ -15,7 +18,7 @@ function instances(geometry, material, count, place) {
 }
 
 // A shape of unit height along y, from a to b, `radius` thick.
-function between(a, b, radius, matrix) {
+function between(a: THREE.Vector3, b: THREE.Vector3, radius: number, matrix: THREE.Matrix4) {
   const along = new THREE.Vector3().subVectors(b, a);
   const length = along.length() || 1e-9;
   const turn = new THREE.Quaternion().setFromUnitVectors(up, along.divideScalar(length));
@@ -23,16 +26,17 @@ function between(a, b, radius, matrix) {
   matrix.compose(middle, turn, new THREE.Vector3(radius, length, radius));
 }
 
-export function makeSources(sources) {
+/** Tubes, arrow heads and spheres where sources are. */
+export function makeSources(sources: SourceMarks): THREE.Group {
   const group = new THREE.Group();
-  const at = (array, i) => new THREE.Vector3(array[3 * i], array[3 * i + 1], array[3 * i + 2]);
-  const colour = (bytes) => new THREE.Color(`rgb(${bytes.join(",")})`);
-  const material = (bytes) => new THREE.MeshLambertMaterial({ color: colour(bytes), emissive: colour(bytes), emissiveIntensity: 0.35 });
+  const at = (array: Float32Array, i: number) => new THREE.Vector3(array[3 * i], array[3 * i + 1], array[3 * i + 2]);
+  const colour = (bytes: number[]) => new THREE.Color(`rgb(${bytes.join(",")})`);
+  const material = (bytes: number[]) => new THREE.MeshLambertMaterial({ color: colour(bytes), emissive: colour(bytes), emissiveIntensity: 0.35 });
   const tube = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true);
   const ball = new THREE.SphereGeometry(1, 12, 8);
   const cone = new THREE.ConeGeometry(1, 1, 16);
   const radius = 0.0055;
-  const strokes = (array, paint) => {
+  const strokes = (array: Float32Array, paint: THREE.Material) => {
     const count = array.length / 6;
     if (!count) return;
     group.add(instances(tube, paint, count, (i, m) => between(at(array, 2 * i), at(array, 2 * i + 1), radius, m)));

@@ -5,19 +5,26 @@ export const width = 2048;  // texels in a row of the textures below
 
 const candidates = 96, deepest = 10, blended = 12;
 
+export interface ToriTree {
+  centre: number[];
+  half: number;
+  nodes: Int32Array<ArrayBuffer>;
+  lists: Uint32Array<ArrayBuffer>;
+}
+
 /// points: 16 numbers a torus, the first four its point and spacing. The root is a cube around the
 /// box. nodes: two integers a node: first child and -1; or, of a leaf, where its list begins in
 /// `lists` and how long it is, 0 where the sampled field serves. Lists are sorted by distance from
 /// the leaf's centre and hold every torus that is among the 12 nearest anywhere in the leaf, but at
 /// most 96.
-export function makeTree(tori, low, high) {
+export function makeTree(tori: Float32Array, low: number[], high: number[]): ToriTree {
   const count = tori.length / 16;
   const half = Math.max(...low.map((x, a) => high[a] - x)) / 2 * 1.001;
   const centre = low.map((x, a) => (x + high[a]) / 2);
-  const nodes = [0, 0], lists = [];
+  const nodes = [0, 0], lists: number[] = [];
   const everyone = new Uint32Array(count).map((_, i) => i);
 
-  function fill(node, c, h, from, depth) {
+  function fill(node: number, c: number[], h: number, from: Uint32Array, depth: number): void {
     const r = h * Math.sqrt(3), distance = new Float32Array(from.length);
     let first = Infinity, nearest = 0;
     for (let i = 0; i < from.length; ++i) {
@@ -57,7 +64,7 @@ export function makeTree(tori, low, high) {
 }
 
 /// The k-th smallest (from 0) of some numbers, which stay as they are.
-export function kth(numbers, k) {
+export function kth(numbers: Float32Array, k: number): number {
   const a = numbers.slice();
   for (let low = 0, high = a.length - 1; low < high;) {
     const pivot = a[(low + high) >> 1];

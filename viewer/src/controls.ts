@@ -1,0 +1,242 @@
+// The panel's controls of what every result has: field, colours, lines, range, what is shown, theme.
+import type { Address } from "./address";
+import { mapNames } from "./colours";
+import { drawNumbers } from "./drawings";
+import { element, fillSelect, input, say, select } from "./elements";
+import { Legend } from "./legend";
+import { between, numberText, spacings } from "./numbers";
+import type { Insets } from "./camera";
+import type { Field } from "./scene";
+import type { ResultView } from "./view";
+
+export class Controls {
+  readonly legend = new Legend(element<HTMLCanvasElement>("legend"));
+  spacing = 0;
+  private merged: Field | null = null;  // the range of all panes
+  private steps: number[] = [];
+  private map = "";
+  private range: [number, number] = [0, 0];
+  private histogram: Float64Array | null = null;
+  private numbersTimer = 0;
+  private readonly numbers = element<HTMLCanvasElement>("numbers");
+
+  constructor(private readonly view: ResultView, private readonly address: Address, private readonly fit: () => void) {
+    const names = view.panes[0].choices.map((choice) => choice.name);
+    fillSelect(select("field"), names);
+    element("field-row").hidden = names.length < 2;
+    fillSelect(select("map"), mapNames);
+    select("field").addEventListener("change", () => this.useField(true));
+    select("map").addEventListener("change", () => {
+      this.map = select("map").value;
+      address.set("map", this.map === this.merged?.map ? null : this.map);
+      this.useColours();
+    });
+    input("spacing").addEventListener("input", () => {
+      this.spacing = this.steps[Number(input("spacing").value)] ?? 0;
+      address.set("spacing", this.spacing);
+      this.useLines();
+    });
+    for (const [id, act] of Object.entries(this.toggles)) {
+      const written = address.number(id);
+      if (written !== null) input(id).checked = written === 1;
+      const initially = input(id).defaultChecked;
+      input(id).addEventListener("change", () => {
+        const usual = id !== "isolines" && input(id).checked === initially;
+        address.set(id, usual ? null : input(id).checked ? 1 : 0);
+        act();
+      });
+    }
+    this.legend.onRange = (low, high) => this.useRange(low, high, true);
+    for (const id of ["range-low", "range-high"]) input(id).addEventListener("change", () => {
+      const read = (name: string, otherwise: number) => {
+        const x = Number(input(name).value.replace(",", "."));
+        return input(name).value.trim() !== "" && Number.isFinite(x) ? x : otherwise;
+      };
+      this.useRange(read("range-low", this.merged?.low ?? 0), read("range-high", this.merged?.high ?? 0), true);
+    });
+    element("wireframe-row").hidden = view.panes.every((pane) => !pane.surface);
+    element("sources-row").hidden = view.panes.every((pane) => pane.sources.children.length === 0);
+    const theme = select("theme"), dark = window.matchMedia("(prefers-color-scheme: dark)");
+    theme.value = address.get("theme") ?? "";
+    if (!["", "light", "dark"].includes(theme.value)) theme.value = "";
+    theme.addEventListener("change", () => {
+      address.set("theme", theme.value || null);
+      this.useTheme();
+    });
+    dark.addEventListener("change", () => this.useTheme());
+  }
+
+  private readonly toggles: Record<string, () => void> = {
+    isolines: () => this.useLines(),
+    labels: () => this.useLines(),
+    sources: () => this.useShown(),
+    wireframe: () => this.useShown(),
+    flat: () => this.useShown(),
+  };
+
+  /** Turns a check box over, as a key does. */
+  toggle(id: string): void {
+    const box = input(id);
+    if (box.closest("[hidden]") || box.disabled) return;
+    box.click();
+    say(`${box.parentElement?.textContent?.trim() ?? id} ${box.checked ? "shown" : "hidden"}`);
+  }
+
+  start(): void {
+    const name = this.address.get("field"), index = this.view.panes[0].choices.findIndex((choice) => choice.name === name);
+    if (index > 0) select("field").selectedIndex = index;
+    const written = { map: this.address.get("map"), spacing: this.address.number("spacing"), range: this.address.get("range") };
+    this.useField(false);
+    if (written.map && mapNames.includes(written.map)) {
+      this.map = select("map").value = written.map;
+      this.useColours();
+    }
+    if (written.spacing !== null && this.steps.length) {
+      const near = this.steps.reduce((best, step, i) => (Math.abs(step - (written.spacing ?? 0)) < Math.abs(this.steps[best] - (written.spacing ?? 0)) ? i : best), 0);
+      input("spacing").value = String(near);
+      this.spacing = this.steps[near];
+      this.useLines();
+    }
+    const range = written.range?.split(",").map(Number);
+    if (range?.length === 2 && range.every(Number.isFinite)) this.useRange(range[0], range[1], true);
+    this.useShown();
+    this.useTheme();
+  }
+
+  private useField(write: boolean): void {
+    const index = Math.max(0, select("field").selectedIndex), name = this.view.panes[0].choices[index]?.name;
+    this.view.panes.forEach((pane, i) => {
+      const own = i === 0 ? index : pane.choices.findIndex((choice) => choice.name === name);
+      pane.setField(own >= 0 ? own : 0);
+    });
+    const fields = this.view.panes.map((pane) => pane.field).filter((field): field is Field => field !== null && field.high >= field.low);
+    if (write) {
+      this.address.set("field", index === 0 ? null : name ?? null);
+      for (const key of ["map", "spacing", "range"]) this.address.set(key, null);
+    }
+    const first = fields[0] ?? null;
+    this.merged = first && {
+      ...first,
+      low: Math.min(...fields.map((f) => f.low)), high: Math.max(...fields.map((f) => f.high)),
+      colourLow: Math.min(...fields.map((f) => f.colourLow)), colourHigh: Math.max(...fields.map((f) => f.colourHigh)),
+      infinite: fields.some((f) => f.infinite),
+    };
+    const field = this.merged, varies = field !== null && field.high > field.low && !field.discrete;
+    element("legend").hidden = field === null;
+    element("map-row").hidden = element("range-row").hidden = !varies;
+    element("isolines-row").hidden = !varies || field.at === "face";
+    element("labels-row").hidden = element("isolines-row").hidden;
+    if (!field) return this.fit();
+    this.histogram = this.view.panes[0].histogram(field.discrete ? Math.round(field.high - field.low) + 1 : 48, field.low, field.high);
+    this.map = select("map").value = field.map;
+    this.steps = field.levels.length ? [] : spacings(field.low, field.high);
+    input("spacing").hidden = element("spacing-text").hidden = this.steps.length === 0;
+    input("spacing").max = String(Math.max(0, this.steps.length - 1));
+    const near = this.steps.findIndex((step) => step <= field.spacing * (1 + 1e-9));
+    input("spacing").value = String(Math.max(0, near));
+    this.spacing = this.steps[Math.max(0, near)] ?? 0;
+    const written = this.address.number("isolines");  // what was asked for, or what suits the field
+    input("isolines").checked = written === null ? field.spacing > 0 || field.levels.length > 0 : written === 1;
+    this.useRange(field.low, field.high, false);
+    this.useColours();
+    this.useLines();
+    this.fit();
+  }
+
+  private useColours(): void {
+    const field = this.merged;
+    if (!field) return;
+    for (const pane of this.view.panes) {
+      pane.look.setColours(this.map, field.colourLow, field.colourHigh);
+      pane.volume?.tracer?.recolour(pane.volume.level);
+    }
+    this.drawLegend();
+    this.view.ask();
+  }
+
+  private useLines(): void {
+    const shown = input("isolines").checked;
+    for (const pane of this.view.panes) {
+      pane.look.setSpacing(this.steps.length ? this.spacing : 0);
+      pane.look.uniforms.showLines.value = shown;
+    }
+    input("spacing").disabled = input("labels").disabled = !shown;
+    element("spacing-text").textContent = this.spacing > 0 && shown ? `every ${numberText(this.spacing)}` : "";
+    input("spacing").setAttribute("aria-valuetext", `one line every ${numberText(this.spacing)}`);
+    this.view.ask();
+    this.afterFrame();
+  }
+
+  private useRange(low: number, high: number, write: boolean): void {
+    const field = this.merged;
+    if (!field) return;
+    this.range = low <= high ? [Math.max(low, field.low), Math.min(high, field.high)] : [field.low, field.high];
+    if (!(this.range[0] <= this.range[1])) this.range = [field.low, field.high];
+    for (const pane of this.view.panes) pane.look.setRange(...this.range);
+    const round = (x: number, whole: boolean) => (whole ? x : Number(x.toPrecision(5)));
+    input("range-low").value = numberText(round(this.range[0], this.range[0] === field.low));
+    input("range-high").value = numberText(round(this.range[1], this.range[1] === field.high));
+    const whole = this.range[0] === field.low && this.range[1] === field.high;
+    if (write) this.address.set("range", whole ? null : this.range.map((x) => Number(x.toPrecision(6))).join(","));
+    this.drawLegend();
+    this.view.ask();
+  }
+
+  private useShown(): void {
+    for (const pane of this.view.panes) {
+      pane.sources.visible = input("sources").checked;
+      pane.showWires(input("wireframe").checked);
+      pane.look.uniforms.flatShading.value = input("flat").checked;
+    }
+    this.view.ask();
+  }
+
+  private useTheme(): void {
+    const dark = select("theme").value ? select("theme").value === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches;
+    document.documentElement.dataset.theme = dark ? "dark" : "light";
+    this.view.setPaper(getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
+    this.drawLegend();
+  }
+
+  /** Draws the legend and says how much of the stage it covers. */
+  drawLegend(): Insets {
+    const canvas = this.legend.canvas, stage = element("stage"), across = window.matchMedia("(max-width: 700px)").matches;
+    canvas.classList.toggle("across", across);
+    if (!this.merged || canvas.hidden) return { right: 0, bottom: 0 };
+    const size = { width: stage.clientWidth, height: stage.clientHeight };
+    this.legend.draw({
+      field: this.merged, map: this.map || this.merged.map, colourLow: this.merged.colourLow, colourHigh: this.merged.colourHigh,
+      range: this.range, histogram: this.histogram, infiniteColour: this.view.scene.infiniteColour,
+    }, size, Math.min(window.devicePixelRatio || 1, 2), across);
+    if (this.view.panes.length > 1) return { right: across ? 0 : 0, bottom: across ? canvas.offsetHeight : 0 };
+    return across ? { right: 0, bottom: canvas.offsetHeight } : { right: canvas.offsetWidth + 20, bottom: 0 };
+  }
+
+  /** Numbers on lines: gone while the view moves, there once it rests. */
+  afterFrame(): void {
+    window.clearTimeout(this.numbersTimer);
+    const wanted = input("labels").checked && input("isolines").checked && !element("labels-row").hidden;
+    if (this.numbers.width > 1) this.numbers.width = 1;
+    this.written = 0;
+    if (wanted) this.numbersTimer = window.setTimeout(() => this.writeNumbers(), 120);
+  }
+
+  /** How many numbers are on lines now. */
+  written = 0;
+
+  private writeNumbers(): void {
+    const { clientWidth, clientHeight } = element("stage"), ratio = Math.min(window.devicePixelRatio || 1, 2);
+    this.numbers.width = Math.round(clientWidth * ratio);
+    this.numbers.height = Math.round(clientHeight * ratio);
+    const context = this.numbers.getContext("2d");
+    if (!context) return;
+    context.scale(ratio, ratio);
+    const style = { spacing: this.spacing, ink: "#000", paper: "#fff" };
+    this.written = this.view.panes.reduce((sum, _, i) => sum + drawNumbers(context, this.view, i, (i * clientWidth) / this.view.panes.length, style), 0);
+  }
+
+  /** The value of the field at a part of its range, for tests and saving. */
+  valueAt(t: number): number {
+    return this.merged ? between(this.merged.low, this.merged.high, t) : NaN;
+  }
+}

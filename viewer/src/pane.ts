@@ -1,0 +1,134 @@
+// One result: what is drawn of it, and its fields.
+import * as THREE from "three";
+import { cornerReader, differenceField, gradientField, histogram } from "./field";
+import { isolines, type LevelSegments } from "./isolines";
+import { Look } from "./look";
+import { between, niceTicks } from "./numbers";
+import type { Field, SceneData, Surface } from "./scene";
+import { makeSources } from "./sources";
+import { SurfaceView } from "./surface";
+import { Tracer } from "./tracer";
+import { VolumeView } from "./volume";
+
+export interface FieldChoice {
+  name: string;
+  make(): Field;
+}
+
+/** Are two surfaces the same, place by place? */
+export function sameSurface(a: Surface, b: Surface): boolean {
+  if (a.positions.length !== b.positions.length || a.triangles.length !== b.triangles.length) return false;
+  for (let i = 0; i < a.triangles.length; ++i) if (a.triangles[i] !== b.triangles[i]) return false;
+  for (let i = 0; i < a.positions.length; ++i) if (Math.abs(a.positions[i] - b.positions[i]) > 1e-5) return false;
+  return true;
+}
+
+export class Pane {
+  readonly world = new THREE.Scene();
+  readonly look: Look;
+  readonly surface: SurfaceView | null = null;
+  readonly volume: VolumeView | null = null;
+  readonly tracer: Tracer | null = null;
+  readonly sources: THREE.Group;
+  readonly choices: FieldChoice[] = [];
+  private readonly made = new Map<string, Field>();
+  private wires: THREE.Object3D | null = null;
+  field: Field | null = null;
+
+  constructor(readonly scene: SceneData, renderer: THREE.WebGLRenderer, changed: () => void) {
+    this.look = new Look(scene.plainColour, scene.infiniteColour);
+    this.sources = makeSources(scene.sources);
+    for (const field of scene.fields) this.choices.push({ name: field.name, make: () => field });
+    if (scene.volume) {
+      this.tracer = Tracer.make(scene, renderer, this.look);
+      this.volume = new VolumeView(scene.volume, this.look, this.tracer, changed);
+      this.world.add(this.volume.group, this.sources);
+    } else {
+      this.surface = new SurfaceView(scene.surface, this.look);
+      this.world.add(this.surface.mesh, this.sources);
+      this.addMade();
+    }
+    // Nothing but infinity: the whole surface is unreachable.
+    this.setField(0);
+  }
+
+  private addMade(): void {
+    const { fields, beside, surface, radius } = this.scene;
+    const first = fields.find((field) => field.values && !field.discrete && field.at !== "face" && field.high > field.low);
+    if (first && /dist/i.test(first.name) && !first.weights)
+      this.choices.push({ name: `|∇ ${first.name}| − 1`, make: () => gradientField(first, surface, radius) });
+    if (!beside || !sameSurface(surface, beside.surface)) return;
+    for (const field of fields) {
+      const other = beside.fields.find((f) => f.name === field.name);
+      const made = other && differenceField(field, other);
+      if (made) this.choices.push({ name: "difference", make: () => ({ ...made, name: `difference of ${field.name}` }) });
+      if (made) return;
+    }
+  }
+
+  setField(index: number): void {
+    const choice = this.choices[index];
+    if (!choice) {
+      this.field = null;
+      this.surface?.setField(null);
+      return;
+    }
+    let field = this.made.get(choice.name);
+    if (!field) this.made.set(choice.name, (field = choice.make()));
+    this.field = field;
+    if (this.surface) this.surface.setField(field);
+    else this.look.setField(field);
+    this.volume?.tracer?.recolour(this.volume.level);
+  }
+
+  showWires(shown: boolean): void {
+    if (shown && !this.wires && this.surface) {
+      this.wires = this.surface.wireframe();
+      this.world.add(this.wires);
+    }
+    if (this.wires) this.wires.visible = shown;
+  }
+
+  /** Runs something with only surfaces in sight. */
+  bare(act: () => void): void {
+    const { sources, wires, tracer } = this, shown = [sources.visible, wires?.visible ?? false, tracer?.mesh.visible ?? false];
+    sources.visible = false;
+    if (wires) wires.visible = false;
+    if (tracer) tracer.mesh.visible = false;
+    act();
+    sources.visible = shown[0];
+    if (wires) wires.visible = shown[1];
+    if (tracer) tracer.mesh.visible = shown[2];
+  }
+
+  histogram(bins: number, low: number, high: number): Float64Array | null {
+    const { field, volume } = this;
+    if (!field) return null;
+    if (this.surface && field.values) return histogram(field, this.scene.surface, bins, low, high);
+    if (!volume || !(high > low)) return null;
+    const out = new Float64Array(bins), { values } = volume.volume;
+    for (let i = 0; i < values.length; ++i)
+      if (Number.isFinite(values[i])) out[Math.min(bins - 1, Math.floor(values[i] * bins))] += 1 / values.length;
+    return out;
+  }
+
+  /** The isolines that are shown with a spacing, on the surface or the slice. */
+  lines(spacing: number): LevelSegments[] {
+    const { field } = this;
+    if (!field || field.discrete) return [];
+    const levels = field.levels.length ? [...field.levels].sort((a, b) => a - b) : niceTicks(field.low, field.high, spacing);
+    const value = (t: number) => (Number.isFinite(t) ? between(field.low, field.high, t) : t);
+    if (this.volume) {
+      const g = this.volume.slice.geometry, triangles = g.getIndex()?.array ?? [], t = g.getAttribute("t").array;
+      return isolines({ positions: g.getAttribute("position").array, triangles, corner: (i, k) => value(t[triangles[3 * i + k]]) }, levels);
+    }
+    const read = cornerReader(field, this.scene.surface), { positions, triangles } = this.scene.surface;
+    return isolines({ positions, triangles, corner: (i, k) => value(read(i, k)) }, levels);
+  }
+
+  dispose(): void {
+    this.surface?.dispose();
+    this.volume?.dispose();
+    this.look.dispose();
+  }
+}

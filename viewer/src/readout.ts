@@ -1,0 +1,99 @@
+// What is under the cursor, and what a click pins and copies.
+import { element, say } from "./elements";
+import { numberText } from "./numbers";
+import type { Picked, ResultView } from "./view";
+
+export class Readout {
+  private pointer: { x: number; y: number } | null = null;
+  private pinned: Picked | null = null;
+  private readonly box = element("readout");
+  private readonly pin = element("pin");
+
+  constructor(private readonly view: ResultView, private readonly stage: HTMLElement) {
+    const { canvas } = view;
+    let down: { x: number; y: number } | null = null;
+    const place = (event: PointerEvent) => {
+      const at = canvas.getBoundingClientRect();
+      return { x: event.clientX - at.left, y: event.clientY - at.top };
+    };
+    canvas.addEventListener("pointermove", (event) => {
+      this.pointer = event.buttons ? null : place(event);
+      requestAnimationFrame(() => this.update());
+    });
+    canvas.addEventListener("pointerleave", () => {
+      this.pointer = null;
+      this.box.hidden = true;
+    });
+    canvas.addEventListener("pointerdown", (event) => { down = event.isPrimary && event.button === 0 ? place(event) : null; });
+    canvas.addEventListener("pointerup", (event) => {
+      const at = place(event);
+      if (down && Math.hypot(at.x - down.x, at.y - down.y) < 4) this.pinAt(at.x, at.y);
+      down = null;
+    });
+    element("pin-close").addEventListener("click", () => this.unpin());
+  }
+
+  /** In words: value, place, and the node. */
+  describe(picked: Picked): string {
+    const field = this.view.panes[picked.pane].field, lines: string[] = [];
+    if (field && picked.value !== null) {
+      const label = field.discrete ? field.labels.get(picked.value) : undefined;
+      lines.push(`${field.name} ${label ?? (picked.value === Infinity ? "unreachable" : numberText(picked.value))}`);
+    }
+    lines.push(picked.place.map((x) => numberText(x)).join("  "));
+    if (picked.node) lines.push(picked.node);
+    return lines.join("\n");
+  }
+
+  valueText(picked: Picked): string {
+    return this.describe(picked).split("\n")[0];
+  }
+
+  pinAt(x: number, y: number): void {
+    const picked = this.view.pick(x, y);
+    if (!picked) {
+      this.unpin();
+      return;
+    }
+    this.pinned = picked;
+    const text = this.describe(picked);
+    element("pin-text").textContent = text;
+    this.pin.hidden = false;
+    this.place();
+    const copied = picked.node ?? text;
+    say(`Pinned: ${text}`);
+    void navigator.clipboard?.writeText(copied).then(
+      () => {
+        if (this.pinned === picked && picked.node) element("pin-text").textContent = `${text}  (copied)`;
+      },
+      () => undefined,  // where copying is forbidden, the text is there to read
+    );
+  }
+
+  unpin(): void {
+    this.pinned = null;
+    this.pin.hidden = true;
+  }
+
+  get pinnedNow(): Picked | null {
+    return this.pinned;
+  }
+
+  /** After a frame: the read-out at the cursor, the pin at its place. */
+  update(): void {
+    this.place();
+    const at = this.pointer, picked = at ? this.view.pick(at.x, at.y) : null;
+    this.box.hidden = !picked;
+    if (!at || !picked) return;
+    this.box.textContent = this.valueText(picked);
+    this.box.style.left = `${Math.min(at.x, this.stage.clientWidth - this.box.offsetWidth - 20)}px`;
+    this.box.style.top = `${Math.min(at.y, this.stage.clientHeight - 44)}px`;
+  }
+
+  private place(): void {
+    if (!this.pinned) return;
+    const at = this.view.project(this.pinned.spot, this.pinned.pane);
+    this.pin.style.left = `${at.x}px`;
+    this.pin.style.top = `${at.y}px`;
+  }
+}

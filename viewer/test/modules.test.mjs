@@ -1,0 +1,135 @@
+// What needs no browser: numbers, colours, fields, meshes, rays, isosurfaces, scenes.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { base64, field, load, scene, square, torus } from "./scenes.mjs";
+
+const [numbers, colours, fields, mesh, pick, march, lines, scenes] = await Promise.all(
+  ["numbers.ts", "colours.ts", "field.ts", "mesh.ts", "pick.ts", "march.ts", "isolines.ts", "scene.ts"].map(load));
+
+const surfaceOf = ({ positions, triangles }) => ({
+  positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles), innerSides: null, faces: null, nodes: "faces",
+});
+
+test("spacing and ticks are the library's", () => {
+  assert.equal(numbers.niceSpacing(0, 1, 10), 0.1);
+  assert.equal(numbers.niceSpacing(-3, 3, 20), 0.25);
+  assert.equal(numbers.niceSpacing(1, 1, 10), 0);
+  assert.deepEqual(numbers.niceTicks(-0.5, 1, 0.5), [-0.5, 0, 0.5, 1]);
+  assert.equal(numbers.numberText(0.1 + 0.2), "0.3");
+  assert.equal(numbers.numberText(Infinity), "infinite");
+  assert.equal(numbers.numberText(1.5e-7), "1.5e-7");
+});
+
+test("sequential maps get steadily lighter or darker, regions have colours of their own", () => {
+  for (const name of colours.mapNames.filter((n) => n !== "diverging")) {
+    const map = colours.colourMap(name), light = Array.from({ length: 256 }, (_, i) => colours.lightness(map.slice(3 * i, 3 * i + 3)));
+    const way = Math.sign(light[255] - light[0]);
+    assert.ok(Math.abs(light[255] - light[0]) > 0.5, name);
+    for (let i = 8; i < 256; i += 8) assert.ok(way * (light[i] - light[i - 8]) > 0, `${name} at ${i}`);
+  }
+  assert.equal(new Set([-4, -3, -2, -1, 0, 1, 2, 3, 4].map((n) => String(colours.regionColour(n)))).size, 9);
+});
+
+test("values inside triangles: linear, weighted, quadratic", () => {
+  const surface = surfaceOf(square(2));
+  const linear = fields.makeField({ name: "f", values: Array.from({ length: 9 }, (_, v) => surface.positions[3 * v]) });
+  assert.ok(Math.abs(fields.valueAt(linear, surface, 0, [1 / 3, 1 / 3, 1 / 3]) - (-1 - 0 + 0) / 3) < 1e-6);
+  // x^2 on P2 triangles is exact everywhere.
+  const p2 = [];
+  for (let t = 0; t < surface.triangles.length / 3; ++t) {
+    const x = [0, 1, 2].map((k) => surface.positions[3 * surface.triangles[3 * t + k]]);
+    p2.push(...x.map((c) => c * c), ...[0, 1, 2].map((k) => ((x[(k + 1) % 3] + x[(k + 2) % 3]) / 2) ** 2));
+  }
+  const quadratic = fields.makeField({ name: "q", values: p2, at: "p2" });
+  for (const b of [[0.2, 0.3, 0.5], [0.7, 0.2, 0.1]]) {
+    const x = b.reduce((sum, w, k) => sum + w * surface.positions[3 * surface.triangles[3 + k]], 0);
+    assert.ok(Math.abs(fields.valueAt(quadratic, surface, 1, b) - x * x) < 1e-6);
+  }
+  const weighted = { ...linear, weights: Uint8Array.from([255, 0, 255, 255, 255, 255, 255, 255, 255]) };
+  assert.ok(Math.abs(fields.valueAt(weighted, surface, 0, [0.01, 0.99, 0]) - -1) < 1e-6, "a corner without weight does not count");
+});
+
+test("| grad | - 1 of a distance is 0, of twice a distance 1; differences are exact", () => {
+  const surface = surfaceOf(square(4)), x = Array.from({ length: 25 }, (_, v) => 3 * surface.positions[3 * v]);
+  const one = fields.makeField({ name: "distance", values: x }), two = fields.makeField({ name: "distance", values: x.map((c) => 2 * c) });
+  const of = (f) => fields.gradientField(f, surface, 3);  // the page's unit is 3 of the field's
+  assert.ok(Math.abs(fields.valueAt(of(one), surface, 5, [1, 0, 0])) < 1e-5);
+  assert.ok(Math.abs(fields.valueAt(of(two), surface, 5, [1, 0, 0]) - 1) < 1e-5);
+  const difference = fields.differenceField(two, one);
+  assert.ok(Math.abs(fields.valueAt(difference, surface, 0, [0, 1, 0]) - x[1]) < 1e-5);
+  const shares = fields.histogram(one, surface, 4);
+  assert.ok(Math.abs(shares.reduce((a, b) => a + b) - 1) < 1e-9);
+});
+
+test("slopes at vertices: exact for linear fields, not cancelled where a field turns", () => {
+  const surface = surfaceOf(square(6)), { positions, triangles } = surface;
+  const tensor = (f) => mesh.slopeTensors(positions, triangles, mesh.gradients(positions, triangles, (t, k) => f(3 * triangles[3 * t + k])));
+  const linear = tensor((v) => positions[v] + 2 * positions[v + 1]), kink = tensor((v) => Math.abs(positions[v]));
+  for (let v = 0; v < 49; ++v) {
+    for (const [k, x] of [1, 4, 0, 2, 0, 0].entries()) assert.ok(Math.abs(linear[6 * v + k] - x) < 1e-4);
+    assert.ok(Math.abs(kink[6 * v] - 1) < 1e-4);
+  }
+});
+
+test("rays meet the nearest triangle that is kept; places become lines of a source file", () => {
+  const { positions, triangles } = surfaceOf(square(2)), ray = { origin: [0.25, -0.5, 5], direction: [0, 0, -1] };
+  const hit = pick.pickTriangle(positions, triangles, ray);
+  assert.equal(hit.distance, 5);
+  assert.equal(pick.pickTriangle(positions, triangles, ray, () => false), null);
+  const place = [0, 1].map((c) => hit.b.reduce((sum, w, k) => sum + w * positions[3 * triangles[3 * hit.triangle + k] + c], 0));
+  assert.ok(Math.abs(place[0] - 0.25) < 1e-6 && Math.abs(place[1] + 0.5) < 1e-6);
+  const line = (b, options) => pick.nodeLine({ triangle: 1, distance: 1, b }, triangles, options);
+  assert.equal(line([0.99, 0.005, 0.005]), "v 0");
+  assert.equal(line([0.005, 0.4, 0.595]), "e 4 3 0.59799");
+  assert.equal(line([0.2, 0.3, 0.5]), "f 1 0.2 0.3 0.5");
+  assert.equal(line([0.2, 0.3, 0.5], { vertexOnly: true }), "v 3");
+});
+
+test("isosurfaces close, with the field's normals; slivers do no harm", () => {
+  const n = [21, 21, 21], values = new Float32Array(21 ** 3);
+  for (let v = 0; v < values.length; ++v) values[v] = Math.hypot(v % 21 - 10, Math.floor(v / 21) % 21 - 10, Math.floor(v / 441) - 10) / 10;
+  const shell = march.march({ n, origin: [-1, -1, -1], spacing: [0.1, 0.1, 0.1], values }, 0.6);  // through nodes
+  const sides = new Map();
+  for (let t = 0; t < shell.triangles.length; t += 3) for (let k = 0; k < 3; ++k) {
+    const a = shell.triangles[t + k], b = shell.triangles[t + (k + 1) % 3], key = `${Math.min(a, b)},${Math.max(a, b)}`;
+    sides.set(key, (sides.get(key) ?? 0) + 1);
+  }
+  assert.ok([...sides.values()].every((count) => count === 2));
+  for (let i = 0; i < shell.positions.length; i += 3) {
+    const r = Math.hypot(...shell.positions.slice(i, i + 3));
+    assert.ok(Math.abs(r - 0.6) < 0.01);
+    const facing = [0, 1, 2].reduce((sum, k) => sum + (shell.positions[i + k] / r) * shell.normals[i + k], 0);
+    assert.ok(facing > 0.99, `normal ${facing}`);
+  }
+});
+
+test("isolines lie where the field has their level", () => {
+  const { positions, triangles } = torus(40, 24), corner = (t, k) => positions[3 * triangles[3 * t + k]];
+  for (const { level, ends } of lines.isolines({ positions, triangles, corner }, [-0.5, 0, 0.3])) {
+    assert.ok(ends.length > 60);
+    for (let i = 0; i < ends.length; i += 3) assert.ok(Math.abs(ends[i] - level) < 1e-6);
+  }
+});
+
+test("scenes are read, and damaged ones refused in words", () => {
+  const good = scene(square(2), [field("f", [1, 2, 3, 4, 5, 6, 7, 8, Infinity])]);
+  const read = scenes.readScene(JSON.stringify(good));
+  assert.equal(read.fields[0].high, 8);
+  assert.equal(read.fields[0].values[8], Infinity);
+  const refused = (spoil, pattern) => {
+    const bad = structuredClone(good);
+    spoil(bad);
+    assert.throws(() => scenes.readScene(JSON.stringify(bad)), (error) => error instanceof scenes.SceneError && pattern.test(error.message));
+  };
+  refused((s) => { s.version = 2; }, /version 2, this page shows version 1/);
+  refused((s) => { s.format = "other"; }, /no scene/);
+  refused((s) => { s.surface.triangles = base64(Uint32Array.from([0, 1, 99])); }, /vertex 99/);
+  refused((s) => { s.surface.positions = "AAA"; }, /positions/);
+  refused((s) => { s.surface.positions = base64(Float32Array.from([NaN, 0, 0])); }, /finite/);
+  refused((s) => { s.fields[0].values = base64(new Float32Array(3)); }, /values has the wrong length/);
+  refused((s) => { s.fields[0].values = base64(new Float32Array(9).fill(NaN)); }, /not a number/);
+  refused((s) => { s.fields[0].at = "nowhere"; }, /nowhere/);
+  refused((s) => { delete s.sources; }, /sources is missing/);
+  refused((s) => { s.volume = { n: [1, 2, 2] }; }, /integers from 2 on/);
+  assert.throws(() => scenes.readScene("{"), /cut off/);
+});

@@ -237,6 +237,12 @@ TEST(SceneStyle, FlatSurfacesAreSeenFaceOnTheRightWayUp) {
   EXPECT_GT(io::scene_frame(io::make_scene(standing)).up[1], 0.5);
 }
 
+TEST(SceneStyle, UprightAxisIsThatOnWhichThingsStand) {
+  EXPECT_EQ(io::upright_axis(Vec3(-1, -1, 0), Vec3(1, 1, 2)), Vec3::UnitZ());
+  EXPECT_EQ(io::upright_axis(Vec3(-1, 0, 0), Vec3(1, 1, 2)), Vec3::UnitY());
+  EXPECT_EQ(io::upright_axis(Vec3(-1, -1, -1), Vec3(1, 1, 1)), Vec3::UnitY());
+}
+
 TEST(SceneStyle, MarksFollowTheCurves) {
   const io::Scene scene = sphere_scene();
   const io::SourceMarks marks = io::source_marks(scene, 1);

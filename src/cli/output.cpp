@@ -36,12 +36,19 @@ std::string title_of(const std::string& input) {
   return std::filesystem::path(input).stem().string();
 }
 
+void keep_upright(io::Scene& scene, const std::string& input) {
+  if (scene.up || scene.towards_eye || !io::has_extension(input, ".stl")) return;
+  const Vec3 size = (scene.points.colwise().maxCoeff() - scene.points.colwise().minCoeff());
+  if (size[2] > 0.01 * size.maxCoeff()) scene.up = Vec3::UnitZ();  // flat ones are seen face-on
+}
+
 void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,
                   const std::string& input, const Report& report,
                   const std::function<void(io::Scene&)>& add) {
   if (io::is_written_as(file, {Kind::field})) return io::write_field(file, result, field);
   io::Scene scene = io::make_scene(result, field);
   if (add) add(scene);
+  keep_upright(scene, input);
   io::describe(scene, title_of(input), report);
   io::write_scene(file, scene);
 }

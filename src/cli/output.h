@@ -33,6 +33,10 @@ void add_output_option(CLI::App& verb, std::vector<std::string>& files, const st
 /// The title of a scene, from the name of the input.
 std::string title_of(const std::string& input);
 
+/// Gives a scene of a surface or volume whose view nobody chose the axis that is up in the input:
+/// z for STL, whose objects stand on a plane of x and y.
+void keep_upright(io::Scene& scene, const std::string& input);
+
 /// Writes a field on a surface, or a page or picture of it that says how it was made; `add` draws
 /// more.
 void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,

@@ -200,7 +200,8 @@ export class Controls {
 
   /** Draws the legend and says how much of the stage it covers. */
   drawLegend(): Insets {
-    const canvas = this.legend.canvas, stage = element("stage"), across = window.matchMedia("(max-width: 700px)").matches;
+    const canvas = this.legend.canvas, stage = element("stage");
+    const across = window.matchMedia("(max-width: 700px)").matches || this.view.panes.length > 1;
     canvas.classList.toggle("across", across);
     if (!this.merged || canvas.hidden) return { right: 0, bottom: 0 };
     const size = { width: stage.clientWidth, height: stage.clientHeight };
@@ -208,7 +209,6 @@ export class Controls {
       field: this.merged, map: this.map || this.merged.map, colourLow: this.merged.colourLow, colourHigh: this.merged.colourHigh,
       range: this.range, histogram: this.histogram, infiniteColour: this.view.scene.infiniteColour,
     }, size, Math.min(window.devicePixelRatio || 1, 2), across);
-    if (this.view.panes.length > 1) return { right: across ? 0 : 0, bottom: across ? canvas.offsetHeight : 0 };
     return across ? { right: 0, bottom: canvas.offsetHeight } : { right: canvas.offsetWidth + 20, bottom: 0 };
   }
 

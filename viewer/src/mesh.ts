@@ -3,48 +3,46 @@
 /** Vertex normals: faces count with the sign that agrees with the largest face there, so that flipped
  * faces do no harm (the shader picks the side that faces the eye). Zero on creases. */
 export function vertexNormals(positions: Float32Array, triangles: Uint32Array): Float32Array {
-  const count = positions.length, face = new Float32Array(3);
-  const faceNormal = (t: number) => {
+  const count = positions.length, corners = triangles.length, face = new Float32Array(corners), size = new Float32Array(corners / 3);
+  const largest = new Float32Array(count), best = new Float32Array(count / 3);
+  for (let t = 0; t < corners; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
     const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1], uz = positions[b + 2] - positions[a + 2];
     const vx = positions[c] - positions[a], vy = positions[c + 1] - positions[a + 1], vz = positions[c + 2] - positions[a + 2];
-    face[0] = uy * vz - uz * vy;
-    face[1] = uz * vx - ux * vz;
-    face[2] = ux * vy - uy * vx;
-    return Math.hypot(face[0], face[1], face[2]);
-  };
-  const along = (v: number, vectors: Float32Array) => face[0] * vectors[v] + face[1] * vectors[v + 1] + face[2] * vectors[v + 2];
-
-  const largest = new Float32Array(count), best = new Float32Array(count / 3);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const size = faceNormal(t);
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx, length = Math.sqrt(x * x + y * y + z * z);
+    face[t] = x;
+    face[t + 1] = y;
+    face[t + 2] = z;
+    size[t / 3] = length;
     for (let k = 0; k < 3; ++k) {
       const v = triangles[t + k];
-      if (size <= best[v]) continue;
-      best[v] = size;
-      largest.set(face, 3 * v);
+      if (length <= best[v]) continue;
+      best[v] = length;
+      largest[3 * v] = x;
+      largest[3 * v + 1] = y;
+      largest[3 * v + 2] = z;
     }
   }
   const normals = new Float32Array(count);
-  for (let t = 0; t < triangles.length; t += 3) {
-    faceNormal(t);
-    for (let k = 0; k < 3; ++k) {
-      const v = 3 * triangles[t + k], sign = along(v, largest) < 0 ? -1 : 1;
-      for (let i = 0; i < 3; ++i) normals[v + i] += sign * face[i];
-    }
+  for (let t = 0; t < corners; t += 3) for (let k = 0; k < 3; ++k) {
+    const v = 3 * triangles[t + k];
+    const sign = face[t] * largest[v] + face[t + 1] * largest[v + 1] + face[t + 2] * largest[v + 2] < 0 ? -1 : 1;
+    normals[v] += sign * face[t];
+    normals[v + 1] += sign * face[t + 1];
+    normals[v + 2] += sign * face[t + 2];
   }
   for (let v = 0; v < count; v += 3) {
-    const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
-    for (let i = 0; i < 3; ++i) normals[v + i] /= length;
+    const length = Math.sqrt(normals[v] ** 2 + normals[v + 1] ** 2 + normals[v + 2] ** 2) || 1;
+    normals[v] /= length;
+    normals[v + 1] /= length;
+    normals[v + 2] /= length;
   }
   // Creases stay: where a face leans more than 40 degrees from the mean, there is no common normal.
   const crease = new Uint8Array(count / 3);
-  for (let t = 0; t < triangles.length; t += 3) {
-    const size = faceNormal(t);
-    for (let k = 0; k < 3; ++k) {
-      const v = triangles[t + k];
-      if (Math.abs(along(3 * v, normals)) < 0.766 * size) crease[v] = 1;
-    }
+  for (let t = 0; t < corners; t += 3) for (let k = 0; k < 3; ++k) {
+    const v = 3 * triangles[t + k];
+    const along = face[t] * normals[v] + face[t + 1] * normals[v + 1] + face[t + 2] * normals[v + 2];
+    if (Math.abs(along) < 0.766 * size[t / 3]) crease[v / 3] = 1;
   }
   for (let v = 0; v < crease.length; ++v) if (crease[v]) normals.fill(0, 3 * v, 3 * v + 3);
   return normals;

@@ -20,7 +20,7 @@ function executable() {
 }
 
 const flags = [
-  "--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
+  "--headless", "--no-sandbox", ...(process.env.GPU ? ["--use-gl=angle"] : ["--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader"]),
   "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync",
 ];

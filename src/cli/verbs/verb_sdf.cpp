@@ -7,6 +7,7 @@
 #include "cli/output.h"
 #include "cli/verbs/verbs.h"
 #include "contour/isosurface.h"
+#include "io/render/scene_style.h"
 #include "io/render/volume_scene.h"
 #include "io/volume/volume.h"
 #include "littoral/error.h"
@@ -94,6 +95,9 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
   io::VolumeView view;
   view.level = levels.front();
   io::Scene scene = io::make_volume_scene(volume, view);
+  keep_upright(scene, input);
+  if (const Box box = bounding_box(shapes); !scene.up && io::upright_axis(box.low, box.high)[2] > 0)
+    scene.up = Vec3::UnitZ();  // of the input: the grid about it stands nowhere
   io::describe(scene, title_of(input), session.report);
   io::write_scene(file, scene);
 }

@@ -221,6 +221,7 @@ io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) 
   io::Scene scene = read_scene_of(arguments, for_page, session);
   io::describe(scene, title_of(arguments.in), session.report);
   set_style(scene, arguments);
+  keep_upright(scene, arguments.in);
   if (!arguments.beside.empty()) {
     ShowArguments other = arguments;
     other.in = std::exchange(other.beside, "");

@@ -140,6 +140,8 @@ json sources_json(const Scene& scene, const SceneFrame& frame) {
 Scene box_of(const Scene& scene) {
   Scene box;
   box.volume = scene.volume;
+  box.up = scene.up;
+  box.towards_eye = scene.towards_eye;
   box.points.resize(8, 3);
   box.triangles.resize(4, 3);
   box.triangles << 0, 1, 3, 2, 3, 7, 4, 5, 7, 6, 5, 7;  // every corner

@@ -54,13 +54,6 @@ Vec3 front_view(const Eigen::Matrix3d& second) {
   return std::cos(lift) * horizontal + std::sin(lift) * Vec3(0, 1, 0);
 }
 
-/// Is z up? y is, unless what is shown stands on z = 0 and not on y = 0.
-bool z_is_up(const Vec3& low, const Vec3& high) {
-  const double small = 0.01 * (high - low).maxCoeff();
-  auto stands_on = [&](int axis) { return std::abs(low[axis]) <= small; };
-  return stands_on(2) && !stands_on(1) && high[2] - low[2] > 10 * small;
-}
-
 Vec3 unit_direction(const Vec3& v, const std::string& name) {
   const double length = v.stableNorm();
   if (!(length > 0) || !std::isfinite(length))
@@ -69,6 +62,13 @@ Vec3 unit_direction(const Vec3& v, const std::string& name) {
 }
 
 }  // namespace
+
+Vec3 upright_axis(const Vec3& low, const Vec3& high) {
+  const double small = 0.01 * (high - low).maxCoeff();
+  auto stands_on = [&](int axis) { return std::abs(low[axis]) <= small; };
+  return stands_on(2) && !stands_on(1) && high[2] - low[2] > 10 * small ? Vec3::UnitZ()
+                                                                        : Vec3::UnitY();
+}
 
 SceneFrame scene_frame(const Scene& scene) {
   SceneFrame frame;
@@ -89,12 +89,13 @@ SceneFrame scene_frame(const Scene& scene) {
   frame.radius = std::max((0.5 * high - 0.5 * low).stableNorm(), 1e-290);
 
   Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();  // rows: right, up, to the front
-  if (z_is_up(low, high)) upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  if (upright_axis(low, high)[2] > 0) upright << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   const Eigen::Matrix3d second = moments(scene, frame);
   const Eigenvectors3 axes = symmetric_eigenvectors(second);
   Vec3 view;
   if (scene.volume) {
-    view = Vec3::Constant(0.45);  // onto the slice
+    view = Vec3::Constant(0.45);                            // onto the slice
+    if (scene.up && (*scene.up)[2] > 0.9) view[1] = -0.45;  // the front is at low y
     view[scene.volume->axis] = 1;
   } else if (axes.values[0] < 1e-6 * axes.values[2]) {
     view = axes.vectors.col(0);

@@ -28,6 +28,9 @@ struct SceneFrame {
 /// Throws InputError for directions that are zero, not finite or parallel.
 SceneFrame scene_frame(const Scene& scene);
 
+/// The axis that is up for what fills a box: y, or z for what stands on z = 0 and not on y = 0.
+Vec3 upright_axis(const Vec3& low, const Vec3& high);
+
 /// Which values the colours span.
 struct FieldStyle {
   bool present = false;  // is there a finite value?

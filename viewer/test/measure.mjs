@@ -1,0 +1,42 @@
+// node test/measure.mjs [TRIANGLES ...]: how long a page takes to its first picture, and a frame. Chromium draws in
+// software unless GPU=1 is set and the machine has one.
+import { field, scene, show, torus } from "./scenes.mjs";
+
+for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [500000, 2000000]) {
+  const side = Math.round(Math.sqrt(wanted / 2)), shape = torus(side, side);
+  const values = Array.from({ length: side * side }, (_, v) => shape.positions[3 * v]);
+  const less = { ...shape, positions: Float32Array.from(shape.positions), triangles: Uint32Array.from(shape.triangles) };
+  const made = scene(less, [{ ...field("distance", values.slice(0, 4)), ...range(values) }], { title: "torus" });
+  const shown = await show(made, { wait: false, viewport: { width: 1286, height: 720 } });
+  try {
+    await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
+    const times = await shown.page.evaluate(() => {
+      const opened = performance.now(), { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [];
+      for (let i = 0; i < 8; ++i) {
+        view.orbit.turn(0.1, 0);
+        const from = performance.now();
+        view.render();
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+        frames.push(performance.now() - from);
+      }
+      const from = performance.now();
+      littoral.pick(500, 360);
+      return { opened, start: littoral.firstFrame(), frame: frames.sort((a, b) => a - b)[4], pick: performance.now() - from,
+        renderer: gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER) };
+    });
+    console.log(`${2 * side * side} triangles: first picture by ${Math.round(times.opened)} ms (${Math.round(times.start)} ms of them from the scene on), ` +
+      `frame ${times.frame.toFixed(0)} ms, place under the cursor ${times.pick.toFixed(0)} ms; ${times.renderer}`);
+  } finally {
+    await shown.close();
+  }
+}
+
+function range(values) {
+  let low = Infinity, high = -Infinity;
+  for (const x of values) {
+    low = Math.min(low, x);
+    high = Math.max(high, x);
+  }
+  const parts = Float32Array.from(values, (x) => (x - low) / (high - low));
+  return { low, high, colourLow: low, colourHigh: high, spacing: (high - low) / 20, values: Buffer.from(parts.buffer).toString("base64") };
+}

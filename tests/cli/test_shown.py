@@ -44,7 +44,7 @@ def test_the_first_view_keeps_the_up_axis_of_the_input(run: Run, tmp_path: Path)
 
     def write(name: str, shift: float) -> None:
         lines = [f"v {x} {y} {z + shift}" for x, y, z in corners]
-        lines += ["f " + " ".join(map(str, quad)) for quad in quads]
+        lines += [f"f {a} {b} {c}\nf {a} {c} {d}" for a, b, c, d in quads]
         (tmp_path / name).write_text("\n".join(lines) + "\n")
 
     def up(page: str) -> list[float]:

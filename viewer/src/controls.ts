@@ -7,12 +7,14 @@ import { Legend } from "./legend";
 import { between, numberText, spacings } from "./numbers";
 import type { Insets } from "./camera";
 import type { Field } from "./scene";
+import type { Pane } from "./pane";
 import type { ResultView } from "./view";
 
 export class Controls {
   readonly legend = new Legend(element<HTMLCanvasElement>("legend"));
   spacing = 0;
-  private merged: Field | null = null;  // the range of all panes
+  private merged: Field | null = null;  // the range of the panes that show the field
+  private same: Pane[] = [];            // those
   private steps: number[] = [];
   private map = "";
   private range: [number, number] = [0, 0];
@@ -105,11 +107,13 @@ export class Controls {
 
   private useField(write: boolean): void {
     const index = Math.max(0, select("field").selectedIndex), name = this.view.panes[0].choices[index]?.name;
-    this.view.panes.forEach((pane, i) => {
+    // A pane without such a field, as beside a difference, keeps its first one with colours of its own.
+    this.same = this.view.panes.filter((pane, i) => {
       const own = i === 0 ? index : pane.choices.findIndex((choice) => choice.name === name);
-      pane.setField(own >= 0 ? own : 0);
+      pane.setField(Math.max(0, own));
+      return own >= 0 || pane.choices.length === 0;
     });
-    const fields = this.view.panes.map((pane) => pane.field).filter((field): field is Field => field !== null && field.high >= field.low);
+    const fields = this.same.map((pane) => pane.field).filter((field): field is Field => field !== null && field.high >= field.low);
     if (write) {
       this.address.set("field", index === 0 ? null : name ?? null);
       for (const key of ["map", "spacing", "range"]) this.address.set(key, null);
@@ -146,7 +150,7 @@ export class Controls {
   private useColours(): void {
     const field = this.merged;
     if (!field) return;
-    for (const pane of this.view.panes) {
+    for (const pane of this.same) {
       pane.look.setColours(this.map, field.colourLow, field.colourHigh);
       pane.volume?.tracer?.recolour(pane.volume.level);
     }
@@ -156,10 +160,10 @@ export class Controls {
 
   private useLines(): void {
     const shown = input("isolines").checked;
-    for (const pane of this.view.panes) {
+    for (const pane of this.same) {
       pane.look.setSpacing(this.steps.length ? this.spacing : 0);
-      pane.look.uniforms.showLines.value = shown;
     }
+    for (const pane of this.view.panes) pane.look.uniforms.showLines.value = shown;
     input("spacing").disabled = input("labels").disabled = !shown;
     element("spacing-text").textContent = this.spacing > 0 && shown ? `every ${numberText(this.spacing)}` : "";
     input("spacing").setAttribute("aria-valuetext", `one line every ${numberText(this.spacing)}`);
@@ -172,7 +176,7 @@ export class Controls {
     if (!field) return;
     this.range = low <= high ? [Math.max(low, field.low), Math.min(high, field.high)] : [field.low, field.high];
     if (!(this.range[0] <= this.range[1])) this.range = [field.low, field.high];
-    for (const pane of this.view.panes) pane.look.setRange(...this.range);
+    for (const pane of this.same) pane.look.setRange(...this.range);
     const round = (x: number, whole: boolean) => (whole ? x : Number(x.toPrecision(5)));
     input("range-low").value = numberText(round(this.range[0], this.range[0] === field.low));
     input("range-high").value = numberText(round(this.range[1], this.range[1] === field.high));

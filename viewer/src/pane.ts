@@ -61,7 +61,7 @@ export class Pane {
     for (const field of fields) {
       const other = beside.fields.find((f) => f.name === field.name);
       const made = other && differenceField(field, other);
-      if (made) this.choices.push({ name: "difference", make: () => ({ ...made, name: `difference of ${field.name}` }) });
+      if (made) this.choices.push({ name: "difference", make: () => ({ ...made, name: `${this.scene.title} − ${beside.title}` }) });
       if (made) return;
     }
   }

@@ -192,6 +192,9 @@ test("two results share a camera; on one surface their difference is a field", a
     await both.page.selectOption("#field", "difference");
     const [d] = await read();
     close(d.value, a.value - b.value, 0.002);
+    assert.match(await both.page.getAttribute("#legend", "aria-label"), /^Legend: first − second from/);
+    const kept = await both.page.evaluate(() => littoral.view.panes[1].look.uniforms.colourMap.value.toArray());
+    assert.deepEqual(kept, [0, 1], "the other keeps its own colours");
     assert.ok((await changed(both.page, async () => { await both.page.focus("#view"); await both.page.keyboard.press("ArrowLeft"); })) > 2000);
     assertAlone(both);
   } finally {

@@ -29,7 +29,8 @@ file(MAKE_DIRECTORY ${viewer_to})
 add_custom_command(
   OUTPUT ${viewer_to}/page_template.cpp
   COMMAND ${LITTORAL_NODE} ${viewer_from}/build.mjs ${viewer_to} ${viewer_to}/node_modules
-  DEPENDS ${viewer_to}/installed.stamp ${viewer_from}/build.mjs ${viewer_sources}
+  DEPENDS ${viewer_to}/installed.stamp ${viewer_from}/build.mjs ${viewer_from}/bundle.mjs
+          ${CMAKE_CURRENT_SOURCE_DIR}/src/io/render/colour_maps.inc ${viewer_sources}
   COMMENT "Bundling the viewer page"
   VERBATIM)
 target_sources(littoral PRIVATE ${viewer_to}/page_template.cpp)

@@ -202,6 +202,46 @@ test("two results share a camera; on one surface their difference is a field", a
   }
 });
 
+test("large volumes get their surface, at every node, from a worker", async () => {
+  const n = 80, values = new Uint16Array(n ** 3), step = 2 / (n - 1), far = Math.sqrt(3);
+  for (let v = 0; v < values.length; ++v)
+    values[v] = Math.round((65534 * Math.hypot(v % n * step - 1, (Math.floor(v / n) % n) * step - 1, Math.floor(v / n / n) * step - 1)) / far);
+  const box = { positions: [-1, -1, -1, 1, -1, -1, 1, 1, 1, -1, 1, 1], triangles: [0, 1, 2, 0, 2, 3] };
+  const distance = { ...field("distance", [0, far]), spacing: 0.2, values: undefined };
+  const large = await show(scene(box, [distance], {
+    volume: { n: [n, n, n], origin: [-1, -1, -1], spacing: [step, step, step], low: [-1, -1, -1], high: [1, 1, 1], values: base64(values), axis: 2, position: 0.5, level: 0.3, isosurface: true },
+  }), small);
+  try {
+    const radii = async () => {
+      await large.page.waitForFunction(() => littoral.settled() && littoral.volume.triangleCount > 0);
+      return large.page.evaluate(() => {
+        const p = littoral.volume.positions, r = [];
+        for (let i = 0; i < p.length; i += 3) r.push(Math.hypot(p[i], p[i + 1], p[i + 2]));
+        return [r.reduce((a, b) => Math.min(a, b)), r.reduce((a, b) => Math.max(a, b)), littoral.volume.triangleCount];
+      });
+    };
+    const [low, high, triangles] = await radii();
+    close(low, 0.3 * far, 2e-3);
+    close(high, 0.3 * far, 2e-3);
+    assert.ok(triangles > 20000, `${triangles} triangles`);
+    const working = await large.page.evaluate(() => {
+      const slider = document.getElementById("level");
+      for (const value of [310, 350, 400]) {
+        slider.value = String(value);
+        slider.dispatchEvent(new Event("input"));
+      }
+      return littoral.volume.working;
+    });
+    assert.ok(working, "made beside the page");
+    await large.page.waitForSelector("#hint:not([hidden])");
+    close((await radii())[0], 0.4 * far, 2e-3);
+    assert.ok(await large.page.isHidden("#hint"));
+    assertAlone(large);
+  } finally {
+    await large.close();
+  }
+});
+
 test("damaged and foreign scenes give a message", async () => {
   const bad = { ...scene(flat, kinds), version: 7 }, empty = scene({ positions: [], triangles: [] }, []);
   for (const [what, pattern] of [[bad, /version 7/], ['{"format": ', /damaged/], [scene(flat, [{ ...kinds[0], values: base64(new Float32Array(2)) }]), /wrong length/], [empty, /no triangles/]]) {

@@ -1,6 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build check test test-long format tidy wheel docs bench peers domains clean
+.PHONY: help demo build check test test-long format tidy wheel web docs bench peers domains clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -40,6 +40,12 @@ wheel:  ## the Python package as a wheel, in build/dist
 	scripts/setup.sh python
 	scripts/make_wheel.sh build/dist
 
+web:  ## the package for JavaScript (WebAssembly), in dist
+	scripts/setup.sh web
+	cmake --preset web
+	cmake --build build/web
+	node web/build.mjs build/web dist
+
 docs:  ## the documentation, in build/site
 	scripts/setup.sh docs
 	build/venv/bin/mkdocs build --strict --site-dir build/site
@@ -63,4 +69,4 @@ domains:  ## the part of that about polygon meshes and point clouds
 	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/measurements/performance.md 96 192
 
 clean:  ## remove what was built
-	rm -rf build out
+	rm -rf build out dist

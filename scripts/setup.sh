@@ -2,6 +2,7 @@
 # Installs what is missing for the named groups, and nothing else:
 #   scripts/setup.sh build   what a build and the demo need
 #   scripts/setup.sh test    build, and what `make test` needs besides
+#   scripts/setup.sh web     build, and what compiles the package for JavaScript
 #   scripts/setup.sh tidy    build, and clang-tidy
 #   scripts/setup.sh aarch64 test, and what compiles and runs programs for 64-bit ARM
 #   scripts/setup.sh python  the Python environment in build/venv alone
@@ -15,6 +16,7 @@ build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
   libtbb-dev libboost-dev libimath-dev)
 test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
   libbenchmark-dev python3-venv chromium doxygen)
+web_packages=(emscripten libfast-float-dev)
 arm_packages=(g++-aarch64-linux-gnu qemu-user libpng-dev:arm64 zlib1g-dev:arm64 libgtest-dev:arm64
   libgmock-dev:arm64 librapidcheck-dev:arm64)
 oldest_node=18
@@ -104,9 +106,10 @@ python_environment() {
 case "${1:-}" in
   build) install_packages "${build_packages[@]}" $(node_packages) ;;
   test)
-    install_packages "${build_packages[@]}" $(node_packages) "${test_packages[@]}"
+    install_packages "${build_packages[@]}" $(node_packages) "${test_packages[@]}" "${web_packages[@]}"
     python_environment
     ;;
+  web) install_packages "${build_packages[@]}" $(node_packages) "${web_packages[@]}" ;;
   tidy) install_packages "${build_packages[@]}" clang-tidy-14 ;;
   aarch64)
     if command -v dpkg >/dev/null && ! dpkg --print-foreign-architectures | grep -qx arm64; then
@@ -123,5 +126,5 @@ case "${1:-}" in
     install_packages python3-venv doxygen
     python_environment
     ;;
-  *) die "usage: scripts/setup.sh build|test|tidy|aarch64|python|docs" ;;
+  *) die "usage: scripts/setup.sh build|test|web|tidy|aarch64|python|docs" ;;
 esac

@@ -16,7 +16,7 @@ jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
-test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer)
+test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
 long_stages=(slow sanitize_slow sanitize_package fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
@@ -113,6 +113,15 @@ stage_viewer() {
   build_release &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
     (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
+}
+
+# The package for JavaScript beside the program, in Node and in Chromium.
+stage_web() {
+  local dist="$PWD/build/web/dist"
+  build web && build_release --target littoral_cli && node web/build.mjs build/web "$dist" &&
+    (cd viewer && npm ci --no-audit --no-fund --loglevel=error) &&
+    DIST="$dist" TOOLS="$PWD/build/web/node_modules" LITTORAL="$PWD/build/release/littoral" \
+      node --test web/test/package.test.mjs web/test/browser.test.mjs
 }
 
 # What follows makes up the long tier.

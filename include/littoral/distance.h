@@ -35,8 +35,11 @@ class DistanceSolver {
   /// Of the preparation.
   const Report& report() const;
 
- private:
+  /// For the library's own layers.
   struct Prepared;
+  const Prepared& prepared() const { return *prepared_; }
+
+ private:
   std::shared_ptr<const Prepared> prepared_;
 };
 

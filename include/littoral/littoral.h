@@ -6,12 +6,14 @@
 //   tets       TetMesh, TetDistanceSolver
 //   matrices   surface_operators, Factorization
 //   files      read_mesh, read_soup, read_sources, read_volume, read_tets, write, write_page
+//   drawing    triangulation, path_through, offset_curves, parse_sources, sources_text
 //   methods    options.h has a struct for each; method_families() lists them
 //
 // Lengths are in the unit of the input. Every error is a littoral::Error.
 
 #include "littoral/context.h"
 #include "littoral/distance.h"
+#include "littoral/drawing.h"
 #include "littoral/error.h"
 #include "littoral/field.h"
 #include "littoral/io.h"

@@ -172,17 +172,32 @@ std::string info_json(const std::vector<InfoEntry>& entries) {
   return dump(out);
 }
 
+namespace {
+
+Json option_json(const OptionInfo& info) {
+  static constexpr const char* kinds[] = {"number", "integer", "toggle", "choice", "text"};
+  Json out{{"name", info.name},
+           {"kind", kinds[static_cast<std::size_t>(info.kind)]},
+           {"unit", info.unit},
+           {"range", info.range()},
+           {"default", option_value(info.fallback)},
+           {"help", info.help}};
+  if (info.kind == OptionInfo::Kind::number || info.kind == OptionInfo::Kind::integer) {
+    out["low"] = number(info.low);
+    out["high"] = number(info.high);
+  }
+  if (info.kind == OptionInfo::Kind::choice) out["choices"] = info.choices;
+  return out;
+}
+
+}  // namespace
+
 std::string methods_json(const std::vector<MethodFamily>& families) {
   Json out = Json::array();
   for (const MethodFamily& family : families)
     for (const MethodInfo& method : family.methods) {
       Json options = Json::array();
-      for (const OptionInfo& info : method.options)
-        options.push_back({{"name", info.name},
-                           {"unit", info.unit},
-                           {"range", info.range()},
-                           {"default", option_value(info.fallback)},
-                           {"help", info.help}});
+      for (const OptionInfo& info : method.options) options.push_back(option_json(info));
       out.push_back({{"name", method.name},
                      {"for", family.title},
                      {"summary", method.summary},

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "api/surface/mesh_info.h"
-#include "littoral/methods.h"
+#include "littoral/drawing.h"
 #include "littoral/report.h"
 #include "littoral/volume.h"
 
@@ -31,11 +31,6 @@ void each_entry(R& report, const Visit& visit) {
 /// The report with every name once: timings and iterations added up, of residuals the largest, of
 /// sizes, which may be stated again, the last.
 Report summed_up(Report report);
-
-/// One object with method, domain, status, options, sizes, timings [s], iterations, residuals,
-/// warnings and unreachable_components. Stages named twice are added up; numbers that are not
-/// finite become the texts "inf", "-inf", "nan"; bytes that are not UTF-8 are replaced.
-std::string report_json(const Report& report);
 
 /// Values of a result in short.
 struct ValueRange {
@@ -63,8 +58,5 @@ std::string failure_json(const RunRecord& record, const Report& report, const st
 
 /// The facts as one object, in their order.
 std::string info_json(const std::vector<InfoEntry>& entries);
-
-/// A list of objects: name, summary, domains, options, reference.
-std::string methods_json(const std::vector<MethodFamily>& families);
 
 }  // namespace littoral

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/platform/memory.h"
+#include "base/platform/threads.h"
 
 namespace littoral {
 
@@ -21,6 +22,7 @@ void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
 int requested_thread_count() { return requested_threads; }
 
 int thread_count() {
+  if (!has_threads) return 1;
   if (requested_threads > 0) return requested_threads;
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/platform/memory.h"
+#include "base/platform/threads.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -65,6 +66,11 @@ Abandoned& abandoned() {
 
 void run_abandonable(const Task& task, std::function<void()> call) {
   task.checkpoint();
+  if (!has_threads) {
+    call();
+    task.checkpoint();
+    return;
+  }
   abandoned();  // constructed before, hence destroyed after, whatever the call constructs
   std::packaged_task<void()> job(
       [call = std::move(call), threads = thread_count(), limit = memory_limit()] {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "api/front/prepared.h"
 #include "api/front/running.h"
 #include "api/surface/pairs.h"
 #include "api/surface/surface_domain.h"
@@ -38,12 +39,6 @@ Field distance(const Mesh& mesh, const Sources& sources, const AnyMethod& method
     return field_of(mesh, sources, std::move(answer), std::move(report));
   });
 }
-
-struct DistanceSolver::Prepared {
-  Mesh mesh;
-  Report report;
-  std::shared_ptr<const Solver<SurfaceDomain>> solver;
-};
 
 DistanceSolver::DistanceSolver(Mesh mesh, const AnyMethod& method, const Context& context) {
   prepared_ = run(context, [&](const Task& task) {

@@ -1,12 +1,12 @@
 #include "base/platform/floating_point.h"
 
-#if defined(__SSE2__)
+#if defined(__SSE2__) && !defined(__EMSCRIPTEN__)
 #include <xmmintrin.h>
 #endif
 
 namespace littoral {
 
-#if defined(__SSE2__)
+#if defined(__SSE2__) && !defined(__EMSCRIPTEN__)
 
 std::uint64_t floating_point_mode() { return _mm_getcsr(); }
 

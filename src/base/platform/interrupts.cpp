@@ -1,7 +1,9 @@
 #include "base/platform/interrupts.h"
 
+#if !defined(__EMSCRIPTEN__)
 #include <sys/syscall.h>
 #include <unistd.h>
+#endif
 
 #include <atomic>
 #include <csignal>
@@ -31,7 +33,11 @@ void raise_and_pass_on(int signal, siginfo_t* info, void* context) {
     alone(signal);
 }
 
+#if defined(__EMSCRIPTEN__)
+bool on_first_thread() { return true; }
+#else
 bool on_first_thread() { return ::syscall(SYS_gettid) == ::getpid(); }
+#endif
 
 }  // namespace
 

@@ -1,6 +1,11 @@
 #include "base/platform/memory.h"
 
+#if defined(__EMSCRIPTEN__)
+#include <emscripten/heap.h>
+#include <malloc.h>
+#else
 #include <sys/resource.h>
+#endif
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -16,6 +21,7 @@ namespace littoral {
 
 namespace {
 
+#if !defined(__EMSCRIPTEN__)
 /// Bytes at a line "key: kilobytes kB" of a file of the system, or `otherwise`.
 double bytes_at(const char* file, const std::string& line, double otherwise) {
   std::ifstream info(file);
@@ -26,6 +32,7 @@ double bytes_at(const char* file, const std::string& line, double otherwise) {
   }
   return otherwise;
 }
+#endif
 
 thread_local double limit_of_thread = 0;
 
@@ -40,6 +47,17 @@ void return_freed_memory() {
 #endif
 }
 
+#if defined(__EMSCRIPTEN__)
+
+double peak_memory() { return static_cast<double>(emscripten_get_heap_size()); }
+
+double available_memory() {
+  return static_cast<double>(emscripten_get_heap_max()) -
+         static_cast<double>(static_cast<unsigned>(mallinfo().uordblks));
+}
+
+#else
+
 double peak_memory() { return bytes_at("/proc/self/status", "VmHWM:", 0); }
 
 double available_memory() {
@@ -52,6 +70,8 @@ double available_memory() {
   }
   return bytes;
 }
+
+#endif
 
 void check_memory(double bytes, const std::string& what, const std::string& remedy) {
   const double available =

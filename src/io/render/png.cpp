@@ -1,9 +1,13 @@
+#if LITTORAL_PNG
 #include <png.h>
+#endif
 
 #include "io/render/picture.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
+
+#if LITTORAL_PNG
 
 std::string encode_png(const Image& image) {
   // libpng's simplified interface: errors come back as a return value and a message.
@@ -22,5 +26,13 @@ std::string encode_png(const Image& image) {
   bytes.resize(size);
   return bytes;
 }
+
+#else
+
+std::string encode_png(const Image&) {
+  throw UnsupportedError("this build of the library writes no pictures");
+}
+
+#endif
 
 }  // namespace littoral::io

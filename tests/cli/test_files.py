@@ -98,6 +98,10 @@ def test_methods(run: Run) -> None:
     names = [m["name"] for m in methods]
     assert names[0] == "auto"
     assert len({(m["name"], *m["domains"]) for m in methods}) == len(methods)
+    options = {o["name"]: o for m in methods if m["name"] == "signed-heat" for o in m["options"]}
+    assert options["constraint"]["choices"] == ["none", "zero-set", "level-sets"]
+    assert options["time-scale"]["kind"] == "number" and options["time-scale"]["low"] == 0
+    assert options["preserve-normals"]["kind"] == "toggle"
     for arguments in ((), ("--markdown",)):
         text = run("methods", *arguments).stdout
         assert all(name in text for name in names)

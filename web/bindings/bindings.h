@@ -1,7 +1,7 @@
 #pragma once
-// What the bindings of all parts share: answers, arrays, calls. Every function answers an object with
-// either `value`, or `error`, the kind of the error, and its `message`: exceptions of C++ mean nothing
-// to JavaScript.
+// What the bindings of all parts share: answers, arrays, calls. Every function answers an object
+// with either `value`, or `error`, the kind of the error, and its `message`: exceptions of C++ mean
+// nothing to JavaScript.
 
 #include <emscripten/bind.h>
 #include <emscripten/val.h>

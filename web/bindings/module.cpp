@@ -73,6 +73,4 @@ val about() {
 
 }  // namespace littoral::web
 
-EMSCRIPTEN_BINDINGS(littoral_module) {
-  emscripten::function("about", littoral::web::about);
-}
+EMSCRIPTEN_BINDINGS(littoral_module) { emscripten::function("about", littoral::web::about); }

@@ -8,7 +8,8 @@ namespace {
 
 Vec3 triple_of(const val& array) {
   const std::vector<double> x = numbers_of<double>(array);
-  if (x.size() != 3) throw InputError("expected three numbers, there are " + std::to_string(x.size()));
+  if (x.size() != 3)
+    throw InputError("expected three numbers, there are " + std::to_string(x.size()));
   return {x[0], x[1], x[2]};
 }
 
@@ -22,6 +23,8 @@ Grid grid_of(const val& grid) {
       throw InputError("a grid's origin must be finite and its spacing positive");
     out.n[static_cast<std::size_t>(a)] = static_cast<int>(n[a]);
   }
+  if (n.prod() > 1 << 30)  // counted in 32 bits
+    throw IoError("a grid of " + std::to_string(n.prod()) + " nodes does not fit into memory");
   return out;
 }
 
@@ -106,8 +109,7 @@ val sdf_confidence(const Sdf& sdf, const val& points, const val& progress) {
 }
 
 val sampled(const Sdf& sdf, const val& options, const val& progress) {
-  return answered(
-      [&] { return val(sdf.sample(grid_around(sdf, options), context_of(progress))); });
+  return answered([&] { return val(sdf.sample(grid_around(sdf, options), context_of(progress))); });
 }
 
 val read_volume_file(const std::string& path) {
@@ -142,7 +144,8 @@ val volume_at(const Volume& volume, const val& points) {
       throw InputError("between nodes there is nothing along an axis of one");
     VecX out(x.rows());
     for (Eigen::Index i = 0; i < x.rows(); ++i) {
-      const Vec3 at = (x.row(i).transpose() - volume.grid.origin).cwiseQuotient(volume.grid.spacing);
+      const Vec3 at =
+          (x.row(i).transpose() - volume.grid.origin).cwiseQuotient(volume.grid.spacing);
       const Vec3 last(n[0] - 1, n[1] - 1, n[2] - 1);
       const bool inside = (at.array() >= 0).all() && (at.array() <= last.array()).all();
       out[i] = inside ? interpolate(volume, at) : std::numeric_limits<double>::quiet_NaN();
@@ -160,9 +163,9 @@ val volume_offsets(const Volume& volume, const val& distances, double open, doub
                    const val& progress) {
   return answered([&] {
     val out = val::array();
-    for (const Mesh& mesh : offset(volume, numbers_of<double>(distances), {open, close},
-                                   context_of(progress)))
-      out.call<void>("push", mesh);
+    for (const Mesh& mesh :
+         offset(volume, numbers_of<double>(distances), {open, close}, context_of(progress)))
+      out.call<void>("push", val(mesh));
     return out;
   });
 }

@@ -37,8 +37,8 @@ val described(const Mesh& mesh) {
     out.set("faces", mesh.n_faces());
     out.set("edges", mesh.n_edges());
     out.set("components", mesh.n_components());
-    out.set("corners", array_of(reinterpret_cast<const unsigned*>(soup.corners.data()),
-                                soup.corners.size()));
+    out.set("corners",
+            array_of(reinterpret_cast<const unsigned*>(soup.corners.data()), soup.corners.size()));
     out.set("offsets", array_of(reinterpret_cast<const unsigned*>(soup.face_offsets.data()),
                                 soup.face_offsets.size()));
     out.set("normals", array_of(soup.normals));
@@ -185,8 +185,7 @@ val solver_report(const DistanceSolver& solver) {
 val solve(const DistanceSolver& solver, const std::string& json, const val& chains,
           const val& progress) {
   return answered([&] {
-    const Field field =
-        solver.solve(sources_of(solver.mesh(), json, chains), context_of(progress));
+    const Field field = solver.solve(sources_of(solver.mesh(), json, chains), context_of(progress));
     val out = val::object();
     out.set("values", array_of(field.values));
     out.set("confidence", field.confidence.size() > 0 ? array_of(field.confidence) : val::null());
@@ -205,11 +204,11 @@ val offsets(const DistanceSolver& solver, const std::string& json, const val& di
   });
 }
 
-val regions(const Mesh& mesh, const std::string& json, const val& chains,
-            const std::string& method, const val& options, const val& progress) {
+val regions(const Mesh& mesh, const std::string& json, const val& chains, const std::string& method,
+            const val& options, const val& progress) {
   return answered([&] {
-    const Regions found = winding(mesh, sources_of(mesh, json, chains),
-                                  method_of(method, options), context_of(progress));
+    const Regions found = winding(mesh, sources_of(mesh, json, chains), method_of(method, options),
+                                  context_of(progress));
     val out = val::object();
     out.set("region", array_of(found.region));
     out.set("surface", drawn(found.surface));

@@ -76,7 +76,10 @@ export const files = {
   "sphere.xyz": sphere.map((p) => [...p, ...p].join(" ")).join("\n") + "\n",
   "ball.vol": Buffer.concat([header, deflateSync(ball)]),
 };
-for (const [name, content] of Object.entries(files)) file(name, content);
+for (const name of Object.keys(files)) {
+  files[name] = Buffer.from(files[name]);
+  file(name, files[name]);
+}
 
 const through = (...vertices) => `signed_curve\n${vertices.map((v) => `v ${v}`).join("\n")}\n`;
 const broken = through(3, 40, 90) + through(200, 240);

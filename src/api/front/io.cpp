@@ -50,6 +50,8 @@ std::string mesh_extensions() {
 Mesh read_mesh(const std::filesystem::path& path) {
   if (io::is_read_as(path, {io::Kind::surface, io::Kind::cloud}))
     return Mesh(io::read_surface(path));
+  io::format_to_read(path.extension().string(), path.string(),
+                     {io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
   const io::VoxelMask mask = io::read_voxels(path);
   return Mesh::voxels(mask.grid, mask.inside);
 }

@@ -76,7 +76,7 @@ to_chars_result to_chars(char* first, char* last, double value) {
   string power = to_string(abs(exponent));
   if (power.size() < 2) power.insert(0, "0");
   const string scientific = digits.substr(0, 1) + (n > 1 ? "." + digits.substr(1) : "") +
-                                 (exponent < 0 ? "e-" : "e+") + power;
+                            (exponent < 0 ? "e-" : "e+") + power;
   string fixed;
   if (exponent < 0) {
     fixed = "0." + string(static_cast<size_t>(-exponent - 1), '0') + digits;

@@ -125,8 +125,8 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
     throw InputError(name + ": FIELDS has no x, y and z");
   const bool normals = where[3] >= 0 && where[4] >= 0 && where[5] >= 0;
   // Every value takes a byte in a binary file and two in a text.
-  const std::size_t needed = static_cast<std::size_t>(header.points) *
-                             static_cast<std::size_t>(header.binary ? stride : 2 * per_row - 1);
+  const std::uint64_t needed = static_cast<std::uint64_t>(header.points) *
+                               static_cast<std::uint64_t>(header.binary ? stride : 2 * per_row - 1);
   if (needed > bytes.size() - body + 1)
     throw InputError(name + ": the header promises " + std::to_string(header.points) +
                      " points, the file has " + std::to_string(bytes.size()) + " bytes");

@@ -66,7 +66,7 @@ void store_numbers(std::ostream& out, const VecX& values);
 
 /// Number of nodes of a grid; throws InputError "name: ..." where a size is less than 1 or there
 /// are more nodes than `most`.
-std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::size_t most,
+std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t most,
                           const std::string& name);
 
 /// Throws InputError "name: ..." unless the spacing is positive and the box finite.

@@ -80,16 +80,16 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
                            "; floating-point numbers and integers are read");
   kind.size = static_cast<std::size_t>(size);
   const std::size_t most = (bytes.size() - header->data) / kind.size;
-  std::size_t count = 1;
+  std::uint64_t count = 1;
   for (const std::int64_t n : header->shape) {
-    if (n > 0 && count > most / static_cast<std::size_t>(n))
+    if (n > 0 && count > most / static_cast<std::uint64_t>(n))
       throw InputError(name + ": the shape has more numbers than the file holds");
-    count *= static_cast<std::size_t>(n);
+    count *= static_cast<std::uint64_t>(n);
   }
   if (count > most) throw InputError(name + ": a number without its bytes");  // shape ()
   const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
   return {header->shape, header->fortran,
-          load_numbers(bytes.substr(header->data), kind, count, order)};
+          load_numbers(bytes.substr(header->data), kind, static_cast<std::size_t>(count), order)};
 }
 
 Volume npy_volume(const NpyArray& array, const std::string& name) {

@@ -140,7 +140,7 @@ class NrrdReader {
     if (encoding == "raw")
       return load_numbers(data, kind, checked_nodes(n, data.size() / kind.size, name_), order);
     if (encoding == "gzip" || encoding == "gz") {
-      const std::size_t nodes = checked_nodes(n, 1040 * (data.size() + 1), name_);
+      const std::size_t nodes = checked_nodes(n, std::uint64_t{1040} * (data.size() + 1), name_);
       const auto bytes = unpack(data, nodes * kind.size);
       if (!bytes) fail("the compressed data are damaged or not of the size stated");
       return load_numbers(*bytes, kind, nodes, order);

@@ -45,12 +45,13 @@ void store_numbers(std::ostream& out, const VecX& values) {
   for (double value : values) store_little(out, value);
 }
 
-std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::size_t most,
+std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t most,
                           const std::string& name) {
+  most = std::min<std::uint64_t>(most, std::numeric_limits<std::ptrdiff_t>::max());
   std::size_t nodes = 1;
   for (const std::int64_t k : n) {
     if (k < 1) throw InputError(name + ": the grid has no nodes");
-    if (k > std::numeric_limits<int>::max() || nodes > most / static_cast<std::size_t>(k))
+    if (k > std::numeric_limits<int>::max() || nodes > most / static_cast<std::uint64_t>(k))
       throw InputError(name + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
                        std::to_string(n[2]) + " nodes are more than the file holds");
     nodes *= static_cast<std::size_t>(k);

@@ -193,7 +193,7 @@ class VtiReader {
       grid_.spacing[k] = spacing[k];
       grid_.origin[k] = origin[k] + first * spacing[k];
     }
-    nodes_ = checked_nodes(n, 1040 * (bytes_.size() + 1), name_);
+    nodes_ = checked_nodes(n, std::uint64_t{1040} * (bytes_.size() + 1), name_);
     for (int k = 0; k < 3; ++k) grid_.n[k] = static_cast<int>(n[k]);
     check_box(grid_, name_);
   }
@@ -206,7 +206,7 @@ class VtiReader {
     if (array.format == "appended") {
       const auto offset = parse_integer(attribute(tag, "offset", ""));
       if (!offset || *offset < 0) fail("an appended array has no offset");
-      array.offset = static_cast<std::size_t>(*offset);
+      array.offset = static_cast<std::size_t>(std::min(*offset, std::ssize(bytes_) + 0LL));
     } else if (tag.empty) {
       fail("the array " + in_quotes(array.name) + " is empty");
     }
@@ -283,7 +283,10 @@ class VtiReader {
   std::size_t header_number(std::string_view bytes, std::size_t i) const {
     if (bytes.size() / header_size_ <= i) fail("the data are cut short");
     const char* at = bytes.data() + i * header_size_;
-    return header_size_ == 8 ? load<std::uint64_t>(at, order_) : load<std::uint32_t>(at, order_);
+    const std::uint64_t number =
+        header_size_ == 8 ? load<std::uint64_t>(at, order_) : load<std::uint32_t>(at, order_);
+    return static_cast<std::size_t>(  // more is too much all the same
+        std::min<std::uint64_t>(number, std::numeric_limits<std::size_t>::max()));
   }
 
   std::string text_bytes(std::string_view text, std::size_t& used) const {

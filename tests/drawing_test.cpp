@@ -135,6 +135,9 @@ TEST(Drawing, FormatsRefuseWhatTheyDoNotHold) {
   EXPECT_EQ(again.space_curves.at(0).points, curve.points);
   EXPECT_THAT(parse_sources(sources_text(chain, "a.txt", mesh), "a.txt", mesh).chains.at(0).faces,
               ElementsAre(0, 1));
+  EXPECT_THROW(sources_text(Sources(SurfacePoint::at_vertex(25)), "a.txt", mesh), InputError);
+  EXPECT_EQ(sources_text(Sources(SurfacePoint::at_vertex(2)), "a.txt", Mesh::cloud(curve.points)),
+            "unsigned_point\nv 2\n");
   EXPECT_THROW(sources_text(Sources(SurfacePoint::on_edge(999, 0.5)), "a.txt", mesh), InputError);
 }
 

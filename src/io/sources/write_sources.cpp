@@ -17,8 +17,14 @@ bool is_same(const SurfacePoint& a, const SurfacePoint& b) {
   return a.on == SurfacePoint::On::vertex || a.b == b.b;
 }
 
+/// Vertices of clouds belong to no face.
+void check_exists(const SurfaceMesh& mesh, const SurfacePoint& p) {
+  const bool vertex = p.on == SurfacePoint::On::vertex;
+  if (!vertex || p.element < 0 || p.element >= mesh.n_vertices()) check_element(mesh, p);
+}
+
 std::string node_line(const SurfacePoint& p, const SurfaceMesh& mesh) {
-  check_element(mesh, p);
+  check_exists(mesh, p);
   const std::string element = std::to_string(p.element);
   if (p.on == SurfacePoint::On::vertex) return "v " + element + "\n";
   if (p.on == SurfacePoint::On::edge)
@@ -29,7 +35,7 @@ std::string node_line(const SurfacePoint& p, const SurfaceMesh& mesh) {
 }
 
 OrderedJson node_json(const SurfacePoint& p, const SurfaceMesh& mesh) {
-  check_element(mesh, p);
+  check_exists(mesh, p);
   if (p.on == SurfacePoint::On::vertex) return {{"v", p.element}};
   if (p.on == SurfacePoint::On::edge)
     return {{"e", {mesh.edges()(p.element, 0), mesh.edges()(p.element, 1)}}, {"t", p.b[1]}};

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "littoral/error.h"
@@ -144,7 +145,7 @@ TEST(Drawing, FormatsRefuseWhatTheyDoNotHold) {
 TEST(Drawing, OdditiesAreCounted) {
   EXPECT_THAT(oddities(drawing_square(4)), ElementsAre("16 edges lie on a boundary"));
   EXPECT_TRUE(oddities(Mesh::cloud(MatX3::Zero(3, 3))).empty());
-  EXPECT_THAT(info_json(drawing_square(4)), HasSubstr("\"boundary_edges\":16"));
+  EXPECT_THAT(info_json(drawing_square(4)), HasSubstr("\"boundary_edges\": 16"));
 }
 
 }  // namespace

@@ -64,6 +64,9 @@ VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, st
 /// Writes numbers as float64, little endian.
 void store_numbers(std::ostream& out, const VecX& values);
 
+/// A size in four or eight bytes; the largest that there is where it is larger.
+std::size_t load_size(std::string_view bytes, std::endian order);
+
 /// Number of nodes of a grid; throws InputError "name: ..." where a size is less than 1 or there
 /// are more nodes than `most`.
 std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t most,

@@ -45,6 +45,12 @@ void store_numbers(std::ostream& out, const VecX& values) {
   for (double value : values) store_little(out, value);
 }
 
+std::size_t load_size(std::string_view bytes, std::endian order) {
+  if (bytes.size() == 4) return load<std::uint32_t>(bytes.data(), order);
+  return static_cast<std::size_t>(std::min<std::uint64_t>(load<std::uint64_t>(bytes.data(), order),
+                                                          std::numeric_limits<std::size_t>::max()));
+}
+
 std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t most,
                           const std::string& name) {
   most = std::min<std::uint64_t>(most, std::numeric_limits<std::ptrdiff_t>::max());

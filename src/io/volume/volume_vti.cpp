@@ -206,7 +206,7 @@ class VtiReader {
     if (array.format == "appended") {
       const auto offset = parse_integer(attribute(tag, "offset", ""));
       if (!offset || *offset < 0) fail("an appended array has no offset");
-      array.offset = static_cast<std::size_t>(std::min(*offset, std::ssize(bytes_) + 0LL));
+      array.offset = static_cast<std::size_t>(std::min<std::int64_t>(*offset, bytes_.size()));
     } else if (tag.empty) {
       fail("the array " + in_quotes(array.name) + " is empty");
     }
@@ -282,11 +282,7 @@ class VtiReader {
 
   std::size_t header_number(std::string_view bytes, std::size_t i) const {
     if (bytes.size() / header_size_ <= i) fail("the data are cut short");
-    const char* at = bytes.data() + i * header_size_;
-    const std::uint64_t number =
-        header_size_ == 8 ? load<std::uint64_t>(at, order_) : load<std::uint32_t>(at, order_);
-    return static_cast<std::size_t>(  // more is too much all the same
-        std::min<std::uint64_t>(number, std::numeric_limits<std::size_t>::max()));
+    return load_size(bytes.substr(i * header_size_, header_size_), order_);
   }
 
   std::string text_bytes(std::string_view text, std::size_t& used) const {

@@ -98,7 +98,8 @@ def test_methods(run: Run) -> None:
     names = [m["name"] for m in methods]
     assert names[0] == "auto"
     assert len({(m["name"], *m["domains"]) for m in methods}) == len(methods)
-    options = {o["name"]: o for m in methods if m["name"] == "signed-heat" for o in m["options"]}
+    heat = next(m for m in methods if m["name"] == "signed-heat")
+    options = {o["name"]: o for o in heat["options"]}
     assert options["constraint"]["choices"] == ["none", "zero-set", "level-sets"]
     assert options["time-scale"]["kind"] == "number" and options["time-scale"]["low"] == 0
     assert options["preserve-normals"]["kind"] == "toggle"

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
-NOT_RUN = {"text", "cmake", "bibtex"}
+NOT_RUN = {"text", "cmake", "bibtex", "js"}  # JavaScript: the stage `web` does
 BLOCK = re.compile(
     r"(?P<skip><!-- not run: [^>]+ -->\s*)?^(?P<indent> *)```(?P<language>\w*)[^\n]*\n"
     r"(?P<code>.*?)^(?P=indent)```$",

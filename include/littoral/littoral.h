@@ -21,6 +21,7 @@
 #include "littoral/methods.h"
 #include "littoral/operators.h"
 #include "littoral/options.h"
+#include "littoral/repair.h"
 #include "littoral/report.h"
 #include "littoral/sources.h"
 #include "littoral/space.h"

@@ -69,6 +69,35 @@ void bind_volume(nb::module_& m) {
       nb::arg("settings").none());
 }
 
+void bind_repair(nb::module_& m) {
+  m.def(
+      "repair",
+      [](const Mesh& input, const std::string& method, const OptionValues& values, bool flip,
+         bool estimate_normals, std::optional<int> resolution, std::optional<double> spacing,
+         double error, double thicken, double smallest_part, bool cavities, bool fit,
+         const Settings* settings) {
+        RepairOptions options;
+        if (resolution || spacing) {
+          options.grid.resolution = resolution;
+          options.grid.spacing = spacing;
+        }
+        options.error = error;
+        options.thicken = thicken;
+        options.smallest_part = smallest_part;
+        options.cavities = cavities;
+        options.fit = fit;
+        Repaired out = released(settings, [&](const Context& context) {
+          return repair(input.soup(), options, AnyMethod::named(method, values),
+                        {flip, estimate_normals}, context);
+        });
+        return nb::make_tuple(nb::cast(std::move(out.surface)), as_dict(out.report));
+      },
+      nb::arg("input"), nb::arg("method"), nb::arg("options"), nb::arg("flip"),
+      nb::arg("estimate_normals"), nb::arg("resolution").none(), nb::arg("spacing").none(),
+      nb::arg("error"), nb::arg("thicken"), nb::arg("smallest_part"), nb::arg("cavities"),
+      nb::arg("fit"), nb::arg("settings").none());
+}
+
 void bind_sdf(nb::module_& m) {
   nb::class_<Sdf>(m, "Sdf")
       .def_static(
@@ -157,6 +186,7 @@ void bind_sdf(nb::module_& m) {
 void bind_space(nb::module_& m) {
   bind_volume(m);
   bind_sdf(m);
+  bind_repair(m);
 }
 
 }  // namespace littoral::python

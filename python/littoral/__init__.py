@@ -1,7 +1,8 @@
 """Distance and inside/outside for geometry that is broken.
 
 On surfaces: `distance`, `DistanceSolver`, `distance_matrix`, `winding`, `isolines`,
-`offset_curves`. In space: `SDF`, `Volume`, `offset`, `unite`, `intersect`, `subtract`, `fit_tori`.
+`offset_curves`. In space: `SDF`, `Volume`, `offset`, `unite`, `intersect`, `subtract`, `fit_tori`,
+`repair`.
 Through tets: `TetMesh`, `tet_distance`. Files: `read`, `read_volume`, `read_tets`. Lengths are in
 the unit of the input.
 """
@@ -30,6 +31,7 @@ from ._foreign import as_surface
 from ._methods import Method, Option, methods
 from ._operators import Factorization, Operators, operators
 from ._regions import Regions, winding
+from ._repair import Repaired, repair
 from ._report import Report
 from ._settings import progress, set_memory_limit, set_threads
 from ._sources import Curve, FaceChain, SurfacePoint
@@ -71,6 +73,7 @@ __all__ = [
     "PointCloud",
     "Polygons",
     "Regions",
+    "Repaired",
     "Report",
     "SolveError",
     "Surface",
@@ -97,6 +100,7 @@ __all__ = [
     "read_sources",
     "read_tets",
     "read_volume",
+    "repair",
     "sdf_of_volume",
     "set_memory_limit",
     "set_threads",

@@ -295,6 +295,21 @@ def fit_tori(
     estimate_normals: bool,
     settings: Settings | None,
 ) -> tuple: ...
+def repair(
+    input: Mesh,
+    method: str,
+    options: Sequence[tuple[str, str]],
+    flip: bool,
+    estimate_normals: bool,
+    resolution: int | None,
+    spacing: float | None,
+    error: float,
+    thicken: float,
+    smallest_part: float,
+    cavities: bool,
+    fit: bool,
+    settings: Settings | None,
+) -> tuple: ...
 
 class TetMesh:
     def __init__(

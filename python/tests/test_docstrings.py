@@ -20,7 +20,17 @@ NO_EXAMPLE = {"Closest", "Option"} | {
 }
 
 # What calls return; nobody makes one.
-RETURNED = {"Closest", "Field", "Method", "Operators", "Option", "Regions", "Report", "TetField"}
+RETURNED = {
+    "Closest",
+    "Field",
+    "Method",
+    "Operators",
+    "Option",
+    "Regions",
+    "Repaired",
+    "Report",
+    "TetField",
+}
 
 COMPAT = [
     "igl",

@@ -191,3 +191,23 @@ def test_tets_take_the_other_side(cube):
     one = littoral.tet_distance(tets, cube).values
     other = littoral.tet_distance(tets, cube, flip=True).values
     np.testing.assert_allclose(one, -other, atol=1e-9)
+
+
+def test_repair(cube: littoral.Mesh) -> None:
+    """An open cube becomes a closed one of the same volume; a sheet, a wall."""
+    broken = littoral.Mesh(cube.points, cube.faces[:-1])
+    found = littoral.repair(broken, resolution=24)
+    assert found.report.status == "converged" and not found.warnings
+    assert found.report.sizes["input: boundary edges"] == 3
+    for name in ("boundary edges", "nonmanifold edges", "self intersecting triangles"):
+        assert found.report.sizes["result: " + name] == 0
+    a, b, c = (found.surface.points[found.surface.faces[:, k]] for k in range(3))
+    assert np.sum(a * np.cross(b, c)) / 6 == pytest.approx(1, abs=0.02)
+    square = littoral.examples.square(2)
+    with pytest.raises(littoral.InputError, match="no inside"):
+        littoral.repair(square, resolution=24)
+    assert littoral.repair(square, resolution=48, thicken=0.1).report.sizes["parts"] == 1
+    with pytest.raises(littoral.UnsupportedError, match="thicken"):
+        littoral.repair(cube.points, cube.points - 0.5, thicken=0.1)
+    with pytest.raises(littoral.InputError, match="error"):
+        littoral.repair(cube, error=float("nan"))

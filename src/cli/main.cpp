@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
   cli::add_fit_tori(program, session);
   cli::add_info(program, session);
   cli::add_convert(program, session);
+  cli::add_repair(program, session);
   cli::add_compare(program, session);
   cli::add_contour(program, session);
   cli::add_offset(program, session);

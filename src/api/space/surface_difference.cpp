@@ -11,10 +11,8 @@
 
 namespace littoral {
 
-namespace {
-
-/// Points spread evenly over the triangles: the i-th lies where the area summed up reaches
-/// (i + 1/2) / n of the whole, and within its triangle by the R2 sequence (Roberts 2018).
+// The i-th lies where the area summed up reaches (i + 1/2) / n of the whole, and within its
+// triangle by the R2 sequence (Roberts 2018).
 MatX3 spread_over(const PolygonSoup& surface, int n) {
   const PolygonSoup triangles = triangulate(surface);
   std::vector<double> sum(1, 0.0);
@@ -41,8 +39,6 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   }
   return points;
 }
-
-}  // namespace
 
 OneSidedDistance one_sided_distance(const PolygonSoup& from, const PolygonSoup& to, int samples,
                                     Task task) {

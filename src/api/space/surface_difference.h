@@ -18,4 +18,8 @@ struct OneSidedDistance {
 OneSidedDistance one_sided_distance(const PolygonSoup& from, const PolygonSoup& to, int samples,
                                     Task task);
 
+/// n points (n x 3) spread evenly over the area, the same in every run. Throws InputError for no
+/// area.
+MatX3 spread_over(const PolygonSoup& surface, int n);
+
 }  // namespace littoral

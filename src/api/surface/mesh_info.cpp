@@ -9,7 +9,10 @@
 
 #include "base/disjoint_sets.h"
 #include "base/option_table.h"
+#include "domain/mesh/face_orientation.h"
 #include "sources/pieces.h"
+#include "spatial/self_intersections.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 
@@ -247,8 +250,18 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   count("euler_characteristic", double(n_used) - mesh.n_edges() + mesh.n_faces());
   count("nonmanifold_edges", n_nonmanifold);
   count("nonmanifold_vertices", count_nonmanifold_vertices(mesh));
+  const PolygonSoup triangles = triangulate(mesh.soup());
+  const FaceOrientation turned = face_orientation(SurfaceMesh(triangles));
   count("inconsistently_oriented_edges", orientation.inconsistent_edges);
+  count("triangles_turned_against_most", turned.flipped);
   out.push_back({"orientable", orientation.orientable});
+  const std::vector<char> crossing =
+      self_intersecting_faces(triangles.points, triangles_of(triangles));
+  const auto n_crossing = std::count(crossing.begin(), crossing.end(), 1);
+  count("self_intersecting_triangles", static_cast<double>(n_crossing));
+  const bool closed = soup.n_faces() > 0 && n_boundary + n_nonmanifold == 0;
+  out.push_back({"closed", closed});
+  out.push_back({"watertight", closed && orientation.inconsistent_edges + n_crossing == 0});
   count("degenerate_faces", shapes.degenerate);
   count("duplicate_faces", count_duplicate_faces(mesh));
   count("coincident_vertices", count_coincident_vertices(soup.points));

@@ -2,6 +2,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/volume_meaning.h"
+#include "base/option_table.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -82,9 +83,11 @@ VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& sessio
   return winding.confidence(points, task);
 }
 
-void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
+void add_grid_options(CLI::App& verb, SpaceArguments& texts, const GridOptions& defaults) {
+  texts.padding = defaults.padding;
   verb.add_option("--resolution", texts.resolution,
-                  "nodes along the longest side, 2 to 100000 [default 64]")
+                  "nodes along the longest side, 2 to 100000 [default " +
+                      std::to_string(defaults.resolution.value_or(64)) + "]")
       ->check(CLI::Range(2, 100000).description(""))
       ->type_name("N");
   verb.add_option("--spacing", texts.spacing,
@@ -93,7 +96,8 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts) {
   verb.add_option("--bounds", texts.bounds, "the box: x0,y0,z0,x1,y1,z1 [length]")
       ->type_name("BOX");
   verb.add_option("--padding", texts.padding,
-                  "without --bounds: margin around the input, in its longest side [default 0.25]")
+                  "without --bounds: margin around the input, in its longest side [default " +
+                      number_text(defaults.padding) + "]")
       ->check(CLI::Range(0.0, 1000.0).description(""))
       ->type_name("F");
 }

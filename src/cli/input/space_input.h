@@ -42,7 +42,7 @@ void add_confidence_option(CLI::App& verb, bool& confidence);
 /// input.
 VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& session);
 /// Adds --resolution, --spacing, --bounds and --padding.
-void add_grid_options(CLI::App& verb, SpaceArguments& texts);
+void add_grid_options(CLI::App& verb, SpaceArguments& texts, const GridOptions& defaults = {});
 
 /// The request that was given, checked.
 SpaceRequest space_request(const SpaceArguments& texts, const Session& session);

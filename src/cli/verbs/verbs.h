@@ -13,6 +13,7 @@ void add_query(CLI::App& program, Session& session);
 void add_fit_tori(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_convert(CLI::App& program, Session& session);
+void add_repair(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
 void add_contour(CLI::App& program, Session& session);
 void add_offset(CLI::App& program, Session& session);

@@ -1,0 +1,83 @@
+"""Closed surfaces made of broken ones."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import _core
+from ._foreign import as_cloud_or_surface
+from ._methods import option_texts
+from ._report import Report
+from ._results import Reported
+from ._settings import Progress, settings
+from ._surfaces import Mesh, Surface
+
+
+class Repaired(Reported):
+    """What `repair` returns: `surface`, closed, and the `report` of what was changed.
+
+    >>> import littoral
+    >>> littoral.repair(littoral.examples.cube(), resolution=12).report.status
+    'converged'
+    """
+
+    def __init__(self, surface: Surface, report: Report) -> None:
+        self.surface = surface
+        self.report = report
+
+    def __repr__(self) -> str:
+        return f"<littoral.Repaired: {self.surface!r}, {self.report.status}>"
+
+
+def repair(
+    V: Any,
+    F: Any = None,
+    *,
+    resolution: int | None = None,
+    spacing: float | None = None,
+    error: float = 0.0,
+    thicken: float = 0.0,
+    smallest_part: float = 0.0,
+    cavities: bool = True,
+    fit: bool = True,
+    method: str | None = None,
+    flip: bool = False,
+    estimate_normals: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Repaired:
+    """A closed, manifold surface that does not cross itself, from a broken one or a cloud.
+
+    V, F and method as for `SDF`. It is taken from a grid (resolution: nodes along the longest side,
+    128 without; or spacing [length]) and fitted to the input with its creases, unless fit is False.
+    error: refine the grid, up to 512 nodes, until no point of the result is farther than that from
+    the input or what closes it. thicken: sheets become walls that thick. smallest_part: parts whose
+    boxes have shorter diagonals go [all lengths]. cavities: keep holes inside of parts. The
+    report's status is "uncertain" where the result is not sound or misses some of the input.
+    InputError for an input without an inside and for bad values, UnsupportedError for thicken of a
+    cloud.
+
+    >>> import littoral
+    >>> cube = littoral.examples.cube()
+    >>> open_cube = littoral.Mesh(cube.points, cube.faces[:-1])
+    >>> closed = repair(open_cube, resolution=24)
+    >>> closed.report.sizes["input: boundary edges"], closed.report.sizes["result: boundary edges"]
+    (3.0, 0.0)
+    """
+    core, report = _core.repair(
+        as_cloud_or_surface(V, F)._handle,
+        method or "",
+        option_texts(options),
+        bool(flip),
+        bool(estimate_normals),
+        resolution,
+        spacing,
+        float(error),
+        float(thicken),
+        float(smallest_part),
+        bool(cavities),
+        bool(fit),
+        settings(threads, progress),
+    )
+    return Repaired(Mesh._of(core), Report(**report))

@@ -1,0 +1,205 @@
+#include "littoral/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "api/surface/mesh_info.h"
+#include "broken_shapes.h"
+#include "contour/fit_to_surface.h"
+#include "contour/isosurface.h"
+#include "littoral/error.h"
+#include "space_helpers.h"
+#include "spatial/self_intersections.h"
+#include "spatial/triangulate.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+double fact(const PolygonSoup& soup, const std::string& key) {
+  for (const InfoEntry& each : surface_info(soup))
+    if (each.key == key)
+      return std::holds_alternative<bool>(each.value) ? double(std::get<bool>(each.value))
+                                                      : std::get<double>(each.value);
+  ADD_FAILURE() << key;
+  return NAN;
+}
+
+double size_named(const Report& report, const std::string& name) {
+  for (const auto& [each, value] : report.sizes)
+    if (each == name) return value;
+  ADD_FAILURE() << name;
+  return NAN;
+}
+
+double volume_of(const PolygonSoup& soup) {
+  double volume = 0;
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const Vec3 a = soup.points.row(soup.face(f)[0]), b = soup.points.row(soup.face(f)[1]),
+               c = soup.points.row(soup.face(f)[2]);
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
+void expect_watertight(const Mesh& mesh) {
+  EXPECT_EQ(fact(mesh.soup(), "watertight"), 1);
+  EXPECT_EQ(fact(mesh.soup(), "nonmanifold_vertices"), 0);
+}
+
+TEST(Repair, BoxWithItsEdgesAndCorners) {
+  // A box that does not follow the grid: the fit gives its edges and corners back.
+  PolygonSoup box = test::box_soup(Vec3(0.5, 0.4, 0.3));
+  const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(0.5, Vec3(1, 2, 3).normalized()));
+  box.points = box.points * turn.transpose();
+  RepairOptions options;
+  options.grid.resolution = 32;
+  const Repaired with = repair(box, options);
+  options.fit = false;
+  const Repaired without = repair(box, options);
+  expect_watertight(with.surface);
+  expect_watertight(without.surface);
+  EXPECT_EQ(with.report.status, "converged");
+  const double h = 1.0 / 25;  // about a spacing
+  EXPECT_GT(size_named(without.report, "input to result: largest"), 0.1 * h);
+  EXPECT_LT(size_named(with.report, "input to result: largest"), 0.02 * h);
+  EXPECT_LT(size_named(with.report, "result to input: largest"), 1e-9);
+  EXPECT_NEAR(volume_of(with.surface.soup()), 8 * 0.5 * 0.4 * 0.3, 1e-4);
+  EXPECT_EQ(size_named(with.report, "result: handles"), 0);
+}
+
+TEST(Repair, HoleTurnedFacesAndADuplicate) {
+  // A sphere with a hole, some faces turned round, some twice and one piece of it beside itself.
+  const PolygonSoup whole = test::octasphere_soup(4);
+  PolygonSoup broken;
+  broken.points = whole.points;
+  std::mt19937 random(2);
+  for (int f = 0; f < whole.n_faces(); ++f) {
+    const auto v = whole.face(f);
+    const Vec3 x = whole.points.row(v[0]);
+    if (x[2] > 0.93) continue;
+    if (random() % 20 == 0)
+      test::add_triangle(broken, v[0], v[2], v[1]);
+    else
+      test::add_triangle(broken, v[0], v[1], v[2]);
+    if (random() % 20 == 0) test::add_triangle(broken, v[0], v[1], v[2]);
+  }
+  RepairOptions options;
+  options.grid.resolution = 48;
+  const Repaired out = repair(broken, options);
+  expect_watertight(out.surface);
+  EXPECT_GT(size_named(out.report, "input: boundary edges"), 0);
+  EXPECT_GT(size_named(out.report, "input: self intersecting triangles"), 0);
+  EXPECT_LT(size_named(out.report, "result to input and closure: largest"), 0.05);
+  EXPECT_NEAR(volume_of(out.surface.soup()), 4 * M_PI / 3, 0.08);
+}
+
+TEST(Repair, OverlappingPartsBecomeOne) {
+  PolygonSoup a = test::box_soup(Vec3(0.5, 0.5, 0.5)), b = a;
+  b.points.rowwise() += Eigen::RowVector3d(0.41, 0.37, 0.33);
+  RepairOptions options;
+  options.grid.resolution = 40;
+  const Repaired out = repair(test::joined(a, b), options);
+  expect_watertight(out.surface);
+  EXPECT_EQ(size_named(out.report, "parts"), 1);
+  EXPECT_NEAR(volume_of(out.surface.soup()), 2 - 0.59 * 0.63 * 0.67, 2e-3);
+  EXPECT_GT(size_named(out.report, "input within the result, share"), 0.1);
+  EXPECT_EQ(size_named(out.report, "input missed, share"), 0);
+}
+
+TEST(Repair, PartsAndCavities) {
+  const PolygonSoup outer = test::octasphere_soup(3);
+  PolygonSoup inner = test::reversed(outer), small = outer;
+  inner.points *= 0.5;
+  small.points *= 0.2;
+  small.points.rowwise() += Eigen::RowVector3d(1.6, 0, 0);
+  const PolygonSoup all = test::joined(test::joined(outer, inner), small);
+  RepairOptions options;
+  options.grid.resolution = 48;
+  EXPECT_EQ(size_named(repair(all, options).report, "parts"), 3);
+  options.smallest_part = 1;
+  const Repaired large = repair(all, options);
+  EXPECT_EQ(size_named(large.report, "parts"), 2);
+  EXPECT_EQ(size_named(large.report, "small parts dropped"), 1);
+  options.cavities = false;
+  const Repaired solid = repair(all, options);
+  EXPECT_EQ(size_named(solid.report, "cavities filled"), 1);
+  EXPECT_NEAR(volume_of(solid.surface.soup()), volume_of(outer), 0.03);
+  options.smallest_part = 100;
+  EXPECT_THROW(repair(all, options), InputError);
+}
+
+TEST(Repair, SheetsBecomeWalls) {
+  const PolygonSoup sheet = test::grid_soup(4, 4);
+  RepairOptions options;
+  options.grid.resolution = 64;
+  EXPECT_THROW(repair(sheet, options), InputError);
+  options.thicken = 0.1;
+  const Repaired out = repair(sheet, options);
+  expect_watertight(out.surface);
+  EXPECT_EQ(size_named(out.report, "parts"), 1);
+  // Steiner's formula: the sheet's area, half a tube along its sides, quarters of a ball.
+  const double r = 0.05, steiner = 2 * r + M_PI * r * r * 2 + 4 * M_PI / 3 * r * r * r;
+  EXPECT_NEAR(volume_of(out.surface.soup()), steiner, 0.01 * steiner);
+}
+
+TEST(Repair, WarnsOfWhatItMisses) {
+  // A box with a large fin that has no inside.
+  const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
+  PolygonSoup fin = test::grid_soup(2, 2);
+  fin.points.rowwise() += Eigen::RowVector3d(0.4, 0, 0);
+  RepairOptions options;
+  options.grid.resolution = 40;
+  const Repaired out = repair(test::joined(box, fin), options);
+  expect_watertight(out.surface);
+  EXPECT_EQ(out.report.status, "uncertain");
+  EXPECT_GT(size_named(out.report, "input missed, share"), 0.03);
+}
+
+TEST(Repair, RefinesUntilTheErrorIsMet) {
+  const PolygonSoup sphere = test::octasphere_soup(3);
+  RepairOptions options;
+  options.fit = false;
+  options.error = 0.004;
+  const Repaired out = repair(sphere, options);
+  EXPECT_EQ(out.report.status, "converged");
+  EXPECT_LE(size_named(out.report, "result to input and closure: largest"), 0.004);
+}
+
+TEST(Repair, RefusesWhatMakesNoSense) {
+  const PolygonSoup sphere = test::octasphere_soup(1);
+  RepairOptions options;
+  options.error = NAN;
+  EXPECT_THROW(repair(sphere, options), InputError);
+  options = {};
+  options.thicken = -1;
+  EXPECT_THROW(repair(sphere, options), InputError);
+  options = {};
+  options.thicken = 1;
+  PolygonSoup cloud;
+  cloud.points = cloud.normals = sphere.points;
+  EXPECT_THROW(repair(cloud, options), UnsupportedError);
+  EXPECT_THROW(repair(PolygonSoup{}), InputError);
+}
+
+TEST(FitToSurface, TakesBackWhatWouldCross) {
+  // Two plates nearer to each other than the reach: feet on the wrong one must not tangle.
+  PolygonSoup target = test::octasphere_soup(3), contour = target;
+  contour.points *= 0.97;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-0.5, 0.5);
+  for (Eigen::Index v = 0; v < target.points.rows(); ++v)  // a rough target
+    target.points.row(v) *= 1 + u(random);
+  const FittedSurface out = fit_to_surface(contour.points, triangles_of(contour), target.points,
+                                           triangles_of(target), 0.6, {});
+  const auto flags = self_intersecting_faces(out.points, out.faces);
+  EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 0);
+  EXPECT_GT(out.n_moved, 0);
+  EXPECT_GT(out.n_kept, 0);
+}
+
+}  // namespace
+}  // namespace littoral

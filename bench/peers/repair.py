@@ -19,9 +19,12 @@ from compare import machine, replace_section
 
 LIMIT = 300  # seconds
 MESHFIX = """
-import sys, trimesh, pymeshfix
-mesh = trimesh.load(sys.argv[1], process=False, force="mesh")
-v, f = pymeshfix.clean_from_arrays(mesh.vertices, mesh.faces)
+import sys, numpy, trimesh, pymeshfix
+mesh = trimesh.load(sys.argv[1], force="mesh")  # joins corners at one place
+v, f = pymeshfix.clean_from_arrays(
+    numpy.ascontiguousarray(mesh.vertices, numpy.float64),
+    numpy.ascontiguousarray(mesh.faces, numpy.int32),
+)
 trimesh.Trimesh(v, f, process=False).export(sys.argv[2])
 """
 

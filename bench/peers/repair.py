@@ -49,7 +49,7 @@ def judged(program: str, words: list[str], given: Path, out: Path) -> dict[str, 
     if not out.exists():
         return {"seconds": seconds}
     facts = asked(program, "info", out)
-    if not facts["faces"]:
+    if not facts.get("faces"):
         return {"seconds": seconds}
     box = asked(program, "info", given)["bounding_box"]
     diagonal = sum((box[k + 3] - box[k]) ** 2 for k in range(3)) ** 0.5

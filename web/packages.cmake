@@ -1,12 +1,12 @@
 # What the library needs besides Eigen, for WebAssembly. Debian's headers are taken one by one: the
 # folder that they are in is that of another machine's C library. zlib is compiled from the copy of its
 # source that an npm package holds.
-foreach(header nlohmann/json.hpp fast_float/fast_float.h)
+foreach(header nlohmann/json.hpp fast_float/fast_float.h boost/multiprecision/cpp_int.hpp)
   find_path(folder_of_${header} ${header} PATHS /usr/include /usr/local/include NO_CMAKE_FIND_ROOT_PATH)
   if(NOT folder_of_${header})
     message(FATAL_ERROR "${header} not found: scripts/setup.sh web installs it")
   endif()
-  get_filename_component(name ${header} DIRECTORY)
+  string(REGEX REPLACE "/.*" "" name ${header})
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/headers)
   file(CREATE_LINK ${folder_of_${header}}/${name} ${CMAKE_BINARY_DIR}/headers/${name} SYMBOLIC)
 endforeach()

@@ -1,0 +1,204 @@
+// The library in its worker, behind what the page needs: one surface, one prepared method, and an
+// answer to the newest sources only.
+import * as littoral from "littoral/inline";
+import type {
+  Call, Curve, Field, Littoral, Method, MethodInfo, Regions, Report, Solver, Sources, Surface,
+} from "littoral/inline";
+
+import { isEmpty } from "./drawing";
+
+export type Task = "distance" | "regions";
+
+export interface Settings {
+  readonly task: Task;
+  readonly method: Method;
+}
+
+/** What is shown: values at the vertices of the surface, or of a finer or cut one. */
+export interface Answer {
+  readonly name: string;
+  readonly values: Float64Array;
+  readonly refined: littoral.DrawnSurface | null;
+  /** Of the values, in interpolation; or null. */
+  readonly weights: Float64Array | null;
+  readonly field: Field | null;
+  readonly regions: Regions | null;
+  readonly report: Report;
+  readonly seconds: number;
+}
+
+export interface Listener {
+  busy(stage: string, fraction: number): void;
+  idle(): void;
+  /** Curves are known as the library joins them. */
+  joined(): void;
+  answer(answer: Answer, stamp: number): void;
+  failure(error: Error): void;
+}
+
+interface Request { readonly sources: Sources; readonly settings: Settings; readonly stamp: number }
+
+/** A curve as it runs along the surface; kept by the list of its nodes. */
+type Kept = { open?: Float64Array; closed?: Float64Array };
+
+const familyOf: Record<Task, RegExp> = { distance: /^distance on surfaces/i, regions: /region/i };
+
+export class Engine {
+  surface: Surface | null = null;
+  private solver: Solver | null = null;
+  private prepared = "";
+  private running: AbortController | null = null;
+  private waiting: Request | null = null;
+  private paths = new WeakMap<Curve["nodes"], Kept>();
+
+  private constructor(readonly library: Littoral, private readonly listener: Listener) {}
+
+  static async start(listener: Listener): Promise<Engine> {
+    return new Engine(await littoral.open(), listener);
+  }
+
+  /** The methods of a task that run on the surface at hand, the default first. */
+  methods(task: Task): readonly MethodInfo[] {
+    const family = this.library.families.find((each) => familyOf[task].test(each.title));
+    const kind = this.surface?.kind;
+    return (family?.methods ?? []).filter((method) => !kind || method.domains.includes(kind));
+  }
+
+  /** Takes the place of the surface there was, unless it cannot be read. */
+  async load(bytes: Uint8Array, name: string): Promise<Surface> {
+    this.drop();
+    const call = this.begin(`reading ${name}`);
+    try {
+      const next = await this.read(bytes, name, call);
+      this.solver?.dispose();
+      this.surface?.dispose();
+      this.solver = null;
+      this.prepared = "";
+      this.surface = next;
+      this.paths = new WeakMap();
+      return next;
+    } finally {
+      this.finish();
+    }
+  }
+
+  private async read(bytes: Uint8Array, name: string, call: Call): Promise<Surface> {
+    const extension = name.slice(name.lastIndexOf(".")).toLowerCase();
+    if (this.library.extensions.surfaces.includes(extension) ||
+        !this.library.extensions.volumes.includes(extension)) {
+      return this.library.loadSurface(bytes, name, call);
+    }
+    const volume = await this.library.loadVolume(bytes, name, call);
+    try {
+      return await volume.isosurface(0, true, call);
+    } finally {
+      volume.dispose();
+    }
+  }
+
+  /** Asks for the answer to these sources; of requests that wait only the newest is answered. */
+  request(sources: Sources, settings: Settings, stamp: number): void {
+    this.waiting = { sources, settings, stamp };
+    if (!this.running) void this.work();
+  }
+
+  /** Nothing that was asked for is wanted any more. */
+  drop(): void {
+    this.waiting = null;
+  }
+
+  cancel(): void {
+    this.drop();
+    this.running?.abort();
+  }
+
+  get busy(): boolean { return this.running !== null || this.waiting !== null; }
+
+  private begin(stage: string): Call {
+    const control = new AbortController();
+    this.running = control;
+    this.listener.busy(stage, 0);
+    return {
+      signal: control.signal,
+      onProgress: (fraction, what) => this.listener.busy(what || stage, fraction),
+    };
+  }
+
+  private finish(): void {
+    this.running = null;
+    if (this.waiting) void this.work();
+    else this.listener.idle();
+  }
+
+  private async work(): Promise<void> {
+    const request = this.waiting, { surface } = this;
+    this.waiting = null;
+    if (!request || !surface) return this.listener.idle();
+    const call = this.begin("solving");
+    try {
+      const start = performance.now();
+      await this.join(surface, request, call);
+      if (isEmpty(request.sources)) return;
+      const answer = request.settings.task === "regions"
+        ? await this.regions(surface, request, call) : await this.distance(surface, request, call);
+      if (surface === this.surface)
+        this.listener.answer({ ...answer, seconds: (performance.now() - start) / 1000 }, request.stamp);
+    } catch (error) {
+      if (surface === this.surface && !(error instanceof littoral.Cancelled && this.waiting))
+        this.listener.failure(error as Error);
+    } finally {
+      this.finish();
+    }
+  }
+
+  /** Positions of a curve along the surface, once the library has joined its nodes. */
+  pathOf(nodes: Curve["nodes"], closed: boolean): Float64Array | undefined {
+    return this.paths.get(nodes)?.[closed ? "closed" : "open"];
+  }
+
+  /** Asks for the curves that are not known yet. What cannot be joined is the solve's to report. */
+  private async join(surface: Surface, { sources }: Request, call: Call): Promise<void> {
+    if (surface.kind !== "triangle mesh") return;
+    let any = false;
+    for (const { nodes, closed = false } of sources.curves ?? []) {
+      if (this.pathOf(nodes, closed)) continue;
+      try {
+        const { positions } = await surface.path(nodes, closed, call);
+        const kept = this.paths.get(nodes) ?? {};
+        this.paths.set(nodes, { ...kept, [closed ? "closed" : "open"]: positions });
+        any = true;
+      } catch (error) {
+        if (error instanceof littoral.Cancelled) throw error;
+      }
+    }
+    if (any) this.listener.joined();
+  }
+
+  private async distance(surface: Surface, { sources, settings }: Request, call: Call) {
+    const key = JSON.stringify(settings.method);
+    if (!this.solver || this.prepared !== key) {
+      this.solver?.dispose();
+      this.solver = null;
+      this.solver = await surface.prepare(settings.method, call);
+      this.prepared = key;
+    }
+    const field = await this.solver.solve(sources, call);
+    const finer = field.refined?.scalars["distance"];
+    return {
+      name: "distance", values: finer ?? field.values, refined: finer ? field.refined : null,
+      weights: null, field, regions: null, report: field.report,
+    };
+  }
+
+  private async regions(surface: Surface, { sources, settings }: Request, call: Call) {
+    const regions = await surface.regions(sources, settings.method, call);
+    const { scalars } = regions.surface;
+    const values = scalars["region"] ?? scalars["winding"];
+    if (!values) throw new Error("the regions came without values");
+    return {
+      name: "region", values, refined: regions.surface,
+      weights: scalars["region"] ? null : scalars["weight"] ?? null,
+      field: null, regions, report: regions.report,
+    };
+  }
+}

@@ -1,0 +1,54 @@
+// The menu that saves.
+import type { App } from "./app";
+import { download, element, fillSelect } from "./dom";
+import type { Engine } from "./engine";
+import { linesAsSvg, picture } from "./saving";
+import type { Stage } from "./stage";
+
+const fieldFormats = [".ply", ".csv", ".npy", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
+
+export function connectSaving(app: App, engine: Engine, stage: Stage): void {
+  const menu = element<HTMLDetailsElement>("save-menu");
+  const stem = () => (engine.surface?.name ?? "littoral").replace(/\.[^.]*$/, "").replace(/[^\w.-]+/g, "_") || "littoral";
+  const choices = (formats: string[]) => formats.map((value) => ({ value, text: value }));
+  const fieldFormat = element<HTMLSelectElement>("field-format"), lineFormat = element<HTMLSelectElement>("lines-format");
+  fillSelect(fieldFormat, choices(fieldFormats), fieldFormats[0]);
+  fillSelect(lineFormat, choices(lineFormats), lineFormats[0]);
+
+  const connect = (id: string, save: () => Promise<string>) => element(id).addEventListener("click", () => {
+    menu.open = false;
+    save().then((text) => app.toast(text), (error: Error) => app.toast(`Not saved: ${error.message}`));
+  });
+  const field = () => {
+    const { answer } = app;
+    if (!answer || !engine.surface) throw new Error("there is no field yet; draw something");
+    return { values: { values: answer.values, refined: answer.refined }, surface: engine.surface };
+  };
+  connect("save-sources", async () => {
+    const { name, text } = await app.files.sourceFile();
+    if (!text) throw new Error("nothing is drawn yet");
+    const extension = name.slice(name.lastIndexOf("."));
+    download(`${stem()}-sources${extension}`, text, "text/plain");
+    return "Sources saved";
+  });
+  connect("save-field", async () => {
+    const { values, surface } = field(), name = `${stem()}-${app.answer!.name}${fieldFormat.value}`;
+    download(name, await surface.writeField(values, name) as BlobPart);
+    return `${name} saved`;
+  });
+  connect("save-lines", async () => {
+    const { values, surface } = field(), { spacing } = app;
+    if (!(spacing > 0)) throw new Error("there are no isolines in the picture");
+    const lines = await surface.isolines(values, { spacing }), name = `${stem()}-isolines${lineFormat.value}`;
+    if (lineFormat.value === ".svg")
+      download(name, linesAsSvg(stage, lines, app.history.drawing, app.layout, name), "image/svg+xml");
+    else download(name, await surface.writeLines(lines, name) as BlobPart);
+    return `${name} saved`;
+  });
+  connect("save-picture", async () => {
+    const legend = element<HTMLCanvasElement>("legend"), blob = await picture(stage, legend.hidden ? null : legend);
+    if (!blob) throw new Error("the browser made no picture");
+    download(`${stem()}.png`, blob);
+    return `${stem()}.png saved`;
+  });
+}

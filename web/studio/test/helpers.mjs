@@ -1,0 +1,107 @@
+// Opens the studio and acts on it as a person would.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { openPage } from "../../../viewer/test/browser.mjs";
+
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
+export const folder = mkdtempSync(join(tmpdir(), "littoral-studio-"));
+const file = process.env.STUDIO ?? join(root, "dist/studio.html");
+const program = process.env.LITTORAL ?? join(root, "build/release/littoral");
+
+/** The page, with an example or a link, once it has computed all it was asked for. */
+export async function openStudio({ hash = "", example, ...options } = {}) {
+  const url = pathToFileURL(file).href;
+  const shown = await openPage(url + hash, { colorScheme: "light", viewport: { width: 800, height: 560 }, ...options });
+  await shown.page.waitForFunction(() => window.studio, null, { timeout: 60000 });
+  await settled(shown.page);
+  if (example) {
+    await shown.page.selectOption("#examples", example);
+    await shown.page.waitForFunction((id) => studio.files.example === id, example);
+    await settled(shown.page);
+  }
+  return { ...shown, url };
+}
+
+/** Nothing is being computed and the last picture is drawn. */
+export async function settled(page) {
+  await page.waitForFunction(() => !studio.engine.busy && studio.stage.settled, null, { timeout: 60000 });
+  await page.waitForTimeout(60);
+  await page.waitForFunction(() => !studio.engine.busy && studio.stage.settled, null, { timeout: 60000 });
+}
+
+export async function closeQuietly({ page, errors, requests, url, close }) {
+  const left = requests.filter((r) => !/^(data|blob):/.test(r) && r.split("#")[0] !== url);
+  await close();
+  assert.deepEqual(errors, [], "nothing on the console");
+  assert.deepEqual(left, [], "no request leaves the page");
+}
+
+/** Places on the screen where the surface is, in a ring about the middle of the picture. */
+export const ring = (page, count, part = 0.14) => page.evaluate(([n, r]) => {
+  const box = document.getElementById("view").getBoundingClientRect(), out = [];
+  const { right, bottom } = studio.stage.insets;
+  const cx = box.left + (box.width - right) / 2, cy = box.top + (box.height - bottom) / 2;
+  for (let i = 0; i < n; ++i) {
+    const a = (2 * Math.PI * i) / n;
+    out.push({ x: cx + r * box.height * Math.cos(a), y: cy + r * box.height * Math.sin(a) });
+  }
+  return out.filter(({ x, y }) => studio.stage.pick(x, y));
+}, [count, part]);
+
+export async function clickAll(page, places) {
+  for (const { x, y } of places) await page.mouse.click(x, y);
+}
+
+export const state = (page) => page.evaluate(() => ({
+  strokes: studio.history.drawing.strokes.map((s) => ({ nodes: s.nodes.length, closed: s.closed, signed: s.signed })),
+  points: studio.history.drawing.points.length,
+  values: studio.answer ? Array.from(studio.answer.values) : null,
+  method: studio.answer?.report.method, status: document.getElementById("status").textContent,
+  message: document.getElementById("message").hidden ? null : document.getElementById("message").textContent,
+  warnings: [...document.querySelectorAll("#warnings li")].map((li) => li.textContent),
+}));
+
+/** What a button gives to save, in a format of the list beside it: its bytes and name. */
+export async function saved(page, id, format) {
+  await page.evaluate(() => { document.getElementById("save-menu").open = true; });
+  if (format) await page.selectOption(`#${id.slice(5)}-format`, format);
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#${id}`)]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+/** The command line's distance at the vertices, for a mesh and the bytes of a source file. */
+export function byProgram(mesh, sources, ...options) {
+  const from = join(folder, "sources.txt"), to = join(folder, "out.txt");
+  writeFileSync(from, sources);
+  execFileSync(program, ["distance", mesh, "-s", from, "-o", to, "--quiet", ...options], { stdio: ["ignore", "ignore", "inherit"] });
+  return readFileSync(to, "utf8").trim().split("\n").map(Number);
+}
+
+export function assertClose(a, b, tolerance) {
+  assert.equal(a.length, b.length);
+  let worst = 0;
+  for (let i = 0; i < a.length; ++i) if (a[i] !== b[i]) worst = Math.max(worst, Math.abs(a[i] - b[i]));
+  assert.ok(worst < tolerance, `they differ by up to ${worst}`);
+}
+
+/** How many pixels an action changes. */
+export async function changedPixels(page, act) {
+  await page.evaluate(() => { window.was = studio.stage.pixels(); });
+  await act();
+  await settled(page);
+  return page.evaluate(() => {
+    const now = studio.stage.pixels();
+    let count = 0;
+    if (now.length !== was.length) return Infinity;
+    for (let i = 0; i < now.length; i += 4)
+      if (Math.abs(now[i] - was[i]) + Math.abs(now[i + 1] - was[i + 1]) + Math.abs(now[i + 2] - was[i + 2]) > 12) ++count;
+    return count;
+  });
+}
+
+export const pickFile = async (page, name, bytes) =>
+  page.setInputFiles("#file", { name, mimeType: "application/octet-stream", buffer: Buffer.from(bytes) });

@@ -1,0 +1,170 @@
+// Controls, saving, links, bad input, a lost context, touch and sizes.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  assertClose, changedPixels, clickAll, closeQuietly, openStudio, pickFile, ring, saved, settled, state,
+} from "./helpers.mjs";
+
+test("the page opens on a field; each control changes what it should", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const { values, method, message } = await state(page);
+  assert.equal(method, "auto");
+  assert.equal(message, null);
+  assert.ok(Math.min(...values) < 0 && Math.max(...values) > 0);
+  assert.ok(await changedPixels(page, () => page.click("#lines")) > 300, "isolines");
+  await page.click("#lines");
+  assert.ok(await changedPixels(page, () => page.locator("#spacing").fill("0")) > 100, "their spacing");
+  assert.ok(await changedPixels(page, () => page.click("#wires")) > 500, "sides of faces");
+  await page.click("#wires");
+  assert.ok(await changedPixels(page, () => page.click("#marks")) > 30, "curves");
+  await page.click("#marks");
+  assert.ok(await changedPixels(page, () => page.keyboard.press("ArrowLeft")) > 500, "arrows turn");
+  assert.ok(await changedPixels(page, () => page.keyboard.press("h")) > 500, "first view");
+  assert.ok(await changedPixels(page, () => page.click("#theme")) > 1000, "dark");
+  await page.click("#theme");
+
+  await page.selectOption("#method", "signed-heat");
+  await settled(page);
+  const heat = await state(page);
+  assert.equal(heat.method, "signed-heat");
+  await page.click("#options-box summary");
+  await page.fill("#option-time-scale", "30");
+  await page.locator("#option-time-scale").blur();
+  await settled(page);
+  assert.notDeepEqual((await state(page)).values, heat.values);
+  assert.equal(await page.evaluate(() => studio.answer.report.options["time-scale"] == 30), true);
+  await page.fill("#option-time-scale", "-3"); // out of range: nothing happens
+  await page.locator("#option-time-scale").blur();
+  await settled(page);
+  assert.equal(await page.evaluate(() => studio.answer.report.options["time-scale"] == 30), true);
+  await closeQuietly(shown);
+});
+
+test("the cursor reads value and node, a click copies the node", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const [{ x, y }] = await ring(page, 3, 0.02);
+  await page.mouse.move(x, y);
+  await page.waitForSelector("#readout:not([hidden])");
+  assert.match(await page.textContent("#readout"), /^distance -?[\d.e-]+\nf \d+ [\d.]+ [\d.]+ [\d.]+$/);
+  await page.mouse.click(x, y);
+  await page.waitForSelector("#toast:not([hidden])");
+  assert.match(await page.textContent("#toast"), /f \d+ /);
+  await closeQuietly(shown);
+});
+
+test("isolines, pictures and fields are saved", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const svg = await saved(page, "save-lines");
+  assert.match(svg.bytes.toString(), /^<svg[^]*<path d="M[\d. ]+L[^]*<\/svg>\s*$/);
+  assert.match((await saved(page, "save-lines", ".obj")).bytes.toString(), /^l \d+ \d+/m);
+  const png = await saved(page, "save-picture");
+  assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
+  assert.ok(png.bytes.length > 20000);
+  assert.match((await saved(page, "save-field", ".csv")).bytes.toString(), /^vertex,distance\n0,/);
+  await closeQuietly(shown);
+});
+
+test("a link carries sources, camera, method and options", async () => {
+  const shown = await openStudio({ example: "spot" }), { page } = shown;
+  await page.click("#mode-curve");
+  await clickAll(page, (await ring(page, 4)).slice(0, 3));
+  await page.selectOption("#method", "signed-heat");
+  await page.keyboard.press("h");
+  await page.focus("#view");
+  await page.keyboard.press("ArrowUp");
+  await settled(page);
+  const link = await page.evaluate(() => studio.files.linkText()), here = await state(page);
+  const camera = await page.evaluate(() => studio.stage.cameraText);
+  await closeQuietly(shown);
+
+  const again = await openStudio({ hash: link.slice(link.indexOf("#")) });
+  const there = await state(again.page);
+  assert.deepEqual(there.strokes, here.strokes);
+  assert.equal(there.method, "signed-heat");
+  assertClose(there.values, here.values, 1e-9);
+  assert.equal(await again.page.evaluate(() => studio.stage.cameraText), camera);
+  await closeQuietly(again);
+
+  const damaged = await openStudio({ hash: "#notalink" });
+  assert.match((await state(damaged.page)).message, /link cannot be read/);
+  await closeQuietly(damaged);
+});
+
+test("files that are damaged, unknown or huge get a message and leave the picture", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const lit = () => page.evaluate(() => studio.stage.pixels().reduce((n, x, i) => n + (i % 4 === 0 && x < 200 ? 1 : 0), 0));
+  const area = await lit();
+  const bad = [
+    ["nothing.obj", ""], ["broken.obj", "v 0 0 0\nf 1 2 3\n"], ["noise.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"],
+    ["noise.stl", "\x00".repeat(83) + "\xff".repeat(40)], ["picture.jpeg", "\xff\xd8"],
+  ];
+  for (const [name, text] of bad) {
+    await pickFile(page, name, Buffer.from(text, "latin1"));
+    await page.waitForFunction((file) => document.getElementById("message").textContent.includes(file), name);
+    await settled(page);
+    assert.equal((await state(page)).message.split("\n")[0], `${name} cannot be opened.`);
+    assert.ok(Math.abs(await lit() - area) < 0.02 * area, `${name} leaves the picture`);
+  }
+  await page.evaluate(() => {
+    const file = new File(["x"], "huge.ply");
+    Object.defineProperty(file, "size", { value: 4e9 });
+    return studio.files.openFile(file);
+  });
+  assert.match((await state(page)).message, /huge\.ply has 4\.0 GB/);
+  await pickFile(page, "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  await page.waitForFunction(() => studio.engine.surface.counts.faces === 4);
+  assert.equal((await state(page)).message, null);
+  await pickFile(page, "wrong.txt", "signed_curve\nv 0\nv 77\n");
+  await page.waitForFunction(() => document.getElementById("message").textContent.includes("wrong.txt"));
+  await closeQuietly(shown);
+});
+
+test("a lost graphics context: a message, then the picture again", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const pixels = await changedPixels(page, async () => {
+    await page.evaluate(() => { window.lose = studio.stage.renderer.getContext().getExtension("WEBGL_lose_context"); lose.loseContext(); });
+    await page.waitForSelector("#message:not([hidden])");
+    assert.match((await state(page)).message, /graphics context/);
+    await page.evaluate(() => lose.restoreContext());
+    await page.waitForSelector("#message", { state: "hidden" });
+  });
+  assert.ok(pixels < 200, `${pixels} pixels differ`);
+  await shown.close(); // three.js reports the loss on the console
+});
+
+test("one finger draws, two move the camera; nothing overflows from 360 to 2560 pixels", async () => {
+  const shown = await openStudio({ example: "spot", viewport: { width: 360, height: 740 }, hasTouch: true }), { page } = shown;
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 360));
+  await page.click("#mode-freehand");
+  const places = await ring(page, 30, 0.07), touch = await page.context().newCDPSession(page);
+  const send = (type, points) => touch.send("Input.dispatchTouchEvent", { type, touchPoints: points });
+  await send("touchStart", [places[0]]);
+  for (const place of places.slice(1, 15)) await send("touchMove", [place]);
+  await send("touchEnd", []);
+  await settled(page);
+  assert.equal((await state(page)).strokes.length, 1);
+  assert.ok((await state(page)).strokes[0].nodes >= 4);
+  const camera = () => page.evaluate(() => studio.stage.cameraText), first = await camera();
+  const [a, b] = [places[0], places[15]];
+  await send("touchStart", [a]);
+  await send("touchStart", [a, b]);
+  for (let i = 1; i < 6; ++i) await send("touchMove", [{ x: a.x + 8 * i, y: a.y }, { x: b.x - 8 * i, y: b.y }]);
+  await send("touchEnd", []);
+  await settled(page);
+  assert.notEqual(await camera(), first);
+  assert.equal((await state(page)).strokes.length, 1, "two fingers draw nothing");
+  for (const [width, height] of [[420, 800], [1024, 700], [2560, 1300]]) {
+    await page.setViewportSize({ width, height });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    assert.ok(await page.evaluate(() => document.getElementById("view").clientHeight > 0.55 * innerHeight));
+  }
+  await closeQuietly(shown);
+});
+
+test("every control has a name", async () => {
+  const shown = await openStudio();
+  const unnamed = await shown.page.evaluate(() => [...document.querySelectorAll("button, select, input, summary, canvas, progress")]
+    .filter((e) => !(e.ariaLabel || e.title || e.textContent.trim() || e.labels?.length)).map((e) => e.id || e.outerHTML));
+  assert.deepEqual(unnamed, []);
+  await closeQuietly(shown);
+});

@@ -8,7 +8,7 @@ import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url)), root = resolve(here, "../..");
 const out = resolve(process.argv[2] ?? join(root, "dist"));
-const library = resolve(process.argv[3] ?? join(root, "dist/littoral/inline.js"));
+const library = resolve(process.argv[3] ?? join(root, "dist/inline.js"));
 
 const packed = {
   name: "packed",
@@ -30,6 +30,7 @@ const bundle = await build({
   target: "es2022",
   charset: "ascii",
   legalComments: "inline",
+  external: ["node:*"], // what the library would use in Node
   loader: { ".inc": "text" },
   alias: { "littoral/inline": library },
   nodePaths: [join(here, "node_modules")], // modules of viewer/src find three here

@@ -48,7 +48,7 @@ export class App {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.message(null);
-      this.stage.ask();
+      this.usePaper(); // the new context has forgotten it
     });
   }
 
@@ -338,8 +338,12 @@ export class App {
 
   useTheme(theme: string): void {
     document.documentElement.dataset.theme = theme;
-    this.stage.usePaper(getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
+    this.usePaper();
     if (this.answer) this.drawLegend();
+  }
+
+  private usePaper(): void {
+    this.stage.usePaper(getComputedStyle(document.documentElement).getPropertyValue("--paper").trim());
   }
 
   select(selection: Selection | null): void {

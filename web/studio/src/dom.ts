@@ -30,17 +30,16 @@ export function download(name: string, data: BlobPart | Blob, type = "applicatio
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/** True if the text is on the clipboard now. Pages from disk may have no other way than the old one. */
+/** True if the text is on the clipboard now. The old way needs no permission, which pages from disk may
+ * be asked for without an end. */
 export async function toClipboard(text: string): Promise<boolean> {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    const area = make("textarea", { value: text });
-    document.body.append(area);
-    area.select();
-    const done = document.execCommand("copy");
-    area.remove();
-    return done;
-  }
+  const area = make("textarea", { value: text }), focused = document.activeElement;
+  document.body.append(area);
+  area.select();
+  const done = document.execCommand("copy");
+  area.remove();
+  if (focused instanceof HTMLElement) focused.focus();
+  if (done || !navigator.clipboard) return done;
+  const late = new Promise<boolean>((give) => setTimeout(() => give(false), 1000));
+  return Promise.race([late, navigator.clipboard.writeText(text).then(() => true, () => false)]);
 }

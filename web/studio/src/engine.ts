@@ -41,7 +41,7 @@ interface Request { readonly sources: Sources; readonly settings: Settings; read
 /** A curve as it runs along the surface; kept by the list of its nodes. */
 type Kept = { open?: Float64Array; closed?: Float64Array };
 
-const familyOf: Record<Task, RegExp> = { distance: /^distance on surfaces/i, regions: /region/i };
+const familyOf: Record<Task, RegExp> = { distance: /^distance on surfaces/i, regions: /^inside and outside on surfaces/i };
 
 export class Engine {
   surface: Surface | null = null;
@@ -49,6 +49,7 @@ export class Engine {
   private prepared = "";
   private running: AbortController | null = null;
   private waiting: Request | null = null;
+  private active: Promise<void> = Promise.resolve(); // ends with what is running
   private paths = new WeakMap<Curve["nodes"], Kept>();
 
   private constructor(readonly library: Littoral, private readonly listener: Listener) {}
@@ -66,7 +67,8 @@ export class Engine {
 
   /** Takes the place of the surface there was, unless it cannot be read. */
   async load(bytes: Uint8Array, name: string): Promise<Surface> {
-    this.drop();
+    this.cancel();
+    await this.active;
     const call = this.begin(`reading ${name}`);
     try {
       const next = await this.read(bytes, name, call);
@@ -99,7 +101,7 @@ export class Engine {
   /** Asks for the answer to these sources; of requests that wait only the newest is answered. */
   request(sources: Sources, settings: Settings, stamp: number): void {
     this.waiting = { sources, settings, stamp };
-    if (!this.running) void this.work();
+    if (!this.running) this.active = this.work();
   }
 
   /** Nothing that was asked for is wanted any more. */
@@ -126,7 +128,7 @@ export class Engine {
 
   private finish(): void {
     this.running = null;
-    if (this.waiting) void this.work();
+    if (this.waiting) this.active = this.work();
     else this.listener.idle();
   }
 

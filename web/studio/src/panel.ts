@@ -11,7 +11,7 @@ export function listCurves(drawing: Drawing, selection: Selection | null, select
     const chosen = selection?.kind === "stroke" && selection.index === index;
     const mark = make("i");
     mark.style.background = stroke.signed ? "rgb(0,122,70)" : "rgb(214,0,108)";
-    const side = chosen && stroke.signed ? " · orange: +, left" : "";
+    const side = chosen && stroke.signed ? "; + on the orange side" : "";
     const button = make("button", { type: "button", ariaPressed: String(chosen) }, mark,
       `${stroke.signed ? "Signed" : "Unsigned"} ${stroke.closed ? "closed" : "open"}, ${count(stroke.nodes.length, "node")}${side}`);
     button.onclick = () => select({ kind: "stroke", index, node: -1 });

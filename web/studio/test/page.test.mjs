@@ -18,6 +18,7 @@ test("the page opens on a field; each control changes what it should", async () 
   await page.click("#wires");
   assert.ok(await changedPixels(page, () => page.click("#marks")) > 30, "curves");
   await page.click("#marks");
+  await page.focus("#view");
   assert.ok(await changedPixels(page, () => page.keyboard.press("ArrowLeft")) > 500, "arrows turn");
   assert.ok(await changedPixels(page, () => page.keyboard.press("h")) > 500, "first view");
   assert.ok(await changedPixels(page, () => page.click("#theme")) > 1000, "dark");

@@ -91,6 +91,29 @@ test("a link carries sources, camera, method and options", async () => {
   await closeQuietly(damaged);
 });
 
+test("a link to a file asks for it and knows it by its content", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  await pickFile(page, "tetrahedron.obj", tetrahedron);
+  await page.waitForFunction(() => studio.engine.surface.counts.faces === 4);
+  let hash = 0xcbf29ce484222325n;
+  for (const byte of Buffer.from(tetrahedron)) hash = BigInt.asUintN(64, (hash ^ BigInt(byte)) * 0x100000001b3n);
+  assert.equal(await page.evaluate(() => studio.files.hash), hash.toString(16).padStart(16, "0"));
+  await pickFile(page, "point.txt", "unsigned_point\nv 2\n");
+  await page.waitForFunction(() => studio.history.drawing.points.length === 1);
+  await settled(page);
+  const link = await page.evaluate(() => studio.files.linkText()), { values } = await state(page);
+  await closeQuietly(shown);
+
+  const again = await openStudio({ hash: link.slice(link.indexOf("#")) });
+  assert.match((await state(again.page)).message, /belongs to the file tetrahedron\.obj/);
+  await pickFile(again.page, "renamed.obj", tetrahedron);
+  await again.page.waitForFunction(() => studio.history.drawing.points.length === 1);
+  await settled(again.page);
+  assertClose((await state(again.page)).values, values, 1e-12);
+  await closeQuietly(again);
+});
+
 test("files that are damaged, unknown or huge get a message and leave the picture", async () => {
   const shown = await openStudio(), { page } = shown;
   const lit = () => page.evaluate(() => studio.stage.pixels().reduce((n, x, i) => n + (i % 4 === 0 && x < 200 ? 1 : 0), 0));

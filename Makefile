@@ -40,11 +40,12 @@ wheel:  ## the Python package as a wheel, in build/dist
 	scripts/setup.sh python
 	scripts/make_wheel.sh build/dist
 
-web:  ## the package for JavaScript (WebAssembly), in dist
+web:  ## the studio, a page that computes, and the package for JavaScript (WebAssembly), in dist
 	scripts/setup.sh web
 	cmake --preset web
 	cmake --build build/web
 	node web/build.mjs build/web dist
+	cd web/studio && npm ci --no-audit --no-fund --loglevel=error && npm run --silent build
 
 docs:  ## the documentation, in build/site
 	scripts/setup.sh docs

@@ -115,13 +115,16 @@ stage_viewer() {
     (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
 }
 
-# The package for JavaScript beside the program, in Node and in Chromium.
+# The package for JavaScript and the studio beside the program, in Node and in Chromium.
 stage_web() {
   local dist="$PWD/build/web/dist"
   build web && build_release --target littoral_cli && node web/build.mjs build/web "$dist" &&
     (cd viewer && npm ci --no-audit --no-fund --loglevel=error) &&
     DIST="$dist" TOOLS="$PWD/build/web/node_modules" LITTORAL="$PWD/build/release/littoral" \
-      node --test web/test/package.test.mjs web/test/browser.test.mjs
+      node --test web/test/package.test.mjs web/test/browser.test.mjs &&
+    (cd web/studio && npm ci --no-audit --no-fund --loglevel=error && npm run --silent check &&
+      node build.mjs "$dist" "$dist/inline.js" &&
+      STUDIO="$dist/studio.html" LITTORAL="$OLDPWD/build/release/littoral" npm test)
 }
 
 # What follows makes up the long tier.

@@ -5,7 +5,7 @@ import { openStudio, settled } from "./test/helpers.mjs";
 
 const folder = process.argv[2];
 mkdirSync(folder, { recursive: true });
-const { page, close } = await openStudio({ example: "spot", viewport: { width: 760, height: 560 } });
+const { page, close } = await openStudio({ example: "spot", viewport: { width: 960, height: 600 } });
 let frames = 0;
 const shoot = () => page.screenshot({ path: join(folder, `${String(frames++).padStart(3, "0")}.png`) });
 
@@ -20,16 +20,20 @@ await page.evaluate(() => {
 await page.click("#mode-freehand");
 await settled(page);
 
-// Round the body, from the screen's point of view.
+// A ring on the flank: the largest that nothing hides, from the screen's point of view.
 const path = await page.evaluate(() => {
-  const box = document.getElementById("view").getBoundingClientRect(), { right, bottom } = studio.stage.insets;
-  const cx = box.left + (box.width - right) * 0.42, cy = box.top + (box.height - bottom) * 0.53, out = [];
-  for (let i = 0; i <= 44; ++i) {
-    const a = -0.6 - (1.8 * Math.PI * i) / 44, r = box.height * (0.115 + 0.028 * Math.cos(3 * a));
-    const at = { x: cx + 1.25 * r * Math.cos(a), y: cy + r * Math.sin(a) };
-    if (studio.stage.pick(at.x, at.y)) out.push(at);
+  const box = document.getElementById("view").getBoundingClientRect(), eye = studio.stage.camera.position;
+  const around = (cx, cy, r) => Array.from({ length: 37 }, (_, i) => {
+    const a = -0.6 - (2 * Math.PI * i) / 36, s = r * (1 + 0.16 * Math.cos(3 * a));
+    return { x: cx + s * Math.cos(a), y: cy + s * Math.sin(a) };
+  });
+  for (let r = 0.22 * box.height; r > 20; r -= 4) {
+    for (let x = box.left; x < box.right; x += 8) for (let y = box.top; y < box.bottom; y += 8) {
+      const path = around(x, y, r), far = path.map((p) => studio.stage.pick(p.x, p.y)?.place.distanceTo(eye));
+      if (far.every((d, i) => d !== undefined && (i === 0 || Math.abs(d - far[i - 1]) < 0.06))) return path;
+    }
   }
-  return out;
+  return [];
 });
 await page.mouse.move(path[0].x, path[0].y);
 await shoot();

@@ -87,6 +87,8 @@ export class App {
 
   selected(): void { this.showMarks(); }
 
+  ended(): void { this.showWarnings(); }
+
   private drawingChanged(): void {
     this.changedAt = performance.now();
     ++this.stamp;
@@ -238,22 +240,28 @@ export class App {
     this.histogram = null;
     this.drawLegend();
     this.fillSpacing();
-    showWarnings([...(this.engine.surface?.warnings ?? []), ...(answer?.report.warnings ?? [])], this.failure);
+    this.showWarnings();
+  }
+
+  /** Not in the middle of a stroke: the picture would change its size. */
+  showWarnings(): void {
+    if (this.tools.drawing) return;
+    showWarnings([...(this.engine.surface?.warnings ?? []), ...(this.answer?.report.warnings ?? [])], this.failure);
   }
 
   private drawLegend(): void {
     const canvas = element<HTMLCanvasElement>("legend"), skin = this.stage.skin, field = skin?.field;
     canvas.hidden = !field;
-    if (!field || !skin) return this.stage.setInsets(0, 0);
     const across = this.stage.width < 620;
+    // Room for a legend, whether there is one or not: the picture stays where it is while one draws.
+    this.stage.setInsets(across ? 0 : 140, across ? 88 : 0);
+    if (!field || !skin) return;
     this.histogram ??= histogram(field, skin.asSurface(), field.discrete ? Math.round(field.high - field.low) + 1 : 48);
     canvas.classList.toggle("across", across);
     this.legend.draw({
       field, map: field.map, colourLow: field.colourLow, colourHigh: field.colourHigh, range: [field.low, field.high],
       histogram: this.histogram, infiniteColour,
     }, { width: this.stage.width, height: this.stage.height }, this.stage.pixelRatio, across);
-    const box = canvas.getBoundingClientRect();
-    this.stage.setInsets(across ? 0 : box.width + 10, across ? box.height : 0);
   }
 
   /** The value, face and place under the cursor. */

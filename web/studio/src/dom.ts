@@ -1,10 +1,6 @@
 // Short forms for elements.
 
-export function element<T extends HTMLElement = HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no ${id}`);
-  return found as T;
-}
+export { download, element } from "../../../viewer/src/elements";
 
 type Properties<K extends keyof HTMLElementTagNameMap> = Partial<Omit<HTMLElementTagNameMap[K], "style">>;
 
@@ -20,14 +16,6 @@ export function make<K extends keyof HTMLElementTagNameMap>(
 export function fillSelect(select: HTMLSelectElement, choices: readonly { value: string; text: string }[], value: string): void {
   select.replaceChildren(...choices.map((choice) => make("option", { value: choice.value, textContent: choice.text })));
   select.value = value;
-}
-
-/** Gives a file to the user. */
-export function download(name: string, data: BlobPart | Blob, type = "application/octet-stream"): void {
-  const blob = data instanceof Blob ? data : new Blob([data], { type });
-  const link = make("a", { href: URL.createObjectURL(blob), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
 /** True if the text is on the clipboard now. The old way needs no permission, which pages from disk may

@@ -79,7 +79,8 @@ export class Marks {
       if (stroke.signed && line.length > 1) addArrows(line, arrows);
       const chosen = selection?.kind === "stroke" && selection.index === i;
       if (chosen && stroke.signed) this.addSides(line);
-      if (chosen || nodes.length === 1) this.addNodes(nodes, chosen ? selection.node : -1);
+      // The many nodes of a freehand stroke would hide it.
+      if (nodes.length === 1 || (chosen && (nodes.length <= 24 || selection.node >= 0))) this.addNodes(nodes, chosen ? selection.node : -1);
     });
     const point = selection?.kind === "point" ? layout.points[selection.index] : undefined;
     if (point) this.addBalls([point], 0.019, this.chosen);

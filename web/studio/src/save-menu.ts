@@ -28,12 +28,12 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
     const { name, text } = await app.files.sourceFile();
     if (!text) throw new Error("nothing is drawn yet");
     const extension = name.slice(name.lastIndexOf("."));
-    download(`${stem()}-sources${extension}`, text, "text/plain");
+    download(`${stem()}-sources${extension}`, new Blob([text], { type: "text/plain" }));
     return "Sources saved";
   });
   connect("save-field", async () => {
     const { values, surface } = field(), name = `${stem()}-${app.answer!.name}${fieldFormat.value}`;
-    download(name, await surface.writeField(values, name) as BlobPart);
+    download(name, new Blob([await surface.writeField(values, name) as BlobPart]));
     return `${name} saved`;
   });
   connect("save-lines", async () => {
@@ -41,8 +41,8 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
     if (!(spacing > 0)) throw new Error("there are no isolines in the picture");
     const lines = await surface.isolines(values, { spacing }), name = `${stem()}-isolines${lineFormat.value}`;
     if (lineFormat.value === ".svg")
-      download(name, linesAsSvg(stage, lines, app.history.drawing, app.layout, name), "image/svg+xml");
-    else download(name, await surface.writeLines(lines, name) as BlobPart);
+      download(name, new Blob([linesAsSvg(stage, lines, app.history.drawing, app.layout, name)], { type: "image/svg+xml" }));
+    else download(name, new Blob([await surface.writeLines(lines, name) as BlobPart]));
     return `${name} saved`;
   });
   connect("save-picture", async () => {

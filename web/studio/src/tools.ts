@@ -16,6 +16,8 @@ export interface Host {
   /** The drawing has changed; `done` once the gesture is over. */
   changed(): void;
   selected(): void;
+  /** No stroke is being drawn any more. */
+  ended(): void;
   hover(x: number, y: number): void;
   leave(): void;
   copy(line: string): void;
@@ -51,6 +53,9 @@ export class Tools {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("dblclick", () => { if (this.mode === "curve") this.finish(); });
   }
+
+  /** Is a stroke or a node on its way? */
+  get drawing(): boolean { return this.gesture !== null && this.gesture.kind !== "click"; }
 
   setMode(mode: Mode): void {
     this.finish();
@@ -109,7 +114,7 @@ export class Tools {
       return this.host.hover(x, y);
     }
     if (gesture.kind === "stroke") {
-      // Every place that the browser saw, but none nearer than 6 pixels to the last.
+      // Every place that the browser saw, but none nearer than 10 pixels to the last.
       for (const at of event.getCoalescedEvents?.() ?? [event]) this.extend(gesture, at.clientX, at.clientY);
       return this.extend(gesture, x, y);
     }
@@ -133,6 +138,7 @@ export class Tools {
     const { gesture } = this, { history } = this.host, { clientX: x, clientY: y } = event;
     this.gesture = null;
     if (!gesture) return;
+    this.host.ended();
     if (!ended) {
       history.cancel();
       return this.host.changed();
@@ -207,7 +213,7 @@ export class Tools {
   }
 
   private extend(gesture: { index: number; x: number; y: number }, x: number, y: number): void {
-    if (Math.hypot(x - gesture.x, y - gesture.y) < 6) return;
+    if (Math.hypot(x - gesture.x, y - gesture.y) < 10) return;
     const hit = this.stage.pick(x, y), { history } = this.host, stroke = history.drawing.strokes[gesture.index];
     if (!hit || !stroke) return;
     Object.assign(gesture, { x, y });
@@ -225,8 +231,10 @@ export class Tools {
       this.click(x, y);
     } else {
       const first = this.host.layout.nodes[index]?.[0];
-      if (canClose(stroke) && stroke.nodes.length > 5 && this.isNear(first, x, y, 18))
-        history.change(withStroke(history.drawing, index, { ...stroke, closed: true }));
+      if (canClose(stroke) && stroke.nodes.length > 5 && this.isNear(first, x, y, 18)) {
+        // The last node is as good as the first: it would only make a tiny last side.
+        history.change(withStroke(history.drawing, index, { ...stroke, nodes: stroke.nodes.slice(0, -1), closed: true }));
+      }
       history.end();
     }
     this.host.changed();

@@ -1,6 +1,6 @@
 // The page: what is drawn goes to the library, and what comes back is shown.
 import * as THREE from "three";
-import type { Surface, SurfacePoint } from "littoral/inline";
+import { Cancelled, type Surface, type SurfacePoint } from "littoral/inline";
 import { histogram } from "../../../viewer/src/field";
 import { Legend } from "../../../viewer/src/legend";
 import { numberText } from "../../../viewer/src/numbers";
@@ -193,21 +193,24 @@ export class App {
   // ------------------------------------------------------------------------- answers
 
   private busy(stage: string, fraction: number): void {
-    element("status").textContent = `${stage[0]?.toUpperCase() ?? ""}${stage.slice(1)}…`;
+    const already = this.answer?.preview ? `Preview ${this.previewText()} · ` : "";
+    element("status").textContent = `${already}${stage[0]?.toUpperCase() ?? ""}${stage.slice(1)}…`;
     const bar = element<HTMLProgressElement>("progress");
     bar.hidden = element("cancel").hidden = false;
     if (fraction > 0) bar.value = fraction;
     else bar.removeAttribute("value");
   }
 
+  private previewText(): string { return `by metric ${this.answer?.report.options["metric"] ?? ""}`; }
+
   idle(): void {
     element("progress").hidden = element("cancel").hidden = true;
     const { answer, failure } = this, surface = this.engine?.surface;
     let text = surface ? `${surface.counts.faces.toLocaleString("en")} faces. Nothing to measure from yet.` : "Nothing open";
-    if (failure) text = "No answer";
+    if (failure && !answer) text = "No answer";
     else if (answer) {
       const { report } = answer, warnings = report.warnings.length;
-      text = `${report.method}: ${report.status}${warnings ? `, ${warnings} warning${warnings > 1 ? "s" : ""}` : ""} · ${(1000 * answer.seconds).toFixed(0)} ms`;
+      text = `${report.method}${answer.preview ? `, preview ${this.previewText()}` : ""}: ${report.status}${warnings ? `, ${warnings} warning${warnings > 1 ? "s" : ""}` : ""} · ${(1000 * answer.seconds).toFixed(0)} ms`;
     }
     element("status").textContent = text;
   }
@@ -228,8 +231,10 @@ export class App {
   }
 
   private failed(error: Error): void {
-    this.answer = null;
-    this.failure = error.name === "Cancelled" ? "Cancelled: there is no answer to what is drawn." : error.message;
+    const kept = error instanceof Cancelled && this.answer?.preview === true;
+    if (!kept) this.answer = null;
+    this.failure = !(error instanceof Cancelled) ? error.message
+      : kept ? `Cancelled: what is shown is the preview, ${this.previewText()}.` : "Cancelled: there is no answer to what is drawn.";
     this.showAnswer();
   }
 

@@ -25,6 +25,8 @@ export interface Answer {
   readonly regions: Regions | null;
   readonly report: Report;
   readonly seconds: number;
+  /** By a quicker method than the one asked for, whose answer follows. */
+  readonly preview: boolean;
 }
 
 export interface Listener {
@@ -41,12 +43,25 @@ interface Request { readonly sources: Sources; readonly settings: Settings; read
 /** A curve as it runs along the surface; kept by the list of its nodes. */
 type Kept = { open?: Float64Array; closed?: Float64Array };
 
+const quick = 150, long = 2500, rest = 350; // milliseconds
+
+/** Exact distance takes long on large meshes: what stands in for it while one draws. */
+function previewOf({ task, method }: Settings, kind: string): Settings | null {
+  const metric = method.options?.["metric"] ?? "auto";
+  if (task !== "distance" || method.name !== "auto" || (metric !== "auto" && metric !== "exact")) return null;
+  if (kind !== "triangle mesh" && kind !== "polygon mesh") return null;
+  const instead = kind === "triangle mesh" ? "fast-marching" : "heat";
+  return { task, method: { ...method, options: { ...method.options, metric: instead } } };
+}
+
 const familyOf: Record<Task, RegExp> = { distance: /^distance on surfaces/i, regions: /^inside and outside on surfaces/i };
 
 export class Engine {
   surface: Surface | null = null;
-  private solver: Solver | null = null;
-  private prepared = "";
+  private solvers = new Map<string, Solver>(); // two at most: of the method and of its preview
+  private lastWhole = Infinity; // milliseconds of the last answer that had a preview
+  private whole = false; // such an answer is under way
+  private wake: () => void = () => {}; // ends the rest before it
   private running: AbortController | null = null;
   private waiting: Request | null = null;
   private active: Promise<void> = Promise.resolve(); // ends with what is running
@@ -72,10 +87,9 @@ export class Engine {
     const call = this.begin(`reading ${name}`);
     try {
       const next = await this.read(bytes, name, call);
-      this.solver?.dispose();
+      this.forgetSolvers();
       this.surface?.dispose();
-      this.solver = null;
-      this.prepared = "";
+      this.lastWhole = Infinity;
       this.surface = next;
       this.paths = new WeakMap();
       return next;
@@ -101,7 +115,9 @@ export class Engine {
   /** Asks for the answer to these sources; of requests that wait only the newest is answered. */
   request(sources: Sources, settings: Settings, stamp: number): void {
     this.waiting = { sources, settings, stamp };
+    this.wake();
     if (!this.running) this.active = this.work();
+    else if (this.whole && this.lastWhole > long) this.running.abort();
   }
 
   /** Nothing that was asked for is wanted any more. */
@@ -112,6 +128,7 @@ export class Engine {
   cancel(): void {
     this.drop();
     this.running?.abort();
+    this.wake();
   }
 
   get busy(): boolean { return this.running !== null || this.waiting !== null; }
@@ -138,19 +155,42 @@ export class Engine {
     if (!request || !surface) return this.listener.idle();
     const call = this.begin("solving");
     try {
-      const start = performance.now();
       await this.join(surface, request, call);
       if (isEmpty(request.sources)) return;
-      const answer = request.settings.task === "regions"
-        ? await this.regions(surface, request, call) : await this.distance(surface, request, call);
-      if (surface === this.surface)
-        this.listener.answer({ ...answer, seconds: (performance.now() - start) / 1000 }, request.stamp);
+      const preview = this.lastWhole > quick ? previewOf(request.settings, surface.kind) : null;
+      if (preview) {
+        await this.solve(surface, { ...request, settings: preview }, call, true);
+        await this.rested();
+        if (this.waiting) return;
+        call.signal?.throwIfAborted();
+        this.whole = true;
+      }
+      const start = performance.now();
+      await this.solve(surface, request, call, false);
+      if (preview) this.lastWhole = performance.now() - start;
     } catch (error) {
-      if (surface === this.surface && !(error instanceof littoral.Cancelled && this.waiting))
-        this.listener.failure(error as Error);
+      if (surface === this.surface && !(call.signal?.aborted && this.waiting))
+        this.listener.failure(call.signal?.aborted ? new littoral.Cancelled("cancelled") : error as Error);
     } finally {
+      this.whole = false;
       this.finish();
     }
+  }
+
+  private async solve(surface: Surface, request: Request, call: Call, preview: boolean): Promise<void> {
+    const start = performance.now();
+    const answer = request.settings.task === "regions"
+      ? await this.regions(surface, request, call) : await this.distance(surface, request, call);
+    const seconds = (performance.now() - start) / 1000;
+    if (surface === this.surface) this.listener.answer({ ...answer, seconds, preview }, request.stamp);
+  }
+
+  /** After a while without anything new, or at once when there is something. */
+  private rested(): Promise<void> {
+    return new Promise((done) => {
+      this.wake = done;
+      setTimeout(done, rest);
+    });
   }
 
   /** Positions of a curve along the surface, once the library has joined its nodes. */
@@ -178,18 +218,23 @@ export class Engine {
 
   private async distance(surface: Surface, { sources, settings }: Request, call: Call) {
     const key = JSON.stringify(settings.method);
-    if (!this.solver || this.prepared !== key) {
-      this.solver?.dispose();
-      this.solver = null;
-      this.solver = await surface.prepare(settings.method, call);
-      this.prepared = key;
+    let solver = this.solvers.get(key);
+    if (!solver) {
+      if (this.solvers.size > 1) this.forgetSolvers();
+      solver = await surface.prepare(settings.method, call);
+      this.solvers.set(key, solver);
     }
-    const field = await this.solver.solve(sources, call);
+    const field = await solver.solve(sources, call);
     const finer = field.refined?.scalars["distance"];
     return {
       name: "distance", values: finer ?? field.values, refined: finer ? field.refined : null,
       weights: null, field, regions: null, report: field.report,
     };
+  }
+
+  private forgetSolvers(): void {
+    for (const solver of this.solvers.values()) solver.dispose();
+    this.solvers.clear();
   }
 
   private async regions(surface: Surface, { sources, settings }: Request, call: Call) {

@@ -22,6 +22,7 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   const field = () => {
     const { answer } = app;
     if (!answer || !engine.surface) throw new Error("there is no field yet; draw something");
+    if (answer.preview) throw new Error("what is shown is a preview, whose numbers are not those of the method");
     return { values: { values: answer.values, refined: answer.refined }, surface: engine.surface };
   };
   connect("save-sources", async () => {

@@ -32,6 +32,19 @@ test("a curve of clicks gives the distance of the command line", async () => {
   assertClose(values, byProgram(spot, bytes), 1e-9);
 });
 
+test("a quick preview comes before the exact answer, and says so", async () => {
+  await page.evaluate(() => {
+    window.seen = [];
+    const take = studio.take.bind(studio);
+    studio.take = (answer, stamp) => { seen.push([answer.preview, answer.report.options.metric]); take(answer, stamp); };
+    studio.engine.lastWhole = Infinity; // as if exact distance took long
+    studio.changed();
+  });
+  await settled(page);
+  assert.deepEqual(await page.evaluate(() => seen), [[true, "fast-marching"], [false, "exact"]]);
+  assert.doesNotMatch((await state(page)).status, /preview/);
+});
+
 test("the saved field holds the same numbers", async () => {
   const { bytes } = await saved(page, "save-field", ".txt");
   assertClose(bytes.toString().trim().split("\n").map(Number), (await state(page)).values, 1e-300);
@@ -94,7 +107,7 @@ test("a freehand stroke that ends where it began is a closed curve of many nodes
   await page.click("#mode-turn");
   await page.keyboard.press("Escape");
   await page.click("#mode-freehand");
-  const places = await ring(page, 40, 0.13), [first] = places;
+  const places = await ring(page, 40, 0.1), [first] = places;
   assert.equal(places.length, 40);
   await page.mouse.move(first.x, first.y);
   await page.mouse.down();

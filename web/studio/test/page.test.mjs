@@ -1,8 +1,10 @@
 // Controls, saving, links, bad input, a lost context, touch and sizes.
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import {
-  assertClose, changedPixels, clickAll, closeQuietly, openStudio, pickFile, ring, saved, settled, state,
+  assertClose, byProgram, changedPixels, clickAll, closeQuietly, folder, openStudio, pickFile, ring, saved, settled, state,
 } from "./helpers.mjs";
 
 test("the page opens on a field; each control changes what it should", async () => {
@@ -63,6 +65,34 @@ test("isolines, pictures and fields are saved", async () => {
   assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
   assert.ok(png.bytes.length > 20000);
   assert.match((await saved(page, "save-field", ".csv")).bytes.toString(), /^vertex,distance\n0,/);
+  await closeQuietly(shown);
+});
+
+test("polygon meshes and clouds: nodes at vertices, the numbers of the command line", async () => {
+  const n = 14, quads = [], dots = [];
+  for (let i = 0; i <= n; ++i) for (let j = 0; j <= n; ++j) {
+    quads.push(`v ${i / n} ${j / n} ${(0.2 * Math.sin((3 * i) / n)).toFixed(6)}`);
+    dots.push(`${i / n} ${j / n} ${(0.2 * Math.sin((3 * i) / n)).toFixed(6)}`);
+  }
+  for (let i = 0; i < n; ++i) for (let j = 0; j < n; ++j) {
+    const a = i * (n + 1) + j + 1;
+    quads.push(`f ${a} ${a + n + 1} ${a + n + 2} ${a + 1}`);
+  }
+  const shown = await openStudio(), { page } = shown;
+  await page.click("#mode-point");
+  for (const [name, text, kind] of [["quads.obj", quads, "polygon mesh"], ["dots.xyz", dots, "point cloud"]]) {
+    await pickFile(page, name, `${text.join("\n")}\n`);
+    await page.waitForFunction((file) => studio.engine.surface.name === file, name);
+    await settled(page);
+    assert.equal(await page.evaluate(() => studio.engine.surface.kind), kind);
+    const [{ x, y }] = await ring(page, 8, 0.08);
+    await page.mouse.click(x, y);
+    await settled(page);
+    const { values, points } = await state(page);
+    assert.equal(points, 1, kind);
+    writeFileSync(join(folder, name), `${text.join("\n")}\n`);
+    assertClose(values, byProgram(join(folder, name), (await saved(page, "save-sources")).bytes), 1e-9);
+  }
   await closeQuietly(shown);
 });
 

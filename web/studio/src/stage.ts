@@ -29,9 +29,10 @@ export class Stage {
   private wires = false;
   spacing = 0;
   private insets = { right: 0, bottom: 0 };
-  private untouched = true; // the camera stands where it was put
+  private home = ""; // the camera as it was put
   private asked = false;
   private readonly size = new THREE.Vector2();
+  private readonly fitted = new THREE.Vector2(); // the size that the camera was put for
 
   /** Throws where there is no WebGL 2. */
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -43,7 +44,6 @@ export class Stage {
     lamp.position.set(-0.25, 0.35, 1);
     this.camera.add(lamp, lamp.target);
     this.world.add(this.camera, new THREE.AmbientLight(0xffffff, 1), this.overlay);
-    this.controls.addEventListener("start", () => { this.untouched = false; });
     new ResizeObserver(() => {
       this.fit();
       this.resized();
@@ -76,7 +76,12 @@ export class Stage {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(box.clientWidth, box.clientHeight, false);
     this.renderer.getSize(this.size);
+    // A line more in the footer is no reason to move what somebody draws on.
+    const resized = this.size.x !== this.fitted.x || Math.abs(this.size.y - this.fitted.y) > 80;
+    const untouched = this.surface !== null && this.cameraText === this.home;
     this.view.setSize(this.size.x, this.size.y, this.insets);
+    if (resized) this.fitted.copy(this.size);
+    if (untouched && resized) this.reset();
     for (const skin of [this.base, this.finer]) skin?.setPixel(ratio, this.view.pixel);
     this.ask();
   }
@@ -85,8 +90,8 @@ export class Stage {
   setInsets(right: number, bottom: number): void {
     if (right === this.insets.right && bottom === this.insets.bottom) return;
     this.insets = { right, bottom };
+    this.fitted.set(0, 0);
     this.fit();
-    if (this.untouched) this.reset();
   }
 
   get width(): number { return this.size.x; }
@@ -171,20 +176,11 @@ export class Stage {
 
   reset(): void {
     this.view.reset();
-    this.untouched = true;
+    this.home = this.cameraText;
   }
-  turn(across: number, upward: number): void {
-    this.untouched = false;
-    this.view.turn(across, upward);
-  }
-  move(across: number, upward: number): void {
-    this.untouched = false;
-    this.view.move(across, upward);
-  }
-  zoom(factor: number): void {
-    this.untouched = false;
-    this.view.zoom(factor);
-  }
+  turn(across: number, upward: number): void { this.view.turn(across, upward); }
+  move(across: number, upward: number): void { this.view.move(across, upward); }
+  zoom(factor: number): void { this.view.zoom(factor); }
 
   /** A place of the window as the camera's -1 .. 1. */
   private aim(x: number, y: number): THREE.Ray {
@@ -215,7 +211,7 @@ export class Stage {
 
   /** Eye and target, as text. */
   get cameraText(): string { return this.view.toText(); }
-  setCamera(text: string): void { if (this.view.fromText(text)) this.untouched = false; }
+  setCamera(text: string): void { this.view.fromText(text); }
 
   pixels(): Uint8Array {
     this.render();

@@ -330,6 +330,19 @@ TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
   EXPECT_THAT(wrong.warnings, Contains(AllOf(HasSubstr("offset 0.21"), HasSubstr("0.2,"))));
 }
 
+TEST(Completed, ConfidenceIsThatOfTheSidesThatWereSettled) {
+  // Turned faces are missed by nothing: signs are as sure as those of the whole.
+  const PolygonSoup torus = test::off_centre_torus();
+  const PolygonSoup patched =
+      turned(torus, [&](int f) { return torus.points(torus.face(f)[0], 0) > 0.55; });
+  const MatX3 places = test::random_points(200, 1.2);
+  EXPECT_GT(signed_distance(patched).confidence(places).minCoeff(), 1 - 1e-9);
+  // In the middle of a disc that is missing half of all directions are.
+  const Sdf open = signed_distance(hemisphere(4, false));
+  EXPECT_LT(open.confidence(Vec3::Zero().transpose())[0], 0.02);
+  EXPECT_GT(open.confidence(Vec3(0, 0, -3).transpose())[0], 0.9);
+}
+
 TEST(Completed, AnswersThroughThePublicHeader) {
   const Sdf f = signed_distance(hemisphere(3, false));
   EXPECT_EQ(f.report().method, "auto");

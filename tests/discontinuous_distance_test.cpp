@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "domain/intrinsic/intrinsic_triangulation.h"
@@ -202,6 +203,26 @@ TEST(DiscontinuousDistance, ConstraintAndPenaltyApplyOrAreRefused) {
   EXPECT_GT(weak, 0.1);
   EXPECT_THROW(largest({.constraint = Constraint::level_sets, .discontinuous = true}),
                UnsupportedError);
+}
+
+TEST(DiscontinuousDistance, IsZeroAtSourcesAtVertices) {
+  // Smoothing moves values beside them, not there.
+  const SurfaceMesh mesh(test::octasphere_soup(3));
+  Sources points;
+  points.points = {SurfacePoint::at_vertex(17), SurfacePoint::at_vertex(200)};
+  std::map<double, int> equator;  // by angle
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (std::abs(mesh.point(v).z()) < 1e-12)
+      equator[std::atan2(mesh.point(v).y(), mesh.point(v).x())] = v;
+  std::vector<int> ring;
+  for (const auto& [angle, v] : equator) ring.push_back(v);
+  ring.push_back(ring.front());
+  const SignedHeat smoothed{.discontinuous = true, .smoothing = 4};
+  const VecX from_points = distance(mesh, points, smoothed).values;
+  for (const int v : {17, 200}) EXPECT_EQ(from_points[v], 0) << v;
+  const VecX from_ring = distance(mesh, vertex_loop(ring), smoothed).values;
+  for (const int v : ring) EXPECT_EQ(from_ring[v], 0) << v;
+  EXPECT_GT(std::min(from_points.maxCoeff(), from_ring.maxCoeff()), 1);
 }
 
 /// Values of the split surface by the face and corner they belong to.

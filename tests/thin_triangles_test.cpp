@@ -49,6 +49,97 @@ TEST(ThinTriangles, EveryMethodAnswers) {
   }
 }
 
+/// Triangles round vertex 0, `width` apart where they are needles.
+PolygonSoup needle_fan(double width) {
+  PolygonSoup soup;
+  soup.points.resize(8, 3);
+  soup.points.row(0).setZero();
+  for (int i = 1; i < 8; ++i)
+    if (i < 5)
+      soup.points.row(i) << 1, (i - 1) * width, i == 3 ? width : 0;
+    else
+      soup.points.row(i) << std::cos(0.5 * (i - 1)), std::sin(0.5 * (i - 1)), i == 5 ? width : 0;
+  for (int i = 1; i < 7; ++i) test::add_triangle(soup, 0, i, i + 1);
+  return soup;
+}
+
+TEST(ThinTriangles, RefinementLeavesNeedlesAnArea) {
+  for (const double width : {1e-9, 1e-6}) {
+    const SurfaceMesh mesh(needle_fan(width));
+    Sources sources;
+    sources.points = {SurfacePoint::at_vertex(0), SurfacePoint::on_edge(2, 0),
+                      SurfacePoint::on_edge(11, 0.7)};
+    for (const char* method : {"unsigned-heat", "signed-heat"}) {
+      Report report;
+      VecX d;
+      ASSERT_NO_THROW(
+          d = test::surface_distance(
+              mesh, sources, AnyMethod::named(method, {{"intrinsic-delaunay", "on"}}), report))
+          << method;
+      EXPECT_TRUE(d.allFinite()) << method;
+      EXPECT_LT(d.maxCoeff(), 1.2) << method;
+    }
+  }
+}
+
+TEST(ThinTriangles, NormalsArePreservedBesidePolygonsWithoutArea) {
+  PolygonSoup soup;
+  soup.points.resize(9, 3);  // a strip of quads: the second and its neighbours have collapsed
+  soup.points << 0, 0, 0.18356933593750002, 1, 0, 0.055459594726562506, 0, 1. / 3,
+      0.13030395507812501, 0, 1. / 3, 0.13030395507812501, 0, 2. / 3, 0.1950836181640625, 0, 2. / 3,
+      0.1950836181640625, 0, 1, 0.12463684082031251, 1, 1, 0.056604003906250006, 0.007080078125,
+      0.54119873046875, 0.354095458984375;
+  for (const auto& [a, b, c, d] : {std::array{0, 1, 3, 2}, {2, 3, 5, 4}, {4, 5, 7, 6}}) {
+    const int face[4] = {a, b, c, d};
+    soup.add_face(face);
+  }
+  test::add_triangle(soup, 2, 3, 8);
+  const auto first =
+      SurfacePoint::in_face(0, 0.9515380859375, 0.035198038443922997, 0.013263875618577003);
+  Curve loop, across;
+  loop.nodes = {
+      first, SurfacePoint::in_face(3, 0.2710113525390625, 0.35213613300584257, 0.37685251445509493),
+      SurfacePoint::on_edge(5, 0.7189178466796875),
+      SurfacePoint::in_face(3, 0.48345947265625, 0.22552933730185032, 0.29101119004189968), first};
+  across.nodes = {
+      SurfacePoint::on_edge(7, 0.393341064453125),
+      SurfacePoint::in_face(3, 0.8757781982421875, 0.026356569724157453, 0.097865232033655047),
+      SurfacePoint::in_face(2, 1, 0, 0)};
+  Sources sources;
+  sources.curves = {loop, across};
+  Report report;
+  VecX d;
+  ASSERT_NO_THROW(
+      d = test::surface_distance(
+          SurfaceMesh(soup), sources,
+          AnyMethod::named("signed-heat", {{"preserve-normals", "on"}, {"discontinuous", "on"}}),
+          report));
+  EXPECT_TRUE(d.allFinite());
+}
+
+TEST(ThinTriangles, ExactDistanceIsNotNegativeBesideACurve) {
+  PolygonSoup grid;  // vertices 1 and 5 are at one place
+  grid.points.resize(6, 3);
+  grid.points << 0, 0, 0.286, 0.5, 0, 0.362, 1, 0, 0.323, 0, 1, 0.047, 0.5, 1, 0.1, 0.5, 0, 0.362;
+  for (const auto& [a, b, c] : {std::array{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}})
+    test::add_triangle(grid, a, b, c);
+  Curve loop, side;
+  loop.is_signed = side.is_signed = false;
+  loop.nodes = {SurfacePoint::at_vertex(1), SurfacePoint::on_edge(7, 0),
+                SurfacePoint::in_face(1, 0.73, 0.07, 0.2), SurfacePoint::in_face(1, 1, 0, 0),
+                SurfacePoint::at_vertex(1)};
+  side.nodes = {SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(1)};
+  Sources sources;
+  sources.curves = {loop, side};
+  for (const char* method : {"auto", "exact"}) {
+    Report report;
+    const VecX d =
+        test::surface_distance(SurfaceMesh(grid), sources, AnyMethod::named(method), report);
+    EXPECT_GE(d.minCoeff(), 0) << method;
+    EXPECT_LT(d[5], 1e-9) << method;
+  }
+}
+
 TEST(ThinTrianglesSlow, SourcesAreHeldBesideNeedles) {
   const SurfaceMesh mesh = with_needles();
   Sources all;

@@ -166,7 +166,7 @@ double polyline_length(const SurfaceMesh& mesh, const Polyline& line) {
   const MatX3 points = polyline_points(mesh, line);
   double length = 0;
   for (Eigen::Index i = 1; i < points.rows(); ++i) {
-    length += (points.row(i) - points.row(i - 1)).norm();
+    length += (points.row(i) - points.row(i - 1)).stableNorm();
   }
   return length;
 }

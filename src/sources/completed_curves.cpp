@@ -56,9 +56,10 @@ class Nearby {
       for (int i : near->second) {
         const Straight& s = straight_[i];
         const Vec3 along = s.b - s.a;
-        const double length2 = along.squaredNorm();
-        const double t = length2 > 0 ? std::clamp((x - s.a).dot(along) / length2, 0.0, 1.0) : 0;
-        const double distance = (s.a + t * along - x).norm();
+        const double length = along.stableNorm();
+        const double t =
+            length > 0 ? std::clamp((x - s.a).dot(along / length) / length, 0.0, 1.0) : 0;
+        const double distance = (s.a + t * along - x).stableNorm();
         if (distance >= least) continue;
         least = distance;
         beside = !((t == 0 && s.open_a) || (t == 1 && s.open_b));
@@ -92,7 +93,7 @@ bool append_step(const SurfaceMesh& mesh, const SurfacePoint& p, const SurfacePo
   CurvePiece piece;
   piece.is_signed = false;
   piece.face = common_face(mesh, p, q);
-  piece.length = (mesh.position(q) - mesh.position(p)).norm();
+  piece.length = (mesh.position(q) - mesh.position(p)).stableNorm();
   if (piece.face < 0 || !(piece.length > 0)) return false;
   if (!goes_on) ++to.n_curves, to.nodes.push_back({p});
   to.nodes.back().push_back(q);

@@ -1,5 +1,6 @@
 #include "sources/refined_sources.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "sources/surface_points.h"
@@ -23,12 +24,16 @@ SurfacePoint refined_point(const SurfaceMesh& input, const SurfaceMesh& refined,
   if (input.face(p.element).size() == 3)
     return SurfacePoint::in_face(first, p.b[0], p.b[1], p.b[2]);
   const Vec3 x = input.position(p);
+  double size = 0;  // squares of lengths leave the range of numbers
+  for (const int v : input.face(p.element))
+    size = std::max(size, (input.point(v) - x).cwiseAbs().maxCoeff());
+  if (!(size > 0)) size = 1;
   double nearest = std::numeric_limits<double>::infinity();
   SurfacePoint out;
   for (int f = first; f < last; ++f) {
     const auto c = refined.face(f);
-    const TriangleFoot hit = closest_on_triangle(refined.point(c[0]) - x, refined.point(c[1]) - x,
-                                                 refined.point(c[2]) - x);
+    const auto seen = [&](int k) { return Vec3((refined.point(c[k]) - x) / size); };
+    const TriangleFoot hit = closest_on_triangle(seen(0), seen(1), seen(2));
     if (!(hit.squared < nearest)) continue;
     nearest = hit.squared;
     out = SurfacePoint::in_face(f, hit.barycentric[0], hit.barycentric[1], hit.barycentric[2]);

@@ -121,7 +121,7 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
 
 WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orientation, Task task,
                                Report& report)
-    : frame_(bounding_box(input)) {
+    : frame_(bounding_box(input)), flipped_(orientation.flip) {
   const SpaceInput local =
       make_input({input, orientation.flip, orientation.estimate_normals}, frame_,
                  std::numeric_limits<double>::infinity(), task, report);
@@ -130,9 +130,9 @@ WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orie
     winding_ = std::make_unique<const WindingNumber>(s.points, s.normals, s.areas);
     return;
   }
-  const MatX3i triangles = local.triangles();
-  winding_ = std::make_unique<const WindingNumber>(local.surface.points, triangles);
-  sides_ = choose_sides(side_census(local.surface.points, triangles, *winding_), orientation.flip);
+  points_ = local.surface.points;
+  triangles_ = local.triangles();
+  winding_ = std::make_unique<const WindingNumber>(points_, triangles_);
 }
 
 VecX WindingOfInput::at(const MatX3& queries, const Task& task) const {
@@ -143,9 +143,21 @@ VecX WindingOfInput::at(const MatX3& queries, const Task& task) const {
 }
 
 VecX WindingOfInput::confidence(const MatX3& queries, const Task& task) const {
-  return at(queries, task).unaryExpr([&](double winding) {
-    return std::min(1.0, 2 * std::abs(sides_.inside(winding)));
+  const auto settled = [&]() -> std::shared_ptr<const SettledSides> {
+    if (triangles_.rows() == 0) return {};  // a cloud has nothing but its normals
+    return sides_.get([&] {
+      Report ignored;  // the distance's holds the same
+      return settled_sides(points_, triangles_, flipped_, task, ignored);
+    });
+  }();
+  const MatX3 local = frame_.local(queries);
+  VecX values(queries.rows());
+  visit_queries(local, task, [&](int i) {
+    const Vec3 x = local.row(i);
+    const double inside = settled ? settled->inside(x, 3) : SideRule{}.inside((*winding_)(x));
+    values[i] = std::min(1.0, 2 * std::abs(inside));
   });
+  return values;
 }
 
 }  // namespace littoral

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "api/space/frame.h"
+#include "base/lazy.h"
 #include "base/task.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
 #include "littoral/space.h"
-#include "methods/implicit/side_census.h"
+#include "methods/implicit/settled_sides.h"
 #include "spatial/point_tree.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/winding_number.h"
@@ -46,14 +47,18 @@ class WindingOfInput {
                  Report& report);
   /// At points (queries x 3), finite.
   VecX at(const MatX3& queries, const Task& task) const;
-  /// At points (queries x 3), finite: 1 where the winding number is that of the inside or of the
-  /// outside of a closed surface, 0 where it is half way between them.
+  /// How sure inside and outside are at points (queries x 3), finite: 1 where the winding number,
+  /// of faces turned where their orientation disagrees, is that of the inside or of the outside of
+  /// a closed surface, 0 where it is half way between them.
   VecX confidence(const MatX3& queries, const Task& task) const;
 
  private:
   Frame frame_;
   std::unique_ptr<const WindingNumber> winding_;
-  SideRule sides_;
+  MatX3 points_{0, 3};  // of a surface
+  MatX3i triangles_{0, 3};
+  bool flipped_;
+  Kept<SettledSides> sides_;
 };
 
 }  // namespace littoral

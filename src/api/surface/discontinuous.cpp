@@ -1,5 +1,6 @@
 #include "api/surface/discontinuous.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/surface/winding.h"
@@ -16,13 +17,13 @@ namespace littoral {
 namespace {
 
 /// Sources where phi is to be 0, for constraint zero-set or a penalty; none for constraint none.
-std::vector<HeldPoint> held_points(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   const PlacedSources& placed, const SignedHeat& options) {
+HeldSource held_source(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                       const PlacedSources& placed, const SignedHeat& options) {
   // Ten times what the jumps round a face may save.
   constexpr double hold = 10;
   const double h = T.mean_edge_length;
   const double by_length = options.soft > 0 ? options.soft / h : hold;
-  std::vector<HeldPoint> held;
+  HeldSource held;
   if (options.soft == 0 && options.constraint == Constraint::none) return held;
   const TriangleSources on = triangle_sources(mesh, T, placed);
   for (const TriangleSources::Segment& s : on.segments) {
@@ -34,9 +35,14 @@ std::vector<HeldPoint> held_points(const SurfaceMesh& mesh, const IntrinsicTrian
       along += (s.b[k] - s.a[k]) * shape.p[k];
     }
     middle.weight = by_length * std::abs(along);
-    held.push_back(middle);
+    held.points.push_back(middle);
+    const auto a = std::find(s.a.begin(), s.a.end(), 1), b = std::find(s.b.begin(), s.b.end(), 1);
+    if (options.soft > 0 || a == s.a.end() || b == s.b.end()) continue;
+    held.corners.push_back({s.triangle, static_cast<int>(a - s.a.begin())});
+    held.corners.push_back({s.triangle, static_cast<int>(b - s.b.begin())});
   }
-  for (const PointInFace& p : on.isolated.inside) held.push_back({p.face, p.b, by_length * h});
+  for (const PointInFace& p : on.isolated.inside)
+    held.points.push_back({p.face, p.b, by_length * h});
   std::vector<char> at_vertex(T.n_vertices, 0);
   for (const int v : on.isolated.vertices) at_vertex[v] = 1;
   for (int f = 0; f < T.n_faces(); ++f)
@@ -44,7 +50,8 @@ std::vector<HeldPoint> held_points(const SurfaceMesh& mesh, const IntrinsicTrian
       if (!at_vertex[T.faces(f, k)]) continue;
       HeldPoint corner{f, {}, by_length * h};
       corner.b[k] = 1;
-      held.push_back(corner);
+      held.points.push_back(corner);
+      if (options.soft == 0) held.corners.push_back({f, k});
     }
   return held;
 }
@@ -72,7 +79,7 @@ SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTri
   }();
   const Stopwatch watch(report, "integrate");
   const JumpCalculus J = jump_calculus(T);
-  const std::vector<HeldPoint> held = held_points(mesh, T, placed, options);
+  const HeldSource held = held_source(mesh, T, placed, options);
   const double h = T.mean_edge_length, jump_threshold = options.jump_threshold * h;
   const Task integrating = task.stage(0.7, "integrate");
   DiscontinuousField field;
@@ -93,7 +100,7 @@ SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTri
 
   // Without zero along the sources, zero in the mean along them.
   VecX shifted = mean;
-  if (held.empty()) shift_to_mean_zero(ops.scalar, terms, shifted);
+  if (held.points.empty()) shift_to_mean_zero(ops.scalar, terms, shifted);
   SurfaceAnswer result{finalize_field(ops, terms, shifted, report), {}};
 
   Rows<std::int64_t, 3> key = Rows<std::int64_t, 3>::Constant(mesh.n_faces(), 3, -1);

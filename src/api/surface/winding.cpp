@@ -34,7 +34,8 @@ Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
 double total_length(const Polylines& lines) {
   double length = 0;
   for (const MatX3& line : lines)
-    for (Eigen::Index i = 1; i < line.rows(); ++i) length += (line.row(i) - line.row(i - 1)).norm();
+    for (Eigen::Index i = 1; i < line.rows(); ++i)
+      length += (line.row(i) - line.row(i - 1)).stableNorm();
   return length;
 }
 

@@ -88,7 +88,7 @@ class Improvement {
       touched.clear();
       const std::size_t before = M_.faces.size();
       for (int g : M_.edges[e].faces) touched.push_back(g);
-      M_.split(e);
+      if (!M_.split(e)) continue;
       ++added;
       for (std::size_t g = before; g < M_.faces.size(); ++g) touched.push_back(g);
       std::deque<int> edges;

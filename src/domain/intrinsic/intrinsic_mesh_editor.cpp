@@ -8,7 +8,10 @@ namespace littoral {
 
 namespace {
 
-double slack(double a, double b, double c) { return a + b + c - 2 * std::max({a, b, c}); }
+bool is_collinear(double a, double b, double c) {
+  const double longest = std::max({a, b, c});
+  return !(a + b + c - 2 * longest > collinear_margin * longest);
+}
 
 double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
 
@@ -180,9 +183,7 @@ bool IntrinsicMeshEditor::flip(int e) {
                 D = triangle_shape(ab, db, ad, true).p[2];
   const double cd = std::abs(C - D);
   if (!(cross(C - D, A - D) > 0) || !(cross(C - D, B - D) < 0)) return false;
-  if (!(slack(ca, ad, cd) > collinear_margin * std::max({ca, ad, cd})) ||
-      !(slack(db, bc, cd) > collinear_margin * std::max({db, bc, cd})))
-    return false;
+  if (is_collinear(ca, ad, cd) || is_collinear(db, bc, cd)) return false;
 
   Corners at_f, at_g;
   at_f[i] = A, at_f[(i + 1) % 3] = B, at_f[(i + 2) % 3] = C;
@@ -206,7 +207,16 @@ bool IntrinsicMeshEditor::flip(int e) {
   return true;
 }
 
-void IntrinsicMeshEditor::split(int e) {
+bool IntrinsicMeshEditor::split(int e) {
+  for (const int f : edges[e].faces) {  // a needle's long side: its halves would be collinear
+    const int i = side_of(f, e);
+    const TriangleShape t = shape(f);
+    const double half = 0.5 * edges[e].length,
+                 median = std::abs(t.p[(i + 2) % 3] - 0.5 * (t.p[i] + t.p[(i + 1) % 3]));
+    if (is_collinear(half, median, edges[faces[f].e[(i + 1) % 3]].length) ||
+        is_collinear(half, median, edges[faces[f].e[(i + 2) % 3]].length))
+      return false;
+  }
   const int tail = edges[e].tail, head = edges[e].head, m = n_vertices();
   points_.push_back(0.5 * points_[tail] + 0.5 * points_[head]);
   const std::vector<int> around = edges[e].faces;
@@ -293,6 +303,7 @@ void IntrinsicMeshEditor::split(int e) {
     edges[at_b].faces.push_back(cut.right);
     place(cut.drawing, cut.edge, f, {A, M, C}, cut.right, {M, B, C});
   }
+  return true;
 }
 
 }  // namespace littoral

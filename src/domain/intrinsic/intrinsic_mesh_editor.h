@@ -37,8 +37,8 @@ class IntrinsicMeshEditor {
   bool fixed(int e) const;
   /// Flips an edge if its two triangles allow it.
   bool flip(int e);
-  /// Puts a vertex in the middle of an edge.
-  void split(int e);
+  /// Puts a vertex in the middle of an edge if that leaves its triangles an area.
+  bool split(int e);
   TriangleShape shape(int f) const;
   int longest_edge(int f) const;
 

@@ -105,6 +105,7 @@ class Front {
   };
 
   void offer(int v, double distance, int source) {
+    distance = std::max(distance, 0.0);  // beside a segment's line it may round to less
     if (!(distance < distance_[v])) return;
     if (distance_[v] == inf) ++n_reached_;
     distance_[v] = distance;

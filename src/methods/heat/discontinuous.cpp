@@ -119,8 +119,11 @@ MatX3i pieces(const JumpCalculus& J, const MatX3& phi, const VecX& jump,
 
 /// One backward Euler step of heat flow on the split surface, from the mean of the corners that
 /// share a value. Only what the jumps bring in flows: (M + t L) phi = M phi0 + t div Y, so that a
-/// function without jumps stays as it is, at the boundary too.
-void flow(const JumpCalculus& J, DiscontinuousField& field, int n, double t, const Task& task) {
+/// function without jumps stays as it is, at the boundary too. Values at held corners are 0.
+void flow(const JumpCalculus& J, DiscontinuousField& field, int n, const HeldSource& held, double t,
+          const Task& task) {
+  std::vector<char> zero(static_cast<std::size_t>(n), 0);
+  for (const auto& [f, k] : held.corners) zero[field.piece(f, k)] = 1;
   Triplets entries;
   entries.reserve(12 * std::size_t(J.n_faces));
   VecX mass = VecX::Zero(n), b = mass;
@@ -139,7 +142,9 @@ void flow(const JumpCalculus& J, DiscontinuousField& field, int n, double t, con
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, mass[i]);
   SpMat A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
-  const VecX phi = DefiniteSystem(A, task).solve(b);
+  for (int i = 0; i < n; ++i)
+    if (zero[i]) b[i] = 0;
+  const VecX phi = DefiniteSystem(eliminated(A, zero), task).solve(b);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) field.phi(f, k) = phi[field.piece(f, k)];
 }
@@ -160,7 +165,7 @@ VecX edge_curl(const JumpCalculus& J, const VecX& Y) {
 }
 
 DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const MatX3i& vertex,
-                                           const VecX& Y, const std::vector<HeldPoint>& held,
+                                           const VecX& Y, const HeldSource& held,
                                            double jump_threshold, double t, const Task& whole,
                                            Report& report) {
   Task task = whole;
@@ -183,17 +188,17 @@ DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const MatX3i& 
     ++n;
   }
   const int zero = n;
-  for (const HeldPoint& point : held) {
+  for (const HeldPoint& point : held.points) {
     double value = 0;
     for (int k = 0; k < 3; ++k) value += point.b[k] * phi(point.face, k);
     find.add(point.face, zero, value, point.weight);
   }
-  find.problem.n = held.empty() ? n : n + 1;
+  find.problem.n = held.points.empty() ? n : n + 1;
   find.problem.c = Eigen::Map<const VecX>(find.c.data(), index(find.c.size()));
   find.problem.w = Eigen::Map<const VecX>(find.w.data(), index(find.w.size()));
   const L1Solution found = integrate_l1(find.problem, {}, task.stage(0.8, "least jumps"), report);
   VecX s = found.s;
-  if (!held.empty()) s.array() -= s[zero];
+  if (!held.points.empty()) s.array() -= s[zero];
   for (int f = 0; f < J.n_faces; ++f) phi.row(f).array() += s[f];
   field.jump = jump_derivative(J, phi);
   for (const Meeting& meeting : all) {
@@ -210,7 +215,7 @@ DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const MatX3i& 
   const VecX value = s.segment(J.n_faces, index(all.size()));
   int n_pieces = 0;
   field.piece = pieces(J, phi, field.jump, all, value, t > 0 ? jump_threshold : 0, n_pieces);
-  if (t > 0) flow(J, field, n_pieces, t, task.stage(0.2, "heat flow"));
+  if (t > 0) flow(J, field, n_pieces, held, t, task.stage(0.2, "heat flow"));
   return field;
 }
 

@@ -26,6 +26,13 @@ struct HeldPoint {
   double weight;  // what a value of 1 costs; a jump of 1 costs the length of the edge
 };
 
+/// Where the function should be 0: at a price, and at corners that stay 0 while jumps are smoothed
+/// (face, corner).
+struct HeldSource {
+  std::vector<HeldPoint> points;
+  std::vector<std::array<int, 2>> corners;
+};
+
 /// Eq. 15: how much the unit vectors of the faces at an edge differ along it; of three or more, at
 /// most. edges.
 VecX edge_curl(const JumpCalculus& J, const VecX& Y);
@@ -37,7 +44,7 @@ VecX edge_curl(const JumpCalculus& J, const VecX& Y);
 /// `jump_threshold` [units] are then closed by heat flow for time `t` (figure 12) on the surface
 /// split at the others; t = 0: left as they are.
 DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const MatX3i& vertex,
-                                           const VecX& Y, const std::vector<HeldPoint>& held,
+                                           const VecX& Y, const HeldSource& held,
                                            double jump_threshold, double t, const Task& task,
                                            Report& report);
 

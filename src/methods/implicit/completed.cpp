@@ -3,14 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "methods/implicit/orient_soup.h"
-#include "spatial/boundary_edges.h"
 
 namespace littoral {
 
@@ -19,19 +16,8 @@ namespace {
 // Distances from which clusters are expanded, in their radii. Where the winding number is an
 // integer errors of .003 do not matter; patches lie where it is not.
 constexpr double accuracy_closed = 2.3, accuracy_open = 3;
-constexpr double doubtful = 0.02;  // share of the area with the outside on both sides
-constexpr double walls = 0.05;     // with the inside on both sides
-constexpr double nothing = 0.01;   // share of the area that bounds
-constexpr double sure = 0.8;       // lines for the orientation, less those against
-constexpr double few = 0.001;      // of the area, turned
 constexpr double jumps_allowed = 0.01;
 constexpr double off_surface = 1e-6;
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
-  return text;
-}
 
 double area_of(const MatX3& points, const MatX3i& faces) {
   double sum = 0;
@@ -43,104 +29,21 @@ double area_of(const MatX3& points, const MatX3i& faces) {
   return sum;
 }
 
-void report_shares(const SideCensus::Shares& shares, Report& report) {
-  report.sizes.emplace_back("share of the area that bounds", shares.bounds);
-  report.sizes.emplace_back("share of the area inside on both sides", shares.within);
-  report.sizes.emplace_back("share of the area outside on both sides", shares.without);
-  if (shares.bounds < nothing) {
-    report.status = "uncertain";
-    report.warn(
-        "the input encloses nothing, so there is no inside: it is a sheet, or too many faces are "
-        "missing; method signed-heat closes sheets that are consistently oriented");
-    return;
-  }
-  if (shares.without > doubtful) {
-    report.status = "uncertain";
-    report.warn(percent(shares.without) +
-                " of the input's area has the outside on both sides: sheets, or faces that are "
-                "double or reversed; signs are uncertain there. Orient faces consistently, leave "
-                "out double ones and fill holes, or look whether method signed-heat agrees");
-  }
-  if (shares.within > walls)
-    report.warn(percent(shares.within) +
-                " of the input's area lies inside, on both sides: walls within, or parts that "
-                "overlap. Distances inside are to the nearest of them; leave them out to measure "
-                "to the outer surface alone");
-}
-
-void report_orientation(const OrientedSoup& soup, Report& report) {
-  report.sizes.emplace_back("share of the area turned", soup.turned);
-  report.sizes.emplace_back("share of the area left out of the sign", soup.left_out);
-  report.sizes.emplace_back("certainty of the orientation", soup.certainty);
-  report.warn("the orientation of faces disagrees, or faces are double: " + percent(soup.turned) +
-              " of the area was turned and " + percent(soup.left_out) +
-              " left out of the sign, by the parity of lines through it, of which " +
-              percent((1 + soup.certainty) / 2) +
-              " agree. Orient faces consistently and leave out double ones to be sure");
-  if (soup.certainty < sure) report.status = "uncertain";
-}
-
 }  // namespace
-
-CompletedSurface::Bounding CompletedSurface::settle_sides(const MatX3& points, const MatX3i& faces,
-                                                          bool as_given, const Task& task,
-                                                          Report& report) {
-  const Stopwatch watch(report, "sides");
-  winding_ = WindingNumber(points, faces);
-  const SideCensus census = side_census(points, faces, winding_);
-  sides_ = choose_sides(census, as_given);
-  const SideCensus::Shares given = census.shares(sides_);
-  // A patch of reversed faces bounds by its own measure, with inside and outside exchanged: it
-  // shows by its edges, or by the lines that pass it.
-  double against = 0;
-  std::vector<std::array<int, 2>> boundary = boundary_edges(points, faces);
-  if (given.without > doubtful || !boundary.empty()) {
-    const OrientedSoup soup = orient_soup(points, faces, task);
-    WindingNumber oriented(points, soup.faces);
-    SideCensus::Shares shares = side_census(points, soup.faces, oriented).shares({});
-    for (double* share : {&shares.bounds, &shares.within, &shares.without})
-      *share *= 1 - soup.left_out;
-    shares.without += soup.left_out;
-    // Where all normals point inward, those that were not turned are the odd ones.
-    const double kept = 1 - soup.turned - soup.left_out;
-    against = std::min(soup.turned, kept);
-    if (shares.bounds > given.bounds + doubtful ||
-        (std::min(soup.surely_turned, kept) > few && shares.bounds > given.bounds - doubtful)) {
-      winding_ = std::move(oriented);
-      sides_ = as_given ? SideRule{-1, -0.5} : SideRule{};
-      report_orientation(soup, report);
-      report_shares(shares, report);
-      return {soup.faces, boundary_edges(points, soup.faces)};
-    }
-  }
-  if (against > doubtful) {
-    report.status = "uncertain";
-    report.warn("lines through " + percent(against) +
-                " of the area tell another orientation than its faces have, but do not agree: "
-                "signs are uncertain there");
-  }
-  if (sides_.sense < 0)
-    report.warn(
-        "most normals point into the space that the input encloses: all count as reversed, so that "
-        "this space is inside");
-  report_shares(given, report);
-  return {faces, std::move(boundary)};
-}
 
 CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, double spacing,
                                    bool as_given, const Task& task, Report& report)
-    : winding_(points, MatX3i(0, 3)) {
-  const auto [bounding, boundary] = settle_sides(points, faces, as_given, task, report);
+    : sides_(settled_sides(points, faces, as_given, task, report)),
+      closed_(sides_.boundary.empty()) {
   task.checkpoint(0.3);
-  closed_ = boundary.empty();
-  report.sizes.emplace_back("free edges", static_cast<double>(boundary.size()));
+  report.sizes.emplace_back("free edges", static_cast<double>(sides_.boundary.size()));
   if (!closed_) {
     const Stopwatch watch(report, "patches");
-    patch_ = level_patch([&](const Vec3& x) { return sides_.inside(winding_(x, accuracy_open)); },
-                         points, boundary, spacing, task);
+    patch_ = level_patch([&](const Vec3& x) { return sides_.inside(x, accuracy_open); }, points,
+                         sides_.boundary, spacing, task);
     report.sizes.emplace_back("patch triangles", static_cast<double>(patch_.faces.rows()));
     report.sizes.emplace_back("completed share of the zero set",
-                              patch_.area / (patch_.area + area_of(points, bounding)));
+                              patch_.area / (patch_.area + area_of(points, sides_.faces)));
     if (patch_.finest > 0.6 * spacing)
       report.warn(
           "the input's faces have so many free edges that patches end a spacing before them; "
@@ -160,7 +63,7 @@ CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, dou
 }
 
 bool CompletedSurface::is_inside(const Vec3& x) const {
-  return sides_.inside(winding_(x, closed_ ? accuracy_closed : accuracy_open)) > 0;
+  return sides_.inside(x, closed_ ? accuracy_closed : accuracy_open) > 0;
 }
 
 DistanceSample CompletedSurface::at(const Vec3& x) const {
@@ -222,7 +125,7 @@ VecX CompletedSurface::at_nodes(const Grid& grid, const Task& task, Report& repo
   report.sizes.emplace_back("share of sign changes without surface", share);
   if (share > jumps_allowed) {
     report.status = "uncertain";
-    report.warn("at " + percent(share) +
+    report.warn("at " + percent_text(share) +
                 " of the places where the sign changes there is neither input nor patch: signs are "
                 "uncertain there, as around faces that are reversed or missing");
   }

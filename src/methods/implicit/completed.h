@@ -1,19 +1,15 @@
 #pragma once
 // Distance to a surface in space that may have holes: complete it first, then measure.
 
-#include <array>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "base/task.h"
 #include "littoral/report.h"
 #include "littoral/volume.h"
 #include "methods/implicit/level_patch.h"
 #include "methods/implicit/pointwise.h"
-#include "methods/implicit/side_census.h"
+#include "methods/implicit/settled_sides.h"
 #include "spatial/triangle_bvh.h"
-#include "spatial/winding_number.h"
 
 namespace littoral {
 
@@ -49,19 +45,10 @@ class CompletedSurface final : public CompletedDistance {
   const LevelPatch& patch() const override { return patch_; }
 
  private:
-  /// The faces that bound, oriented, and where they end.
-  struct Bounding {
-    MatX3i faces;
-    std::vector<std::array<int, 2>> boundary;
-  };
-  /// Settles winding_ and sides_.
-  Bounding settle_sides(const MatX3& points, const MatX3i& faces, bool as_given, const Task& task,
-                        Report& report);
   bool is_inside(const Vec3& x) const;
 
-  WindingNumber winding_;
-  SideRule sides_;
-  bool closed_ = true;
+  SettledSides sides_;
+  bool closed_;
   LevelPatch patch_;
   std::unique_ptr<TriangleBvh> bvh_;  // faces, then those of the patch
   MatX3 normals_;                     // of these

@@ -153,7 +153,8 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
   for (int i : blocks) local[i] = -1;
   Ordering in_order(n);
   std::iota(in_order.begin(), in_order.end(), 0);
-  return Cholesky<Scalar>(K, task, in_order).solve(r);
+  const auto structure = std::make_shared<const Elimination>(K, in_order, task);
+  return raised_cholesky(K, structure, task).factor.solve(r);
 }
 
 template <class Scalar>

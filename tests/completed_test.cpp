@@ -46,7 +46,7 @@ VecX asked(const PolygonSoup& input, const MatX3& queries, Report& report, bool 
   return query_distance(input, queries, request, nullptr, Task(), report);
 }
 
-double size_of(const Report& report, const std::string& name) {
+double completed_size(const Report& report, const std::string& name) {
   for (const auto& [key, value] : report.sizes)
     if (key == name) return value;
   ADD_FAILURE() << "no size " << name;
@@ -105,7 +105,7 @@ TEST(Completed, EnclosedSpaceIsInsideWhicheverWayAllNormalsPoint) {
   EXPECT_EQ(fine.status, "converged");
   expect_same(by_default(reversed(torus), grid, warned), values);
   EXPECT_THAT(warned.warnings, Contains(HasSubstr("count as reversed")));
-  EXPECT_EQ(size_of(warned, "share of the area that bounds"), 1);
+  EXPECT_EQ(completed_size(warned, "share of the area that bounds"), 1);
   // --flip takes the normals at their word.
   expect_same(by_default(torus, grid, quiet, true), -values);
   expect_same(by_default(reversed(torus), grid, trusted, true), values);
@@ -121,8 +121,8 @@ TEST(Completed, HolesAreClosedByTheLevelOfTheWindingNumber) {
   Report exact;
   const VecX truth = grid_distance(hemisphere(4, true), grid, {WindingSign{}}, Task(), exact);
   EXPECT_LT((values - truth).cwiseAbs().maxCoeff(), 0.05 * h);
-  EXPECT_NEAR(size_of(report, "completed share of the zero set"), 1.0 / 3, 0.01);
-  EXPECT_EQ(size_of(report, "share of sign changes without surface"), 0);
+  EXPECT_NEAR(completed_size(report, "completed share of the zero set"), 1.0 / 3, 0.01);
+  EXPECT_EQ(completed_size(report, "share of sign changes without surface"), 0);
   EXPECT_THAT(report.warnings, IsEmpty());
   EXPECT_EQ(report.status, "converged");
 }
@@ -183,7 +183,7 @@ TEST(Completed, SoupsAreOrientedByParityWhereTheirOrientationDisagrees) {
   Report of_mixed, of_doubled, of_good, of_odd;
   expect_same(by_default(mixed, grid, of_mixed), values);
   EXPECT_THAT(of_mixed.warnings, Contains(HasSubstr("orientation of faces disagrees")));
-  EXPECT_GT(size_of(of_mixed, "certainty of the orientation"), 0.99);
+  EXPECT_GT(completed_size(of_mixed, "certainty of the orientation"), 0.99);
   expect_same(by_default(doubled, grid, of_doubled), values);
   EXPECT_THAT(of_doubled.warnings, Contains(HasSubstr("faces are double")));
   expect_same(by_default(odd, grid, of_odd), by_default(good, grid, of_good));
@@ -214,7 +214,7 @@ TEST(Completed, SaysWhatIsDoubtful) {
   Report nested;
   by_default(joined(test::octasphere_soup(3), inner), grid, nested);
   EXPECT_EQ(nested.status, "converged");
-  EXPECT_NEAR(size_of(nested, "share of the area inside on both sides"), 0.2, 0.01);
+  EXPECT_NEAR(completed_size(nested, "share of the area inside on both sides"), 0.2, 0.01);
   EXPECT_THAT(nested.warnings, Contains(HasSubstr("walls within")));
 }
 
@@ -315,14 +315,14 @@ TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
   EXPECT_EQ(report.status, "converged");
   for (const double d : {0.2, -0.1}) {
     const std::string name = d > 0 ? "offset 0.2: " : "offset -0.1: ";
-    EXPECT_EQ(size_of(report, name + "open edges"), 0);
-    EXPECT_NEAR(size_of(report, name + "median distance"), std::abs(d), 0.01 * std::abs(d));
-    EXPECT_NEAR(size_of(report, name + "least distance"), std::abs(d), 0.1 * std::abs(d));
+    EXPECT_EQ(completed_size(report, name + "open edges"), 0);
+    EXPECT_NEAR(completed_size(report, name + "median distance"), std::abs(d), 0.01 * std::abs(d));
+    EXPECT_NEAR(completed_size(report, name + "least distance"), std::abs(d), 0.1 * std::abs(d));
   }
   // Flat tops: pi of pi + 2 pi (1.2)^2 + the quarter of a tube around the rim, and inside.
   const double outer = M_PI / (M_PI + 2 * M_PI * 1.44 + M_PI * M_PI * 0.2 + 2 * M_PI * 0.04);
-  EXPECT_NEAR(size_of(report, "offset 0.2: share over holes"), outer, 0.02);
-  EXPECT_GT(size_of(report, "offset -0.1: share over holes"), 0.3);
+  EXPECT_NEAR(completed_size(report, "offset 0.2: share over holes"), outer, 0.02);
+  EXPECT_GT(completed_size(report, "offset -0.1: share over holes"), 0.3);
   // Measured against another distance than was asked for.
   Report wrong;
   measure_offset({0.21, surfaces.front().surface}, open, answer.completion, wrong, Task());

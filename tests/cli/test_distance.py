@@ -121,6 +121,19 @@ def test_confidence_stands_beside_the_distance(run: Run, mesh: Path, tmp_path: P
     assert "confidence" in header
 
 
+def test_clouds_are_measured_exactly_and_have_confidence(
+    run: Run, mesh: Path, tmp_path: Path
+) -> None:
+    lines = [line.split() for line in mesh.read_text().splitlines() if line[0] == "v"]
+    (tmp_path / "c.xyz").write_text("".join(f"{x} {y} {z} 0 0 1\n" for _, x, y, z in lines))
+    cloud = ("distance", "c.xyz", "--sources", "curve.txt", "--confidence")
+    run(*cloud, "-o", "a.txt")
+    for (_, x, _, _), distance in zip(lines, values(tmp_path / "a.txt"), strict=True):
+        assert abs(distance - (0.5 - float(x))) < 1e-9
+    run(*cloud, "-o", "a.ply")
+    assert b"property double confidence" in (tmp_path / "a.ply").read_bytes()
+
+
 def test_options_of_other_methods_name_these(run: Run, mesh: Path) -> None:
     said = run(*CURVE, "--constraint", "none", "-o", "a.txt", status=2).stderr
     assert "signed-heat" in said

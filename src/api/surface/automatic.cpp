@@ -13,6 +13,8 @@
 #include "api/surface/discretization.h"
 #include "api/surface/whole_curves.h"
 #include "base/stopwatch.h"
+#include "domain/cloud/cloud_surface.h"
+#include "domain/mesh/flattened_voxels.h"
 #include "littoral/error.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
@@ -36,22 +38,26 @@ const OptionTable<Automatic>& automatic_options() {
                   "where pieces are reversed and nothing is missing.")
           .choice(&O::metric, "metric", {"auto", "exact", "fast-marching", "heat"},
                   "What measures distance to the curves made whole: exact polyhedral distance, "
-                  "fast marching, or signed heat itself; auto: exact on triangle and polygon "
-                  "meshes, heat elsewhere.")
+                  "fast marching, or signed heat itself; auto: exact, around clouds on their local "
+                  "triangles, around voxels on these without their steps.")
           .toggle(&O::confidence, "confidence",
                   "Beside the distance, how sure its sign is, from 0 on what completes a curve to "
-                  "1 far from it (triangle and polygon meshes).");
+                  "1 far from it.");
   return table;
 }
 
 class AutomaticOnTriangles {
  public:
   AutomaticOnTriangles(const SurfaceDomain& domain, SolveHint hint, Report& report)
-      : domain_(domain), T_(triangulation_of(domain, report)), curves_(domain, T_, hint) {}
+      : AutomaticOnTriangles(domain, domain, triangulation_of(domain, report), hint) {}
+  /// Triangles on the vertices of the input, which sources are given on.
+  AutomaticOnTriangles(const SurfaceDomain& input, const SurfaceDomain& triangles,
+                       std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint)
+      : input_(input), domain_(triangles), T_(std::move(T)), curves_(triangles, T_, input, hint) {}
 
   SurfaceAnswer solve(const Sources& given, Automatic& options, Task& task, Report& report) const {
-    const PlacedSources placed =
-        place_sources(domain_, given, task.stage(0.05, "placing the sources"), report);
+    const PlacedSources placed = place_sources(input_, *domain_.mesh, given,
+                                               task.stage(0.05, "placing the sources"), report);
     const WholeSources whole = curves_.complete(given, placed, options.completion,
                                                 task.stage(0.4, "completing the curves"), report);
     options.completion = whole.by;
@@ -64,6 +70,10 @@ class AutomaticOnTriangles {
                               : fast_marching(*T_, on, measuring, report).cwiseAbs();
     SurfaceAnswer answer{distance.cwiseProduct(whole.sign).array() + 0.0, {}, {}};  // no -0
     if (options.confidence) answer.confidence = confidence(placed, whole, measuring);
+    if (input_.mesh == domain_.mesh) return answer;
+    answer.shown = domain_.mesh->soup();  // a cloud is shown with its triangles
+    answer.shown->scalars["distance"] = answer.values;
+    if (options.confidence) answer.shown->scalars["confidence"] = answer.confidence;
     return answer;
   }
 
@@ -91,21 +101,19 @@ class AutomaticOnTriangles {
     return sure;
   }
 
-  SurfaceDomain domain_;
+  SurfaceDomain input_, domain_;
   std::shared_ptr<const IntrinsicTriangulation> T_;
   WholeCurves curves_;
 };
 
-/// Surfaces without triangles: signed heat completes and measures at once.
+/// Signed heat completes and measures at once.
 std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat(
     const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
     Report& report) {
   if (options.confidence)
-    throw UnsupportedError("option confidence: there is none with metric heat, as on a " +
-                           domain.kind());
+    throw UnsupportedError("option confidence: there is none with metric heat");
   if (options.completion != Completion::automatic && options.completion != Completion::heat)
-    throw UnsupportedError("option completion: with metric heat there is heat only, as on a " +
-                           domain.kind());
+    throw UnsupportedError("option completion: with metric heat there is heat only");
   return [heat = prepare<SurfaceDomain>(SignedHeat{}, domain, hint, task, report)](
              const Sources& sources, Automatic& used, Task& t, Report& r) {
     used.completion = Completion::heat;
@@ -126,25 +134,41 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat
   };
 }
 
-std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> automatic(
-    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
-    Report& report) {
-  const std::string kind = domain.kind();
-  if (kind != "triangle mesh" && kind != "polygon mesh" && options.metric != Metric::automatic &&
-      options.metric != Metric::heat)
-    throw UnsupportedError("option metric: only heat measures on a " + kind);
-  if (options.metric == Metric::heat || (kind != "triangle mesh" && kind != "polygon mesh"))
-    return by_heat(domain, options, hint, task, report);
-  if (kind == "triangle mesh")
-    return [method = std::make_shared<const AutomaticOnTriangles>(domain, hint, report)](
-               const Sources& sources, Automatic& used, Task& t, Report& r) {
-      return method->solve(sources, used, t, r);
-    };
+/// Polygons cut into triangles.
+std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_polygons(
+    const SurfaceDomain& domain, SolveHint hint, Report& report) {
   Report quiet;  // that polygons are cut needs no warning where nobody asked for triangles
   auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, quiet));
   return [cut, method = std::make_shared<const AutomaticOnTriangles>(cut->triangles, hint, report)](
              const Sources& sources, Automatic& used, Task& t, Report& r) {
     return method->solve(cut->cut(sources), used, t, r);
+  };
+}
+
+std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> automatic(
+    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
+    Report& report) {
+  if (options.metric == Metric::heat) return by_heat(domain, options, hint, task, report);
+  const std::string kind = domain.kind();
+  if (kind == "polygon mesh") return on_polygons(domain, hint, report);
+  if (kind == "voxel surface") {
+    const Stopwatch watch(report, "triangulation");
+    return on_polygons(
+        {std::make_shared<const SurfaceMesh>(flattened_voxels(*domain.mesh, *domain.face_normals)),
+         {}},
+        hint, report);
+  }
+  const auto made = [&] {
+    if (kind == "triangle mesh")
+      return std::make_shared<const AutomaticOnTriangles>(domain, hint, report);
+    const Stopwatch watch(report, "triangulation");
+    const NodalSurface S =
+        cloud_surface(domain.mesh->points(), domain.mesh->soup().normals, report, task);
+    return std::make_shared<const AutomaticOnTriangles>(domain, SurfaceDomain{S.refined, {}},
+                                                        S.place, hint);
+  };
+  return [method = made()](const Sources& sources, Automatic& used, Task& t, Report& r) {
+    return method->solve(sources, used, t, r);
   };
 }
 

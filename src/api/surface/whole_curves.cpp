@@ -52,6 +52,15 @@ struct WholeCurves::Labelled {
   }
 };
 
+WholeCurves::WholeCurves(SurfaceDomain triangles, std::shared_ptr<const IntrinsicTriangulation> T,
+                         SurfaceDomain heat, SolveHint hint)
+    : domain_(std::move(triangles)), T_(std::move(T)), on_heat_(std::move(heat)), hint_(hint) {
+  if (on_heat_.mesh == domain_.mesh) return;
+  // Where the local triangles of a cloud overlap they have no regions.
+  const auto overlaps = [](int n) { return n > 2; };
+  has_regions_ = std::none_of(T_->edge_use.begin(), T_->edge_use.end(), overlaps);
+}
+
 int WholeCurves::component_of(int face) const {
   return domain_.mesh->vertex_component()[domain_.mesh->face(face)[0]];
 }
@@ -78,7 +87,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
   if (pieces_with_sides(placed).empty()) return whole;
   const Stopwatch watch(report, "completion");
   std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 0);
-  if (how != Completion::heat)
+  if (how != Completion::heat && has_regions_)
     settled = settle(placed, how, whole, task.stage(0.4, "integer winding numbers"), report);
   std::vector<char> open(settled.size(), 0);
   for (const CurvePiece& piece : placed.pieces) {
@@ -205,7 +214,7 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
   const SurfaceMesh& mesh = *domain_.mesh;
   Report quiet;  // mesh and sources have been spoken of
   const auto heat = heat_.get([&] {
-    return prepare<SurfaceDomain>(SignedHeat{}, domain_, hint_, task.stage(0.6, "factoring"),
+    return prepare<SurfaceDomain>(SignedHeat{}, on_heat_, hint_, task.stage(0.6, "factoring"),
                                   quiet);
   });
   Sources with_sides;  // others would draw the zero set to themselves

@@ -20,8 +20,10 @@ struct WholeSources {
 /// Completes curves on one mesh, each component by itself; for several threads.
 class WholeCurves {
  public:
-  WholeCurves(SurfaceDomain domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint)
-      : domain_(std::move(domain)), T_(std::move(T)), hint_(hint) {}
+  /// heat: what signed heat is solved on, with the same vertices: the triangles themselves, or the
+  /// cloud they are made from.
+  WholeCurves(SurfaceDomain triangles, std::shared_ptr<const IntrinsicTriangulation> T,
+              SurfaceDomain heat, SolveHint hint);
 
   /// Curves that bound stay as they are and integer winding numbers give their sides. Where pieces
   /// are reversed but nothing is missing, the shortest completion overrules them. Curves with ends
@@ -46,7 +48,9 @@ class WholeCurves {
 
   SurfaceDomain domain_;
   std::shared_ptr<const IntrinsicTriangulation> T_;
+  SurfaceDomain on_heat_;
   SolveHint hint_;
+  bool has_regions_ = true;  // sides of triangles are those of the input
   Kept<JumpSurface> uncut_;
   Kept<Solver<SurfaceDomain>> heat_;
 };

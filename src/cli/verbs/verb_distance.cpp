@@ -120,16 +120,14 @@ void measure_on_surface(const DistanceArguments& arguments, Session& session) {
       [](const OpenedSurface& input) { return domain_of(input.mesh, input.normals()); },
       [&](const std::string& file, const SurfaceMesh& mesh, const Sources& sources,
           const SurfaceAnswer& answer) {
-        PolygonSoup result = answer.shown ? *answer.shown : mesh.soup();
-        if (!answer.shown) result.scalars = {{"distance", answer.values}};
-        if (!answer.shown && answer.confidence.size() > 0)
-          result.scalars["confidence"] = answer.confidence;
+        const bool of_input = !answer.shown || io::is_written_as(file, {Kind::table});
+        PolygonSoup result = of_input ? mesh.soup() : *answer.shown;
+        if (of_input) {
+          result.scalars = {{"distance", answer.values}};
+          if (answer.confidence.size() > 0) result.scalars["confidence"] = answer.confidence;
+        }
         if (mesh.n_faces() == 0 && io::is_written_as(file, {Kind::field}))
           result = cloud_with(result, mesh);
-        else if (answer.shown && io::is_written_as(file, {Kind::table})) {  // of the input
-          result = mesh.soup();
-          result.scalars = {{"distance", answer.values}};
-        }
         write_result(file, result, "distance", arguments.domain, session.report,
                      [&](io::Scene& scene) { io::add_sources(scene, mesh, sources); });
       });

@@ -86,6 +86,48 @@ TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
   }
 }
 
+/// In several batches, from tail to head but for few, as one by one.
+TEST(EdgeEnvelopes, BatchesAsOneByOne) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> u(0, 1);
+  const double length = 3;
+  for (int round = 0; round < 300; ++round) {
+    EdgeEnvelopes all(2);
+    for (int batch = 0; batch < 4; ++batch) {
+      double least = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 8; ++i) {
+        const double b0 = length * std::min(0.9, i / 10. + 0.2 * u(random)),
+                     b1 = std::min(length, b0 + length * 0.3 * u(random));
+        Window& w = all.next_of_batch();
+        w = point_window(b0, b1, 5 * u(random) - 1, -2 * u(random), i % 3 ? 1 : u(random));
+        w.source = 8 * batch + i;
+        all.insert(all[1], length, w);
+        all.settle_in_batch(length);
+      }
+      const double found = all.take_batch(all[0], length);
+      for (const Window& w : all[0].windows)
+        if (w.source >= 8 * batch) least = std::min(least, w.least());
+      EXPECT_EQ(found, least);
+    }
+    EXPECT_EQ(all.n_held(), double(all[0].windows.size() + all[1].windows.size()));
+    for (std::size_t i = 1; i < all[0].windows.size(); ++i)
+      EXPECT_LE(all[0].windows[i - 1].b1, all[0].windows[i].b0);
+    const auto at = [&](int list, double p) {
+      double d = std::numeric_limits<double>::infinity();
+      for (const Window& w : all[list].windows)
+        if (p >= w.b0 && p <= w.b1) d = std::min(d, w.at(p));
+      return d;
+    };
+    for (int s = 0; s <= 1000; ++s) {
+      const double p = length * s / 1000, one = at(1, p), several = at(0, p);
+      if (std::isinf(one) || std::isinf(several))
+        EXPECT_EQ(one, several) << round << " " << p;
+      else
+        EXPECT_NEAR(one, several, 1e-11) << round << " " << p;
+    }
+  }
+}
+
 TEST(EdgeEnvelopes, TheSameWindowAgainIsNotTaken) {
   EdgeEnvelopes all(2);
   const Window w = point_window(0.5, 2, 1, -1, 0.25);
@@ -97,9 +139,10 @@ TEST(EdgeEnvelopes, TheSameWindowAgainIsNotTaken) {
     EXPECT_EQ(all.insert(all[1], 3, again), std::numeric_limits<double>::infinity());
   }
   std::vector<Window> open;
-  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 1, open), 1.25);
+  const auto take = [&](const Window& taken) { open.push_back(taken); };
+  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 1, take), 1.25);
   EXPECT_TRUE(open.empty());
-  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 2, open), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 2, take), std::numeric_limits<double>::infinity());
   EXPECT_EQ(open.size(), 1);
   EXPECT_EQ(all.n_held(), 1);
   all.forget(all[1]);

@@ -263,6 +263,23 @@ TEST(ExactPolyhedralRandom, FacesAgainChangeNothing) {
   EXPECT_LT(b.windows(), 1.1 * a.windows());
 }
 
+/// Two vertices in one place: their triangles are needles that were made strict, and are longer by
+/// 1e-10 than their neighbours think. Paths along edges must count there.
+TEST(ExactPolyhedralRandom, AlongEdgesWhereTrianglesDisagreeAboutThem) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    PolygonSoup soup = noisy(test::grid_soup(5, 3), 0.3, seed);
+    const int a = 6 + int(seed % 12);
+    soup.points.row(a + 1) = soup.points.row(a);
+    OnMesh on(soup, test::vertex_points({a + int(seed % 2)}));
+    const VecX d = on.exact().distance;
+    for (int e = 0; e < on.mesh.n_edges(); ++e) {
+      const int v = on.mesh.edges()(e, 0), w = on.mesh.edges()(e, 1);
+      EXPECT_LE(std::abs(d[v] - d[w]), (on.mesh.point(v) - on.mesh.point(w)).norm() + 1e-9);
+    }
+  }
+}
+
 /// Beyond its limit the search still ends, warns, and gives lengths of paths.
 TEST(ExactPolyhedralRandom, AtTheLimitValuesAreTooLargeIfAnything) {
   const PolygonSoup soup = noisy(test::torus_soup(48, 24), 0.01, 5);

@@ -32,34 +32,67 @@ class EdgeEnvelopes {
   /// Takes what is nearest of the window on an edge of the given length; the least distance there,
   /// +inf if nothing is left of it.
   double insert(List& list, double length, const Window& w) {
-    std::vector<Window>& all = list.windows;
-    if (all.capacity() == 0 && !spare_.empty()) {
-      all.swap(spare_.back());
-      spare_.pop_back();
-    }
-    const auto beyond =
-        std::partition_point(all.begin(), all.end(), [&](const Window& o) { return o.b1 <= w.b0; });
-    if (beyond != all.end() && beyond->b0 < w.b1)
-      return replace(all, compare(w, all, beyond - all.begin(), length), w, narrow_share * length);
-    all.insert(beyond, w);
+    make_room(list);
+    return insert(list.windows, length, w);
+  }
+
+  /// Several windows for one list, in order from tail to head but for few: each is filled in where
+  /// it will stay, for copies of what was just written wait for it. What is nearest among them stays.
+  Window& next_of_batch() { return batch_.emplace_back(); }
+  void leave_out_of_batch() { batch_.pop_back(); }
+  void settle_in_batch(double length) {
     ++n_taken_;
     ++n_held_;
-    return w.least();
+    const std::size_t n = batch_.size();
+    if (n == 1 || batch_[n - 2].b1 <= batch_[n - 1].b0) return;
+    const Fit fit = divide_neighbours(batch_[n - 2], batch_[n - 1], length);
+    if (fit == Fit::both) return;
+    --n_taken_;
+    --n_held_;
+    const Window w = batch_.back();
+    batch_.pop_back();
+    if (fit == Fit::otherwise) insert(batch_, length, w);
+  }
+
+  /// Puts the batch into the list; the least distance of what is taken, +inf if nothing is.
+  double take_batch(List& list, double length) {
+    double least = std::numeric_limits<double>::infinity();
+    if (batch_.empty()) return least;
+    make_room(list);
+    std::vector<Window>& all = list.windows;
+    if (all.empty()) {
+      all.swap(batch_);
+      for (const Window& w : all) least = std::min(least, w.least());
+      return least;
+    }
+    const double start = all.front().b0, end = all.back().b1;
+    auto first = batch_.begin(), last = batch_.end();
+    while (first != last && first->b1 <= start) ++first;
+    while (last != first && (last - 1)->b0 >= end) --last;
+    n_taken_ -= double(last - first);  // counted again below
+    n_held_ -= double(last - first);
+    for (auto w = first; w != last; ++w) least = std::min(least, insert(all, length, *w));
+    for (auto w = batch_.begin(); w != first; ++w) least = std::min(least, w->least());
+    for (auto w = last; w != batch_.end(); ++w) least = std::min(least, w->least());
+    all.insert(all.end(), last, batch_.end());
+    all.insert(all.begin(), batch_.begin(), first);
+    batch_.clear();
+    return least;
   }
 
   /// Hands over the windows of a list, from tail to head, that have not gone on and whose least
   /// distance is up to `now`; the least distance of the others.
-  static double take_open(List& list, double now, std::vector<Window>& out) {
+  template <class Take>
+  static double take_open(List& list, double now, const Take& take) {
     double least = std::numeric_limits<double>::infinity();
-    out.clear();
     for (Window& w : list.windows) {
       if (!w.open) continue;
       const double d = w.least();
       if (d > now) {
         least = std::min(least, d);
       } else {
+        take(w);
         w.open = false;
-        out.push_back(w);
       }
     }
     return least;
@@ -82,6 +115,29 @@ class EdgeEnvelopes {
   double n_held() const { return n_held_; }
 
  private:
+  void make_room(List& list) {
+    if (list.windows.capacity() > 0 || spare_.empty()) return;
+    list.windows.swap(spare_.back());
+    spare_.pop_back();
+  }
+
+  double insert(std::vector<Window>& all, double length, const Window& w) {
+    if (all.empty() || all.back().b1 <= w.b0) {
+      all.push_back(w);
+      ++n_taken_;
+      ++n_held_;
+      return w.least();
+    }
+    const auto beyond =
+        std::partition_point(all.begin(), all.end(), [&](const Window& o) { return o.b1 <= w.b0; });
+    if (beyond != all.end() && beyond->b0 < w.b1)
+      return replace(all, compare(w, all, beyond - all.begin(), length), w, narrow_share * length);
+    all.insert(beyond, w);
+    ++n_taken_;
+    ++n_held_;
+    return w.least();
+  }
+
   struct Piece {
     int old;  // which window of the list; -1: the new one
     double b0, b1, d0, d1;
@@ -94,6 +150,34 @@ class EdgeEnvelopes {
     } else {
       pieces_.push_back({old, b0, b1, d0, d1});
     }
+  }
+
+  enum class Fit { both, first, otherwise };
+
+  /// The commonest case: the second window, new, starts within the first and ends beyond it. Cuts
+  /// both where they meet; `first` if the second is of no use, `otherwise`, and nothing done, if
+  /// there is more to it.
+  Fit divide_neighbours(Window& o, Window& w, double length) {
+    if (!(o.b0 <= w.b0 && o.b1 <= w.b1)) return Fit::otherwise;
+    const double narrow = narrow_share * length;
+    const Both u = {w.b0, w.d0, o.at(w.b0)}, v = {o.b1, w.at(o.b1), o.d1};
+    const double slack = slack_share * (u.o + length);
+    const bool at_u = u.w + slack < u.o, at_v = v.w + slack < v.o;
+    if (at_u) return Fit::otherwise;
+    Both m = v;
+    if (at_v) {
+      m = meeting(w, o, u, v, slack, false);
+      if (!(m.p - o.b0 > narrow)) return Fit::otherwise;
+    } else {
+      const double p = parallel_at(w, o);
+      if (p > u.p && p < v.p && w.at(p) + slack < o.at(p)) return Fit::otherwise;
+    }
+    if (!(w.b1 - m.p > narrow)) return Fit::first;
+    o.b1 = m.p;
+    o.d1 = m.o;
+    w.b0 = m.p;
+    w.d0 = m.w;
+    return Fit::both;
   }
 
   struct Range {
@@ -183,7 +267,13 @@ class EdgeEnvelopes {
     const double narrow = 1e-15 * (high - low);
     const double fu = u.w + slack - u.o, fv = v.w + slack - v.o;
     double p = std::numeric_limits<double>::quiet_NaN();
-    if (!w.parallel && !o.parallel) p = hyperbola(w, o, slack, low, high);
+    if (!w.parallel && !o.parallel) {
+      p = w.behind == o.behind ? bisector(w, o) : hyperbola(w, o, low, high);
+      if (p > low && p < high) {
+        const Both m = {p, w.at(p), o.at(p)};
+        if (std::abs(m.w - m.o) <= slack) return m;
+      }
+    }
     if (!(p > low && p < high)) p = low - fu * (high - low) / (fv - fu);
     Both m = new_first ? u : v;
     for (int i = 0; i < 60; ++i) {
@@ -197,10 +287,14 @@ class EdgeEnvelopes {
     return m;
   }
 
+  static double bisector(const Window& w, const Window& o) {
+    return 0.5 * (w.x + o.x + (w.y - o.y) * (w.y + o.y) / (w.x - o.x));
+  }
+
   /// Where |p - I| - |p - J| = c: squared twice, (4 c^2 - b^2) p^2 - 2 (4 c^2 I_x - (a + c^2) b) p
   /// + 4 c^2 |I|^2 - (a + c^2)^2 = 0 with a = |I|^2 - |J|^2, b = 2 (I_x - J_x).
-  static double hyperbola(const Window& w, const Window& o, double slack, double low, double high) {
-    const double c = o.behind - w.behind - slack, c4 = 4 * c * c;
+  static double hyperbola(const Window& w, const Window& o, double low, double high) {
+    const double c = o.behind - w.behind, c4 = 4 * c * c;
     const double norm = w.x * w.x + w.y * w.y;
     const double a = norm - o.x * o.x - o.y * o.y + c * c, b = 2 * (w.x - o.x);
     const double square = c4 - b * b, half = c4 * w.x - a * b, rest = c4 * norm - a * a;
@@ -241,6 +335,7 @@ class EdgeEnvelopes {
 
   std::vector<List> lists_;                 // edges
   std::vector<std::vector<Window>> spare_;  // empty, with room
+  std::vector<Window> batch_;               // of an edge, about to be taken
   std::vector<Piece> pieces_;               // of the insertion under way
   std::vector<Window> made_;
   double n_taken_ = 0, n_held_ = 0;

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
-#include <queue>
 #include <sstream>
 #include <utility>
 
 #include "methods/geodesic/edge_envelopes.h"
 #include "methods/geodesic/exact_polyhedral_pages.h"
 #include "methods/geodesic/exact_polyhedral_starts.h"
+#include "methods/geodesic/ray_bundle.h"
 #include "methods/heat/finalize.h"
 
 namespace littoral {
@@ -20,11 +21,10 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double slack_share = EdgeEnvelopes::slack_share;
 constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
 /// How many triangles paths run straight through after each time the limit on windows is met.
-constexpr std::array<int, 4> straight = {65536, 16, 4, 0};
+constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
 constexpr double most_held = 3e7;  // windows, 2 GB
 
 double norm(double x, double y) { return std::sqrt(x * x + y * y); }
-double cross(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 
 class Front {
  public:
@@ -42,7 +42,7 @@ class Front {
     distance_[vertex] = 0;
     nearest_[vertex] = source;
     ++n_reached_;
-    queue_.push({0, -1 - vertex});
+    push({0, -1 - vertex});
   }
 
   /// A source inside a triangle.
@@ -63,16 +63,16 @@ class Front {
         task.checkpoint(double(n_reached_) / T_.n_vertices);
         next_check = work + 4096;
       }
-      const auto [key, id] = queue_.top();
-      queue_.pop();
+      const auto [key, id] = queue_.front();
+      std::pop_heap(queue_.begin(), queue_.end());
+      queue_.pop_back();
+      fetch_ahead();
       if (id < 0) {
         if (key > distance_[-1 - id]) continue;
         leave_vertex(-1 - id);
       } else {
         go_on(id, key);
       }
-      if (steps % pages_.edges.size() == 0)
-        for (int e = 0; e < T_.n_edges(); ++e) forget_passed(e, key);
       const bool full =
           envelopes_.n_taken() > budget_ || envelopes_.n_held() > most_held * double(1 + relaxed_);
       if (full && relaxed_ + 1 < straight.size()) relax();
@@ -97,12 +97,24 @@ class Front {
     double distance;  // least at the far corner among rays through a side
     double crossing;  // where they cross the side
   };
-  /// A window before one of its pages.
-  struct Ray {
-    const Window* w;
-    double at_apex;       // its distance there, seen or not
-    double apex0, apex1;  // > 0: the apex lies left of the ray at the window's start, end
-  };
+  void push(Entry entry) {
+    queue_.push_back(entry);
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  /// The way of the next windows from memory is longer than it takes to cross a triangle.
+  void fetch_ahead() const {
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, queue_.size()); ++i) {
+      const int id = queue_[i].id;
+      if (id < 0) continue;
+      __builtin_prefetch(&pages_.edges[id]);
+      __builtin_prefetch(&envelopes_[id]);
+      if (i > 0) continue;
+      const std::vector<Window>& next = envelopes_[id].windows;
+      for (std::size_t j = 0; j < std::min<std::size_t>(16, next.size()); ++j)
+        __builtin_prefetch(&next[j]);
+    }
+  }
 
   void offer(int v, double distance, int source) {
     distance = std::max(distance, 0.0);  // beside a segment's line it may round to less
@@ -110,7 +122,7 @@ class Front {
     if (distance_[v] == inf) ++n_reached_;
     distance_[v] = distance;
     nearest_[v] = source;
-    if (pages_.bends[v]) queue_.push({distance, -1 - v});
+    if (pages_.bends[v]) push({distance, -1 - v});
   }
 
   /// Paths that bend at a vertex: along its edges and into its triangles.
@@ -153,9 +165,9 @@ class Front {
     if (!pages_.leads_on(edge, side)) return;
     w.y = -w.y;
     if (turned) w.turn(edge.length);
+    w.page = pages_.page_of(edge, side);
     w.b0 = std::max(w.b0, 0.0);
     w.b1 = std::min(w.b1, edge.length);
-    w.from = side;
     w.measure_ends();
     if (!trim(w, edge)) return;
     EdgeEnvelopes::List& list = envelopes_[id];
@@ -170,107 +182,139 @@ class Front {
     const double ends = std::max(distance_[edge.tail], distance_[edge.head]);
     double& due = envelopes_[id].due;
     due = std::max(least, std::min(ends, least + edge.wait));
-    queue_.push({due, id});
+    push({due, id});
   }
 
   /// Hands the new windows of an edge to its triangles.
   void go_on(int id, double now) {
     const PolyhedralPages::Edge& edge = pages_.edges[id];
-    // Their way from memory is longer than it takes to collect the windows.
-    __builtin_prefetch(&pages_.pages[edge.first_page]);
-    __builtin_prefetch(&pages_.pages[edge.first_page] + 1);
     EdgeEnvelopes::List& list = envelopes_[id];
     list.due = inf;
-    const double next = EdgeEnvelopes::take_open(list, now, open_);
+    open_.clear();
+    const double next = EdgeEnvelopes::take_open(list, now, [&](Window& w) {
+      if (trim(w, edge)) open_.push_back(&w);
+    });
     if (next < inf) wait(id, next);
-    std::erase_if(open_, [&](Window& w) { return !trim(w, edge); });
-    if (open_.empty()) return;
-    bool turned = false;
-    for (const PolyhedralPages::Page& page : pages_.at(id)) {
+    const auto sides = pages_.at(edge);
+    for (std::size_t page = 0; page < sides.size(); ++page) {
       rays_.clear();
-      if (std::exchange(turned, page.turned) != page.turned)
-        for (Window& w : open_) w.turn(edge.length);
-      for (const Window& w : open_)
-        if (w.from != page.side) look(w, page);
-      for (const Ray& ray : rays_) propagate(ray, page);
-      forget_passed(page.edge1, now);
-      forget_passed(page.edge2, now);
+      for (const Window* w : open_)
+        if (w->page != page) rays_.add(*w);
+      if (rays_.size() > 0) cross(sides[page]);
     }
+    gone_on_.push_back(id);
+    forget_passed(now);
   }
 
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
-  void forget_passed(int id, double now) {
-    const PolyhedralPages::Edge& edge = pages_.edges[id];
-    EdgeEnvelopes::List& list = envelopes_[id];
-    if (list.windows.empty() || list.due < inf) return;
-    const double ends = distance_[edge.tail] + distance_[edge.head];
-    if (0.5 * (ends + edge.length) < now) envelopes_.forget(list);
-  }
-
-  /// What a window sees of the far corner.
-  void look(const Window& w, const PolyhedralPages::Page& page) {
-    const double px = page.apex.real(), py = page.apex.imag();
-    const double gy = w.direction_y(), g0 = w.direction_x(w.b0), g1 = w.direction_x(w.b1);
-    const double at_apex = w.at(px, py);
-    const double apex0 = cross(g0, gy, px - w.b0, py), apex1 = cross(g1, gy, px - w.b1, py);
-    rays_.push_back({&w, at_apex, apex0, apex1});
-    const double tolerance = coverage_share * page.length;
-    if (apex0 > gy * tolerance || apex1 < -gy * tolerance) return;
-    offer(page.far, at_apex, w.source);
-    Winner& winner = winner_[page.side];
-    if (at_apex < winner.distance) {
-      const double crossing =
-          w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
-      winner = {at_apex, std::clamp(crossing, w.b0, w.b1)};
+  void forget_passed(double now) {
+    for (int i = 0; i < 2 && !gone_on_.empty(); ++i) {
+      const int id = gone_on_.front();
+      gone_on_.pop_front();
+      EdgeEnvelopes::List& list = envelopes_[id];
+      if (list.windows.empty() || list.due < inf) continue;  // it will go on again
+      const PolyhedralPages::Edge& edge = pages_.edges[id];
+      const double ends = distance_[edge.tail] + distance_[edge.head];
+      if (0.5 * (ends + edge.length) < now)
+        envelopes_.forget(list);
+      else
+        gone_on_.push_back(id);
     }
   }
 
-  void propagate(const Ray& ray, const PolyhedralPages::Page& page) {
-    const Window& w = *ray.w;
-    if (w.depth >= straight[relaxed_]) return;
-    const double px = page.apex.real(), py = page.apex.imag(), L = page.length;
-    bool left = ray.apex0 < 0;
-    bool right = ray.apex1 > 0;
+  /// The rays at hand enter a triangle through a side and leave through the others.
+  void cross(int side) {
+    const int f = side / 3, k = side % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    const bool turned = T_.along(f, k) < 0;
+    TriangleAbove above{T_.length(f, k), 0};
+    above.apex = apex_of(above.length, T_.length(f, k1), T_.length(f, k2));
+    if (turned) above.apex = Complex(above.length - above.apex.real(), above.apex.imag());
+    rays_.look_at(above);
+    const int apex = T_.faces(f, k2), n = rays_.size();
+    Winner& winner = winner_[side];
+    const double tolerance = coverage_share * above.length;
+    for (int i = 0; i < n; ++i) {
+      const double gy = rays_[i].direction_y();
+      if (rays_.at_start(i) > gy * tolerance || rays_.at_end(i) < -gy * tolerance) continue;
+      look(rays_[i], above, apex, winner);
+    }
+    goes_.resize(n);
+    int first[2] = {n, n}, last[2] = {0, 0};
+    for (int i = 0; i < n; ++i) {
+      goes_[i] = where_to(i, above, distance_[apex], winner);
+      for (const int right : {0, 1})
+        if (goes_[i] >> right & 1) {
+          first[right] = std::min(first[right], i);
+          last[right] = i + 1;
+        }
+    }
+    for (const int right : {1, 0}) {
+      if (first[right] >= last[right]) continue;
+      const int next = (right == 1) != turned ? k1 : k2;  // of the triangle's sides
+      // A side from the edge below runs to the apex as given, if it is k1, and else from there.
+      const bool to_apex = (next == k1) == (T_.along(f, next) > 0);
+      const RayExit exit(above, T_.length(f, next), right == 1, !to_apex);
+      leave_together(3 * f + next, T_.side_edge(f, next), above, exit, first[right], last[right],
+                     right);
+    }
+  }
+
+  static Complex apex_of(double a, double b, double c) {
+    return {law_of_cosines(a, c, b) / (2 * a), 2 * area_of_lengths(a, b, c) / a};
+  }
+
+  /// A window whose rays reach the far corner.
+  void look(const Window& w, const TriangleAbove& above, int apex, Winner& winner) {
+    const double px = above.apex.real(), py = above.apex.imag(), at_apex = w.at(px, py);
+    offer(apex, at_apex, w.source);
+    if (!(at_apex < winner.distance)) return;
+    const double crossing =
+        w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
+    winner = {at_apex, std::clamp(crossing, w.b0, w.b1)};
+  }
+
+  /// Sides of the apex that a window goes on to: 1 left, 2 right.
+  int where_to(int i, const TriangleAbove& above, double far, const Winner& winner) const {
+    const Window& w = rays_[i];
+    if (w.depth >= straight[relaxed_]) return 0;
+    bool left = rays_.at_start(i) < 0, right = rays_.at_end(i) > 0;
+    const double px = above.apex.real(), py = above.apex.imag();
+    const double slack = slack_share * (far + above.length);
     // One angle, one split: rays beyond those that reach the far corner soonest do not cross them.
-    const Winner& winner = winner_[page.side];
-    const double far = distance_[page.far], slack = slack_share * (far + L);
-    if (ray.at_apex > winner.distance + slack) {
-      if (w.b0 >= winner.crossing) left = false;
-      if (w.b1 <= winner.crossing) right = false;
+    const bool beyond_left = left && w.b0 >= winner.crossing,
+               beyond_right = right && w.b1 <= winner.crossing;
+    if ((beyond_left || beyond_right) && w.at(px, py) > winner.distance + slack) {
+      left &= !beyond_left;
+      right &= !beyond_right;
     }
     // Beyond the line from an end of the window to the far corner, that corner may be nearer.
-    if (left && far + norm(px - w.b0, py) + slack < w.d0) left = false;
-    if (right && far + norm(px - w.b1, py) + slack < w.d1) right = false;
-    if (!left && !right) return;
-    const double gy = w.direction_y(), g0 = w.direction_x(w.b0), g1 = w.direction_x(w.b1);
-    Window child = w;
-    child.open = true;
-    child.depth = static_cast<std::uint16_t>(std::min(w.depth + 1, 65535));
-    const Complex image(w.x, w.y);
-    if (right) {
-      // Where a ray from b along (g, gy) leaves, as a share of the way to the far corner.
-      const auto share = [&](double b, double g) {
-        return std::clamp(gy * (L - b) / cross(g, gy, px - L, py), 0.0, 1.0);
-      };
-      child.b0 = page.length1 * share(w.b1, g1);
-      child.b1 = ray.apex0 > 0 ? page.length1 * share(w.b0, g0) : page.length1;
-      const Complex along = (page.apex - L) / page.length1;
-      Window there = seen_from(child, image, L, along);
-      leave(next_side(page.side), page.edge1, page.turned1, there);
-    }
-    if (left) {
-      const auto share = [&](double b, double g) {
-        return std::clamp(-gy * b / cross(g, gy, px, py), 0.0, 1.0);
-      };
-      child.b0 = ray.apex1 < 0 ? page.length2 * (1 - share(w.b1, g1)) : 0;
-      child.b1 = page.length2 * (1 - share(w.b0, g0));
-      const Complex along = -page.apex / page.length2;
-      Window there = seen_from(child, image, page.apex, along);
-      leave(next_side(next_side(page.side)), page.edge2, page.turned2, there);
-    }
+    const double reach = far + py + slack;  // py bounds the norms from below
+    if (left && reach < w.d0 && far + norm(px - w.b0, py) + slack < w.d0) left = false;
+    if (right && reach < w.d1 && far + norm(px - w.b1, py) + slack < w.d1) right = false;
+    return int(left) + 2 * int(right);
   }
 
-  static int next_side(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+  void leave_together(int side, int id, const TriangleAbove& above, const RayExit& exit, int first,
+                      int last, int right) {
+    const PolyhedralPages::Edge& edge = pages_.edges[id];
+    if (!pages_.leads_on(edge, side)) return;
+    const std::uint16_t page = pages_.page_of(edge, side);
+    rays_.leave(above, exit, first, last);
+    // From the tail to the head of the side.
+    for (int j = first; j < last; ++j) {
+      const int i = exit.turned() ? first + last - 1 - j : j;
+      if (!(goes_[i] >> right & 1)) continue;
+      Window& w = envelopes_.next_of_batch();
+      rays_.left_as(i, exit, page, w);
+      if (trim(w, edge))
+        envelopes_.settle_in_batch(edge.length);
+      else
+        envelopes_.leave_out_of_batch();
+    }
+    EdgeEnvelopes::List& list = envelopes_[id];
+    const double least = envelopes_.take_batch(list, edge.length);
+    if (least < inf && list.due == inf) wait(id, least);
+  }
 
   /// Follows straight lines less far from now on, and lets paths bend at every vertex instead.
   void relax() {
@@ -278,13 +322,12 @@ class Front {
     budget_ += most_windows_;
     std::fill(pages_.bends.begin(), pages_.bends.end(), 1);
     for (int v = 0; v < T_.n_vertices; ++v)
-      if (distance_[v] < inf) queue_.push({distance_[v], -1 - v});
+      if (distance_[v] < inf) push({distance_[v], -1 - v});
   }
   /// What is nearer has its shortest path.
   double least_open() const {
     double least = inf;
-    for (auto waiting = queue_; !waiting.empty(); waiting.pop()) {
-      const auto [key, id] = waiting.top();
+    for (const auto [key, id] : queue_) {
       if (id >= 0)
         least = std::min(least, EdgeEnvelopes::least_open(envelopes_[id]));
       else if (key <= distance_[-1 - id])
@@ -303,9 +346,11 @@ class Front {
   VecX distance_;  // vertices; least found so far
   VecXi nearest_;
   std::vector<Winner> winner_;  // sides
-  std::priority_queue<Entry> queue_;
-  std::vector<Window> open_;
-  std::vector<Ray> rays_;
+  std::vector<Entry> queue_;  // a heap
+  std::deque<int> gone_on_;  // edges, nearly in order
+  std::vector<const Window*> open_;
+  RayBundle rays_;
+  std::vector<char> goes_;
   int n_reached_ = 0;
 };
 

@@ -40,7 +40,7 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
     const bool starts = T.faces(f, k) == v;
     const int leave = starts ? (k + 2) % 3 : (k + 1) % 3;
     const auto at = P.at(T.side_edge(f, leave));
-    side = at[0].side == 3 * f + leave ? at[1].side : at[0].side;
+    side = at[0] == 3 * f + leave ? at[1] : at[0];
   } while (++n < n_corners && side / 3 != first_side / 3);
   return n == n_corners && side / 3 == first_side / 3;
 }
@@ -74,26 +74,20 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     if (!is_first[f]) continue;
     const TriangleShape shape = T.shape(f);
     for (int k = 0; k < 3; ++k) {
-      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
       Edge& edge = edges[T.side_edge(f, k)];
-      Page& page = pages[edge.first_page + edge.n_pages++];
-      page.side = 3 * f + k;
-      page.far = T.faces(f, k2);
-      page.edge1 = T.side_edge(f, k1);
-      page.edge2 = T.side_edge(f, k2);
-      page.turned = T.along(f, k) < 0;
-      page.turned1 = T.along(f, k1) < 0;
-      page.turned2 = T.along(f, k2) < 0;
-      page.length = T.length(f, k);
-      page.length1 = T.length(f, k1);
-      page.length2 = T.length(f, k2);
-      page.apex = triangle_shape(page.length, page.length1, page.length2, false).p[2];
-      across[next_corner[T.faces(f, k)]++] = 3 * f + k1;
+      pages[edge.first_page + edge.n_pages++] = 3 * f + k;
+      across[next_corner[T.faces(f, k)]++] = 3 * f + (k + 1) % 3;
       turn[T.faces(f, k)] += std::atan2(1.0, shape.cot[k]);
     }
   }
   for (int e = 0; e < T.n_edges(); ++e)
     if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
+  // Where triangles disagree about an edge, a bent path can be shorter by that than the straight one
+  // which it cuts off.
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (T.length(f, k) > edges[T.side_edge(f, k)].length)
+        for (int c = 0; c < 3; ++c) bends[T.faces(f, c)] = 1;
   for (int v = 0; v < T.n_vertices; ++v) {
     if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
     const auto corners = around(v);

@@ -1,10 +1,12 @@
 #pragma once
 // A triangulation as straight rays see it: what they enter through each edge, where paths bend.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
-#include "domain/mesh/edge_sides.h"
+#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "methods/geodesic/polyhedral_window.h"
 
 namespace littoral {
 
@@ -18,17 +20,18 @@ struct PolyhedralPages {
     int tail, head;
     int first_page, n_pages;
   };
-  /// The side of a triangle, as rays that enter through it see it: laid out along the edge.
-  struct Page {
-    int side;                         // 3 triangle + k
-    int far;                          // vertex across
-    double length, length1, length2;  // of this side and of the next two
-    Complex apex;                     // of `far`, the side on the real axis from 0, triangle above
-    int edge1, edge2;                 // of the next two sides
-    bool turned, turned1, turned2;    // the sides run from the head of their edge to its tail
-  };
-  std::span<const Page> at(int edge) const {
-    return {pages.data() + edges[edge].first_page, std::size_t(edges[edge].n_pages)};
+  /// The sides of triangles at an edge, 3 triangle + k, ascending.
+  std::span<const int> at(const Edge& edge) const {
+    return {pages.data() + edge.first_page, std::size_t(edge.n_pages)};
+  }
+  std::span<const int> at(int edge) const { return at(edges[edge]); }
+  /// Which of the pages of an edge a side is; `no_page` if its triangle is left out or there are too
+  /// many: rays that may return through their own triangle are no shorter for that.
+  std::uint16_t page_of(const Edge& edge, int side) const {
+    const auto sides = at(edge);
+    const auto found = std::lower_bound(sides.begin(), sides.end(), side);
+    if (found == sides.end() || *found != side) return Window::no_page;
+    return std::uint16_t(std::min<std::ptrdiff_t>(found - sides.begin(), Window::no_page));
   }
   /// Sides across from the corners at a vertex: rays of the vertex leave through them.
   std::span<const int> around(int vertex) const {
@@ -36,11 +39,11 @@ struct PolyhedralPages {
   }
   /// Whether rays that come through a side have anywhere to go.
   bool leads_on(const Edge& edge, int side) const {
-    return edge.n_pages > 1 || (edge.n_pages == 1 && pages[edge.first_page].side != side);
+    return edge.n_pages > 1 || (edge.n_pages == 1 && pages[edge.first_page] != side);
   }
 
   std::vector<Edge> edges;
-  std::vector<Page> pages;  // by edge
+  std::vector<int> pages;  // by edge
   std::vector<char> bends;  // vertices; not inside a disk of at most a full turn
   std::vector<int> corner_offsets, across;
 };

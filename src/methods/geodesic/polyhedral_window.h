@@ -11,17 +11,19 @@ namespace littoral {
 /// Rays that cross an edge within [b0, b1]. Coordinates: the edge on the real axis from its tail at
 /// 0 to its length, and the rays going up, whichever triangle they came through: all triangles at
 /// the edge but that one, laid above it, see them so. Rays come straight from the image of a point
-/// below the axis, or are parallel (from a straight piece of a curve).
+/// below the axis, or are parallel (from a straight piece of a curve). A line of the cache each.
 struct Window {
+  static constexpr int no_page = 65535, deep = 255;
+
   double b0 = 0, b1 = 0;  // the stretch
   double d0 = 0, d1 = 0;  // distance at its ends
   double x = 0, y = 0;    // image of the point, y <= 0; parallel: the rays' unit direction, y >= 0
   double behind = 0;      // distance already behind: at the image; parallel: at the tail
-  int from = -1;          // 3 triangle + k: the side the rays came through
   int source = -1;        // the number of what the path starts from
-  std::uint16_t depth = 0;  // triangles crossed since the source or the last bend
-  bool parallel = false;    // rays of a segment
-  bool open = true;         // has not gone on yet
+  std::uint16_t page = no_page;      // of the edge: the triangle that the rays came through, if known
+  std::uint8_t depth = 0;            // triangles crossed since the source or the last bend
+  std::uint8_t parallel : 1 = false;  // rays of a segment
+  std::uint8_t open : 1 = true;       // has not gone on yet
 
   /// Distance along the rays to a point of the plane.
   double at(double px, double py = 0) const {
@@ -85,5 +87,7 @@ struct Window {
     return std::isfinite(p) ? p : otherwise;
   }
 };
+
+static_assert(sizeof(Window) == 64);
 
 }  // namespace littoral

@@ -37,7 +37,8 @@ class EdgeEnvelopes {
   }
 
   /// Several windows for one list, in order from tail to head but for few: each is filled in where
-  /// it will stay, for copies of what was just written wait for it. What is nearest among them stays.
+  /// it will stay, for copies of what was just written wait for it. What is nearest among them
+  /// stays.
   Window& next_of_batch() { return batch_.emplace_back(); }
   void leave_out_of_batch() { batch_.pop_back(); }
   void settle_in_batch(double length) {

@@ -268,8 +268,7 @@ class Front {
     const double px = above.apex.real(), py = above.apex.imag(), at_apex = w.at(px, py);
     offer(apex, at_apex, w.source);
     if (!(at_apex < winner.distance)) return;
-    const double crossing =
-        w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
+    const double crossing = w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
     winner = {at_apex, std::clamp(crossing, w.b0, w.b1)};
   }
 
@@ -277,7 +276,7 @@ class Front {
   int where_to(int i, const TriangleAbove& above, double far, const Winner& winner) const {
     const Window& w = rays_[i];
     if (w.depth >= straight[relaxed_]) return 0;
-    bool left = rays_.at_start(i) < 0, right = rays_.at_end(i) > 0;
+    bool left = rays_.at_start(i)<0, right = rays_.at_end(i)> 0;
     const double px = above.apex.real(), py = above.apex.imag();
     const double slack = slack_share * (far + above.length);
     // One angle, one split: rays beyond those that reach the far corner soonest do not cross them.
@@ -346,8 +345,8 @@ class Front {
   VecX distance_;  // vertices; least found so far
   VecXi nearest_;
   std::vector<Winner> winner_;  // sides
-  std::vector<Entry> queue_;  // a heap
-  std::deque<int> gone_on_;  // edges, nearly in order
+  std::vector<Entry> queue_;    // a heap
+  std::deque<int> gone_on_;     // edges, nearly in order
   std::vector<const Window*> open_;
   RayBundle rays_;
   std::vector<char> goes_;

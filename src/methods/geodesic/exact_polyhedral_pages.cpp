@@ -82,8 +82,8 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
   }
   for (int e = 0; e < T.n_edges(); ++e)
     if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
-  // Where triangles disagree about an edge, a bent path can be shorter by that than the straight one
-  // which it cuts off.
+  // Where triangles disagree about an edge, a bent path can be shorter by that than the straight
+  // one which it cuts off.
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k)
       if (T.length(f, k) > edges[T.side_edge(f, k)].length)

@@ -25,8 +25,8 @@ struct PolyhedralPages {
     return {pages.data() + edge.first_page, std::size_t(edge.n_pages)};
   }
   std::span<const int> at(int edge) const { return at(edges[edge]); }
-  /// Which of the pages of an edge a side is; `no_page` if its triangle is left out or there are too
-  /// many: rays that may return through their own triangle are no shorter for that.
+  /// Which of the pages of an edge a side is; `no_page` if its triangle is left out or there are
+  /// too many: rays that may return through their own triangle are no shorter for that.
   std::uint16_t page_of(const Edge& edge, int side) const {
     const auto sides = at(edge);
     const auto found = std::lower_bound(sides.begin(), sides.end(), side);
@@ -43,7 +43,7 @@ struct PolyhedralPages {
   }
 
   std::vector<Edge> edges;
-  std::vector<int> pages;  // by edge
+  std::vector<int> pages;   // by edge
   std::vector<char> bends;  // vertices; not inside a disk of at most a full turn
   std::vector<int> corner_offsets, across;
 };

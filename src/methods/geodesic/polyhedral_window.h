@@ -20,8 +20,8 @@ struct Window {
   double x = 0, y = 0;    // image of the point, y <= 0; parallel: the rays' unit direction, y >= 0
   double behind = 0;      // distance already behind: at the image; parallel: at the tail
   int source = -1;        // the number of what the path starts from
-  std::uint16_t page = no_page;      // of the edge: the triangle that the rays came through, if known
-  std::uint8_t depth = 0;            // triangles crossed since the source or the last bend
+  std::uint16_t page = no_page;  // of the edge: the triangle that the rays came through, if known
+  std::uint8_t depth = 0;        // triangles crossed since the source or the last bend
   std::uint8_t parallel : 1 = false;  // rays of a segment
   std::uint8_t open : 1 = true;       // has not gone on yet
 

@@ -23,7 +23,7 @@ void RayBundle::look_at(const TriangleAbove& triangle) {
     std::array<const Window*, lanes> from;
     for (int lane = 0; lane < lanes; ++lane)
       from[lane] = windows_[std::min(lanes * i + lane, size() - 1)];
-    const auto gather = [&](double Window::* member) {
+    const auto gather = [&](double Window::*member) {
       return Lanes(from[0]->*member, from[1]->*member, from[2]->*member, from[3]->*member);
     };
     of.b0 = gather(&Window::b0);

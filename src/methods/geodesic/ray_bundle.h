@@ -30,8 +30,8 @@ struct RayExit {
   bool turned() const { return right != from_apex; }
 };
 
-/// Every step is done for four windows at once: most of what a window costs is waiting for quotients
-/// and roots, which then overlap.
+/// Every step is done for four windows at once: most of what a window costs is waiting for
+/// quotients and roots, which then overlap.
 class RayBundle {
  public:
   void clear() { windows_.clear(); }

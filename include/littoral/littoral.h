@@ -11,6 +11,7 @@
 //
 // Lengths are in the unit of the input. Every error is a littoral::Error.
 
+#include "littoral/batch.h"
 #include "littoral/context.h"
 #include "littoral/distance.h"
 #include "littoral/drawing.h"

@@ -11,7 +11,20 @@ namespace littoral::cli {
 /// Options of which "on" is one of several words may stand without a word, and are joined to the
 /// one that follows or to "on" by "=". Lists of whole numbers, 10 1500 3000 or 10,1500,3000, become
 /// one list with commas.
-std::vector<std::string> expanded_arguments(int argc, char** argv);
+std::vector<std::string> expanded_arguments(std::vector<std::string> words);
+
+/// Runs another verb for each of many inputs, with options of that verb between its own.
+inline constexpr const char* batch_verb = "batch";
+inline constexpr const char* default_batch_verb = "sdf";
+/// The words without options that `other` may have and `own` has not, which are added to `of_other`
+/// as one word each: "--name=value".
+std::vector<std::string> separate_words(const CLI::App& own, const CLI::App& other,
+                                        const std::vector<std::string>& words,
+                                        std::vector<std::string>& of_other);
+/// The same for a run of `batch`. Throws InputError for a verb or an option that there is not.
+std::vector<std::string> without_words_of_verb(const CLI::App& program,
+                                               std::vector<std::string> words,
+                                               std::vector<std::string>& of_verb);
 
 /// Throws InputError for a verb or an option that there is not, naming the nearest.
 void check_names(const CLI::App& program, const std::vector<std::string>& arguments);

@@ -33,21 +33,23 @@ void draw_progress(double fraction, const std::string& stage) {
 
 }  // namespace
 
-Task Session::task() {
+Task::Callback Session::progress_callback() {
   const bool wanted =
       progress == "always" || (progress == "auto" && !quiet && errors_go_to_terminal());
-  if (!wanted) return Task(cancel);
+  if (!wanted) return {};
   using Clock = std::chrono::steady_clock;
-  return Task(cancel, [this, last = Clock::time_point(), stage_before = std::string()](
-                          double fraction, const std::string& stage) mutable {
+  return [this, last = Clock::time_point(), stage_before = std::string()](
+             double fraction, const std::string& stage) mutable {
     const auto now = Clock::now();
     if (stage == stage_before && now - last < std::chrono::milliseconds(50)) return;
     last = now;
     stage_before = stage;
     drawn_ = true;
     draw_progress(fraction, stage);
-  });
+  };
 }
+
+Task Session::task() { return Task(cancel, progress_callback()); }
 
 void Session::end_progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);

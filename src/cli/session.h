@@ -31,7 +31,16 @@ struct Session {
   CancelToken cancel;
   Report report;
   RunRecord record;
+  std::vector<std::string> verb_words;  // of `batch`: the options of the verb that it runs
+  struct Failure {
+    std::string kind, message;
+  };
+  std::optional<Failure> failure;  // what was said at the end
 
+  int status = 0;  // of a run without an error
+
+  /// Draws progress on stderr; empty where nobody asked for it.
+  Task::Callback progress_callback();
   /// A task that draws progress on stderr where asked for, and stops on interrupts.
   Task task();
   /// Removes the progress line.

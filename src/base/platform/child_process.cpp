@@ -1,22 +1,20 @@
 #include "base/platform/child_process.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#if defined(__linux__)
-#include <sys/prctl.h>
-#endif
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
+#include "base/platform/child_start.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
 
@@ -33,36 +31,16 @@ std::string last_line(const std::filesystem::path& file) {
   const std::streamoff size = in.tellg();
   if (size <= 0) return {};
   in.seekg(std::max<std::streamoff>(0, size - most));
-  std::string line, last;
-  while (std::getline(in, line)) {
-    std::string text;
-    for (const char c : line)
-      if (c >= ' ' && c <= '~') text += c;
-    if (text.find_first_not_of(' ') != std::string::npos) last = text.substr(0, 200);
-  }
-  return last;
+  return last_line_of(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
 /// What the child does before it becomes another program: only calls that are safe in a copy of a
 /// process with several threads.
 [[noreturn]] void become(const char* program, char* const* arguments, const char* folder,
-                         const char* output, rlim_t memory) {
-  ::setpgid(0, 0);
-#if defined(__linux__)
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) ::signal(signal, SIG_DFL);
-  const int in = ::open("/dev/null", O_RDONLY);
+                         const char* output, double memory) {
   const int out = ::open(output, O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  if (in < 0 || out < 0 || ::dup2(in, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(out, 2) < 0)
-    ::_exit(not_started);
-  const struct rlimit no_core = {0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  struct rlimit space = {};
-  if (memory > 0 && ::getrlimit(RLIMIT_AS, &space) == 0 && memory < space.rlim_cur) {
-    space.rlim_cur = memory;
-    ::setrlimit(RLIMIT_AS, &space);
-  }
+  if (!begin_child(out)) ::_exit(not_started);
+  limit_memory(MemoryKind::address_space, memory);
   if (::chdir(folder) == 0) ::execv(program, arguments);
   ::_exit(not_started);
 }
@@ -100,6 +78,19 @@ class Child {
 
 }  // namespace
 
+std::string last_line_of(std::string_view output) {
+  std::string last;
+  while (!output.empty()) {
+    const std::string_view line = output.substr(0, output.find('\n'));
+    output.remove_prefix(std::min(line.size() + 1, output.size()));
+    std::string text;
+    for (const char c : line)
+      if (c >= ' ' && c <= '~') text += c;
+    if (text.find_first_not_of(' ') != std::string::npos) last = text.substr(0, 200);
+  }
+  return last;
+}
+
 std::optional<std::filesystem::path> find_program(const std::string& name) {
   const auto is_program = [](const std::filesystem::path& path) {
     std::error_code error;
@@ -131,8 +122,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const double available = available_memory();
-  const rlim_t memory = available < 1e18 ? static_cast<rlim_t>(available) : 0;
+  const double memory = available_memory();
 
   const pid_t pid = ::fork();
   if (pid < 0)

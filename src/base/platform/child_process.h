@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/task.h"
@@ -17,6 +18,9 @@ struct ChildEnd {
   bool timed_out = false;  // it was ended here
   std::string said;        // the last line it printed, without what cannot be printed
 };
+
+/// The last line of what a program printed, without what cannot be printed; at most 200 characters.
+std::string last_line_of(std::string_view output);
 
 /// The program as a path: as it is with a '/', otherwise the first executable file of that name in
 /// the folders of PATH; nothing where there is none.

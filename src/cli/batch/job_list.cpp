@@ -1,0 +1,239 @@
+#include "cli/batch/job_list.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "base/platform/glob.h"
+#include "io/formats.h"
+#include "littoral/error.h"
+
+namespace littoral::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A path as a name below the folder of results.
+std::string name_of(const fs::path& path) {
+  fs::path name;
+  for (const fs::path& part : path.lexically_normal().relative_path())
+    if (part != ".." && part != ".") name /= part;
+  return name.string();
+}
+
+bool may_be_input(const fs::path& path) {
+  using io::Kind;
+  return io::is_read_as(path, {Kind::surface, Kind::cloud, Kind::volume, Kind::voxels, Kind::tets});
+}
+
+std::vector<ListedJob> of_folder(const fs::path& folder, const fs::path& without) {
+  std::vector<ListedJob> jobs;
+  std::error_code error;
+  using Walk = fs::recursive_directory_iterator;
+  for (Walk entry(folder, fs::directory_options::follow_directory_symlink, error), end;
+       !error && entry != end; entry.increment(error)) {
+    const fs::path& path = entry->path();
+    std::error_code ignored;
+    const bool hidden = path.filename().string().front() == '.';
+    const bool is_folder = entry->is_directory(ignored);
+    if (is_folder && (hidden || fs::equivalent(path, without, ignored)))
+      entry.disable_recursion_pending();
+    else if (!is_folder && !hidden && may_be_input(path))
+      jobs.push_back({path.string(), name_of(path.lexically_relative(folder)), {}, ""});
+  }
+  if (error) throw InputError("cannot read the folder " + folder.string() + ": " + error.message());
+  if (jobs.empty())
+    throw InputError("there are no inputs in the folder " + folder.string() +
+                     ": files of the formats that 'littoral formats' lists");
+  std::sort(jobs.begin(), jobs.end(),
+            [](const ListedJob& a, const ListedJob& b) { return a.input < b.input; });
+  return jobs;
+}
+
+std::vector<ListedJob> of_pattern(const std::string& pattern) {
+  if (pattern.find("**") != std::string::npos)
+    throw InputError("'**' in " + pattern +
+                     " matches no subfolders: name the folder, all of which is taken");
+  const std::string fixed = pattern.substr(0, pattern.find_first_of("*?["));
+  const fs::path root = fixed.substr(0, fixed.rfind('/') + 1);  // 0 where there is none
+  std::vector<ListedJob> jobs;
+  for (const std::string& path : matching_paths(pattern)) {
+    if (fs::is_directory(path)) continue;
+    const fs::path below = root.empty() ? fs::path(path) : fs::path(path).lexically_relative(root);
+    jobs.push_back({path, name_of(below), {}, ""});
+  }
+  if (jobs.empty()) throw InputError("no file matches " + pattern);
+  return jobs;
+}
+
+/// A line split at spaces; quotes of either kind and backslashes as in a shell.
+std::vector<std::string> shell_words(const std::string& line) {
+  std::vector<std::string> words;
+  bool within = false;
+  char quote = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote == 0 && (c == ' ' || c == '\t' || c == '\r')) {
+      within = false;
+      continue;
+    }
+    if (!within) words.emplace_back();
+    within = true;
+    if (quote == 0 && (c == '"' || c == '\''))
+      quote = c;
+    else if (c == quote)
+      quote = 0;
+    else if (c == '\\' && quote != '\'' && i + 1 < line.size())
+      words.back() += line[++i];
+    else
+      words.back() += c;
+  }
+  if (quote != 0) throw InputError("a quotation does not end");
+  return words;
+}
+
+std::optional<ListedJob> of_text(const std::string& line) {
+  std::vector<std::string> words = shell_words(line);
+  if (words.empty() || words.front().front() == '#') return std::nullopt;
+  ListedJob job{words.front(), "", {words.begin() + 1, words.end()}, ""};
+  return job;
+}
+
+/// The cells of a row, RFC 4180, of one line.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[++i];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\r' || quoted)
+      cells.back() += c;
+  }
+  if (quoted) throw InputError("a quotation does not end");
+  return cells;
+}
+
+/// A value of an option: true is the option alone, false is none.
+void add_word(std::vector<std::string>& words, const std::string& name, const std::string& value) {
+  if (value == "true")
+    words.push_back("--" + name);
+  else if (value != "false")
+    words.push_back("--" + name + "=" + value);
+}
+
+/// Rows of a table, whose first names the columns.
+class TableRows {
+ public:
+  std::optional<ListedJob> operator()(const std::string& line) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) return std::nullopt;
+    const std::vector<std::string> cells = cells_of(line);
+    if (columns_.empty()) {
+      if (std::find(cells.begin(), cells.end(), "input") == cells.end())
+        throw InputError("the first line names the columns, and one of them is 'input'");
+      columns_ = cells;
+      return std::nullopt;
+    }
+    if (cells.size() != columns_.size())
+      throw InputError("there are " + std::to_string(cells.size()) + " cells for " +
+                       std::to_string(columns_.size()) + " columns");
+    ListedJob job;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (columns_[c] == "input")
+        job.input = cells[c];
+      else if (!cells[c].empty())
+        add_word(job.words, columns_[c], cells[c]);
+    }
+    return job;
+  }
+
+ private:
+  std::vector<std::string> columns_;
+};
+
+std::optional<ListedJob> of_json(const std::string& line) {
+  using Json = nlohmann::ordered_json;
+  if (line.find_first_not_of(" \t\r") == std::string::npos) return std::nullopt;
+  Json json;
+  try {
+    json = Json::parse(line);
+  } catch (const Json::exception&) {
+    throw InputError("this is no JSON");
+  }
+  if (!json.is_object()) throw InputError("expected an object {\"input\": ...}");
+  ListedJob job;
+  const auto text = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  };
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object() || (key == "input" && !value.is_string()))
+      throw InputError("'" + key + "' is no text" + (key == "input" ? "" : ", number or list"));
+    if (key == "input")
+      job.input = value;
+    else if (value.is_array())
+      for (const Json& each : value) add_word(job.words, key, text(each));
+    else if (!value.is_null())
+      add_word(job.words, key, text(value));
+  }
+  return job;
+}
+
+template <class Read>
+std::vector<ListedJob> of_list(const std::string& list, Read read) {
+  std::ifstream in(list, std::ios::binary);
+  if (!in) throw InputError("cannot read " + list);
+  std::vector<ListedJob> jobs;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    const std::string where = list + ":" + std::to_string(++number) + ": ";
+    try {
+      std::optional<ListedJob> job = read(line);
+      if (!job) continue;
+      if (job->input.empty()) throw InputError("there is no input");
+      job->name = name_of(job->input);
+      job->line = where;
+      jobs.push_back(std::move(*job));
+    } catch (const InputError& e) {
+      throw InputError(where + e.what());
+    }
+  }
+  if (jobs.empty()) throw InputError("there are no inputs in the list " + list);
+  return jobs;
+}
+
+std::vector<ListedJob> all_jobs(const std::string& jobs, const fs::path& without) {
+  std::error_code error;
+  if (fs::is_directory(jobs, error)) return of_folder(jobs, without);
+  if (!fs::exists(jobs, error)) {
+    if (is_pattern(jobs)) return of_pattern(jobs);
+    throw InputError("there is no file or folder " + jobs);
+  }
+  if (io::has_extension(jobs, ".txt")) return of_list(jobs, of_text);
+  if (io::has_extension(jobs, ".csv")) return of_list(jobs, TableRows());
+  if (io::has_extension(jobs, ".jsonl")) return of_list(jobs, of_json);
+  return {{jobs, fs::path(jobs).filename().string(), {}, ""}};
+}
+
+}  // namespace
+
+std::vector<ListedJob> listed_jobs(const std::string& jobs, const fs::path& without) {
+  std::vector<ListedJob> all = all_jobs(jobs, without);
+  const auto short_name = [](const ListedJob& job) {
+    return fs::path(job.name).replace_extension().string();
+  };
+  std::map<std::string, int> count;
+  for (const ListedJob& job : all) ++count[short_name(job)];
+  for (ListedJob& job : all)
+    if (std::string name = short_name(job); count[name] == 1) job.name = std::move(name);
+  return all;
+}
+
+}  // namespace littoral::cli

@@ -1,0 +1,162 @@
+#include "cli/program.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <regex>
+
+#include "base/option_table.h"
+#include "base/parallel.h"
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "cli/output.h"
+#include "cli/verbs/verbs.h"
+#include "littoral/error.h"
+
+namespace littoral::cli {
+
+namespace {
+
+enum Status { done = 0, failed = 1, bad_input = 2 };
+
+/// The library names its parameters: "option time-scale". Those that the verb has as flags get
+/// their hyphens here.
+std::string with_flags(const std::string& text, const CLI::App& program) {
+  static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
+  std::string out;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
+    out.append(rest, (*at)[1].first);
+    for (const CLI::App* verb : program.get_subcommands())
+      if (verb->get_option_no_throw("--" + (*at)[1].str())) out += "--";
+    rest = (*at)[1].first;
+  }
+  return out.append(rest, text.cend());
+}
+
+/// The error as one line, and as an object where a report was asked for.
+Status say(Session& session, const CLI::App& program, Status status, const std::string& kind,
+           std::string text) {
+  session.print_warnings();
+  text = with_flags(text, program);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+  std::fprintf(stderr, "littoral: error: %s\n", text.c_str());
+  session.failure = {kind, text};
+  if (session.json)
+    std::cout << failure_json(session.record, session.report, kind, text, status) << std::endl;
+  return status;
+}
+
+int run_job(Session& session, const CLI::App& program) {
+  const TimeLimit limit(session.cancel, session.time_limit);
+  try {
+    set_thread_count(session.threads);
+    session.job();
+    session.print_warnings();
+    std::cout.flush();
+    if (!std::cout) throw IoError("cannot write to the standard output");
+    return session.status;
+  } catch (const Cancelled&) {
+    if (limit.passed())
+      return say(session, program, failed, "time",
+                 "stopped after the time limit of " + number_text(session.time_limit) +
+                     " s; nothing was written");
+    exit_interrupted();
+  } catch (const InputError& e) {
+    return say(session, program, bad_input, "input", e.what());
+  } catch (const UnsupportedError& e) {
+    return say(session, program, bad_input, "unsupported", e.what());
+  } catch (const OutputError& e) {
+    return say(session, program, failed, "io", e.what());
+  } catch (const IoError& e) {
+    return say(session, program, session.reading ? bad_input : failed, "io", e.what());
+  } catch (const SolveError& e) {
+    return say(session, program, failed, "solve", e.what());
+  } catch (const std::bad_alloc&) {
+    return say(session, program, failed, "memory", "not enough memory");
+  } catch (const std::exception& e) {
+    return say(session, program, failed, "internal", e.what());
+  }
+}
+
+/// Words that `app` parses, in the order in which they stand.
+void parse(CLI::App& app, std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // as the parser wants them
+  app.parse(std::move(words));
+}
+
+std::string with_help(const CLI::ParseError& error, const CLI::App& program) {
+  std::string verb;
+  for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();
+  return std::string(error.what()) + " (see littoral" + verb + " --help)";
+}
+
+}  // namespace
+
+Program::Program() : app_("Distance and inside/outside for geometry that is broken.", "littoral") {
+  session_.record.version = LITTORAL_VERSION;
+  app_.set_version_flag("--version", "littoral " LITTORAL_VERSION);
+  app_.require_subcommand(1);
+  app_.set_help_all_flag("--help-all", "also the options of methods");
+  app_.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  add_distance(app_, session_);
+  add_pairs(app_, session_);
+  add_winding(app_, session_);
+  add_sdf(app_, session_);
+  add_query(app_, session_);
+  add_fit_tori(app_, session_);
+  add_info(app_, session_);
+  add_convert(app_, session_);
+  add_repair(app_, session_);
+  add_compare(app_, session_);
+  add_contour(app_, session_);
+  add_offset(app_, session_);
+  add_batch(app_, session_);
+  add_methods(app_, session_);
+  add_formats(app_, session_);
+  add_help(app_, session_);
+  add_completion(app_, session_);
+  add_view(app_, session_);
+  add_render(app_, session_);
+}
+
+void Program::read(std::vector<std::string> arguments) {
+  arguments = expanded_arguments(std::move(arguments));
+  check_names(app_, arguments);
+  try {
+    parse(app_, std::move(arguments));
+  } catch (const CLI::ParseError& e) {
+    throw InputError(with_help(e, app_));
+  }
+}
+
+int Program::run(std::vector<std::string> arguments, Signals signals) {
+  try {
+    arguments = expanded_arguments(std::move(arguments));
+    session_.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    if (!arguments.empty() && arguments.front().front() != '-')
+      session_.record.verb = arguments.front();
+    if (session_.record.verb == batch_verb)
+      arguments = without_words_of_verb(app_, std::move(arguments), session_.verb_words);
+    check_names(app_, arguments);
+    parse(app_, std::move(arguments));
+  } catch (const CLI::CallForHelp&) {
+    std::cout << help_text(app_, session_.record.verb, false);
+    return done;
+  } catch (const CLI::CallForAllHelp&) {
+    std::cout << help_text(app_, session_.record.verb, true);
+    return done;
+  } catch (const CLI::Success& request) {  // --version
+    return app_.exit(request);
+  } catch (const InputError& e) {
+    return say(session_, app_, bad_input, "usage", e.what());
+  } catch (const CLI::ParseError& e) {
+    return say(session_, app_, bad_input, "usage", with_help(e, app_));
+  }
+  if (signals == Signals::watched) watch_for_interrupts(session_.cancel);
+  return run_job(session_, app_);
+}
+
+}  // namespace littoral::cli

@@ -11,6 +11,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <atomic>
@@ -31,6 +32,7 @@ void bind_surfaces(nb::module_& m);
 void bind_space(nb::module_& m);
 void bind_tets(nb::module_& m);
 void bind_operators(nb::module_& m);
+void bind_batch(nb::module_& m);
 
 /// A Context in the hands of Python.
 struct Settings {

@@ -150,4 +150,5 @@ NB_MODULE(_core, m) {
   bind_space(m);
   bind_tets(m);
   bind_operators(m);
+  bind_batch(m);
 }

@@ -12,9 +12,23 @@ using JobTuple = std::tuple<std::string, std::string, std::vector<std::string>>;
 /// The outcome of `run`, called with the lock held: this interpreter is a copy with one thread.
 BatchOutcome run_function(const nb::callable& run, const BatchJob& job,
                           const std::filesystem::path& folder) {
-  const auto [status, message, report] = nb::cast<std::tuple<std::string, std::string, std::string>>(
-      run(job.input, job.name, folder.string()));
+  const auto [status, message, report] =
+      nb::cast<std::tuple<std::string, std::string, std::string>>(
+          run(job.input, job.name, folder.string()));
   return {status, message, report};
+}
+
+std::string hash_of(const nb::callable& hash, const BatchJob& job,
+                    const std::filesystem::path& folder) {
+  try {
+    return nb::cast<std::string>(hash(job.input, folder.string()));
+  } catch (nb::python_error& error) {
+    const std::string said = nb::cast<std::string>(nb::str(error.value()));
+    const nb::object bad_input = nb::module_::import_("littoral._errors").attr("InputError");
+    if (error.matches(bad_input)) throw InputError(said);
+    if (error.matches(PyExc_OSError)) throw IoError(said);
+    throw;
+  }
 }
 
 nb::dict as_dict(const BatchSummary& summary) {
@@ -33,7 +47,7 @@ nb::dict as_dict(const BatchSummary& summary) {
   return out;
 }
 
-/// `run` and `hash` are called in processes of their own, and must not raise.
+/// `run` and `hash` are called in processes of their own; `run` must not raise.
 nb::dict batch(const std::vector<JobTuple>& jobs, const nb::callable& run, const nb::callable& hash,
                const std::string& folder, const nb::dict& how, const Settings* settings) {
   BatchOptions options;
@@ -52,13 +66,12 @@ nb::dict batch(const std::vector<JobTuple>& jobs, const nb::callable& run, const
                   return run_function(run, job, where);
                 },
                 [&hash](const BatchJob& job, const std::filesystem::path& where) {
-                  return nb::cast<std::string>(hash(job.input, where.string()));
+                  return hash_of(hash, job, where);
                 },
                 [] { PyOS_BeforeFork(); }, [] { PyOS_AfterFork_Parent(); },
                 [] { PyOS_AfterFork_Child(); }});
-  return as_dict(released(settings, [&](const Context& context) {
-    return forked.run(list, options, context);
-  }));
+  return as_dict(released(
+      settings, [&](const Context& context) { return forked.run(list, options, context); }));
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 On surfaces: `distance`, `DistanceSolver`, `distance_matrix`, `winding`, `isolines`,
 `offset_curves`. In space: `SDF`, `Volume`, `offset`, `unite`, `intersect`, `subtract`, `fit_tori`,
-`repair`.
-Through tets: `TetMesh`, `tet_distance`. Files: `read`, `read_volume`, `read_tets`. Lengths are in
-the unit of the input.
+`repair`, `samples`. Through tets: `TetMesh`, `tet_distance`. Many inputs: `batch`. Files: `read`,
+`read_volume`, `read_tets`. Lengths are in the unit of the input.
 """
 
 from . import examples
+from ._batch import BatchFailures, BatchSummary, batch
 from ._display import show
 from ._distance import (
     DistanceSolver,
@@ -55,6 +55,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "SDF",
+    "BatchFailures",
+    "BatchSummary",
     "Cancelled",
     "Closest",
     "Curve",
@@ -85,6 +87,7 @@ __all__ = [
     "Volume",
     "Voxels",
     "as_surface",
+    "batch",
     "distance",
     "distance_matrix",
     "examples",

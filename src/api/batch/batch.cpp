@@ -19,6 +19,7 @@
 #include "base/option_table.h"
 #include "base/platform/child_process.h"
 #include "base/platform/fork_server.h"
+#include "base/platform/process.h"
 #include "base/sha256.h"
 #include "littoral/error.h"
 
@@ -196,7 +197,10 @@ class RunningBatch {
     int number = 1;
   };
 
-  fs::path folder_of(std::size_t job) const { return status_.temporary() / std::to_string(job); }
+  /// Of this process: one that was ended by force may have children that write for a moment yet.
+  fs::path folder_of(std::size_t job) const {
+    return status_.temporary() / (std::to_string(process_id()) + "-" + std::to_string(job));
+  }
 
   void start(const Attempt& attempt) {
     const BatchJob& job = jobs_[attempt.job];

@@ -1,0 +1,299 @@
+"""Many inputs, each in a process of its own."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from . import _core
+from ._errors import Error, InputError, IoError, SolveError, UnsupportedError
+from ._settings import Progress, settings
+
+Work = Callable[..., Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class BatchFailures:
+    """Failures that say the same but for names and numbers."""
+
+    status: str  #: the kind: "input", "memory", "time", "crash", ...
+    message: str  #: of the first
+    example: str  #: its input
+    count: int
+
+
+@dataclasses.dataclass(frozen=True)
+class BatchSummary:
+    """What became of a batch."""
+
+    jobs: int  #: of this shard
+    done: int
+    unchanged: int  #: were done before
+    failed: int
+    seconds: float  #: by the clock
+    start_seconds: float  #: from asking for a process to its work, on average
+    peak_memory: float  #: of the largest process [bytes]
+    failures: tuple[BatchFailures, ...]  #: the most frequent first
+
+
+@dataclasses.dataclass(frozen=True)
+class _Item:
+    value: Any
+    label: str  # its "input" in status.jsonl
+    name: str  # of its results
+
+    @property
+    def is_file(self) -> bool:
+        return isinstance(self.value, (str, os.PathLike))
+
+
+def _is_url(path: str) -> bool:
+    return "://" in path
+
+
+def _without_extension(path: str) -> str:
+    parts = [p for p in path.split("://")[-1].split("/") if p not in ("", ".", "..")]
+    head, _, _ = parts[-1].rpartition(".")
+    return "/".join([*parts[:-1], head or parts[-1]])
+
+
+def _item(value: Any, name: str | None) -> _Item:
+    if isinstance(value, (str, os.PathLike)):
+        label = os.fspath(value)
+        return _Item(value, label, name or _without_extension(label))
+    try:
+        label = json.dumps(value, sort_keys=True)
+    except TypeError as error:
+        raise TypeError(f"items: expected paths or what JSON can hold: {error}") from None
+    return _Item(value, label, name or hashlib.sha256(label.encode()).hexdigest()[:16])
+
+
+def _listed(items: Any) -> list[_Item]:
+    """Items with names below the folder of results; those that two would have keep extensions."""
+    if isinstance(items, Mapping):
+        return [_item(value, name) for name, value in items.items()]
+    if isinstance(items, (str, os.PathLike)):
+        items = _files(os.fspath(items))
+    found = [_item(value, None) for value in items]
+    counts: dict[str, int] = {}
+    for item in found:
+        counts[item.name] = counts.get(item.name, 0) + 1
+    return [
+        dataclasses.replace(item, name=item.name + Path(item.label).suffix)
+        if item.is_file and counts[item.name] > 1
+        else item
+        for item in found
+    ]
+
+
+def _files(where: str) -> list[str]:
+    """The files of a folder or pattern, local or by a URL, sorted."""
+    if _is_url(where):
+        import fsspec
+
+        fs, path = fsspec.core.url_to_fs(where)
+        found = [p for p in fs.find(path)] if fs.isdir(path) else fs.glob(path)
+        return sorted(fs.unstrip_protocol(p) for p in found)
+    if os.path.isdir(where):
+        paths = Path(where).rglob("*")
+    else:
+        folder, _, pattern = where.rpartition("/")
+        paths = Path(folder or ".").glob(pattern)
+    return sorted(str(p) for p in paths if p.is_file())
+
+
+def _verb(verb: str) -> Work:
+    """A verb of the program as work."""
+    name = os.environ.get("LITTORAL", "littoral")
+    program = shutil.which(name)
+    if program is None:
+        raise UnsupportedError(f"work: the verb {verb!r} needs the program {name} on the path")
+
+    def run(path: str, output: str, **options: Any) -> Any:
+        words = [f"--{key.replace('_', '-')}={value}" for key, value in options.items()]
+        command = [program, verb, *words, "--json", "--threads=1", "-o", output, "--", path]
+        ended = subprocess.run(command, capture_output=True, text=True)
+        report = json.loads(ended.stdout) if ended.stdout else None
+        if ended.returncode != 0:
+            kind = (report or {}).get("error", {})
+            raise _Failure(kind.get("kind", "crash"), kind.get("message", ended.stderr[-200:]))
+        return report
+
+    run.__module__, run.__qualname__ = "littoral", verb
+    return run
+
+
+class _Failure(Exception):
+    """A failure with its kind."""
+
+
+def _outcome(call: Callable[[], Any]) -> tuple[str, str, str]:
+    """Status, message and report of a call."""
+    try:
+        return "done", "", json.dumps(call(), default=str)
+    except _Failure as error:
+        return str(error.args[0]), str(error.args[1]), ""
+    except MemoryError as error:
+        return "memory", str(error) or "not enough memory", ""
+    except UnsupportedError as error:
+        return "unsupported", str(error), ""
+    except InputError as error:
+        return "input", str(error), ""
+    except SolveError as error:
+        return "solve", str(error), ""
+    except OSError as error:
+        return "io", str(error), ""
+    except BaseException as error:
+        kind = "internal" if not isinstance(error, Error) else "failed"
+        return kind, f"{type(error).__name__}: {error}", ""
+
+
+def _sha256(path: str) -> str:
+    digest = hashlib.sha256()
+    try:
+        if not os.path.isfile(path):
+            raise InputError(f"cannot read {path}: there is no such file")
+        with open(path, "rb") as file:
+            while block := file.read(1 << 20):
+                digest.update(block)
+    except OSError as error:
+        raise IoError(f"cannot read {path}: {error.strerror}") from None
+    return digest.hexdigest()
+
+
+class _Job:
+    """What happens in a process of its own: hash first, then the work."""
+
+    def __init__(
+        self, items: list[_Item], work: Work, to: str, options: dict[str, Any], out: str
+    ) -> None:
+        self.items = {item.name: item for item in items}
+        self.by_label = {item.label: item for item in items}
+        self.work, self.to, self.options = work, to, options
+        self.out = out  # a URL, or empty where results stay in the folder
+
+    def fetched(self, item: _Item, folder: str) -> str:
+        """A local file with the input's content."""
+        if not _is_url(item.label):
+            return item.label
+        import fsspec
+
+        local = folder + ".input" + Path(item.label).suffix
+        if not os.path.exists(local):
+            fs, path = fsspec.core.url_to_fs(item.label)
+            if not fs.exists(path):
+                raise InputError(f"cannot read {item.label}: there is no such file")
+            fs.get_file(path, local)
+        return local
+
+    def hash(self, label: str, folder: str) -> str:
+        item = self.by_label[label]
+        if item.is_file:
+            return _sha256(self.fetched(item, folder))
+        return hashlib.sha256(label.encode()).hexdigest()
+
+    def run(self, label: str, name: str, folder: str) -> tuple[str, str, str]:
+        item = self.items[name]
+
+        def call() -> Any:
+            given = self.fetched(item, folder) if item.is_file else item.value
+            output = os.path.join(folder, os.path.basename(name) + self.to)
+            report = self.work(given, output, **self.options)
+            if self.out:
+                self.upload(name, folder)
+            return report
+
+        outcome = _outcome(call)
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+        if _is_url(item.label):
+            Path(folder + ".input" + Path(item.label).suffix).unlink(missing_ok=True)
+        return outcome
+
+    def upload(self, name: str, folder: str) -> None:
+        """Results under another name first, then into place."""
+        import fsspec
+
+        fs, root = fsspec.core.url_to_fs(self.out)
+        place = "/".join([root.rstrip("/"), *name.split("/")[:-1]])
+        fs.makedirs(place, exist_ok=True)
+        for path in sorted(Path(folder).rglob("*")):
+            if not path.is_file():
+                continue
+            target = f"{place}/{path.relative_to(folder).as_posix()}"
+            fs.makedirs(target.rpartition("/")[0], exist_ok=True)
+            fs.put_file(str(path), target + ".part")
+            fs.mv(target + ".part", target)
+        for path in Path(folder).iterdir():
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def batch(
+    items: str | os.PathLike[str] | Iterable[Any] | Mapping[str, Any],
+    work: Work | str,
+    out: str | os.PathLike[str],
+    *,
+    to: str = "",
+    options: Mapping[str, Any] | None = None,
+    processes: int = 0,
+    time_limit: float = 0.0,
+    memory_limit: float = 0.0,
+    retries: int = 0,
+    shard: tuple[int, int] = (1, 1),
+    resume: bool = True,
+    fail_fast: bool = False,
+    state: str | os.PathLike[str] | None = None,
+    progress: Progress | None = None,
+) -> BatchSummary:
+    """Calls a function for each of many items, each in a process of its own.
+
+    items: a folder, a pattern, paths, values that JSON can hold, or a dict from names to any of
+    these. work: `work(item, output, **options)`, where `output` is the path to write to, the item's
+    name and `to` in a folder of its own; what it returns is the report. Or a verb of the program.
+    An exception, a crash, more seconds than time_limit, more bytes than memory_limit are a line in
+    `out`/status.jsonl. Results are moved into `out` when they are whole; with the same options and
+    content an item is done once, by all runs together. shard: (3, 8) is the third of eight parts.
+    Paths and out may be URLs of fsspec; the status is then in the local folder `state`. Raises
+    InputError for two items of one name, IoError where `out` cannot be written to.
+
+    >>> import json, tempfile, littoral
+    >>> def area(path, output):
+    ...     littoral.SDF(littoral.read(path)).sample(8).save(output)
+    ...     return {"vertices": littoral.read(path).n_vertices}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     littoral.examples.cube().save(f"{folder}/cube.obj")
+    ...     done = littoral.batch([f"{folder}/cube.obj"], area, f"{folder}/out", to=".npz")
+    >>> done.done, done.failed
+    (1, 0)
+    """
+    listed = _listed(items)
+    given = dict(options or {})
+    call = _verb(work) if isinstance(work, str) else work
+    place = os.fspath(out)
+    remote = place if _is_url(place) else ""
+    if remote and state is None:
+        raise InputError(f"state: a local folder for status.jsonl goes with {place}")
+    job = _Job(listed, call, to, given, remote)
+    identity = f"{getattr(call, '__module__', '')}.{getattr(call, '__qualname__', repr(call))}"
+    words = [identity, f"--to={to}", *(f"--{k}={json.dumps(v)}" for k, v in given.items())]
+    if remote:
+        words.append(f"--out={remote}")
+    how = {
+        "shard": int(shard[0]), "shards": int(shard[1]), "resume": bool(resume),
+        "retries": int(retries), "fail_fast": bool(fail_fast), "processes": int(processes),
+        "time_limit": float(time_limit), "memory_limit": float(memory_limit),
+    }  # fmt: skip
+    jobs = [(item.label, item.name, words) for item in listed]
+    folder = os.fspath(state) if state is not None else place
+    made = _core.batch(jobs, job.run, job.hash, folder, how, settings(None, progress))
+    made["failures"] = tuple(BatchFailures(*each) for each in made["failures"])
+    return BatchSummary(**made)

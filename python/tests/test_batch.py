@@ -1,0 +1,232 @@
+"""Functions called for many items, each in a process of its own."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import littoral
+
+
+def status(folder: Path) -> dict[str, dict[str, Any]]:
+    found = [
+        json.loads(line)
+        for path in sorted(folder.glob("status*.jsonl"))
+        for line in path.read_text().splitlines()
+    ]
+    return {line["name"]: line for line in found}
+
+
+def test_each_item_has_a_process_a_line_and_results(tmp_path: Path, sphere) -> None:
+    sphere.save(tmp_path / "a.obj")
+    (tmp_path / "bad.obj").write_text("nothing")
+    seen: list[str] = []
+
+    def work(path: str, output: str, scale: float) -> dict[str, Any]:
+        seen.append(path)  # in another process
+        mesh = littoral.read(path)
+        np.save(output, scale * littoral.SDF(mesh)(mesh.points))
+        return {"pid": os.getpid(), "vertices": mesh.n_vertices}
+
+    items = [tmp_path / "a.obj", tmp_path / "bad.obj", tmp_path / "gone.obj"]
+    named = {p.stem: p for p in items}
+    done = littoral.batch(named, work, tmp_path / "out", to=".npy", options={"scale": 2.0})
+    assert (done.jobs, done.done, done.failed) == (3, 1, 2)
+    assert seen == []
+    lines = status(tmp_path / "out")
+    a = lines["a"]
+    assert a["report"]["pid"] != os.getpid()
+    assert a["report"]["vertices"] == sphere.n_vertices
+    assert a["hash"] == hashlib.sha256((tmp_path / "a.obj").read_bytes()).hexdigest()
+    assert a["outputs"] == ["a.npy"]
+    assert len(np.load(tmp_path / "out/a.npy")) == sphere.n_vertices
+    assert {lines[x]["status"] for x in ("bad", "gone")} == {"input"}
+    assert done.start_seconds < 0.2
+    again = littoral.batch(named, work, tmp_path / "out", to=".npy", options={"scale": 2.0})
+    assert (again.done, again.unchanged, again.failed) == (0, 1, 2)
+    other = littoral.batch(named, work, tmp_path / "out", to=".npy", options={"scale": 3.0})
+    assert other.done == 1
+
+
+def misbehave(item: list[Any], output: str) -> None:
+    how, _ = item
+    if how == "hang":
+        time.sleep(100)
+    if how == "memory":
+        b"x" * (1 << 33)
+    if how == "segv":
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if how == "exit":
+        os._exit(3)
+    if how == "raise":
+        raise KeyError("no such key")
+    if how == "system exit":
+        raise SystemExit(0)
+    Path(output).mkdir()
+    (Path(output) / "part").write_text(how)
+
+
+def test_what_misbehaves_is_a_line(tmp_path: Path) -> None:
+    ways = ["hang", "memory", "segv", "exit", "raise", "system exit", "fine"]
+    done = littoral.batch(
+        {way: [way, 1] for way in ways},
+        misbehave,
+        tmp_path / "out",
+        time_limit=1.0,
+        memory_limit=4e9,
+        to=".dir",
+    )
+    lines = status(tmp_path / "out")
+    assert {way: lines[way]["status"] for way in ways} == {
+        "hang": "time", "memory": "memory", "segv": "crash", "exit": "crash",
+        "raise": "internal", "system exit": "internal", "fine": "done",
+    }  # fmt: skip
+    assert "the limit is 4000 MB" in lines["memory"]["message"]
+    assert lines["raise"]["message"] == "KeyError: 'no such key'"
+    assert (tmp_path / "out/fine.dir/part").read_text() == "fine"
+    assert sum(failure.count for failure in done.failures) == 6
+
+
+def test_values_as_items_and_shards(tmp_path: Path) -> None:
+    def square(value: int, output: str) -> int:
+        return value * value
+
+    for k in (1, 2, 3):
+        littoral.batch(range(10), square, tmp_path / "out", shard=(k, 3))
+    lines = status(tmp_path / "out")
+    assert sorted(line["report"] for line in lines.values()) == [n * n for n in range(10)]
+    whole = littoral.batch(range(10), square, tmp_path / "out")
+    assert (whole.done, whole.unchanged) == (0, 10)
+    with pytest.raises(littoral.InputError, match="no part 4 of 3"):
+        littoral.batch(range(10), square, tmp_path / "out", shard=(4, 3))
+    with pytest.raises(littoral.InputError, match="would both be named"):
+        littoral.batch([1, 1], square, tmp_path / "out")
+    with pytest.raises(TypeError, match="paths or what JSON can hold"):
+        littoral.batch([object()], square, tmp_path / "out")
+
+
+def test_interrupts_stop_a_batch(tmp_path: Path) -> None:
+    def slow(value: int, output: str) -> None:
+        time.sleep(0 if value == 0 else 100)
+
+    def interrupt() -> None:
+        for _ in range(300):
+            if len(status(tmp_path / "out")) == 1:
+                break
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    watcher = threading.Thread(target=interrupt)
+    watcher.start()
+    with pytest.raises(KeyboardInterrupt):
+        littoral.batch(range(5), slow, tmp_path / "out", processes=1)
+    watcher.join()
+    assert [line["status"] for line in status(tmp_path / "out").values()] == ["done"]
+    assert not (tmp_path / "out/.status.tmp").exists()
+
+
+def test_paths_of_object_stores(tmp_path: Path, sphere) -> None:
+    pytest.importorskip("fsspec")
+    sphere.save(tmp_path / "a.obj")
+
+    def work(path: str, output: str) -> str:
+        Path(output).write_text(str(littoral.read(path).n_vertices))
+        return path
+
+    url = f"file://{tmp_path}"
+    both = [f"{url}/a.obj", f"{url}/gone.obj"]
+    for n in (1, 0):
+        done = littoral.batch(both, work, f"{url}/results", to=".txt", state=tmp_path / "state")
+        assert (done.done, done.unchanged, done.failed) == (n, 1 - n, 1)
+    [written] = (tmp_path / "results").rglob("a.txt")
+    assert written.read_text() == str(sphere.n_vertices)
+    assert not list((tmp_path / "results").rglob("*.part"))
+    with pytest.raises(littoral.InputError, match="state"):
+        littoral.batch(both, work, f"{url}/results")
+
+
+def counting() -> Callable[[int, str], int]:
+    """A function that no module holds, so that workers get it as it is."""
+
+    def counted(item: int, output: str) -> int:
+        time.sleep(0.05)
+        Path(output).write_text(str(item))
+        return os.getppid()
+
+    return counted
+
+
+def test_dask_workers_may_die(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    from littoral.dask import batch
+
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None, processes=True
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        victim = next(iter(client.run(os.getpid).values()))
+
+        def kill() -> None:
+            while len(status(tmp_path / "out")) < 10:
+                time.sleep(0.01)
+            os.kill(victim, signal.SIGKILL)
+
+        killer = threading.Thread(target=kill, daemon=True)
+        killer.start()
+        batch(client, list(range(60)), counting(), tmp_path / "out", shards=6)
+        killer.join()
+    assert_all_once(tmp_path / "out", 60)
+
+
+def assert_all_once(folder: Path, count: int) -> None:
+    lines = [
+        json.loads(line)
+        for path in folder.glob("status*.jsonl")
+        for line in path.read_text().splitlines()
+    ]
+    done = sorted(line["input"] for line in lines if line["status"] == "done")
+    assert done == sorted(str(n) for n in range(count)), "each once"
+    results = sorted(int(p.read_text()) for p in folder.iterdir() if p.suffix == "")
+    assert results == list(range(count))
+
+
+def test_ray_workers_may_die(tmp_path: Path) -> None:
+    ray = pytest.importorskip("ray")
+    from littoral.ray import batch
+
+    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, configure_logging=False)
+    try:
+        killed: list[int] = []
+
+        def kill() -> None:
+            while len(status(tmp_path / "out")) < 10:
+                time.sleep(0.01)
+            for line in Path("/proc").glob("[0-9]*/cmdline"):
+                try:
+                    text = line.read_bytes()
+                except OSError:
+                    continue
+                if text.startswith(b"ray::batch") and not killed:
+                    killed.append(int(line.parent.name))
+                    os.kill(killed[0], signal.SIGKILL)
+
+        killer = threading.Thread(target=kill, daemon=True)
+        killer.start()
+        batch(list(range(60)), counting(), tmp_path / "out", shards=6)
+        killer.join()
+        assert killed
+    finally:
+        ray.shutdown()
+    assert_all_once(tmp_path / "out", 60)

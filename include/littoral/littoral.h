@@ -24,6 +24,7 @@
 #include "littoral/options.h"
 #include "littoral/repair.h"
 #include "littoral/report.h"
+#include "littoral/samples.h"
 #include "littoral/sources.h"
 #include "littoral/space.h"
 #include "littoral/through_tets.h"

@@ -33,6 +33,7 @@ void bind_space(nb::module_& m);
 void bind_tets(nb::module_& m);
 void bind_operators(nb::module_& m);
 void bind_batch(nb::module_& m);
+void bind_samples(nb::module_& m);
 
 /// A Context in the hands of Python.
 struct Settings {

@@ -151,4 +151,5 @@ NB_MODULE(_core, m) {
   bind_tets(m);
   bind_operators(m);
   bind_batch(m);
+  bind_samples(m);
 }

@@ -33,6 +33,7 @@ from ._operators import Factorization, Operators, operators
 from ._regions import Regions, winding
 from ._repair import Repaired, repair
 from ._report import Report
+from ._samples import Samples, samples
 from ._settings import progress, set_memory_limit, set_threads
 from ._sources import Curve, FaceChain, SurfacePoint
 from ._space import (
@@ -77,6 +78,7 @@ __all__ = [
     "Regions",
     "Repaired",
     "Report",
+    "Samples",
     "SolveError",
     "Surface",
     "SurfacePoint",
@@ -104,6 +106,7 @@ __all__ = [
     "read_tets",
     "read_volume",
     "repair",
+    "samples",
     "sdf_of_volume",
     "set_memory_limit",
     "set_threads",

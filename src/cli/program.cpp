@@ -113,6 +113,7 @@ Program::Program() : app_("Distance and inside/outside for geometry that is brok
   add_compare(app_, session_);
   add_contour(app_, session_);
   add_offset(app_, session_);
+  add_samples(app_, session_);
   add_batch(app_, session_);
   add_methods(app_, session_);
   add_formats(app_, session_);

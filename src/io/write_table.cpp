@@ -50,9 +50,10 @@ void write_txt(std::ostream& out, const Table& table) {
     }
 }
 
-void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest) {
-  std::string header = std::string("{'descr': '<f8', 'fortran_order': ") +
-                       (first_axis_fastest ? "True" : "False") + ", 'shape': (" + shape + "), }";
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest,
+                      const std::string& type) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': ";
+  header.append(first_axis_fastest ? "True" : "False").append(", 'shape': (" + shape + "), }");
   // Magic, version and length take 10 bytes; the data begin at a multiple of 64.
   header.append(63 - (10 + header.size()) % 64, ' ').push_back('\n');
   out.write("\x93NUMPY\x01\x00", 8);

@@ -34,8 +34,9 @@ void write_csv(std::ostream& out, const Table& table);
 void write_txt(std::ostream& out, const Table& table);
 /// NumPy's format 1.0: float64, rows x columns, or one axis for one column.
 void write_npy(std::ostream& out, const Table& table);
-/// The head of such a file; `shape` as "8," or "2, 3, 4".
-void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest);
+/// The head of such a file; `shape` as "8," or "2, 3, 4", `type` as "<f8".
+void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest,
+                      const std::string& type = "<f8");
 
 /// Points, and the other columns of the table that they were in.
 struct PointTable {

@@ -17,6 +17,7 @@ void add_repair(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
 void add_contour(CLI::App& program, Session& session);
 void add_offset(CLI::App& program, Session& session);
+void add_samples(CLI::App& program, Session& session);
 void add_batch(CLI::App& program, Session& session);
 void add_methods(CLI::App& program, Session& session);
 void add_formats(CLI::App& program, Session& session);

@@ -8,6 +8,7 @@
 # LITTORAL_SHARED names a larger collection of test data (by default ../shared beside the checkout);
 # tests that need it are reported as skipped where it is absent.
 # FUZZ_SECONDS: time for each fuzz target (10; 300 in the long tier).   JOBS: processes at once (all cores).
+# SOAK_SECONDS: how long batches run in the long tier (3600).
 # FUZZ_CASES: random cases of all methods, by seeds, in the long tier (1000000).
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -18,6 +19,8 @@ logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
 test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
 long_stages=(slow sanitize_slow sanitize_package fuzz_long studies single aarch64)
+test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer)
+long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
@@ -145,6 +148,19 @@ stage_sanitize_package() {
       python/tests/test_operators.py --deselect python/tests/test_surfaces.py::test_many_calls_do_not_grow &&
     LD_PRELOAD=$(clang++-14 -print-file-name=libclang_rt.asan-x86_64.so) ASAN_OPTIONS=detect_leaks=0 \
       PYTHONPATH="$PWD/build/asan/python" "$venv/python" -W ignore fuzz/arrays.py 3000
+}
+
+# Batches on local clusters of Ray and Dask, one of whose workers is killed.
+stage_clusters() {
+  build_release && python3 -m venv build/clusters &&
+    build/clusters/bin/pip install --quiet -r requirements-dev.txt -r requirements-clusters.txt &&
+    PYTHONPATH="$PWD/build/release/python" build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py
+}
+
+# Batches of damaged inputs for an hour, or SOAK_SECONDS: nothing is lost, memory stays flat.
+stage_soak() {
+  build_release && PYTHONPATH="$PWD/build/release/python" "$venv/python" bench/batch/soak.py \
+    build/release/littoral examples/data build/soak "${SOAK_SECONDS:-3600}"
 }
 
 stage_fuzz_long() {

@@ -59,7 +59,7 @@ SampleOptions sample_counts(int surface, int space) {
   SampleOptions options;
   options.surface = surface;
   options.space = space;
-  options.resolution = 40;
+  options.resolution = 24;
   options.numbers = SampleNumbers::float64;
   return options;
 }
@@ -87,7 +87,7 @@ double cube_distance(const Vec3& x) {
 }
 
 TEST(Samples, DistancesOfACubeAreExact) {
-  SampleOptions options = sample_counts(2000, 4000);
+  SampleOptions options = sample_counts(1000, 2000);
   const Samples samples = sample(sampled_cube(), options);
   EXPECT_NEAR(samples.half_side, 1.2, 1e-12) << "half the side and the margin of a tenth";
   const MatX3 points = in_input(samples, samples.points);
@@ -110,7 +110,6 @@ TEST(Samples, DistancesOfACubeAreExact) {
       }
     }
   }
-  EXPECT_EQ(samples.confidence.minCoeff(), samples.confidence.minCoeff());
   EXPECT_GT(samples.confidence.mean(), 0.99);
 }
 
@@ -166,16 +165,16 @@ TEST(Samples, SharpPointsOfACubeAreAtItsEdges) {
     Vec3 x = points.row(i).cwiseAbs();
     std::sort(x.begin(), x.end());
     const bool sharp = samples.surface_kinds[static_cast<std::size_t>(i)] == SampleKind::sharp;
-    if (x[1] > 1 - 2 * 2.4 / 39) ++near_edge[sharp ? 1 : 0];  // within two cells
+    if (x[1] > 1 - 2 * 2.4 / 23) ++near_edge[sharp ? 1 : 0];  // within two cells
   }
   EXPECT_EQ(near_edge[1], 2000);
   // Uniform ones by the share of the area there.
-  const double inner = std::pow(1 - 2 * 2.4 / 39, 2);
+  const double inner = std::pow(1 - 2 * 2.4 / 23, 2);
   EXPECT_NEAR(near_edge[0] / 2000.0, 1 - inner, 0.06);
 }
 
 TEST(Samples, AreUniformOnASphere) {
-  const PolygonSoup sphere = octasphere_soup(5);
+  const PolygonSoup sphere = test::octasphere_soup(4);
   SampleOptions options = sample_counts(9000, 0);
   options.sharp = 0;
   const Samples samples = sample(sphere, options);

@@ -57,7 +57,7 @@ class Samples:
         return dict(json.loads(self._handle.card(name)))
 
     def save(self, path: str | os.PathLike[str], name: str = "") -> None:
-        """Writes .npz, .zarr or .tar, and the card as .json beside it; UnsupportedError, IoError."""
+        """Writes .npz, .zarr or .tar, and the card as .json; UnsupportedError, IoError."""
         self._handle.write(os.fspath(path), name)
 
     def __repr__(self) -> str:

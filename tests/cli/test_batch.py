@@ -130,8 +130,9 @@ def test_lists_with_options_by_line(scans: Path) -> None:
         '{"input": "in/a/x.obj", "resolution": 9, "to": [".npz", ".vti"]}\n'
         '{"input": "in/b/x.obj", "verb": "info", "name": "facts"}\n'
     )
+    volume = ["sdf", "--to=.npz"]
     for name, options in (
-        ("list.txt", [["sdf", "--to=.npz", "--resolution=9"], ["sdf", "--to=.npz", "--resolution=7"]]),
+        ("list.txt", [[*volume, "--resolution=9"], [*volume, "--resolution=7"]]),
         ("list.csv", [["sdf", "--to=.npz", "--resolution=9", "--flip"], ["info"]]),
         ("list.jsonl", [["sdf", "--to=.npz", "--to=.vti", "--resolution=9"], ["info"]]),
     ):  # fmt: skip
@@ -165,7 +166,7 @@ def test_no_inputs(run: Run, scans: Path, jobs: str, said: str) -> None:
         ("l.jsonl", '{"input": "a.obj"}\n{"input": ', "l.jsonl:2: this is no JSON"),
         ("l.jsonl", "[1]\n", "l.jsonl:1: expected an object"),
         ("l.jsonl", '{"verb": "sdf"}\n', "l.jsonl:1: there is no input"),
-        ("l.jsonl", '{"input": "a.obj", "resolutoin": 3}\n', "l.jsonl:1: littoral sdf has no option"),
+        ("l.jsonl", '{"input": "a.obj", "resolutoin": 3}\n', "l.jsonl:1: littoral sdf has no"),
         ("l.jsonl", '{"input": "a.obj", "resolution": "x"}\n', "l.jsonl:1: --resolution"),
         ("l.csv", "name\na.obj\n", "l.csv:1: the first line names the columns"),
         ("l.csv", "input,flip\na.obj\n", "l.csv:2: there are 1 cells for 2 columns"),

@@ -126,12 +126,11 @@ class Sampler {
       : distance_(distance), winding_(winding), out_(out), options_(out.options) {}
 
   void run(Task& task) {
-    MatX3 gradients;
     const VecX at_vertices =
-        evaluate(distance_, out_.surface.points, &gradients, task.stage(0.1, "surface"));
+        evaluate(distance_, out_.surface.points, nullptr, task.stage(0.1, "surface"));
     report_quality(out_.surface, at_vertices, out_.report);
     by_area_ = TriangleChoice::by_area(out_.surface);
-    by_turn_ = TriangleChoice::by_turn(out_.surface, gradients);
+    by_turn_ = TriangleChoice::by_turn(out_.surface);
     sample_surface(task.stage(0.3, "points on the surface"));
     sample_space(task.stage(0.6, "points in space"));
     out_.report.residuals.emplace_back("share of uncertain samples",

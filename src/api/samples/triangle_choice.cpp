@@ -39,7 +39,13 @@ TriangleChoice TriangleChoice::by_area(const PolygonSoup& triangles) {
   return choice;
 }
 
-TriangleChoice TriangleChoice::by_turn(const PolygonSoup& triangles, const MatX3& normals) {
+TriangleChoice TriangleChoice::by_turn(const PolygonSoup& triangles) {
+  MatX3 normals = MatX3::Zero(triangles.n_vertices(), 3);
+  for (int f = 0; f < triangles.n_faces(); ++f) {
+    const Vec3 normal = corners_of(triangles, f).twice_area();
+    for (const int corner : triangles.face(f)) normals.row(corner) += normal;
+  }
+  normals.rowwise().normalize();
   TriangleChoice choice = weighted(triangles, [&](int f) {
     const auto face = triangles.face(f);
     double turn = 0;

@@ -19,9 +19,9 @@ class TriangleChoice {
   TriangleChoice() = default;
   /// Uniform over the area. Throws InputError for a surface without area.
   static TriangleChoice by_area(const PolygonSoup& triangles);
-  /// By area times how far apart the normals of the corners are (vertices x 3); uniform where all
-  /// are parallel.
-  static TriangleChoice by_turn(const PolygonSoup& triangles, const MatX3& normals);
+  /// By area times how far apart the normals of the corners are, which are the means about them;
+  /// uniform where all are parallel.
+  static TriangleChoice by_turn(const PolygonSoup& triangles);
 
   PointOnTriangle choose(RandomNumbers& random) const;
 

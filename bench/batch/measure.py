@@ -1,8 +1,9 @@
 """Throughput of batches: measure.py LITTORAL INPUTS OUT [SHARE].
 
-Signed distance on a grid of 24 nodes along the longest side, for all inputs by `littoral batch`;
-for every SHARE-th of them by a shell loop over the program, and by a Python loop over libigl (the
-same number of grid points, fast winding number), which is begun again where it crashes.
+What is in the files (`info`) for all inputs by `littoral batch`. Signed distance on a grid of 24
+nodes along the longest side, for every SHARE-th of them, by the same, by a shell loop over the
+program, and by a Python loop over libigl (as many grid points, fast winding number), which is begun
+again where it crashes.
 """
 
 import json
@@ -45,8 +46,8 @@ def children(pid: int) -> list[int]:
     return [int(x) for x in path.read_text().split()] if path.exists() else []
 
 
-def run_batch(program: str, inputs: str, out: str) -> None:
-    command = [program, "batch", inputs, "--resolution", "24", "-o", out, "--jobs", "2", "--json",
+def run_batch(program: str, inputs: str, out: str, *words: str) -> None:
+    command = [program, "batch", inputs, *words, "-o", out, "--jobs", "2", "--json",
                "--time-limit", "60", "--memory-limit", "2GB"]  # fmt: skip
     memory = []
     begin = time.monotonic()
@@ -59,7 +60,8 @@ def run_batch(program: str, inputs: str, out: str) -> None:
     seconds = time.monotonic() - begin
     lines = [json.loads(line) for line in (Path(out) / "status.jsonl").open()]
     each = [line["input"] for line in lines]
-    print(f"batch: {len(each)} lines, {len(set(each))} inputs, {summary['done']} done, "
+    print(f"batch {' '.join(words)}: {len(each)} lines, {len(set(each))} inputs, "
+          f"{summary['done']} done, "
           f"{summary['failed']} failed, {seconds:.1f} s, {len(each) / seconds:.1f} a second, "
           f"load {os.getloadavg()[0]:.1f}, "
           f"start {1000 * summary['start_seconds']:.2f} ms")  # fmt: skip
@@ -124,8 +126,10 @@ def run_peer(paths: list[str]) -> None:
 def main() -> None:
     program, inputs, out = sys.argv[1:4]
     share = int(sys.argv[4]) if len(sys.argv) > 4 else 20
-    run_batch(program, inputs, out)
+    run_batch(program, inputs, out + "/info", "--verb", "info")
     paths = sorted(str(p) for p in Path(inputs).rglob("*") if p.is_file())[::share]
+    Path(out, "list.txt").write_text("".join(f"{path}\n" for path in paths))
+    run_batch(program, out + "/list.txt", out + "/sdf", "--resolution", "24")
     run_loop(program, paths, out)
     run_peer(paths)
 

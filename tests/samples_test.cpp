@@ -18,15 +18,16 @@
 namespace littoral {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>;
+using PhiloxWords = std::array<std::uint32_t, 4>;
 
 TEST(RandomNumbers, PhiloxHasTheKnownAnswers) {
   // Of Random123, the authors' library: kat_vectors.
-  EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
+            (PhiloxWords{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}),
-            (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+            (PhiloxWords{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
   EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),
-            (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+            (PhiloxWords{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
 TEST(RandomNumbers, HaveTheirMoments) {
@@ -81,7 +82,7 @@ PolygonSoup sampled_cube() {
   return cube;
 }
 
-double cube_distance(const Vec3& x) {
+double distance_of_cube(const Vec3& x) {
   const Vec3 q = x.cwiseAbs() - Vec3::Ones();
   return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
 }
@@ -92,10 +93,11 @@ TEST(Samples, DistancesOfACubeAreExact) {
   EXPECT_NEAR(samples.half_side, 1.2, 1e-12) << "half the side and the margin of a tenth";
   const MatX3 points = in_input(samples, samples.points);
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    ASSERT_NEAR(samples.distances[i] * samples.half_side, cube_distance(points.row(i)), 1e-9) << i;
+    ASSERT_NEAR(samples.distances[i] * samples.half_side, distance_of_cube(points.row(i)), 1e-9)
+        << i;
   const MatX3 surface = in_input(samples, samples.surface_points);
   for (Eigen::Index i = 0; i < surface.rows(); ++i) {
-    ASSERT_NEAR(cube_distance(surface.row(i)), 0, 1e-9) << i;
+    ASSERT_NEAR(distance_of_cube(surface.row(i)), 0, 1e-9) << i;
     ASSERT_NEAR(samples.surface_normals.row(i).norm(), 1, 1e-9);
     const Vec3 x = surface.row(i), normal = samples.surface_normals.row(i);
     ASSERT_GT(normal.dot(x), 0.5) << "outward";
@@ -193,7 +195,7 @@ TEST(Samples, AreUniformOnASphere) {
   EXPECT_EQ(open->second, 0);
 }
 
-std::string bytes_of_file(const std::filesystem::path& path) {
+std::string file_of_samples(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -207,7 +209,7 @@ TEST(Samples, DependOnSeedAndNotOnThreads) {
     options.numbers = SampleNumbers::float32;
     const auto path = folder.path() / "a.npz";
     write(sample(sampled_cube(), options, {}, {}, {.threads = threads}), path, "cube");
-    return bytes_of_file(path) + bytes_of_file(folder.path() / "a.json");
+    return file_of_samples(path) + file_of_samples(folder.path() / "a.json");
   };
   const std::string first = written(1, 1);
   EXPECT_EQ(first, written(1, 4));
@@ -223,7 +225,7 @@ TEST(Samples, HoldTheDistanceOfTheStoredPosition) {
     for (int a = 0; a < 3; ++a)
       ASSERT_EQ(samples.points(i, a),
                 static_cast<double>(Eigen::half(float(samples.points(i, a)))));
-    ASSERT_NEAR(samples.distances[i] * samples.half_side, cube_distance(points.row(i)), 1e-9);
+    ASSERT_NEAR(samples.distances[i] * samples.half_side, distance_of_cube(points.row(i)), 1e-9);
   }
 }
 

@@ -50,7 +50,7 @@ struct BatchOptions {
   double memory_limit = 0;       // of a job, what it can write to [bytes]; 0: none
 };
 
-/// Failures that say the same but for names and numbers.
+/// Failures that say the same but for names, numbers and what is quoted.
 struct BatchFailures {
   std::string status, message;  // of the first
   std::string example;          // its input

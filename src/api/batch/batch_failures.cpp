@@ -17,7 +17,10 @@ void FailureCount::add(const BatchJob& job, const BatchOutcome& outcome) {
   std::string text = replaced(outcome.message, job.input, "*");
   text = replaced(text, std::filesystem::path(job.input).filename().string(), "*");
   std::string key = outcome.status + " ";
+  bool quoted = false;
   for (const char c : text) {
+    if (c == '\'') quoted = !quoted;
+    if (quoted && c != '\'') continue;
     const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
     if (!digit || key.back() != '#') key += digit ? '#' : c;
   }

@@ -9,7 +9,7 @@
 
 namespace littoral {
 
-/// Counts failures whose messages differ in the input's name and in numbers only.
+/// Counts failures whose messages differ in the input's name, in numbers and between quotes only.
 class FailureCount {
  public:
   void add(const BatchJob& job, const BatchOutcome& outcome);

@@ -76,10 +76,19 @@ def test_seeds(run: Run, block: Path) -> None:
     assert a == b != c
 
 
-def test_open_surfaces_are_completed(run: Run, tmp_path: Path) -> None:
-    """A square has no inside: that is said, and the surface is closed all the same or refused."""
-    (tmp_path / "square.obj").write_text(square(4))
-    run("samples", "square.obj", *FEW, "-o", "s.npz", status=2)
+def test_holes_are_closed_and_what_has_no_inside_is_refused(run: Run, block: Path) -> None:
+    lid_off = "".join(
+        line for line in (block / "block.obj").read_text().splitlines(True) if "8 6" not in line
+    )
+    (block / "open.obj").write_text(lid_off)
+    run("samples", "open.obj", *FEW, "-o", "open.npz")
+    card = json.loads((block / "open.json").read_text())
+    assert card["report"]["sizes"]["surface open edges"] == 0
+    assert arrays(block / "open.npz")["confidence"].min() < 0.9
+    (block / "square.obj").write_text(square(4))
+    failed = run("samples", "square.obj", *FEW, "-o", "s.npz", status=2)
+    assert "encloses no node of the grid" in failed.stderr
+    assert not (block / "s.npz").exists()
 
 
 @pytest.mark.parametrize(

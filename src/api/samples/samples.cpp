@@ -84,6 +84,10 @@ PolygonSoup zero_surface(const PointwiseDistance& distance, int resolution, Task
   volume.grid.spacing.setConstant(2.0 / (resolution - 1));
   check_grid(volume.grid);
   volume.values = evaluate(distance, volume.grid, task.stage(0.45, "distance"));
+  if (!(volume.values.minCoeff() < 0))
+    throw InputError(
+        "the input encloses no node of the grid: it has no inside, or one too thin for this "
+        "option resolution");
   return isosurfaces(volume, {0.0}, true, report, task.stage(0.05, "surface")).front().surface;
 }
 

@@ -53,7 +53,7 @@ class Samples:
         return Report(**self._handle.report())
 
     def card(self, name: str = "") -> dict[str, Any]:
-        """Version, options, normalisation, figures of quality and warnings."""
+        """Version, options, normalisation, quality and warnings; TypeError for no text."""
         return dict(json.loads(self._handle.card(name)))
 
     def save(self, path: str | os.PathLike[str], name: str = "") -> None:

@@ -13,7 +13,7 @@ import pytest
 import littoral
 
 # What other calls raise or return; the docstrings of these show them.
-NO_EXAMPLE = {"Closest", "Option"} | {
+NO_EXAMPLE = {"BatchFailures", "BatchSummary", "Closest", "Option"} | {
     name
     for name, value in vars(littoral).items()
     if inspect.isclass(value) and issubclass(value, littoral.Error)
@@ -31,6 +31,8 @@ RETURNED = {
     "Report",
     "TetField",
 }
+RETURNED = {"Closest", "Field", "Method", "Operators", "Option", "Regions", "Report", "TetField"}
+RETURNED |= {"BatchFailures", "BatchSummary", "Samples"}
 
 COMPAT = [
     "igl",

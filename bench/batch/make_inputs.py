@@ -1,8 +1,8 @@
-"""Damaged inputs for batches: make_inputs.py DATA COUNT OUT [SEED].
+"""Damaged inputs for batches: make_inputs.py DATA COUNT OUT [SEED [FACES]].
 
-COUNT files from the surfaces of DATA that have at most 4000 faces: each is copied with random
-damage of its mesh (faces removed, turned round, doubled, vertices moved) or, every tenth, of its
-bytes (cut short, overwritten, numbers replaced). The same seed makes the same files.
+COUNT files from the surfaces of DATA that have at most FACES (4000) faces: each is copied with
+random damage of its mesh (faces removed, turned round, doubled, vertices moved) or, every tenth, of
+its bytes (cut short, overwritten, numbers replaced). The same seed makes the same files.
 """
 
 import sys
@@ -13,7 +13,7 @@ import numpy as np
 import littoral
 
 
-def sources(data: Path) -> list[tuple[bytes, str, np.ndarray, np.ndarray]]:
+def sources(data: Path, most: int = 4000) -> list[tuple[bytes, str, np.ndarray, np.ndarray]]:
     found = []
     for path in sorted(data.rglob("*")):
         if path.suffix not in (".obj", ".off", ".ply", ".stl") or path.stat().st_size > 400_000:
@@ -23,7 +23,7 @@ def sources(data: Path) -> list[tuple[bytes, str, np.ndarray, np.ndarray]]:
             V, F = np.array(mesh.points), np.array(mesh.faces)
         except Exception:
             continue
-        if F.ndim == 2 and F.shape[1] == 3 and 4 <= len(F) <= 4000 and np.isfinite(V).all():
+        if F.ndim == 2 and F.shape[1] == 3 and 4 <= len(F) <= most and np.isfinite(V).all():
             found.append((path.read_bytes(), path.suffix, V, F))
     return found
 
@@ -67,7 +67,7 @@ def damaged_bytes(data: bytes, rng: np.random.Generator) -> bytes:
 def main() -> None:
     data, count, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
     rng = np.random.default_rng(int(sys.argv[4]) if len(sys.argv) > 4 else 0)
-    meshes = sources(data)
+    meshes = sources(data, int(sys.argv[5]) if len(sys.argv) > 5 else 4000)
     for k in range(count):
         original, suffix, V, F = meshes[int(rng.integers(len(meshes)))]
         folder = out / f"{k // 500:03d}"

@@ -19,7 +19,7 @@ def one_round(program: str, data: str, out: Path, seed: int) -> tuple[int, float
     shutil.rmtree(out, ignore_errors=True)
     inputs, results = out / "in", out / "results"
     maker = Path(__file__).with_name("make_inputs.py")
-    subprocess.run([sys.executable, maker, data, "200", inputs, str(seed)], check=True,
+    subprocess.run([sys.executable, maker, data, "200", inputs, str(seed), "6000"], check=True,
                    stdout=subprocess.DEVNULL)  # fmt: skip
     command = [program, "batch", inputs, "--resolution", "16", "-o", results, "--quiet",
                "--time-limit", "60", "--memory-limit", "2GB"]  # fmt: skip

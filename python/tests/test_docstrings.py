@@ -31,7 +31,6 @@ RETURNED = {
     "Report",
     "TetField",
 }
-RETURNED = {"Closest", "Field", "Method", "Operators", "Option", "Regions", "Report", "TetField"}
 RETURNED |= {"BatchFailures", "BatchSummary", "Samples"}
 
 COMPAT = [

@@ -18,7 +18,6 @@ venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
 test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
-test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer)
 long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 

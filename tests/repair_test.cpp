@@ -185,6 +185,20 @@ TEST(Repair, RefusesWhatMakesNoSense) {
   EXPECT_THROW(repair(PolygonSoup{}), InputError);
 }
 
+TEST(FitToSurface, UntanglesAPointThatWasPushedThrough) {
+  PolygonSoup sphere = test::octasphere_soup(3);
+  const MatX3i faces = triangles_of(sphere);
+  sphere.points.row(40) *= -1.3;  // through the other side
+  const auto crossing = [&] {
+    const auto flags = self_intersecting_faces(sphere.points, faces);
+    return std::count(flags.begin(), flags.end(), 1);
+  };
+  EXPECT_GT(crossing(), 0);
+  untangle(sphere.points, faces, {});
+  EXPECT_EQ(crossing(), 0);
+  EXPECT_NEAR(volume_of(sphere), 4 * M_PI / 3, 0.3);
+}
+
 TEST(FitToSurface, TakesBackWhatWouldCross) {
   // Two plates nearer to each other than the reach: feet on the wrong one must not tangle.
   PolygonSoup target = test::octasphere_soup(3), contour = target;

@@ -268,6 +268,24 @@ Vec3 normal_of(const MatX3& points, const Eigen::RowVector3i& face) {
   return (b - a).cross(c - a);
 }
 
+/// Of each vertex of a closed mesh, those that it shares a side with.
+std::vector<std::vector<int>> neighbours_of(const MatX3i& faces, Eigen::Index n) {
+  std::vector<std::vector<int>> out(static_cast<std::size_t>(n));
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    for (int k = 0; k < 3; ++k) out[faces(f, k)].push_back(faces(f, (k + 1) % 3));
+  return out;
+}
+
+/// Vertices of faces that are marked.
+std::vector<char> vertices_of(const std::vector<char>& marked, const MatX3i& faces,
+                              Eigen::Index n) {
+  std::vector<char> out(static_cast<std::size_t>(n), 0);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    if (marked[f])
+      for (int k = 0; k < 3; ++k) out[faces(f, k)] = 1;
+  return out;
+}
+
 /// Bad vertices move to the middle of their neighbours, on the target: on a crease, of those there.
 void slide(Cut& cut, const std::vector<int>& place, const std::vector<char>& bad,
            const std::vector<std::vector<int>>& neighbours, const MatX3& points,
@@ -289,6 +307,28 @@ void slide(Cut& cut, const std::vector<int>& place, const std::vector<char>& bad
 
 }  // namespace
 
+void untangle(MatX3& points, const MatX3i& faces, const Task& task) {
+  const Eigen::Index n = points.rows();
+  std::vector<std::vector<int>> neighbours;
+  std::vector<char> asked;
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<char> crossing = self_intersecting_faces(points, faces, task, asked);
+    if (std::count(crossing.begin(), crossing.end(), 1) == 0) return;
+    if (neighbours.empty()) neighbours = neighbours_of(faces, n);
+    const std::vector<char> bad = vertices_of(crossing, faces, n);
+    const MatX3 before = points;
+    for (Eigen::Index v = 0; v < n; ++v) {
+      if (!bad[v] || neighbours[v].empty()) continue;
+      Vec3 sum = Vec3::Zero();
+      for (const int w : neighbours[v]) sum += before.row(w);
+      points.row(v) = (before.row(v).transpose() + sum / double(neighbours[v].size())) / 2;
+    }
+    asked.assign(static_cast<std::size_t>(faces.rows()), 0);
+    for (Eigen::Index f = 0; f < faces.rows(); ++f)
+      for (int k = 0; k < 3; ++k) asked[f] |= bad[faces(f, k)];
+  }
+}
+
 FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const MatX3& target_points,
                              const MatX3i& target_faces, double reach, Task task) {
   const TriangleBvh bvh(target_points, target_faces);
@@ -308,9 +348,7 @@ FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const Mat
     out.faces.row(f) << cut.faces[f][0], cut.faces[f][1], cut.faces[f][2];
   for (Eigen::Index v = 0; v < n; ++v) before.row(v) = cut.places[v][0];
 
-  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(n));
-  for (const auto& face : cut.faces)
-    for (int k = 0; k < 3; ++k) neighbours[face[k]].push_back(face[(k + 1) % 3]);
+  const auto neighbours = neighbours_of(out.faces, n);
 
   // Vertices of faces that cross others or fold over slide between their neighbours, those on
   // creases along these. Where that does not help they go back a step: first those alone, then with

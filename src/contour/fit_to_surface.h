@@ -16,6 +16,11 @@ struct FittedSurface {
   int n_kept = 0;      // vertices that are not where they would fit best: it would cross itself
 };
 
+/// Moves vertices of faces that cross others towards the middle of their neighbours until none
+/// crosses, or twenty times: contours cross themselves where two of their parts run through one
+/// cell. points: n x 3, faces: m x 3; which vertices are joined does not change.
+void untangle(MatX3& points, const MatX3i& faces, const Task& task);
+
 /// The contour (closed, manifold) with its vertices on the nearest points of the target, where
 /// these are within `reach` [length]. Sides between parts of the target whose planes differ by more
 /// than 30 degrees are split where these planes meet, so that creases of the target are chains of

@@ -102,6 +102,7 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   // Nodes that lie on a sheet have the value zero: they are not inside.
   made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                             task.stage(0.1, "contour"));
+  untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   if (!options.fit || options.thicken > 0 || input.n_faces() == 0) return made;
   const FittedSurface fitted = fit_to_surface(made.surface.points, triangles_of(made.surface),
                                               points, faces, h, task.stage(0.6, "fitting"));

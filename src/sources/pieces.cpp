@@ -13,6 +13,8 @@ namespace littoral {
 
 namespace {
 
+constexpr double leap = 5;  // times the usual distance between nodes
+
 /// Similar warnings about many curves: the first few in full, then a count.
 class Notes {
  public:
@@ -44,7 +46,8 @@ class Preparation {
                  const Task& task) {
     const int curve = out_.n_curves++;
     std::vector<SurfacePoint> placed;
-    int segments = 0, empty_steps = 0;
+    int empty_steps = 0;
+    std::vector<double> lengths, traced;  // of segments; of those that leave their faces
     const std::size_t pieces_before = out_.pieces.size();
     lost_ = 0;
     try {
@@ -53,9 +56,11 @@ class Preparation {
         task.checkpoint();
         const SurfacePoint next = simplest(mesh_, nodes[i]);
         std::vector<SurfacePoint> way{placed.back(), next};
+        const double length = (mesh_.position(next) - mesh_.position(placed.back())).stableNorm();
+        if (length > 0) lengths.push_back(length);
         if (!share_face(mesh_, placed.back(), next)) {
           way = tracer_.trace(placed.back(), next, task);
-          ++segments;
+          traced.push_back(length);
         }
         for (std::size_t k = 1; k < way.size(); ++k) {
           if (!add_piece(curve, is_signed, way[k - 1], way[k])) ++empty_steps;
@@ -66,10 +71,8 @@ class Preparation {
       throw InputError(label + ": " + error.what());
     }
     out_.nodes.push_back(std::move(placed));
-    if (segments > 0)
-      traced_.add(counted(segments, "segment of ", "segments of ") + label +
-                  (segments == 1 ? " joins" : " join") +
-                  " nodes that share no face, by a path traced over the mesh");
+    n_traced_ += static_cast<int>(traced.size());
+    warn_of_leaps(lengths, traced, label);
     if (lost_ > 0)
       dropped_.add(counted(lost_, "piece of ", "pieces of ") + label +
                    " in faces that repeat a vertex" + (lost_ == 1 ? " was" : " were") +
@@ -95,6 +98,7 @@ class Preparation {
   }
 
   PlacedSources finish(Report& report) {
+    if (n_traced_ > 0) report.sizes.emplace_back("traced segments", n_traced_);
     traced_.report_to(report);
     dropped_.report_to(report);
     vanished_.report_to(report);
@@ -106,6 +110,22 @@ class Preparation {
   }
 
  private:
+  /// Nodes that share no face are as good as others. But where they are much farther apart than the
+  /// curve's nodes are elsewhere, some may be missing.
+  void warn_of_leaps(std::vector<double> lengths, const std::vector<double>& traced,
+                     const std::string& label) {
+    if (lengths.size() < 3) return;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    const auto leaps = static_cast<int>(std::count_if(
+        traced.begin(), traced.end(), [&](double length) { return length > leap * *middle; }));
+    if (leaps > 0)
+      traced_.add(counted(leaps, "segment of ", "segments of ") + label +
+                  (leaps == 1 ? " joins" : " join") +
+                  " nodes that share no face and are far apart, by a path traced over the mesh; "
+                  "to leave a gap there, end the curve and begin another");
+  }
+
   /// Appends the piece between two points that share a face; false if it has no length.
   bool add_piece(int curve, bool is_signed, const SurfacePoint& from, const SurfacePoint& to) {
     CurvePiece piece;
@@ -135,6 +155,7 @@ class Preparation {
   Tracer tracer_;
   PlacedSources out_;
   int lost_ = 0;  // pieces of the curve that faces with repeated vertices hold
+  int n_traced_ = 0;
   Notes traced_, dropped_, vanished_;
 };
 

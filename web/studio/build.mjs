@@ -4,7 +4,8 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { deflateRawSync } from "node:zlib";
-import { build } from "esbuild";
+import * as esbuild from "esbuild";
+import { bundleOptions } from "../../viewer/bundle.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url)), root = resolve(here, "../..");
 const out = resolve(process.argv[2] ?? join(root, "dist"));
@@ -21,21 +22,14 @@ const packed = {
   },
 };
 
-const bundle = await build({
+const options = bundleOptions(esbuild);
+const bundle = await esbuild.build({
+  ...options,
   entryPoints: [join(here, "src/main.ts")],
-  bundle: true,
-  minify: true,
-  write: false,
-  format: "iife",
-  target: "es2022",
-  charset: "ascii",
-  legalComments: "inline",
   external: ["node:*"], // what the library would use in Node
-  loader: { ".inc": "text" },
   alias: { "littoral/inline": library },
   nodePaths: [join(here, "node_modules")], // modules of viewer/src find three here
-  plugins: [packed],
-  logLevel: "warning",
+  plugins: [...options.plugins, packed],
 });
 // Inside a script element a closing tag would end it; strings may hold it escaped.
 const script = bundle.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").replace(/<!--/g, "<\\!--");

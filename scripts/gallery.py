@@ -230,7 +230,7 @@ def main(program: str, shared: Path) -> None:
             look: tuple[str, ...] = (),
             resolution: int = 96,
         ) -> None:
-            made = work / ("shape.nrrd" if verb == "sdf" else "shape.off")
+            made = work / ("shape" + {"sdf": ".nrrd", "repair": ".ply"}.get(verb, ".off"))
             fine = ["--resolution", str(resolution)]
             solve = [program, verb, str(shape), *options, *fine, "--quiet", "-o", str(made)]
             draw = [program, "render", str(made), *look, *SIZE, "-o", str(out / f"{name}.png")]
@@ -275,6 +275,8 @@ def main(program: str, shared: Path) -> None:
         data = shared / "data"
         solid("chair-slice", data / "soups" / "shm3d-chair.obj", "sdf", resolution=160)
         solid("chair-offset", data / "soups" / "shm3d-chair.obj", "offset", "--dilate", "0.25")
+        plain = "--isolines", "0"
+        solid("repaired", data / "soups" / "beetle.obj", "repair", look=plain, resolution=256)
         bottle = data / "clouds" / "SprayBottle.pc"
         solid("spray-bottle", bottle, "sdf", "--method", "tori", look=("--axis", "x"))
         cloud_pictures(program, data / "clouds", work, out)

@@ -34,7 +34,7 @@ Words usual_extensions(const std::string& verb) {
   static const std::map<std::string, std::string> usual{
       {"distance", ".ply"}, {"sdf", ".npz"},     {"query", ".csv"},    {"winding", ".obj"},
       {"offset", ".ply"},   {"contour", ".ply"}, {"fit-tori", ".ply"}, {"pairs", ".npy"},
-      {"view", ".html"},    {"render", ".png"},  {"samples", ".npz"}};
+      {"view", ".html"},    {"render", ".png"},  {"samples", ".npz"},  {"repair", ".ply"}};
   const auto found = usual.find(verb);
   return found == usual.end() ? Words{} : Words{found->second};
 }

@@ -175,7 +175,7 @@ def test_doubts_are_warnings(square, recwarn):
     V, F = arrays(square)
     signed = pp3d.MeshSignedHeatSolver(V, F)
     with pytest.warns(RuntimeWarning, match="segment of curve 1"):
-        signed.compute_distance([[UP[0], UP[-1]]])
+        signed.compute_distance([[0, 1, 2, 3, 80]])
     recwarn.clear()
     signed.compute_distance([UP])
     pp3d.PointCloudHeatSolver(V).compute_distance(0)

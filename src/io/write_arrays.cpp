@@ -1,6 +1,7 @@
 #include "io/write_arrays.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <sstream>
 #include <system_error>
@@ -50,7 +51,7 @@ void write_tar_member(std::ostream& out, const std::string& name, const std::str
     std::snprintf(text, sizeof text, "%0*llo", digits, value);
     return std::string(text);
   };
-  if (name.size() > 100 || bytes.size() >= (std::size_t{1} << 33))
+  if (name.size() > 100 || std::uint64_t{bytes.size()} >= (std::uint64_t{1} << 33))
     throw UnsupportedError("a member of a .tar has at most 100 characters and 8 GiB: " + name);
   put(0, name);
   put(100, octal(0644, 7));

@@ -182,6 +182,9 @@ TEST(Repair, RefusesWhatMakesNoSense) {
   PolygonSoup cloud;
   cloud.points = cloud.normals = sphere.points;
   EXPECT_THROW(repair(cloud, options), UnsupportedError);
+  options = {};
+  options.error = 0.1;  // nothing to measure it from
+  EXPECT_THROW(repair(cloud, options), UnsupportedError);
   EXPECT_THROW(repair(PolygonSoup{}), InputError);
 }
 

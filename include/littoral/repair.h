@@ -32,7 +32,8 @@ struct Repaired {
 /// make it cross itself. The result is checked without rounding; where it is not closed, manifold
 /// and free of crossings, or misses more than a hundredth of the input's area, the report's status
 /// is "uncertain" and says why. Throws InputError for bad input, for options out of range and where
-/// the input has no inside (`thicken` gives it one); UnsupportedError for `thicken` of a cloud.
+/// the input has no inside (`thicken` gives it one); UnsupportedError for `thicken` and `error` of
+/// a cloud.
 Repaired repair(const PolygonSoup& input, const RepairOptions& options = {},
                 const AnyMethod& method = {}, const Orientation& orientation = {},
                 const Context& context = {});

@@ -55,8 +55,8 @@ def repair(
     the input or what closes it. thicken: sheets become walls that thick. smallest_part: parts whose
     boxes have shorter diagonals go [all lengths]. cavities: keep holes inside of parts. The
     report's status is "uncertain" where the result is not sound or misses some of the input.
-    InputError for an input without an inside and for bad values, UnsupportedError for thicken of a
-    cloud.
+    InputError for an input without an inside and for bad values, UnsupportedError for thicken and
+    error of a cloud.
 
     >>> import littoral
     >>> cube = littoral.examples.cube()

@@ -286,6 +286,14 @@ std::vector<char> vertices_of(const std::vector<char>& marked, const MatX3i& fac
   return out;
 }
 
+/// Faces with a vertex that is marked.
+std::vector<char> faces_of(const std::vector<char>& marked, const MatX3i& faces) {
+  std::vector<char> out(static_cast<std::size_t>(faces.rows()), 0);
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    for (int k = 0; k < 3; ++k) out[f] |= marked[faces(f, k)];
+  return out;
+}
+
 /// Bad vertices move to the middle of their neighbours, on the target: on a crease, of those there.
 void slide(Cut& cut, const std::vector<int>& place, const std::vector<char>& bad,
            const std::vector<std::vector<int>>& neighbours, const MatX3& points,
@@ -323,9 +331,7 @@ void untangle(MatX3& points, const MatX3i& faces, const Task& task) {
       for (const int w : neighbours[v]) sum += before.row(w);
       points.row(v) = (before.row(v).transpose() + sum / double(neighbours[v].size())) / 2;
     }
-    asked.assign(static_cast<std::size_t>(faces.rows()), 0);
-    for (Eigen::Index f = 0; f < faces.rows(); ++f)
-      for (int k = 0; k < 3; ++k) asked[f] |= bad[faces(f, k)];
+    asked = faces_of(bad, faces);  // those that cross are among them
   }
 }
 
@@ -354,41 +360,30 @@ FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const Mat
   // creases along these. Where that does not help they go back a step: first those alone, then with
   // their neighbours, until none is left that moves or all is well.
   std::vector<int> place = cut.best;
-  std::vector<char> crossing, moved;  // moved: since the last check; empty: all
+  std::vector<char> asked;  // faces that may have changed since the last check; empty: all
   for (int round = 0;; ++round) {
     for (Eigen::Index v = 0; v < n; ++v) out.points.row(v) = cut.places[v][place[v]];
-    std::vector<char> asked = crossing;
-    if (!moved.empty())
-      for (Eigen::Index f = 0; f < m; ++f)
-        for (int k = 0; k < 3; ++k) asked[f] = asked[f] | moved[out.faces(f, k)];
-    crossing = self_intersecting_faces(out.points, out.faces,
-                                       task.stage(round < 10 ? 0.05 : 0.001, "checking"), asked);
-    std::vector<char> back(static_cast<std::size_t>(n), 0);
-    bool any = false;
+    std::vector<char> bad = self_intersecting_faces(
+        out.points, out.faces, task.stage(round < 10 ? 0.05 : 0.001, "checking"), asked);
     for (Eigen::Index f = 0; f < m; ++f) {
       const Eigen::RowVector3i face = out.faces.row(f);
-      if (place[face[0]] + place[face[1]] + place[face[2]] == 0) continue;
       const Vec3 now = normal_of(out.points, face), then = normal_of(before, face);
-      if (!crossing[f] && !(now.dot(then) < folded * now.norm() * then.norm())) continue;
-      any = true;
-      for (int k = 0; k < 3; ++k) back[face[k]] = 1;
+      const bool fits = place[face[0]] + place[face[1]] + place[face[2]] > 0;
+      bad[f] = fits && (bad[f] || now.dot(then) < folded * now.norm() * then.norm());
     }
-    if (!any) break;
+    std::vector<char> back = vertices_of(bad, out.faces, n);
+    if (std::count(back.begin(), back.end(), 1) == 0) break;
+    asked = faces_of(back, out.faces);
     if (round < slides) {
       slide(cut, place, back, neighbours, out.points, bvh, 1.5 * reach);
-      moved = back;
       continue;
     }
     if (round >= alone) {
-      const std::vector<char> bad = back;
-      for (Eigen::Index f = 0; f < m; ++f)
-        for (int k = 0; k < 3; ++k)
-          if (bad[out.faces(f, k)])
-            for (int i = 0; i < 3; ++i) back[out.faces(f, i)] = 1;
+      back = vertices_of(asked, out.faces, n);
+      asked = faces_of(back, out.faces);
     }
     for (Eigen::Index v = 0; v < n; ++v)
       if (back[v]) place[v] = round < alone ? std::max(0, place[v] - 1) : 0;
-    moved = back;
   }
   for (Eigen::Index v = 0; v < n; ++v) {
     out.n_moved += place[v] > 0;

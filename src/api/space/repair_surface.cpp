@@ -38,6 +38,8 @@ void check(const RepairOptions& options, bool is_cloud) {
                        number_text(value));
   if (options.thicken > 0 && is_cloud)
     throw UnsupportedError("option thicken is for surfaces: points have no sheets between them");
+  if (options.error > 0 && is_cloud)
+    throw UnsupportedError("option error is for surfaces: nothing is known between points");
 }
 
 MatX3i joined(const PolygonSoup& a, const PolygonSoup& b, MatX3& points) {
@@ -129,6 +131,7 @@ Parts parts_of(const PolygonSoup& surface) {
   Parts parts;
   parts.boxes.resize(static_cast<std::size_t>(count));
   parts.volumes.resize(static_cast<std::size_t>(count), 0);
+  std::vector<int> first(static_cast<std::size_t>(count), -1);  // a vertex of each
   for (int f = 0; f < surface.n_faces(); ++f) {
     const auto face = surface.face(f);
     const int part = number[face[0]];
@@ -138,7 +141,8 @@ Parts parts_of(const PolygonSoup& surface) {
       x[k] = surface.points.row(face[k]);
       parts.boxes[part].add(x[k]);
     }
-    const Vec3 origin = parts.boxes[part].low;  // any; near the part, so that little cancels
+    if (first[part] < 0) first[part] = face[0];
+    const Vec3 origin = surface.points.row(first[part]);  // near the part: little cancels
     parts.volumes[part] += (x[0] - origin).dot((x[1] - origin).cross(x[2] - origin)) / 6;
   }
   return parts;

@@ -1,6 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
-.PHONY: help demo build check test test-long format tidy wheel web docs bench peers domains clean
+.PHONY: help demo build install check test test-long format tidy wheel web docs bench peers domains clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -12,6 +12,9 @@ build:  ## the program and the library, in build/release
 	scripts/setup.sh build
 	cmake --preset release -DLITTORAL_TESTS=OFF
 	cmake --build build/release
+
+install: build  ## program, library, manual and completions, below PREFIX (/usr/local)
+	cmake --install build/release --prefix $(or $(PREFIX),/usr/local)
 
 check:  ## layout, layers, documentation, quick tests: a few minutes, while working
 	scripts/setup.sh test

@@ -19,3 +19,9 @@ write_basic_package_version_file(littoral-config-version.cmake COMPATIBILITY Sam
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/littoral-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/littoral-config-version.cmake
         DESTINATION ${littoral_config_dir})
+
+# Pages of the manual and completion scripts come from the program itself, where it runs here.
+if(NOT CMAKE_CROSSCOMPILING)
+  install(SCRIPT cmake/install_shell.cmake)
+  install(CODE "littoral_install_shell($<TARGET_FILE:littoral_cli> ${CMAKE_INSTALL_MANDIR}/man1 ${CMAKE_INSTALL_DATADIR})")
+endif()

@@ -34,6 +34,10 @@ for file in distance.ply distance.png regions.txt shell.ply difference.ply dista
   [ -s "$out/$file" ] || { echo "the examples did not write $file" >&2; exit 1; }
 done
 "$prefix/bin/littoral" --help >/dev/null
+for file in man/man1/littoral.1 man/man1/littoral-sdf.1 bash-completion/completions/littoral \
+  zsh/site-functions/_littoral fish/vendor_completions.d/littoral.fish; do
+  [ -s "$prefix/share/$file" ] || { echo "share/$file is not installed" >&2; exit 1; }
+done
 
 [ "$(cd "$prefix/include" && find . -name '*.h' | grep -cv '^./littoral/')" = 0 ] ||
   { echo "headers outside include/littoral are installed" >&2; exit 1; }

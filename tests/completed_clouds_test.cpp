@@ -133,7 +133,7 @@ TEST(ThinParts, AreNamedWithTheResolutionThatHoldsThem) {
   EXPECT_THAT(lost.warnings, Contains(HasSubstr("thinner than the grid's spacing")));
   EXPECT_GT(size_of(lost, "share of the area at parts thinner than a spacing"), 0.8);
   // 2.4 / 0.04 cells are as thick as the plate.
-  const std::string text = lost.warnings.back();
+  const std::string text = lost.warnings.back().text;
   const int resolution = std::stoi(text.substr(text.find("Resolution ") + 11));
   EXPECT_GE(resolution, 61);
   EXPECT_LE(resolution, 90);

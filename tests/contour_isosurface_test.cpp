@@ -142,7 +142,7 @@ TEST(Isosurface, ClosedAtTheBoxWhereAsked) {
   const PolygonSoup open = isosurface(field.grid, field.values, 0, {}, report);
   EXPECT_EQ(info(open, "boundary_loops"), 1);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].find("meets the boundary"), std::string::npos);
+  EXPECT_NE(report.warnings[0].text.find("meets the boundary"), std::string::npos);
   Report quiet;
   const PolygonSoup closed = isosurface(field.grid, field.values, 0, {.close = true}, quiet);
   EXPECT_TRUE(quiet.warnings.empty());

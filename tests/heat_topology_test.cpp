@@ -222,7 +222,7 @@ TEST(HeatTopology, TheCoreOfAMoebiusBandHasOneSide) {
   Report report;
   test::signed_heat(mesh, sources, {}, report);
   ASSERT_EQ(report.warnings.size(), 2U);
-  EXPECT_NE(report.warnings[1].find("sides exchanged"), std::string::npos);
+  EXPECT_NE(report.warnings[1].text.find("sides exchanged"), std::string::npos);
 }
 
 TEST(HeatTopology, SidesAreWarnedOfOnlyWhereTheyMatter) {

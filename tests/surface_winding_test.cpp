@@ -285,9 +285,10 @@ TEST(WindingSolver, OneEdgeOfThreeFacesDoesNotRefuseTheMesh) {
     const VecXi expected =
         solve_once<WindingDomain>(options, {domain_of(mesh).mesh}, equator, {}, report).region;
     EXPECT_EQ(answer.region.head(mesh.n_faces()), expected);
-    EXPECT_TRUE(std::any_of(report.warnings.begin(), report.warnings.end(), [](const auto& text) {
-      return text.find("more than two faces") != std::string::npos;
-    }));
+    EXPECT_TRUE(
+        std::any_of(report.warnings.begin(), report.warnings.end(), [](const auto& warning) {
+          return warning.text.find("more than two faces") != std::string::npos;
+        }));
   }
   SignedHeat options;
   options.bounding_only = true;

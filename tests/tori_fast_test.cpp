@@ -155,7 +155,7 @@ TEST(ToriFast, OutliersAreLeftOut) {
   chaos.points = cloud.points.topRows(200).eval();
   chaos.normals = cloud.normals.topRows(200).eval();
   EXPECT_EQ(without_outliers(chaos, {}, report).size(), 200);
-  EXPECT_NE(report.warnings.back().find("too few points agree"), std::string::npos);
+  EXPECT_NE(report.warnings.back().text.find("too few points agree"), std::string::npos);
 }
 
 TEST(LearnedFit, ComesWithTheLibraryAndFitsAsWell) {
@@ -257,7 +257,7 @@ TEST(ToriBadInput, AMillionCoincidentPoints) {
   Report report;
   const ToriDistance tori(many, {}, {}, report);
   EXPECT_EQ(tori.size(), 2);
-  EXPECT_NE(report.warnings.at(0).find("999998 points coincide"), std::string::npos);
+  EXPECT_NE(report.warnings.at(0).text.find("999998 points coincide"), std::string::npos);
   EXPECT_NEAR(tori.value(Vec3(2, 2.25, 2)), 0.25, 1e-12);
   many.points.row(17) << 2, 2, 2;  // normals that cancel all over
   many.normals.topRows(500000) *= -1;

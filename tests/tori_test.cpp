@@ -291,7 +291,7 @@ TEST(Tori, FewDegenerateAndCoincidentPoints) {
   const ToriDistance tori(many, {}, {}, report);
   EXPECT_EQ(tori.size(), 1);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].find("9999 points coincide"), std::string::npos);
+  EXPECT_NE(report.warnings[0].text.find("9999 points coincide"), std::string::npos);
   EXPECT_NEAR(tori.value(Vec3(2, 2.25, 2)), 0.25, 1e-12);
 }
 

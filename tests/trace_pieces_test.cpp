@@ -132,10 +132,11 @@ TEST(TracePieces, WarnsWhereOneSegmentIsFarLongerThanTheOthers) {
                            P::at_vertex(15), P::at_vertex(16)}),
                 report);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].find("1 segment of curve 1 (file.txt:9) joins nodes that share no "
-                                    "face and are far apart"),
-            std::string::npos)
-      << report.warnings[0];
+  EXPECT_NE(
+      report.warnings[0].text.find("1 segment of curve 1 (file.txt:9) joins nodes that share no "
+                                   "face and are far apart"),
+      std::string::npos)
+      << report.warnings[0].text;
 }
 
 TEST(TracePieces, ReversedTurnsSignedCurvesOnly) {
@@ -280,7 +281,7 @@ TEST(Pieces, WhatLiesInFacesWithoutSurfaceIsNamed) {
   EXPECT_EQ(placed.pieces.size(), 2U);
   const auto warned = [&](const std::string& text) {
     return std::any_of(report.warnings.begin(), report.warnings.end(), [&](const auto& warning) {
-      return warning.find(text) != std::string::npos;
+      return warning.text.find(text) != std::string::npos;
     });
   };
   EXPECT_TRUE(warned("1 piece of curve 1 in faces that repeat a vertex was left out"));

@@ -157,7 +157,7 @@ TEST(NonconformingWinding, SaysWhatItCannot) {
   test::surface_winding(mesh, sources, SurfaceWinding{.formulation = Formulation::nonconforming},
                         report);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].find("bound nothing"), std::string::npos);
+  EXPECT_NE(report.warnings[0].text.find("bound nothing"), std::string::npos);
   EXPECT_THROW(test::surface_winding(mesh, sources,
                                      SurfaceWinding{.formulation = Formulation::nonconforming,
                                                     .labels = Labels::cut}),

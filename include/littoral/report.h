@@ -7,6 +7,13 @@
 
 namespace littoral {
 
+/// A sentence about what is doubtful, and its code, which stays the same when the wording changes.
+struct Warning {
+  std::string code, text;
+
+  operator const std::string&() const { return text; }
+};
+
 /// Facts gathered while a method runs; ordered as they were added. Turned into JSON by the front
 /// ends.
 struct Report {
@@ -19,10 +26,13 @@ struct Report {
   std::vector<std::pair<std::string, double>> timings;       // stage, seconds
   std::vector<std::pair<std::string, double>> iterations;    // loop, count
   std::vector<std::pair<std::string, double>> residuals;     // equation, relative residual
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::vector<int> unreachable_components;  // components of the domain whose values are +inf
 
-  void warn(std::string text) { warnings.push_back(std::move(text)); }
+  /// The page of messages explains the code.
+  void warn(std::string code, std::string text) {
+    warnings.push_back({std::move(code), std::move(text)});
+  }
   void merge(const Report& other);
 };
 

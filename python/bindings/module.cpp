@@ -12,27 +12,33 @@ nb::object error_class(const char* name) {
   return nb::module_::import_("littoral._errors").attr(name);
 }
 
-void raise(const char* name, const std::exception& error) {
-  PyErr_SetString(error_class(name).ptr(), error.what());
+nb::object made(const char* name, const Error& error) {
+  nb::object instance = error_class(name)(error.what());
+  instance.attr("code") = error.code();
+  return instance;
+}
+
+void raise(const char* name, const nb::object& instance) {
+  PyErr_SetObject(error_class(name).ptr(), instance.ptr());
 }
 
 void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const SolveError& error) {
-    nb::object instance = error_class("SolveError")(error.what());
+    const nb::object instance = made("SolveError", error);
     instance.attr("residual") = error.residual();
-    PyErr_SetObject(error_class("SolveError").ptr(), instance.ptr());
+    raise("SolveError", instance);
   } catch (const InputError& error) {
-    raise("InputError", error);
+    raise("InputError", made("InputError", error));
   } catch (const UnsupportedError& error) {
-    raise("UnsupportedError", error);
+    raise("UnsupportedError", made("UnsupportedError", error));
   } catch (const IoError& error) {
-    raise("IoError", error);
+    raise("IoError", made("IoError", error));
   } catch (const Cancelled& error) {
-    raise("Cancelled", error);
+    raise("Cancelled", made("Cancelled", error));
   } catch (const Error& error) {
-    raise("Error", error);
+    raise("Error", made("Error", error));
   }
 }
 
@@ -55,6 +61,17 @@ template <class Value>
 void read_into(std::vector<std::pair<std::string, Value>>& entries, const nb::handle& data) {
   for (const auto& [name, value] : nb::cast<nb::dict>(data))
     entries.emplace_back(nb::cast<std::string>(name), nb::cast<Value>(value));
+}
+
+nb::object as_python(const std::vector<Warning>& warnings) {
+  const nb::object type = nb::module_::import_("littoral._report").attr("ReportWarning");
+  nb::list out;
+  for (const auto& [code, text] : warnings) out.append(type(text, code));
+  return out;
+}
+void read_into(std::vector<Warning>& warnings, const nb::handle& data) {
+  for (const nb::handle each : data)
+    warnings.push_back({nb::cast<std::string>(each.attr("code")), nb::cast<std::string>(each)});
 }
 
 nb::dict as_dict(const OptionInfo& option) {

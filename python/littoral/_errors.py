@@ -4,7 +4,9 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """Root of all errors raised by littoral."""
+    """Root of all errors raised by littoral; the page of messages explains each `code`."""
+
+    code: str = ""
 
 
 class InputError(Error, ValueError):

@@ -6,6 +6,30 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 
+class ReportWarning(str):
+    """A warning: a sentence, whose `code` stays the same when its wording changes.
+
+    The page of messages explains the codes.
+
+    >>> import littoral
+    >>> mesh = littoral.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]], [[0, 1, 2]])
+    >>> [warning.code for warning in littoral.distance(mesh, points=0).warnings]
+    ['isolated-vertices']
+    """
+
+    code: str
+
+    def __new__(cls, text: str, code: str = "") -> ReportWarning:
+        """The text as a string, with its code."""
+        self = super().__new__(cls, text)
+        self.code = code
+        return self
+
+    def __getnewargs__(self) -> tuple[str, str]:
+        """What copies and pickles are made of."""
+        return str(self), self.code
+
+
 @dataclass
 class Report:
     """Facts gathered while a method ran.
@@ -27,12 +51,14 @@ class Report:
     timings: dict[str, float] = field(default_factory=dict)
     iterations: dict[str, float] = field(default_factory=dict)
     residuals: dict[str, float] = field(default_factory=dict)
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[ReportWarning] = field(default_factory=list)
     unreachable_components: list[int] = field(default_factory=list)
 
     def as_dict(self) -> dict[str, Any]:
         """Everything as plain data, for JSON."""
-        return asdict(self)
+        data = asdict(self)
+        data["warnings"] = [{"code": each.code, "message": str(each)} for each in self.warnings]
+        return data
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{value:.0f} {name}" for name, value in self.sizes.items())

@@ -10,7 +10,7 @@ from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar, overload
 
 from . import _display
 from ._foreign import check_kind, handed_over
-from ._report import Report
+from ._report import Report, ReportWarning
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -25,7 +25,7 @@ class Reported:
     report: Report
 
     @property
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list[ReportWarning]:
         """What the computation warns of; empty where nothing is doubtful."""
         return self.report.warnings
 

@@ -3,14 +3,28 @@
 #include <cmath>
 #include <limits>
 
+#include "api/space/volume_meaning.h"
 #include "api/surface/mesh_info.h"
+#include "base/option_table.h"
 #include "domain/tet/tet_locator.h"
+#include "littoral/error.h"
 
 namespace littoral {
 
 namespace {
 
 std::vector<InfoEntry> info_of(const PolygonSoup& soup) { return surface_info(soup); }
+
+std::string recommendation_for(const Volume& volume) {
+  try {
+    return meaning_of(volume) == VolumeMeaning::mask
+               ? "sdf, query, offset: as they are; the values are a mask, what is not 0 is inside"
+               : "sdf, query, offset: as they are; the values look like signed distance";
+  } catch (const InputError&) {
+    return "sdf, query, offset: say what the values are with --as, or use --redistance; contour "
+           "takes them as they are";
+  }
+}
 
 std::vector<InfoEntry> info_of(const Volume& volume) {
   const Grid& grid = volume.grid;
@@ -36,7 +50,8 @@ std::vector<InfoEntry> info_of(const Volume& volume) {
                                                far[0], far[1], far[2]}},
           {"values", std::vector<double>{low, high}},
           {"values_negative", negative},
-          {"values_not_finite", not_finite}};
+          {"values_not_finite", not_finite},
+          {"recommendation", recommendation_for(volume)}};
 }
 
 std::vector<InfoEntry> info_of(const io::TetFile& file) {
@@ -65,8 +80,7 @@ std::vector<InfoEntry> info_of(const io::TetFile& file) {
     }
   }
   const MatX3i boundary = boundary_faces(mesh);
-  std::string fields;
-  for (const auto& [name, values] : file.scalars) fields += (fields.empty() ? "" : ", ") + name;
+  const std::string fields = listed_names(file.scalars);
   return {{"vertices", double(mesh.n_vertices())},
           {"tets", double(mesh.n_tets())},
           {"triangles", double(file.triangles.rows())},
@@ -77,7 +91,11 @@ std::vector<InfoEntry> info_of(const io::TetFile& file) {
           {"tets_with_numbers_not_finite", not_finite},
           {"volume", volume},
           {"bounding_box", std::vector<double>{low[0], low[1], low[2], high[0], high[1], high[2]}},
-          {"fields", fields.empty() ? "none" : fields}};
+          {"fields", fields.empty() ? "none" : fields},
+          {"recommendation",
+           std::string(flat + inverted > 0 ? "distance: auto; flat and inverted tets make it less "
+                                             "exact around them"
+                                           : "distance: auto")}};
 }
 
 }  // namespace

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 
+#include "base/option_table.h"
+
 namespace littoral {
 
 void check_has_option(const MethodInfo& method, const std::string& option) {
   for (const OptionInfo& info : method.options)
     if (info.name == option) return;
   throw InputError("method " + method.name + " has no option '" + option + "'" +
-                   instead_of(option, method.options, "it has"));
+                       instead_of(option, method.options, "it has"),
+                   "unknown-name");
 }
 
 void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,
@@ -19,12 +22,13 @@ void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choic
   };
   for (const auto& [option, text] : choice.values()) {
     if (has(fallback, option)) continue;
-    std::string having;
+    std::vector<std::string> having;
     for (const MethodInfo& method : all)
-      if (has(method, option)) having += (having.empty() ? "" : ", ") + method.name;
+      if (has(method, option)) having.push_back(method.name);
     if (!having.empty())
       throw InputError("method " + fallback.name + ", the default here, has no option '" + option +
-                       "'; option method may name one that has: " + having);
+                           "'; option method may name one that has: " + listed(having),
+                       "unknown-name");
   }
 }
 
@@ -34,12 +38,13 @@ void check_domain(const MethodInfo& method, const std::string& kind,
     return std::find(m.domains.begin(), m.domains.end(), kind) != m.domains.end();
   };
   if (runs(method)) return;
-  std::string on, others;
-  for (const std::string& d : method.domains) on += (on.empty() ? "a " : ", a ") + d;
+  std::vector<std::string> others;
   for (const MethodInfo& m : all)
-    if (runs(m)) others += (others.empty() ? "" : ", ") + m.name;
+    if (runs(m)) others.push_back(m.name);
+  const std::string on =
+      listed(method.domains, [](const std::string& domain) { return "a " + domain; });
   throw UnsupportedError("method " + method.name + " runs on " + on + ", not on a " + kind +
-                         (others.empty() ? "" : ", on which there are: " + others));
+                         (others.empty() ? "" : ", on which there are: " + listed(others)));
 }
 
 }  // namespace littoral

@@ -60,7 +60,8 @@ S typed_options(const MethodInfo& info, const OptionTable<S>& table, const AnyMe
   if (choice.options().has_value()) {
     const S* given = std::any_cast<S>(&choice.options());
     if (!given)
-      throw InputError("method " + info.name + " does not take options of this type here");
+      throw InputError("method " + info.name + " does not take options of this type here",
+                       "option-value");
     options = *given;
   }
   for (const auto& [name, text] : choice.values()) {
@@ -166,7 +167,7 @@ class Registry {
   std::shared_ptr<const Method<D>> find(const std::string& name) const {
     for (const auto& method : all())
       if (method->info.name == name) return method;
-    throw InputError("unknown method '" + name + "'" + instead_of(name, infos()));
+    throw InputError("unknown method '" + name + "'" + instead_of(name, infos()), "unknown-name");
   }
 
  private:

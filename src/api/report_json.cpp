@@ -66,6 +66,11 @@ struct EntryJson {
     for (const auto& [name, value] : numbers) out[name] = number(value);
     return out;
   }
+  Json operator()(const std::vector<Warning>& warnings) const {
+    Json out = Json::array();
+    for (const auto& [code, text] : warnings) out.push_back({{"code", code}, {"message", text}});
+    return out;
+  }
 };
 
 struct InfoValueJson {
@@ -147,6 +152,15 @@ std::string run_json(const RunRecord& record, const Report& report) {
                    {"spacing", triple(record.grid->spacing)},
                    {"shape", record.grid->n},
                    {"axis_order", "array[i, j, k] is at origin + (i, j, k) * spacing"}};
+  if (record.plan) {
+    const PlannedRun& plan = *record.plan;
+    Json& planned = out["plan"] = {{"reason", plan.reason},
+                                   {"available_memory_mb", plan.available_memory_mb}};
+    for (const auto& [name, value] : {std::pair("seconds", plan.seconds),
+                                      {"processor_seconds", plan.processor_seconds},
+                                      {"memory_mb", plan.memory_mb}})
+      if (value) planned[name] = *value;
+  }
   out["values"] = Json::object();
   for (const ValueRange& range : record.values)
     out["values"][range.name] = {{"min", number(range.low)},
@@ -156,13 +170,15 @@ std::string run_json(const RunRecord& record, const Report& report) {
   return dump(out);
 }
 
-std::string failure_json(const RunRecord& record, const Report& report, const std::string& kind,
-                         const std::string& message, int exit_status) {
+std::string failure_json(const RunRecord& record, const Report& report, const RunFailure& failure) {
   Json out;
   add_run(out, record);
   out["status"] = "failed";
-  out["error"] = {{"kind", kind}, {"message", message}, {"exit_status", exit_status}};
-  out["warnings"] = report.warnings;
+  out["error"] = {{"kind", failure.kind},
+                  {"code", failure.code},
+                  {"message", failure.message},
+                  {"exit_status", failure.exit_status}};
+  out["warnings"] = EntryJson{}(report.warnings);
   return dump(out);
 }
 

@@ -40,21 +40,33 @@ struct ValueRange {
 };
 ValueRange range_of(std::string name, const VecX& values);
 
+/// What a run would do; numbers are estimates, absent where nothing was measured.
+struct PlannedRun {
+  std::string reason;  // of the choice of the method
+  std::optional<double> seconds, processor_seconds, memory_mb;
+  double available_memory_mb = 0;
+};
+
 /// What a run of the program adds to the report of its computation.
 struct RunRecord {
   std::string version, verb;                 // of the program
   std::vector<std::string> inputs, outputs;  // files
   std::optional<Grid> grid;
   std::vector<ValueRange> values;
+  std::optional<PlannedRun> plan;
 };
 
 /// The report with schema, program, verb, inputs, outputs, grid and values: docs/reference holds
 /// the schema.
 std::string run_json(const RunRecord& record, const Report& report);
-/// The same for a run that failed: `kind` is "usage", "input", "unsupported", "io", "solve",
-/// "memory", "time" or "internal".
-std::string failure_json(const RunRecord& record, const Report& report, const std::string& kind,
-                         const std::string& message, int exit_status);
+/// How a run failed: `kind` is "usage", "input", "unsupported", "io", "solve", "memory", "time" or
+/// "internal".
+struct RunFailure {
+  std::string kind, code, message;
+  int exit_status;
+};
+/// The same for a run that failed.
+std::string failure_json(const RunRecord& record, const Report& report, const RunFailure& failure);
 
 /// The facts as one object, in their order.
 std::string info_json(const std::vector<InfoEntry>& entries);

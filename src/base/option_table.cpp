@@ -34,10 +34,12 @@ std::string OptionInfo::range() const {
 namespace {
 [[noreturn]] void throw_bad_value(const OptionInfo& info, const std::string& text) {
   throw InputError("option " + info.name + ": '" + text + "' is not one of: " + info.range() +
-                   meant(text, info.choices));
+                       meant(text, info.choices),
+                   "unknown-name");
 }
 [[noreturn]] void throw_out_of_range(const OptionInfo& info, const std::string& value) {
-  throw InputError("option " + info.name + ": " + value + " is outside " + info.range());
+  throw InputError("option " + info.name + ": " + value + " is outside " + info.range(),
+                   "option-value");
 }
 }  // namespace
 
@@ -45,7 +47,7 @@ double parse_option_number(const OptionInfo& info, const std::string& text) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size())
-    throw InputError("option " + info.name + ": '" + text + "' is not a number");
+    throw InputError("option " + info.name + ": '" + text + "' is not a number", "option-value");
   if (!(value >= info.low && value <= info.high)) throw_out_of_range(info, text);
   return value;
 }
@@ -53,7 +55,8 @@ double parse_option_number(const OptionInfo& info, const std::string& text) {
 int parse_option_integer(const OptionInfo& info, const std::string& text) {
   const double value = parse_option_number(info, text);
   if (value != std::floor(value))
-    throw InputError("option " + info.name + ": " + text + " is not a whole number");
+    throw InputError("option " + info.name + ": " + text + " is not a whole number",
+                     "option-value");
   return static_cast<int>(value);
 }
 
@@ -98,19 +101,13 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
   return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
 std::string instead_of(const std::string& name, const std::vector<std::string>& known,
                        const std::string& heading) {
   return meant(name, known) + "; " + heading + ": " + (known.empty() ? "none" : listed(known));
 }
 
 void throw_unknown_option(const std::string& name, const std::vector<OptionInfo>& known) {
-  throw InputError("unknown option '" + name + "'" + instead_of(name, known));
+  throw InputError("unknown option '" + name + "'" + instead_of(name, known), "unknown-name");
 }
 
 }  // namespace littoral

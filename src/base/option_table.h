@@ -24,8 +24,21 @@ std::string number_text(double value);
 void check_option_range(const OptionInfo& info, double value);
 /// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.
 std::string meant(const std::string& name, const std::vector<std::string>& known);
-/// "a, b, c".
-std::string listed(const std::vector<std::string>& words);
+/// "a, b, c": of words, or of what else `text` makes words.
+template <class Range, class Text = std::identity>
+std::string listed(const Range& all, Text text = {}) {
+  std::string out;
+  for (const auto& each : all) {
+    if (!out.empty()) out += ", ";
+    out += std::invoke(text, each);
+  }
+  return out;
+}
+/// The same of the names in a map.
+template <class Map>
+std::string listed_names(const Map& map) {
+  return listed(map, &Map::value_type::first);
+}
 /// What was meant, then all known names behind `heading`.
 std::string instead_of(const std::string& name, const std::vector<std::string>& known,
                        const std::string& heading);

@@ -79,9 +79,9 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
-    throw InputError("cannot read " + path.string() + ": there is no such file");
+    throw InputError("cannot read " + path.string() + ": there is no such file", "cannot-read");
   if (!std::filesystem::is_regular_file(status))
-    throw InputError("cannot read " + path.string() + ": it is no regular file");
+    throw InputError("cannot read " + path.string() + ": it is no regular file", "cannot-read");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   Sha256 sum;
@@ -92,7 +92,8 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   }
   if (!in.eof())
     throw IoError("cannot read " + path.string() + ": " +
-                  std::generic_category().message(errno ? errno : EIO));
+                      std::generic_category().message(errno ? errno : EIO),
+                  "cannot-read");
   return sum.digest();
 }
 

@@ -80,7 +80,8 @@ const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
     if (verb->get_name() == name) return *verb;
     names.push_back(verb->get_name());
   }
-  throw InputError("there is no verb '" + name + "'" + instead_of(name, names, "verbs"));
+  throw InputError("there is no verb '" + name + "'" + instead_of(name, names, "verbs"),
+                   "unknown-name");
 }
 
 namespace {
@@ -162,7 +163,8 @@ void check_names(const CLI::App& program, const std::vector<std::string>& argume
       if (other->get_option_no_throw(name)) elsewhere.push_back(other->get_name());
     throw InputError(
         "littoral " + verb.get_name() + " has no option '" + name + "'" +
-        (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)));
+            (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)),
+        "unknown-name");
   }
 }
 

@@ -17,7 +17,7 @@ void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds
     try {
       io::check_writable(file);
     } catch (const IoError& e) {
-      throw OutputError(e.what());
+      throw OutputError(e.what(), e.code());
     }
   }
 }

@@ -35,17 +35,16 @@ std::string with_flags(const std::string& text, const CLI::App& program) {
   return out.append(rest, text.cend());
 }
 
-/// The error as one line, and as an object where a report was asked for.
+/// The error as one line with its code, and as an object where a report was asked for.
 Status say(Session& session, const CLI::App& program, Status status, const std::string& kind,
-           std::string text) {
+           const std::string& code, std::string text) {
   session.print_warnings();
-  text = with_flags(text, program);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
-  std::fprintf(stderr, "littoral: error: %s\n", text.c_str());
+  text = one_line(with_flags(text, program));
+  session.say_line("error: " + text + " [" + code + "]");
   session.failure = {kind, text};
   if (session.json)
-    std::cout << failure_json(session.record, session.report, kind, text, status) << std::endl;
+    std::cout << failure_json(session.record, session.report, {kind, code, text, status})
+              << std::endl;
   return status;
 }
 
@@ -53,31 +52,32 @@ int run_job(Session& session, const CLI::App& program) {
   const TimeLimit limit(session.cancel, session.time_limit);
   try {
     set_thread_count(session.threads);
+    session.begin_log();
     session.job();
     session.print_warnings();
     std::cout.flush();
-    if (!std::cout) throw IoError("cannot write to the standard output");
+    if (!std::cout) throw IoError("cannot write to the standard output", "cannot-write");
     return session.status;
   } catch (const Cancelled&) {
     if (limit.passed())
-      return say(session, program, failed, "time",
+      return say(session, program, failed, "time", "time-limit",
                  "stopped after the time limit of " + number_text(session.time_limit) +
                      " s; nothing was written");
     exit_interrupted();
   } catch (const InputError& e) {
-    return say(session, program, bad_input, "input", e.what());
+    return say(session, program, bad_input, "input", e.code(), e.what());
   } catch (const UnsupportedError& e) {
-    return say(session, program, bad_input, "unsupported", e.what());
+    return say(session, program, bad_input, "unsupported", e.code(), e.what());
   } catch (const OutputError& e) {
-    return say(session, program, failed, "io", e.what());
+    return say(session, program, failed, "io", e.code(), e.what());
   } catch (const IoError& e) {
-    return say(session, program, session.reading ? bad_input : failed, "io", e.what());
+    return say(session, program, session.reading ? bad_input : failed, "io", e.code(), e.what());
   } catch (const SolveError& e) {
-    return say(session, program, failed, "solve", e.what());
+    return say(session, program, failed, "solve", e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    return say(session, program, failed, "memory", "not enough memory");
+    return say(session, program, failed, "memory", "too-large", "not enough memory");
   } catch (const std::exception& e) {
-    return say(session, program, failed, "internal", e.what());
+    return say(session, program, failed, "internal", "internal", e.what());
   }
 }
 
@@ -129,7 +129,7 @@ void Program::read(std::vector<std::string> arguments) {
   try {
     parse(app_, std::move(arguments));
   } catch (const CLI::ParseError& e) {
-    throw InputError(with_help(e, app_));
+    throw InputError(with_help(e, app_), "usage");
   }
 }
 
@@ -152,9 +152,9 @@ int Program::run(std::vector<std::string> arguments, Signals signals) {
   } catch (const CLI::Success& request) {  // --version
     return app_.exit(request);
   } catch (const InputError& e) {
-    return say(session_, app_, bad_input, "usage", e.what());
+    return say(session_, app_, bad_input, "usage", e.code(), e.what());
   } catch (const CLI::ParseError& e) {
-    return say(session_, app_, bad_input, "usage", with_help(e, app_));
+    return say(session_, app_, bad_input, "usage", "usage", with_help(e, app_));
   }
   if (signals == Signals::watched) watch_for_interrupts(session_.cancel);
   return run_job(session_, app_);

@@ -9,17 +9,20 @@
 
 #include "base/option_table.h"
 #include "base/platform/process.h"
+#include "cli/output.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {
 
 namespace {
 
-/// One line: what other programs read line by line must not be broken by a file's name.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
-  return text;
+/// "12 s left" once enough is done to tell; nothing before.
+std::string remaining_text(double fraction, double seconds) {
+  constexpr double known_from = 0.05, soon = 2;
+  if (fraction < known_from || seconds < soon) return "";
+  const double left = std::ceil(seconds * (1 - fraction) / fraction);
+  if (left < 100) return ", about " + number_text(left) + " s left";
+  return ", about " + number_text(std::ceil(left / 60)) + " min left";
 }
 
 void draw_progress(double fraction, const std::string& stage) {
@@ -33,19 +36,27 @@ void draw_progress(double fraction, const std::string& stage) {
 
 }  // namespace
 
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
+  return text;
+}
+
 Task::Callback Session::progress_callback() {
   const bool wanted =
       progress == "always" || (progress == "auto" && !quiet && errors_go_to_terminal());
-  if (!wanted) return {};
-  using Clock = std::chrono::steady_clock;
-  return [this, last = Clock::time_point(), stage_before = std::string()](
+  if (!wanted && !log_) return {};
+  return [this, wanted, last = Clock::time_point(), stage_before = std::string()](
              double fraction, const std::string& stage) mutable {
     const auto now = Clock::now();
+    if (log_ && stage != stage_before) log_line(stage);
     if (stage == stage_before && now - last < std::chrono::milliseconds(50)) return;
     last = now;
     stage_before = stage;
+    if (!wanted) return;
     drawn_ = true;
-    draw_progress(fraction, stage);
+    const double seconds = std::chrono::duration<double>(now - begin_).count();
+    draw_progress(fraction, stage + remaining_text(fraction, seconds));
   };
 }
 
@@ -56,11 +67,42 @@ void Session::end_progress() {
   drawn_ = false;
 }
 
+void Session::say_line(const std::string& text) {
+  const std::string line = one_line(text);
+  std::fprintf(stderr, "littoral: %s\n", line.c_str());
+  log_line(line);
+}
+
+void Session::note(const std::string& text) {
+  end_progress();
+  if (quiet)
+    log_line(text);
+  else
+    say_line(text);
+}
+
+void Session::begin_log() {
+  if (log_file.empty()) return;
+  log_ = std::make_shared<std::ofstream>(log_file, std::ios::app);
+  if (!*log_) throw OutputError("cannot write " + log_file, "cannot-write");
+  log_line("littoral " LITTORAL_VERSION " " + record.verb + " " + listed(record.inputs));
+}
+
+void Session::log_line(const std::string& text) {
+  if (!log_) return;
+  char time[32];
+  std::snprintf(time, sizeof time, "%9.3f s  ",
+                std::chrono::duration<double>(Clock::now() - begin_).count());
+  *log_ << time << one_line(text) << std::endl;
+}
+
 void Session::print_warnings() {
   end_progress();
   for (; warned_ < report.warnings.size(); ++warned_)
-    if (!quiet)
-      std::fprintf(stderr, "littoral: warning: %s\n", one_line(report.warnings[warned_]).c_str());
+    if (const auto& [code, text] = report.warnings[warned_]; !quiet)
+      say_line("warning: " + text + " [" + code + "]");
+    else
+      log_line("warning: " + text + " [" + code + "]");
 }
 
 void Session::print_report() {
@@ -112,9 +154,13 @@ void add_common_options(CLI::App& verb, Session& session) {
           },
           ""))
       ->type_name("S");
+  verb.add_option("--log", session.log_file,
+                  "add stages with their times, warnings and errors to the end of this file")
+      ->type_name("LOG");
   verb.add_flag("--verbose", session.verbose, "say more on stderr");
   verb.add_flag("--quiet", session.quiet, "no warnings, no progress");
-  for (const char* name : {"--threads", "--progress", "--time-limit", "--verbose", "--quiet"})
+  for (const char* name :
+       {"--threads", "--progress", "--time-limit", "--log", "--verbose", "--quiet"})
     verb.get_option(name)->group(common_options_group);
 }
 
@@ -146,8 +192,9 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     double value = 0;
     const auto [stop, code] = std::from_chars(first, last, value);
     if (code != std::errc() || stop != last || !std::isfinite(value))
-      throw InputError("option " + option + ": '" + std::string(first, last) +
-                       "' is not a finite number");
+      throw InputError(
+          "option " + option + ": '" + std::string(first, last) + "' is not a finite number",
+          "option-value");
     out.push_back(value);
     begin = end + 1;
   }
@@ -156,20 +203,22 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 
 double parse_number(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
-  if (numbers.size() != 1) throw InputError("option " + option + " takes one number");
+  if (numbers.size() != 1)
+    throw InputError("option " + option + " takes one number", "option-value");
   return numbers.front();
 }
 
 Vec3 parse_position(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
-  if (numbers.size() != 3) throw InputError("option " + option + " takes three numbers: x,y,z");
+  if (numbers.size() != 3)
+    throw InputError("option " + option + " takes three numbers: x,y,z", "option-value");
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::array<double, 2> parse_range(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
   if (numbers.size() != 2 || !(numbers[0] < numbers[1]))
-    throw InputError("option " + option + " takes two ascending numbers: a,b");
+    throw InputError("option " + option + " takes two ascending numbers: a,b", "option-value");
   return {numbers[0], numbers[1]};
 }
 

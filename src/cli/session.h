@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,7 +25,8 @@ struct Session {
   std::string progress = "auto";
   int threads = 0;
   double time_limit = 0;  // [seconds]; 0: none
-  bool json = false, verbose = false, quiet = false, flip = false;
+  bool json = false, verbose = false, quiet = false, flip = false, dry_run = false;
+  std::string log_file;
   std::optional<int> index_base;
 
   std::function<void()> job;  // the verb's work, set when its arguments have been read
@@ -45,6 +48,12 @@ struct Session {
   Task task();
   /// Removes the progress line.
   void end_progress();
+  /// One line on stderr and in the log: "littoral: TEXT".
+  void say_line(const std::string& text);
+  /// The same for what is good to know, unless --quiet.
+  void note(const std::string& text);
+  /// Opens the log. Throws IoError.
+  void begin_log();
   /// Prints the report's warnings that have not been printed yet.
   void print_warnings();
   /// Prints method, options, sizes and timings on stderr.
@@ -53,6 +62,11 @@ struct Session {
   void print_report();
 
  private:
+  using Clock = std::chrono::steady_clock;
+  void log_line(const std::string& text);
+
+  Clock::time_point begin_ = Clock::now();
+  std::shared_ptr<std::ofstream> log_;
   bool drawn_ = false;
   std::size_t warned_ = 0;
 };
@@ -61,6 +75,10 @@ struct Session {
 inline constexpr const char* common_options_group = "Common options";
 /// Adds --threads, --progress, --verbose and --quiet.
 void add_common_options(CLI::App& verb, Session& session);
+/// What puts options under a heading of --help.
+inline auto in_group(const char* heading) {
+  return [heading](CLI::Option* option) { return option->group(heading); };
+}
 /// Adds an option that may be given several times, one value each.
 template <class T>
 CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::vector<T>& values,
@@ -71,6 +89,8 @@ CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::
 }
 /// Accepts one of these words; the message for another one names the nearest.
 CLI::Validator one_of(const std::vector<std::string>& words);
+/// Text without line breaks and other control characters, which readers of lines stumble over.
+std::string one_line(std::string text);
 /// Adds --json.
 void add_json_option(CLI::App& verb, Session& session);
 /// Adds --index-base.

@@ -147,9 +147,11 @@ class Tracer {
 std::vector<Polyline> isolines(const SurfaceMesh& mesh, const VecX& values, double level) {
   if (values.size() != mesh.n_vertices()) {
     throw InputError("isolines: " + std::to_string(values.size()) + " values for " +
-                     std::to_string(mesh.n_vertices()) + " vertices");
+                         std::to_string(mesh.n_vertices()) + " vertices",
+                     "sizes-differ");
   }
-  if (!std::isfinite(level)) throw InputError("isolines: the level must be a finite number");
+  if (!std::isfinite(level))
+    throw InputError("isolines: the level must be a finite number", "option-value");
   return Tracer(mesh, values, level).lines();
 }
 

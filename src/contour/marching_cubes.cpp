@@ -75,14 +75,17 @@ void check(const Grid& grid, const VecX& values, double level) {
     if (grid.n[k] < 2) throw InputError("isosurface: a grid needs two nodes along each axis");
     if (!(grid.spacing[k] > 0) || !std::isfinite(grid.spacing[k]) ||
         !std::isfinite(grid.origin[k])) {
-      throw InputError("isosurface: the grid's spacing must be positive, its box finite");
+      throw InputError("isosurface: the grid's spacing must be positive, its box finite",
+                       "option-value");
     }
   }
   if (values.size() != index(grid.n_nodes())) {
     throw InputError("isosurface: " + std::to_string(values.size()) + " values for " +
-                     std::to_string(grid.n_nodes()) + " nodes");
+                         std::to_string(grid.n_nodes()) + " nodes",
+                     "sizes-differ");
   }
-  if (!std::isfinite(level)) throw InputError("isosurface: the level must be a finite number");
+  if (!std::isfinite(level))
+    throw InputError("isosurface: the level must be a finite number", "option-value");
   const std::size_t n = values.size();
   std::atomic<std::size_t> first{n};
   parallel_for(n, 1 << 18, [&](std::size_t begin, std::size_t end) {
@@ -95,8 +98,10 @@ void check(const Grid& grid, const VecX& values, double level) {
   if (first < n) {
     const std::size_t x = first % grid.n[0], rest = first / grid.n[0];
     throw InputError("isosurface: the value of node (" + std::to_string(x) + ", " +
-                     std::to_string(rest % grid.n[1]) + ", " + std::to_string(rest / grid.n[1]) +
-                     ") is " + number_text(values[first]) + "; a level set needs finite values");
+                         std::to_string(rest % grid.n[1]) + ", " +
+                         std::to_string(rest / grid.n[1]) + ") is " + number_text(values[first]) +
+                         "; a level set needs finite values",
+                     "not-finite");
   }
 }
 

@@ -15,9 +15,11 @@ using Edge = std::pair<int, int>;  // vertex below or at the level, vertex above
 void check(const TetMesh& mesh, const VecX& values, double level) {
   if (values.size() != mesh.n_vertices()) {
     throw InputError("isosurface: " + std::to_string(values.size()) + " values for " +
-                     std::to_string(mesh.n_vertices()) + " vertices");
+                         std::to_string(mesh.n_vertices()) + " vertices",
+                     "sizes-differ");
   }
-  if (!std::isfinite(level)) throw InputError("isosurface: the level must be a finite number");
+  if (!std::isfinite(level))
+    throw InputError("isosurface: the level must be a finite number", "option-value");
   for (int t = 0; t < mesh.n_tets(); ++t) {
     for (int k = 0; k < 4; ++k) {
       const int v = mesh.tets(t, k);

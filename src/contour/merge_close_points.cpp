@@ -245,10 +245,11 @@ void report_boundary(const PolygonSoup& surface, double level, Report& report) {
   report.sizes.emplace_back("boundary edges", static_cast<double>(open));
   if (open != 0)
     report.warn(
+        "open-surface",
         "the surface at level " + number_text(level) +
-        " is open: it meets the boundary of the box or the tets along " + std::to_string(open) +
-        " edges; a larger box (option padding or bounds) avoids that, option clip closes it "
-        "there");
+            " is open: it meets the boundary of the box or the tets along " + std::to_string(open) +
+            " edges; a larger box (option padding or bounds) avoids that, option clip closes it "
+            "there");
 }
 
 }  // namespace littoral

@@ -15,7 +15,8 @@ VecX redistance(const Grid& grid, const VecX& values, double level, const Polygo
                 double reach, const Task& task) {
   if (values.size() != index(grid.n_nodes()))
     throw InputError("redistance: " + std::to_string(values.size()) + " values for " +
-                     std::to_string(grid.n_nodes()) + " nodes");
+                         std::to_string(grid.n_nodes()) + " nodes",
+                     "sizes-differ");
   VecX distance = (values.array() > level).select(VecX::Constant(values.size(), reach), -reach);
   if (surface.n_faces() == 0) return distance;
   task.checkpoint();

@@ -26,7 +26,7 @@ inline constexpr double close_to_node = 0.05, apart_from_node = 1e-3;  // of an 
 
 inline void check_count(std::size_t count) {
   if (count > std::numeric_limits<int>::max() / 3)
-    throw InputError("isosurface: the level set has too many triangles");
+    throw InputError("isosurface: the level set has too many triangles", "too-large");
 }
 
 /// A point that belongs to no edge.

@@ -152,17 +152,19 @@ const Format& format_to_read(const std::string& extension, const std::string& na
   const Format* format = find(extension);
   if (format && holds_any(*format, kinds, reads)) return *format;
   const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);
-  if (format) throw UnsupportedError(text);
-  throw InputError(text);
+  if (format) throw UnsupportedError(text, "unknown-format");
+  throw InputError(text, "unknown-format");
 }
 
 const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds) {
   const std::string extension = path.extension().string();
   const Format* format = find(extension);
   if (!format || !holds_any(*format, kinds, writes))
-    throw UnsupportedError(refusal("cannot write " + path.string(), extension, kinds, writes));
+    throw UnsupportedError(refusal("cannot write " + path.string(), extension, kinds, writes),
+                           "unknown-format");
   if (format->available && !format->available())
-    throw UnsupportedError("cannot write " + path.string() + ": " + std::string(format->unless));
+    throw UnsupportedError("cannot write " + path.string() + ": " + std::string(format->unless),
+                           "unknown-format");
   return *format;
 }
 

@@ -89,14 +89,16 @@ Columns columns_of(const Cells& first, const std::string& line, const std::strin
   if (!head) {
     if (columns.count == 3) return columns;
     throw InputError(name + ": the first line, " + in_quotes(line) + ", has " +
-                     std::to_string(columns.count) +
-                     " columns without names: three are x, y, z; of more, a first line such as "
-                     "'id,x,y,z' says which");
+                         std::to_string(columns.count) +
+                         " columns without names: three are x, y, z; of more, a first line such as "
+                         "'id,x,y,z' says which",
+                     "bad-file");
   }
   const auto xyz = coordinate_columns(first);
   if (!xyz)
-    throw InputError(name + ": the first line, " + in_quotes(line) +
-                     ", names no columns x, y and z");
+    throw InputError(
+        name + ": the first line, " + in_quotes(line) + ", names no columns x, y and z",
+        "bad-file");
   columns.xyz = *xyz;
   columns.names = first;
   return columns;
@@ -133,7 +135,7 @@ PointTable read_points_text(std::string_view bytes, const std::string& name) {
       if (std::ranges::find(columns.xyz, c) == columns.xyz.end())
         table.carried[carried++].cells.push_back(cells[c]);
   }
-  if (numbers.empty()) throw InputError(name + ": no points");
+  if (numbers.empty()) throw InputError(name + ": no points", "bad-file");
   table.points =
       Eigen::Map<const MatX3>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
   return table;

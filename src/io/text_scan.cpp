@@ -104,7 +104,7 @@ std::string lower_case(std::string text) {
 std::string_view without_byte_order_mark(std::string_view bytes, const std::string& name) {
   if (bytes.starts_with("\xEF\xBB\xBF")) return bytes.substr(3);
   if (bytes.starts_with("\xFE\xFF") || bytes.starts_with("\xFF\xFE")) {
-    throw InputError(name + ":1: the text is UTF-16; save it as UTF-8 or ASCII");
+    throw InputError(name + ":1: the text is UTF-16; save it as UTF-8 or ASCII", "bad-file");
   }
   return bytes;
 }
@@ -187,7 +187,7 @@ void LineScanner::expect_end() {
 }
 
 void LineScanner::fail_at(std::size_t line, const std::string& text) const {
-  throw InputError(name_ + ":" + std::to_string(line) + ": " + text);
+  throw InputError(name_ + ":" + std::to_string(line) + ": " + text, "bad-file");
 }
 
 }  // namespace littoral::io

@@ -52,7 +52,8 @@ void write_tar_member(std::ostream& out, const std::string& name, const std::str
     return std::string(text);
   };
   if (name.size() > 100 || std::uint64_t{bytes.size()} >= (std::uint64_t{1} << 33))
-    throw UnsupportedError("a member of a .tar has at most 100 characters and 8 GiB: " + name);
+    throw UnsupportedError("a member of a .tar has at most 100 characters and 8 GiB: " + name,
+                           "unsupported-file");
   put(0, name);
   put(100, octal(0644, 7));
   put(108, octal(0, 7));
@@ -113,7 +114,7 @@ void make_folder_atomically(const fs::path& path, const Fill& fill) {
     fs::rename(temporary, path);
   } catch (const fs::filesystem_error& e) {
     fs::remove_all(temporary, error);
-    throw IoError("cannot write " + path.string() + ": " + e.code().message());
+    throw IoError("cannot write " + path.string() + ": " + e.code().message(), "cannot-write");
   } catch (...) {
     fs::remove_all(temporary, error);
     throw;
@@ -124,12 +125,14 @@ void make_folder_atomically(const fs::path& path, const Fill& fill) {
 
 void check_arrays_output(const fs::path& path) {
   if (!has_extension(path, ".npz") && !has_extension(path, ".zarr") && !has_extension(path, ".tar"))
-    throw UnsupportedError("cannot write samples to " + path.string() +
-                           ": they are written to .npz .zarr .tar");
+    throw UnsupportedError(
+        "cannot write samples to " + path.string() + ": they are written to .npz .zarr .tar",
+        "cannot-write");
   if (!has_extension(path, ".zarr")) return check_writable(path);
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw IoError("cannot write " + path.string() + ": it is a file, and zarr is a folder");
+    throw IoError("cannot write " + path.string() + ": it is a file, and zarr is a folder",
+                  "cannot-write");
 }
 
 void write_arrays(const fs::path& path, const std::vector<NamedArray>& arrays,

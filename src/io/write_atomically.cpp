@@ -52,7 +52,8 @@ class Unfinished {
 };
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw IoError("cannot write " + path.string() + ": " + std::generic_category().message(error));
+  throw IoError("cannot write " + path.string() + ": " + std::generic_category().message(error),
+                "cannot-write");
 }
 
 void write_stream(const std::filesystem::path& path, const std::string& file,
@@ -103,7 +104,8 @@ void check_writable(const std::filesystem::path& path) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
   const std::filesystem::path folder = path.parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder, error))
-    throw IoError("cannot write " + path.string() + ": there is no folder " + folder.string());
+    throw IoError("cannot write " + path.string() + ": there is no folder " + folder.string(),
+                  "cannot-write");
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
   const Unfinished probe(temporary_name(error ? path : resolved));
   write_stream(path, probe.path(), [](std::ostream&) {});

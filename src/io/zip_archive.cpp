@@ -21,7 +21,7 @@ constexpr std::uint32_t local_header = 0x04034b50, directory_entry = 0x02014b50,
 constexpr std::uint32_t in_extra_field = 0xffffffff;  // the number is in the zip64 extra field
 
 [[noreturn]] void throw_damaged(const std::string& name) {
-  throw InputError(name + ": the archive is damaged or is none");
+  throw InputError(name + ": the archive is damaged or is none", "bad-file");
 }
 
 /// Numbers of a record, with errors where it ends early.
@@ -102,8 +102,9 @@ std::vector<ZipMember> zip_members(std::string_view archive, const std::string& 
     ZipMember member;
     member.name = archive.substr(at + 46, name_length);
     if ((entry.at<std::uint16_t>(8) & 1) != 0 || (method != 0 && method != 8))
-      throw UnsupportedError(name + ": " + member.name +
-                             " is encrypted or packed in another way than deflate");
+      throw UnsupportedError(
+          name + ": " + member.name + " is encrypted or packed in another way than deflate",
+          "unsupported-file");
     const Record local(archive, header, 30, name);
     if (local.at<std::uint32_t>(0) != local_header) throw_damaged(name);
     const std::uint64_t begin =
@@ -135,7 +136,7 @@ std::string unpacked(const ZipMember& member, const std::string& name) {
                                          ? unpack(member.packed, member.size, Packing::raw_deflate)
                                          : std::string(member.packed);
   if (!bytes || checksum_of(*bytes) != member.checksum)
-    throw InputError(name + ": " + member.name + " is damaged");
+    throw InputError(name + ": " + member.name + " is damaged", "bad-file");
   return std::move(*bytes);
 }
 
@@ -145,7 +146,8 @@ void write_zip(std::ostream& out,
   for (const auto& [name, bytes] : names_and_bytes) total += 76 + 2 * name.size() + bytes.size();
   if (total > std::numeric_limits<std::uint32_t>::max() - 22)
     throw UnsupportedError(
-        "cannot write more than 4 GiB into an archive; other formats of volumes hold more");
+        "cannot write more than 4 GiB into an archive; other formats of volumes hold more",
+        "too-large");
   // What both headers of a member share, from "version needed" to "extra field length".
   const auto store_common = [&out](const std::string& name, std::string_view bytes) {
     constexpr std::uint16_t version = 20, first_of_1980 = 33;

@@ -19,10 +19,12 @@ void check(const TetMesh& mesh) {
       const int v = mesh.tets(t, k);
       if (v < 0 || v >= mesh.n_vertices())
         throw InputError("tet " + std::to_string(t) + " refers to vertex " + std::to_string(v) +
-                         ", the mesh has " + std::to_string(mesh.n_vertices()));
+                             ", the mesh has " + std::to_string(mesh.n_vertices()),
+                         "no-such-element");
       if (!mesh.points.row(v).allFinite())
         throw InputError("tet " + std::to_string(t) + " has vertex " + std::to_string(v) +
-                         ", whose coordinates are not finite");
+                             ", whose coordinates are not finite",
+                         "not-finite");
     }
 }
 
@@ -98,7 +100,7 @@ TetOperators tet_operators(const TetMesh& mesh) {
       }
     }
   }
-  if (!(ops.volumes.sum() > 0)) throw InputError("the tet mesh has no volume");
+  if (!(ops.volumes.sum() > 0)) throw InputError("the tet mesh has no volume", "empty-input");
   ops.component.assign(n, -1);
   std::vector<int> number(n, -1);
   for (int v = 0; v < n; ++v) {

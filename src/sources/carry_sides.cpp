@@ -155,17 +155,22 @@ void carry_sides(const SurfaceMesh& mesh, PlacedSources& sources, Report& report
   Carrier carrier(mesh, sources.pieces);
   const FaceOrientation& orientation = carrier.orientation();
   if (orientation.flipped > 0)
-    report.warn(std::to_string(orientation.flipped) +
-                " faces are oriented against the majority of their neighbours; the left side of a "
-                "curve follows the majority");
+    report.warn(
+        "flipped-faces",
+        std::to_string(orientation.flipped) +
+            " faces are oriented against the majority of their neighbours; the left side of a "
+            "curve follows the majority");
   if (!orientation.orientable)
     report.warn(
+        "not-orientable",
         "the surface is not orientable: the left side of a curve is that of its first face and is "
         "carried along it");
   for (const int piece : carrier.carry())
-    report.warn("curve " + std::to_string(sources.pieces[piece].curve + 1) +
-                " comes back to its start with its sides exchanged: it has only one, and the sign "
-                "changes there; option discontinuous of signed-heat lets the distance jump");
+    report.warn(
+        "not-orientable",
+        "curve " + std::to_string(sources.pieces[piece].curve + 1) +
+            " comes back to its start with its sides exchanged: it has only one, and the sign "
+            "changes there; option discontinuous of signed-heat lets the distance jump");
 }
 
 }  // namespace littoral

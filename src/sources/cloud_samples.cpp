@@ -74,9 +74,10 @@ double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, con
 }  // namespace
 
 OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
-  if (cloud.points.rows() == 0) throw InputError("the point cloud has no points");
+  if (cloud.points.rows() == 0) throw InputError("the point cloud has no points", "empty-input");
   if (cloud.normals.rows() != cloud.points.rows())
-    throw InputError("the point cloud has no normals; option estimate-normals computes some");
+    throw InputError("the point cloud has no normals; option estimate-normals computes some",
+                     "no-normals");
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {
     const Vec3 n = cloud.normals.row(i);
@@ -84,10 +85,11 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   }
   if (kept.empty())
     throw InputError(
-        "no point has a normal that is not zero; option estimate-normals computes some");
+        "no point has a normal that is not zero; option estimate-normals computes some",
+        "option-value");
   if (index(kept.size()) < cloud.points.rows())
-    report.warn(std::to_string(cloud.points.rows() - index(kept.size())) +
-                " points without a usable normal are left out");
+    report.warn("normals-unusable", std::to_string(cloud.points.rows() - index(kept.size())) +
+                                        " points without a usable normal are left out");
   OrientedPoints out;
   out.points = cloud.points(kept, Eigen::all);
   out.normals = cloud.normals(kept, Eigen::all);

@@ -52,9 +52,11 @@ std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& repo
   std::vector<CurvePiece> pieces = pieces_with_sides(sources);
   const std::size_t left_out = sources.points.size() + sources.pieces.size() - pieces.size();
   if (left_out > 0)
-    report.warn(std::to_string(left_out) +
-                " points and pieces of unsigned curves were left out: they have no sides");
-  if (pieces.empty()) throw InputError("winding numbers need signed curves; there are none");
+    report.warn("pieces-left-out",
+                std::to_string(left_out) +
+                    " points and pieces of unsigned curves were left out: they have no sides");
+  if (pieces.empty())
+    throw InputError("winding numbers need signed curves; there are none", "nothing-given");
   return pieces;
 }
 

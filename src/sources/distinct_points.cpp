@@ -11,15 +11,16 @@ namespace littoral {
 
 OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
   const int n = cloud.size();
-  if (n == 0) throw InputError("the point cloud is empty");
+  if (n == 0) throw InputError("the point cloud is empty", "empty-input");
   if (cloud.normals.rows() != n)
     throw InputError("the point cloud has " + std::to_string(n) + " points and " +
                      std::to_string(cloud.normals.rows()) + " normals");
   for (int i = 0; i < n; ++i) {
     if (!cloud.points.row(i).allFinite() || !cloud.normals.row(i).allFinite())
-      throw InputError("point " + std::to_string(i) + " has a coordinate that is not finite");
+      throw InputError("point " + std::to_string(i) + " has a coordinate that is not finite",
+                       "not-finite");
     if (!(cloud.normals.row(i).stableNorm() > 0))
-      throw InputError("point " + std::to_string(i) + " has no normal");
+      throw InputError("point " + std::to_string(i) + " has no normal", "no-normals");
   }
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
@@ -45,13 +46,14 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
   }
   if (kept.empty()) throw InputError("the normals of coincident points cancel everywhere");
   if (cancelled)
-    report.warn(std::to_string(cancelled) +
-                " places where normals of coincident points cancel were left out");
+    report.warn("normals-unusable",
+                std::to_string(cancelled) +
+                    " places where normals of coincident points cancel were left out");
   std::sort(kept.begin(), kept.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   if (int_size(kept) < n - cancelled)
-    report.warn(std::to_string(n - int_size(kept)) +
-                " points coincide with others; each place was used once");
+    report.warn("points-coincide", std::to_string(n - int_size(kept)) +
+                                       " points coincide with others; each place was used once");
   OrientedPoints out;
   out.points.resize(kept.size(), 3);
   out.normals.resize(out.points.rows(), 3);

@@ -174,11 +174,12 @@ void check(const Volume& field, double level) {
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");
   if (field.values.size() != index(field.grid.n_nodes()))
     throw InputError("the volume has " + std::to_string(field.values.size()) + " values for " +
-                     std::to_string(field.grid.n_nodes()) + " nodes");
+                         std::to_string(field.grid.n_nodes()) + " nodes",
+                     "sizes-differ");
   if (!field.grid.origin.allFinite() || !field.grid.spacing.allFinite() ||
       !(field.grid.spacing.minCoeff() > 0))
-    throw InputError("the volume's box must be finite and its spacings positive");
-  if (!std::isfinite(level)) throw InputError("the level must be a finite number");
+    throw InputError("the volume's box must be finite and its spacings positive", "option-value");
+  if (!std::isfinite(level)) throw InputError("the level must be a finite number", "option-value");
 }
 
 }  // namespace
@@ -226,7 +227,8 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
     }
   }
   if (kept.empty())
-    throw InputError("the values do not pass level " + std::to_string(level) + " anywhere");
+    throw InputError("the values do not pass level " + std::to_string(level) + " anywhere",
+                     "nothing-there");
   PolygonSoup cloud;
   cloud.points.resize(kept.size(), 3);
   cloud.normals.resize(cloud.points.rows(), 3);

@@ -55,7 +55,8 @@ OrientedPoints without_outliers(const OrientedPoints& cloud, const Task& task, R
     const std::vector<Eigen::Index> rows = borne_out(kept, task);
     if (index(rows.size()) == kept.size()) break;
     if (rows.size() < 2 * asked || index(rows.size()) < cloud.size() / 4) {
-      report.warn("too few points agree with their neighbours: none was taken for an outlier");
+      report.warn("outliers",
+                  "too few points agree with their neighbours: none was taken for an outlier");
       return cloud;
     }
     OrientedPoints next;
@@ -65,8 +66,8 @@ OrientedPoints without_outliers(const OrientedPoints& cloud, const Task& task, R
     kept = std::move(next);
   }
   if (kept.size() < cloud.size())
-    report.warn(std::to_string(cloud.size() - kept.size()) +
-                " points were taken for outliers and left out");
+    report.warn("outliers", std::to_string(cloud.size() - kept.size()) +
+                                " points were taken for outliers and left out");
   return kept;
 }
 

@@ -16,12 +16,13 @@ namespace {
 constexpr std::size_t max_samples = std::size_t{1} << 26;
 
 void check_faces(const PolygonSoup& soup) {
-  if (soup.n_faces() == 0) throw InputError("the mesh has no faces");
+  if (soup.n_faces() == 0) throw InputError("the mesh has no faces", "empty-input");
   for (int f = 0; f < soup.n_faces(); ++f)
     for (int v : soup.face(f))
       if (!soup.points.row(v).allFinite())
         throw InputError("face " + std::to_string(f) + " has vertex " + std::to_string(v) +
-                         ", whose coordinates are not finite");
+                             ", whose coordinates are not finite",
+                         "not-finite");
 }
 
 using Triangle = std::array<Vec3, 3>;
@@ -88,11 +89,13 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
       }
     });
     if (points.size() > max_samples)
-      throw InputError("more than " + std::to_string(max_samples) +
-                       " samples are needed; use a coarser grid");
+      throw InputError(
+          "more than " + std::to_string(max_samples) + " samples are needed; use a coarser grid",
+          "too-large");
   }
-  if (points.empty()) throw InputError("no face of the mesh has any area");
-  if (flat > 0) report.warn(std::to_string(flat) + " faces without area are left out");
+  if (points.empty()) throw InputError("no face of the mesh has any area", "empty-input");
+  if (flat > 0)
+    report.warn("degenerate-faces", std::to_string(flat) + " faces without area are left out");
   OrientedPoints out;
   const Eigen::Index n = points.size();
   out.points.resize(n, 3);

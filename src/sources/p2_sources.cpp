@@ -92,7 +92,8 @@ void sample(std::span<const CurvePiece> pieces, double step, Builder& out) {
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                     const PlacedSources& sources, double spacing) {
   if (spacing > 0 && spacing < least_spacing)
-    throw InputError("option spacing: 0, or at least " + number_text(least_spacing));
+    throw InputError("option spacing: 0, or at least " + number_text(least_spacing),
+                     "option-value");
   const VecX h = mean_edge_lengths(T);
   Builder out(mesh, T);
   for (const SurfacePoint& p : sources.points) out.add_point(p);
@@ -111,7 +112,8 @@ std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTria
       out.add_around(curve);
   }
   std::vector<P2Source<2>> all = out.take();
-  if (all.empty()) throw InputError("no source lies on a face with three different vertices");
+  if (all.empty())
+    throw InputError("no source lies on a face with three different vertices", "nothing-there");
   return all;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "littoral/error.h"
 #include "sources/carry_sides.h"
@@ -18,17 +19,19 @@ constexpr double leap = 5;  // times the usual distance between nodes
 /// Similar warnings about many curves: the first few in full, then a count.
 class Notes {
  public:
+  explicit Notes(std::string code) : code_(std::move(code)) {}
   void add(const std::string& text) {
     if (++count_ <= shown) texts_.push_back(text);
   }
   void report_to(Report& report) const {
-    for (const std::string& text : texts_) report.warn(text);
+    for (const std::string& text : texts_) report.warn(code_, text);
     if (count_ > shown)
-      report.warn("the same holds for " + std::to_string(count_ - shown) + " more sources");
+      report.warn(code_, "the same holds for " + std::to_string(count_ - shown) + " more sources");
   }
 
  private:
   static constexpr int shown = 8;
+  std::string code_;
   int count_ = 0;
   std::vector<std::string> texts_;
 };
@@ -68,7 +71,7 @@ class Preparation {
         }
       }
     } catch (const InputError& error) {
-      throw InputError(label + ": " + error.what());
+      throw InputError(label + ": " + error.what(), error.code());
     }
     out_.nodes.push_back(std::move(placed));
     n_traced_ += static_cast<int>(traced.size());
@@ -93,7 +96,8 @@ class Preparation {
         dropped_.add("point source " + std::to_string(number) + " lies on " + element_name(point) +
                      ", whose faces all repeat a vertex: no distance is measured from it");
     } catch (const InputError& error) {
-      throw InputError("point source " + std::to_string(number) + ": " + error.what());
+      throw InputError("point source " + std::to_string(number) + ": " + error.what(),
+                       error.code());
     }
   }
 
@@ -105,7 +109,8 @@ class Preparation {
     if (out_.pieces.empty() && out_.points.empty())
       throw InputError(
           "the sources hold nothing to measure distance from: no point and no curve of positive "
-          "length");
+          "length",
+          "nothing-given");
     return std::move(out_);
   }
 
@@ -156,7 +161,7 @@ class Preparation {
   PlacedSources out_;
   int lost_ = 0;  // pieces of the curve that faces with repeated vertices hold
   int n_traced_ = 0;
-  Notes traced_, dropped_, vanished_;
+  Notes traced_{"curve-leaps"}, dropped_{"pieces-left-out"}, vanished_{"pieces-left-out"};
 };
 
 std::string curve_label(std::size_t index, const std::string& origin) {

@@ -43,8 +43,9 @@ std::vector<Vec3> resample(const SpaceCurve& curve, double step) {
   for (Eigen::Index i = 0; i + 1 < n; ++i) total += pieces(i);
   if (!(total <= most_samples))
     throw InputError(label(curve) + " is " + number(total * step) +
-                     " long, more than a million mean edge lengths (" + number(2 * step) +
-                     ") of the mesh: check that both use the same unit");
+                         " long, more than a million mean edge lengths (" + number(2 * step) +
+                         ") of the mesh: check that both use the same unit",
+                     "too-large");
   std::vector<Vec3> samples{node(0)};
   samples.reserve(total);
   for (Eigen::Index i = 0; i + 1 < n; ++i) {
@@ -89,10 +90,11 @@ CurveProjector::CurveProjector(const SurfaceMesh& mesh)
 
 ProjectedCurve CurveProjector::project(const SpaceCurve& curve, Report& report,
                                        const Task& task) const {
-  if (curve.points.rows() == 0) throw InputError(label(curve) + " has no points");
+  if (curve.points.rows() == 0) throw InputError(label(curve) + " has no points", "empty-input");
   for (Eigen::Index i = 0; i < curve.points.rows(); ++i)
     if (!curve.points.row(i).allFinite())
-      throw InputError("node " + std::to_string(i + 1) + " of " + label(curve) + " is not finite");
+      throw InputError("node " + std::to_string(i + 1) + " of " + label(curve) + " is not finite",
+                       "not-finite");
 
   const std::vector<Vec3> samples = resample(curve, 0.5 * mean_edge_);
   ProjectedCurve projected;
@@ -120,12 +122,14 @@ ProjectedCurve CurveProjector::project(const SpaceCurve& curve, Report& report,
   }
 
   if (projected.largest_move > 0.05 * diagonal_)
-    report.warn(label(curve) + " was moved by up to " + number(projected.largest_move) + " (" +
-                number(100 * projected.largest_move / diagonal_) +
-                " % of the bounding box diagonal) to lie on the surface");
+    report.warn("source-moved", label(curve) + " was moved by up to " +
+                                    number(projected.largest_move) + " (" +
+                                    number(100 * projected.largest_move / diagonal_) +
+                                    " % of the bounding box diagonal) to lie on the surface");
   if (projected.curves.size() > 1)
-    report.warn(label(curve) + " was split into " + std::to_string(projected.curves.size()) +
-                " curves where its closest points jump between components of the mesh");
+    report.warn("curve-split",
+                label(curve) + " was split into " + std::to_string(projected.curves.size()) +
+                    " curves where its closest points jump between components of the mesh");
   return projected;
 }
 

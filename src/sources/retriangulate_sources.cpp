@@ -124,7 +124,9 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
   }
   for (std::size_t i = first_point; i < first_point + kept.points.size(); ++i)
     out.sources.points.push_back(nodes[i]);
-  if (lost) report.warn(std::to_string(lost) + " tiny pieces of curves were lost to rounding");
+  if (lost)
+    report.warn("pieces-lost",
+                std::to_string(lost) + " tiny pieces of curves were lost to rounding");
   return out;
 }
 

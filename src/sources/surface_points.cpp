@@ -25,11 +25,12 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
   const int n = vertex ? mesh.n_vertices() : edge ? mesh.n_edges() : mesh.n_faces();
   if (p.element < 0 || p.element >= n)
     throw InputError("a source lies on " + element_name(p) + ", but the mesh has " +
-                     std::to_string(n) +
-                     (vertex ? " vertices"
-                      : edge ? " edges"
-                             : " faces") +
-                     " (numbered from 0)");
+                         std::to_string(n) +
+                         (vertex ? " vertices"
+                          : edge ? " edges"
+                                 : " faces") +
+                         " (numbered from 0)",
+                     "no-such-element");
   if (vertex && mesh.vertex_faces(p.element).empty())
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");
 }

@@ -151,8 +151,9 @@ std::vector<SurfacePoint> Tracer::trace(const SurfacePoint& from, const SurfaceP
   const int in_a = component(a), in_b = component(b);
   if (in_a != in_b)
     throw InputError("no path over the mesh joins " + element_name(a) + " (component " +
-                     std::to_string(in_a) + ") and " + element_name(b) + " (component " +
-                     std::to_string(in_b) + ")");
+                         std::to_string(in_a) + ") and " + element_name(b) + " (component " +
+                         std::to_string(in_b) + ")",
+                     "no-path");
   SurfacePath path = Search(mesh_, scale_, a, b).run(task);
   straighten(mesh_, path, scale_, task);
   return path.nodes;

@@ -139,7 +139,7 @@ TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangu
   out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);
   out.isolated = sorted_out(mesh, T, std::move(isolated), out.reached);
   if (std::find(out.reached.begin(), out.reached.end(), 1) == out.reached.end())
-    throw InputError("no source lies on a face with three different vertices");
+    throw InputError("no source lies on a face with three different vertices", "nothing-there");
   return out;
 }
 

@@ -210,7 +210,7 @@ SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation
   }
   add_samples(T, samples, nodes, system);
   if (std::find(system.reached.begin(), system.reached.end(), 1) == system.reached.end())
-    throw InputError("no source lies on a face with three different vertices");
+    throw InputError("no source lies on a face with three different vertices", "nothing-there");
   system.X0 = X0.take();
   system.X0_points = X0_points.take();
   add_near(mesh, T, sources, system);

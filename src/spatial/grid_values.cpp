@@ -17,4 +17,13 @@ VecX grid_values(const Grid& grid, const Task& task,
   return out;
 }
 
+MatX3 grid_points(const Grid& grid) {
+  MatX3 points(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i)
+        points.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
+  return points;
+}
+
 }  // namespace littoral

@@ -13,4 +13,7 @@ namespace littoral {
 VecX grid_values(const Grid& grid, const Task& task,
                  const std::function<double(const Vec3& x, int& last)>& value);
 
+/// The nodes themselves, in their order (nodes x 3).
+MatX3 grid_points(const Grid& grid);
+
 }  // namespace littoral

@@ -45,7 +45,8 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
       const int v = faces(f, k);
       if (v < 0 || v >= points.rows())
         throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-                         ", there are " + std::to_string(points.rows()));
+                             ", there are " + std::to_string(points.rows()),
+                         "no-such-element");
       finite = finite && points.row(v).allFinite();
       if (finite) largest = std::max(largest, points.row(v).cwiseAbs().maxCoeff());
     }
@@ -55,7 +56,8 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   }
   if (faces_.empty())
     throw InputError("closest points need a face with three finite corners; there is none among " +
-                     std::to_string(faces.rows()));
+                         std::to_string(faces.rows()),
+                     "not-finite");
   exponent_ = exponent_of(magnitude);
   std::vector<std::array<Vec3, 3>> corners;
   corners.reserve(faces_.size());
@@ -230,7 +232,7 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vecto
 
 NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (!query.allFinite())
-    throw InputError("the query point of a closest-point search is not finite");
+    throw InputError("the query point of a closest-point search is not finite", "not-finite");
   // `shift` is extra down-scaling for queries so far away that squares would overflow.
   const int query_exponent = exponent_of(query.cwiseAbs().maxCoeff());
   const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);

@@ -97,4 +97,21 @@ MatX3i triangles_of(const PolygonSoup& soup) {
   return Eigen::Map<const MatX3i>(soup.corners.data(), soup.n_faces(), 3);
 }
 
+PolygonSoup soup_of(const MatX3& points, const MatX3i& triangles) {
+  PolygonSoup soup;
+  soup.points = points;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    soup.add_face(std::array{triangles(f, 0), triangles(f, 1), triangles(f, 2)});
+  return soup;
+}
+
+JoinedTriangles join_triangles(const PolygonSoup& first, const PolygonSoup& second) {
+  const MatX3i a = triangles_of(triangulate(first)), b = triangles_of(second);
+  JoinedTriangles out{MatX3(first.points.rows() + second.points.rows(), 3),
+                      MatX3i(a.rows() + b.rows(), 3), a.rows()};
+  out.points << first.points, second.points;
+  out.triangles << a, b.array() + static_cast<int>(first.points.rows());
+  return out;
+}
+
 }  // namespace littoral

@@ -16,4 +16,16 @@ PolygonSoup triangulate(const PolygonSoup& soup);
 /// The corners of a soup of triangles alone: faces x 3.
 MatX3i triangles_of(const PolygonSoup& soup);
 
+/// The soup of triangles.
+PolygonSoup soup_of(const MatX3& points, const MatX3i& triangles);
+
+/// Two surfaces as one mesh of triangles: those of `first`, whose polygons are cut, stand before
+/// those of `second`, which has triangles only.
+struct JoinedTriangles {
+  MatX3 points;
+  MatX3i triangles;
+  Eigen::Index n_first;  // triangles of the first
+};
+JoinedTriangles join_triangles(const PolygonSoup& first, const PolygonSoup& second);
+
 }  // namespace littoral

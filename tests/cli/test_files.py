@@ -6,11 +6,14 @@ import urllib.request
 from pathlib import Path
 from typing import Any
 
+import pytest
 from conftest import PROGRAM, Run, square
+from test_reports import SCHEMA, check
 
 
-def facts(run: Run, file: str) -> dict[str, Any]:
-    result: dict[str, Any] = json.loads(run("info", file, "--json").stdout)
+def facts(run: Run, file: str, *options: str) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads(run("info", file, *options, "--json").stdout)
+    check(result, json.loads((SCHEMA.parent / "info.schema.json").read_text()))
     return result
 
 
@@ -47,9 +50,54 @@ def test_info_on_broken_meshes(run: Run, tmp_path: Path) -> None:
     assert facts(run, "bow.obj")["nonmanifold_vertices"] == 1
 
 
+BOX = "f 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\n"
+BOX += "f 3 7 4\nf 4 7 8\nf 1 5 3\nf 3 5 7\nf 2 4 6\nf 4 8 6\n"
+
+
+def box(z: float) -> str:
+    corners = [f"v {i} {j} {k * z}\n" for k in (0, 1) for j in (0, 1) for i in (0, 1)]
+    return "".join(corners) + BOX
+
+
+@pytest.mark.parametrize("faces", [BOX, BOX.replace("f 1 3 2\nf 2 3 4", "f 1 2 3\nf 2 4 3")])
+def test_info_recommends(run: Run, tmp_path: Path, faces: str) -> None:
+    (tmp_path / "box.obj").write_text(box(1).replace(BOX, faces))
+    info = facts(run, "box.obj")
+    assert info["closed"] is True
+    assert info["watertight"] == (faces == BOX)
+    assert info["share_of_turned_triangles"] == (0 if faces == BOX else 2 / 12)
+    assert info["recommendation"].startswith("sdf, query: auto, which")
+    assert ("2 triangles turned" in info["recommendation"]) == (faces != BOX)
+    assert ("exact here" in info["recommendation"]) == (faces == BOX)
+    assert info["unit_guess"] == "metres, or scaled to about 1"
+
+
+def test_info_estimates_thickness(run: Run, tmp_path: Path) -> None:
+    """Where the ball touches, 2 e thick at a distance e from the nearest edge: (1 - 2 e)^2 of the
+    area is farther from edges."""
+    (tmp_path / "cube.obj").write_text(box(1))
+    cube = facts(run, "cube.obj")
+    assert cube["thickness_median"] == pytest.approx(1 - 0.5**0.5, abs=0.02)
+    assert cube["thickness_5_percent"] == pytest.approx(1 - 0.95**0.5, abs=0.01)
+    (tmp_path / "inside_out.obj").write_text(
+        box(1).replace(BOX, "".join(f"f {a} {c} {b}\n" for a, b, c in triples(BOX)))
+    )
+    assert facts(run, "inside_out.obj")["thickness_median"] == pytest.approx(
+        cube["thickness_median"], abs=0.02
+    )
+    (tmp_path / "plate.obj").write_text(box(0.01))
+    assert facts(run, "plate.obj")["thickness_median"] == pytest.approx(0.01, rel=2e-3)
+    (tmp_path / "square.obj").write_text(square(3))
+    assert "thickness_median" not in facts(run, "square.obj")
+
+
+def triples(faces: str) -> list[list[str]]:
+    return [line.split()[1:] for line in faces.splitlines()]
+
+
 def test_info_on_sources(run: Run, mesh: Path) -> None:
     run("info", "curve.txt", status=2)
-    info = json.loads(run("info", "curve.txt", "--mesh", "square.obj", "--json").stdout)
+    info = facts(run, "curve.txt", "--mesh", "square.obj")
     assert (info["signed_curves"], info["nodes"], info["pieces"]) == (1, 11, 10)
     assert abs(info["length"] - 1) < 1e-12
 

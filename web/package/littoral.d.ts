@@ -294,7 +294,8 @@ export interface Report {
   readonly timings: Readonly<Record<string, number>>;
   readonly iterations: Readonly<Record<string, number>>;
   readonly residuals: Readonly<Record<string, number | string>>;
-  readonly warnings: readonly string[];
+  /** A sentence each, with a code that stays the same when the wording changes. */
+  readonly warnings: readonly { readonly code: string; readonly message: string }[];
   readonly unreachable_components: readonly number[];
 }
 

@@ -131,10 +131,12 @@ bool is_worth_retrying(const BatchOutcome& outcome) {
 void check(const std::vector<BatchJob>& jobs, const BatchOptions& options) {
   if (options.shards < 1 || options.shard < 1 || options.shard > options.shards)
     throw InputError("option shard: there is no part " + std::to_string(options.shard) + " of " +
-                     std::to_string(options.shards) + "; they count from 1");
+                         std::to_string(options.shards) + "; they count from 1",
+                     "no-such-element");
   if (options.retries < 0 || options.processes < 0 || !(options.time_limit >= 0) ||
       !(options.memory_limit >= 0))
-    throw InputError("limits, retries and numbers of processes must not be negative");
+    throw InputError("limits, retries and numbers of processes must not be negative",
+                     "option-value");
   std::unordered_map<std::string, const BatchJob*> names;
   for (const BatchJob& job : jobs) {
     const fs::path name = job.name;

@@ -31,7 +31,8 @@ const fs::path& made_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     throw IoError("cannot make the folder " + folder.string() + ": " +
-                  (error ? error.message() : "there is a file of that name"));
+                      (error ? error.message() : "there is a file of that name"),
+                  "cannot-write");
   return folder;
 }
 
@@ -61,12 +62,14 @@ BatchStatusFile::BatchStatusFile(const fs::path& folder, int shard, int shards)
   out_.open(path_, std::ios::binary | std::ios::app);
   if (!out_ || error)
     throw IoError("cannot write " + path_.string() + ": " +
-                  (error ? error.message() : std::generic_category().message(errno)));
+                      (error ? error.message() : std::generic_category().message(errno)),
+                  "cannot-write");
   // What a run that was ended by force left behind.
   fs::remove_all(temporary_, error);
   fs::create_directory(temporary_, error);
   if (error)
-    throw IoError("cannot make the folder " + temporary_.string() + ": " + error.message());
+    throw IoError("cannot make the folder " + temporary_.string() + ": " + error.message(),
+                  "cannot-write");
 }
 
 void BatchStatusFile::add(const BatchLine& line) {
@@ -97,7 +100,8 @@ void BatchStatusFile::add(const BatchLine& line) {
   out_.close();
   std::error_code ignored;
   fs::resize_file(path_, size_, ignored);
-  throw IoError("cannot write " + path_.string() + ": " + std::generic_category().message(reason));
+  throw IoError("cannot write " + path_.string() + ": " + std::generic_category().message(reason),
+                "cannot-write");
 }
 
 BatchHistory::BatchHistory(const fs::path& folder) : folder_(folder) {

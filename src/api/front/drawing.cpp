@@ -79,7 +79,7 @@ Sources parse_sources(std::string_view bytes, const std::string& name, const Mes
 std::string sources_text(const Sources& sources, const std::string& name, const Mesh& mesh) {
   if (io::has_extension(name, ".txt")) return io::sources_txt(sources, *mesh.domain().mesh);
   if (io::has_extension(name, ".json")) return io::sources_json(sources, *mesh.domain().mesh);
-  throw UnsupportedError(name + ": sources are written as .txt or .json");
+  throw UnsupportedError(name + ": sources are written as .txt or .json", "unsupported-file");
 }
 
 std::string info_json(const Mesh& mesh) { return info_json(surface_info(mesh.soup())); }

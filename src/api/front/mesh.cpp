@@ -19,22 +19,24 @@ PolygonSoup with_indices_checked(PolygonSoup soup) {
   const auto check = [&](const std::string& what, int v) {
     if (v < 0 || v >= soup.n_vertices())
       throw InputError(what + " refers to vertex " + std::to_string(v) + ", there are " +
-                       std::to_string(soup.n_vertices()));
+                           std::to_string(soup.n_vertices()),
+                       "no-such-element");
   };
   const auto& offsets = soup.face_offsets;
   if (offsets.empty() || offsets.front() != 0 ||
       offsets.back() != static_cast<int>(soup.corners.size()))
-    throw InputError("the face offsets do not fit the corners");
+    throw InputError("the face offsets do not fit the corners", "sizes-differ");
   for (int f = 0; f < soup.n_faces(); ++f) {
     if (offsets[static_cast<std::size_t>(f) + 1] < offsets[static_cast<std::size_t>(f)])
-      throw InputError("the face offsets fall at face " + std::to_string(f));
+      throw InputError("the face offsets fall at face " + std::to_string(f), "sizes-differ");
     for (const int v : soup.face(f)) check("face " + std::to_string(f), v);
   }
   for (std::size_t l = 0; l < soup.lines.size(); ++l)
     for (const int v : soup.lines[l]) check("line " + std::to_string(l), v);
   if (soup.normals.rows() != 0 && soup.normals.rows() != soup.points.rows())
     throw InputError("there are " + std::to_string(soup.normals.rows()) + " normals for " +
-                     std::to_string(soup.points.rows()) + " points");
+                         std::to_string(soup.points.rows()) + " points",
+                     "sizes-differ");
   return soup;
 }
 
@@ -49,10 +51,12 @@ Mesh::Mesh(PolygonSoup soup)
 
 PolygonSoup Mesh::checked(const MatX& points, const Integers& faces) {
   if (points.cols() != 3)
-    throw InputError("points must have 3 columns, these have " + std::to_string(points.cols()));
+    throw InputError("points must have 3 columns, these have " + std::to_string(points.cols()),
+                     "option-value");
   if (faces.rows() > 0 && faces.cols() < 3)
-    throw InputError("faces must have 3 columns or more, these have " +
-                     std::to_string(faces.cols()));
+    throw InputError(
+        "faces must have 3 columns or more, these have " + std::to_string(faces.cols()),
+        "option-value");
   PolygonSoup soup;
   soup.points = points;
   std::vector<int> corners;
@@ -63,8 +67,9 @@ PolygonSoup Mesh::checked(const MatX& points, const Integers& faces) {
     for (Eigen::Index k = 0; k < n; ++k) {
       if (faces(f, k) < 0 || faces(f, k) >= points.rows())
         throw InputError("face " + std::to_string(f) + " refers to vertex " +
-                         std::to_string(faces(f, k)) + ", there are " +
-                         std::to_string(points.rows()));
+                             std::to_string(faces(f, k)) + ", there are " +
+                             std::to_string(points.rows()),
+                         "no-such-element");
       corners.push_back(static_cast<int>(faces(f, k)));
     }
     soup.add_face(corners);
@@ -82,7 +87,8 @@ Mesh Mesh::cloud(const MatX3& points, const MatX3& normals) {
 Mesh Mesh::voxels(const Grid& grid, const std::vector<unsigned char>& inside) {
   if (inside.size() != grid.n_nodes())
     throw InputError("there are " + std::to_string(inside.size()) + " voxels for " +
-                     std::to_string(grid.n_nodes()) + " nodes");
+                         std::to_string(grid.n_nodes()) + " nodes",
+                     "sizes-differ");
   VoxelSurface surface = boundary_of_voxels(grid, inside);
   return Mesh(SurfaceDomain{std::make_shared<const SurfaceMesh>(std::move(surface.mesh)),
                             std::make_shared<const MatX3>(std::move(surface.face_normals))});
@@ -106,10 +112,11 @@ double Mesh::interpolate(const VecX& values, const SurfacePoint& point) const {
   const SurfaceMesh& mesh = *domain_->mesh;
   if (values.size() != mesh.n_vertices())
     throw InputError("there are " + std::to_string(values.size()) + " values for " +
-                     std::to_string(mesh.n_vertices()) + " vertices");
+                         std::to_string(mesh.n_vertices()) + " vertices",
+                     "sizes-differ");
   if (point.on == SurfacePoint::On::vertex) {
     if (point.element < 0 || point.element >= mesh.n_vertices())
-      throw InputError("there is no vertex " + std::to_string(point.element));
+      throw InputError("there is no vertex " + std::to_string(point.element), "no-such-element");
     return values[point.element];
   }
   check_element(mesh, point);

@@ -59,12 +59,14 @@ template <class Scalar>
 void check_square(const Eigen::SparseMatrix<Scalar>& A) {
   if (A.rows() != A.cols())
     throw InputError("the matrix is " + std::to_string(A.rows()) + " x " +
-                     std::to_string(A.cols()) + ", which is not square");
+                         std::to_string(A.cols()) + ", which is not square",
+                     "sizes-differ");
   for (Eigen::Index j = 0; j < A.outerSize(); ++j)
     for (typename Eigen::SparseMatrix<Scalar>::InnerIterator a(A, j); a; ++a)
       if (!std::isfinite(std::abs(a.value())))
         throw InputError("entry " + std::to_string(a.row()) + ", " + std::to_string(a.col()) +
-                         " of the matrix is not finite");
+                             " of the matrix is not finite",
+                         "not-finite");
 }
 
 template <class Scalar>
@@ -171,15 +173,18 @@ template <class Matrix>
 void check_right_hand_side(const Matrix& B, Eigen::Index n) {
   if (B.rows() != n)
     throw InputError("the right-hand side has " + std::to_string(B.rows()) + " rows, the matrix " +
-                     std::to_string(n));
-  if (!B.allFinite()) throw InputError("the right-hand side has numbers that are not finite");
+                         std::to_string(n),
+                     "sizes-differ");
+  if (!B.allFinite())
+    throw InputError("the right-hand side has numbers that are not finite", "not-finite");
 }
 
 }  // namespace
 
 MatX Factorization::solve(const MatX& B, const Context& context) const {
   check_right_hand_side(B, impl_->n);
-  if (!impl_->real) throw InputError("the matrix is complex, the right-hand side is not");
+  if (!impl_->real)
+    throw InputError("the matrix is complex, the right-hand side is not", "sizes-differ");
   return run(context, [&](const Task&) -> MatX {
     if (impl_->first.empty()) return impl_->real->solve(B);
     MatX centred = B;
@@ -193,7 +198,8 @@ MatX Factorization::solve(const MatX& B, const Context& context) const {
 
 Eigen::MatrixXcd Factorization::solve(const Eigen::MatrixXcd& B, const Context& context) const {
   check_right_hand_side(B, impl_->n);
-  if (!impl_->complex) throw InputError("the right-hand side is complex, the matrix is not");
+  if (!impl_->complex)
+    throw InputError("the right-hand side is complex, the matrix is not", "sizes-differ");
   return run(context, [&](const Task&) -> Eigen::MatrixXcd { return impl_->complex->solve(B); });
 }
 

@@ -26,17 +26,18 @@ enum Stream : std::uint32_t { on_surface = 0, in_space = 1 };
 void check(const SampleOptions& options) {
   const auto is_share = [](double x) { return x >= 0 && x <= 1; };
   if (options.resolution < 8 || options.resolution > 2048)
-    throw InputError("option resolution must be 8 to 2048");
+    throw InputError("option resolution must be 8 to 2048", "option-value");
   if (options.surface < 0 || options.space < 0)
-    throw InputError("numbers of samples must not be negative");
+    throw InputError("numbers of samples must not be negative", "option-value");
   if (!is_share(options.sharp) || !is_share(options.uniform) || !is_share(options.curvature) ||
       options.uniform + options.curvature > 1)
-    throw InputError("shares of samples are 0 to 1, and at most 1 together");
+    throw InputError("shares of samples are 0 to 1, and at most 1 together", "option-value");
   if (!(options.margin >= 0 && options.margin <= 10))
-    throw InputError("option margin must be 0 to 10");
-  if (options.scales.empty()) throw InputError("option scales: there is none");
+    throw InputError("option margin must be 0 to 10", "option-value");
+  if (options.scales.empty()) throw InputError("option scales: there is none", "option-value");
   for (const double scale : options.scales)
-    if (!(scale > 0 && scale <= 10)) throw InputError("option scales: each is over 0, to 10");
+    if (!(scale > 0 && scale <= 10))
+      throw InputError("option scales: each is over 0, to 10", "option-value");
 }
 
 /// As it will be stored.
@@ -87,7 +88,8 @@ PolygonSoup zero_surface(const PointwiseDistance& distance, int resolution, Task
   if (!(volume.values.minCoeff() < 0))
     throw InputError(
         "the input encloses no node of the grid: it has no inside, or one too thin for this "
-        "option resolution");
+        "option resolution",
+        "no-inside");
   return isosurfaces(volume, {0.0}, true, report, task.stage(0.05, "surface")).front().surface;
 }
 
@@ -222,7 +224,7 @@ Samples sample(const PolygonSoup& input, const SampleOptions& options, const Any
     const Box box = bounding_box(input);
     out.centre = box.low + box.size() / 2;
     out.half_side = box.size().maxCoeff() * (0.5 + options.margin);
-    if (!(out.half_side > 0)) throw InputError("the input has no extent");
+    if (!(out.half_side > 0)) throw InputError("the input has no extent", "empty-input");
     PolygonSoup placed = input;
     placed.points = (input.points.rowwise() - out.centre.transpose()) / out.half_side;
     const Stopwatch watch(out.report, "samples");

@@ -35,7 +35,7 @@ TriangleChoice TriangleChoice::weighted(const PolygonSoup& triangles, const Fact
 TriangleChoice TriangleChoice::by_area(const PolygonSoup& triangles) {
   TriangleChoice choice = weighted(triangles, [](int) { return 1.0; });
   if (choice.sums_.empty() || !(choice.sums_.back() > 0))
-    throw InputError("the surface has no area");
+    throw InputError("the surface has no area", "empty-input");
   return choice;
 }
 

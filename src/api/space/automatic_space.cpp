@@ -11,6 +11,7 @@
 #include "littoral/error.h"
 #include "methods/implicit/completed.h"
 #include "methods/implicit/completed_cloud.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 
@@ -58,14 +59,7 @@ std::unique_ptr<const CompletedDistance> completed(const SpaceInput& input, cons
 }
 
 PolygonSoup completion_of(const CompletedDistance& distance, const Frame& frame) {
-  PolygonSoup soup;
-  soup.points = frame.global(distance.patch().points);
-  for (Eigen::Index f = 0; f < distance.patch().faces.rows(); ++f) {
-    const auto row = distance.patch().faces.row(f);
-    const int face[3] = {row[0], row[1], row[2]};
-    soup.add_face(face);
-  }
-  return soup;
+  return soup_of(frame.global(distance.patch().points), distance.patch().faces);
 }
 
 SpaceAnswer on_nodes(const Grid& grid, const SpaceSources& sources, Task& task, Report& report) {

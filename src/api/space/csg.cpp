@@ -51,8 +51,8 @@ Report& part_of(Report& report, Report& spare, std::size_t shape) {
 
 void gather(const Report& spare, std::size_t shape, Report& report) {
   if (shape == 0) return;
-  for (const std::string& warning : spare.warnings)
-    report.warn("shape " + std::to_string(shape + 1) + ": " + warning);
+  for (const auto& [code, text] : spare.warnings)
+    report.warn(code, "shape " + std::to_string(shape + 1) + ": " + text);
   report.timings.insert(report.timings.end(), spare.timings.begin(), spare.timings.end());
   if (spare.status != "converged") report.status = spare.status;
 }
@@ -80,7 +80,7 @@ Box bounding_box(const CsgShapes& shapes) {
 
 double longest_side(const CsgShapes& shapes) {
   const double longest = bounding_box(shapes).size().maxCoeff();
-  if (!(longest > 0)) throw InputError("all points of the input are at one place");
+  if (!(longest > 0)) throw InputError("all points of the input are at one place", "empty-input");
   return longest;
 }
 

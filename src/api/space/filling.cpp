@@ -58,7 +58,8 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
   }
   const TetSourceSystem terms = tet_source_system(mesh, *ops, source, places, cubes);
   if (terms.outside > 0)
-    report.warn(std::to_string(terms.outside) + " samples of the input lie outside the box");
+    report.warn("samples-outside",
+                std::to_string(terms.outside) + " samples of the input lie outside the box");
   const double h = std::max(sample_spacing(source), lattice.finest());
   VecX phi = TetHeatSolver(ops).signed_distance(terms, h, 0.01 * lattice.finest(), options,
                                                 task.stage(options.sharpen ? 0.4 : 0.8, "distance"),

@@ -93,7 +93,7 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
   const Frame frame(bounding_box(input));
   const double deviation = sigma / frame.unit;
   if (!(deviation > 0 && std::isfinite(deviation)))
-    throw InputError("option smoothing must be positive and finite");
+    throw InputError("option smoothing must be positive and finite", "option-value");
   // Sides of half a deviation: about so many samples.
   double area = 0;
   const MatX3i triangles = triangles_of(triangulate(input));
@@ -104,8 +104,9 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
   }
   if (!(area / (deviation * deviation) < (1 << 20)))
     throw InputError("option smoothing: " + std::to_string(sigma) +
-                     " is too small for a surface of this size; without it winding numbers are "
-                     "exact");
+                         " is too small for a surface of this size; without it winding numbers are "
+                         "exact",
+                     "option-value");
   const OrientedPoints s = make_input({input, orientation.flip, orientation.estimate_normals},
                                       frame, deviation / 2, task, report)
                                .samples;

@@ -23,7 +23,8 @@ Volume offset_back(const Volume& distance, double level, double back, double rea
                                          task.stage(0.3, std::string(name) + ": first offset"));
   if (surface.n_faces() == 0)
     throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
-                     " leaves nothing: no surface at distance " + number_text(level));
+                         " leaves nothing: no surface at distance " + number_text(level),
+                     "nothing-there");
   Volume field = distance;
   field.values = redistance(distance.grid, distance.values, level, surface, reach,
                             task.stage(0.7, std::string(name) + ": distance to it"));
@@ -44,14 +45,14 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
         isosurface(volume.grid, volume.values, level, {.close = close_at_box}, report,
                    task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
     if (surface.n_faces() == 0)
-      report.warn("there is no surface at level " + number_text(level) + "; values run from " +
-                  number_text(volume.values.minCoeff()) + " to " +
-                  number_text(volume.values.maxCoeff()));
+      report.warn("level-missed", "there is no surface at level " + number_text(level) +
+                                      "; values run from " + number_text(volume.values.minCoeff()) +
+                                      " to " + number_text(volume.values.maxCoeff()));
     any = any || surface.n_faces() != 0;
     report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
     surfaces.push_back({level, std::move(surface)});
   }
-  if (!any) throw InputError("none of the levels is met");
+  if (!any) throw InputError("none of the levels is met", "nothing-there");
   return surfaces;
 }
 
@@ -61,7 +62,8 @@ std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
                                            Report& report, Task task) {
   const double open = morphology.open, close = morphology.close;
   if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
-    throw InputError("offset: the radii of opening and closing must not be negative");
+    throw InputError("offset: the radii of opening and closing must not be negative",
+                     "option-value");
   double farthest = 0;
   for (const double d : offsets) farthest = std::max(farthest, std::abs(d));
   // Values are wanted up to the farthest offset, on both sides, and a few nodes beyond.
@@ -80,12 +82,12 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
                                          double thickness, const Morphology& morphology,
                                          bool close_at_box, Report& report, Task task) {
   if (!(thickness > 0) || !std::isfinite(thickness))
-    throw InputError("the thickness of a wall must be positive");
+    throw InputError("the thickness of a wall must be positive", "option-value");
   const double spacing = distance.grid.spacing.maxCoeff();
   if (thickness < spacing)
-    report.warn("a wall of thickness " + number_text(thickness) +
-                " is thinner than the spacing of the grid, " + number_text(spacing) +
-                ": use a larger option resolution");
+    report.warn("wall-thin", "a wall of thickness " + number_text(thickness) +
+                                 " is thinner than the spacing of the grid, " +
+                                 number_text(spacing) + ": use a larger option resolution");
   std::vector<double> levels;
   for (const double d : offsets)
     for (const double side : {0.5, -0.5}) levels.push_back(d + side * thickness);
@@ -100,10 +102,12 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
     PolygonSoup& inner = sides[2 * i + 1].surface;
     if (outer.surface.n_faces() == 0)
       throw InputError("no wall at offset " + number_text(offsets[i]) + ": its outer surface, at " +
-                       number_text(outer.level) + ", is empty");
+                           number_text(outer.level) + ", is empty",
+                       "nothing-there");
     if (inner.n_faces() == 0)
-      report.warn("the wall at offset " + number_text(offsets[i]) +
-                  " is solid: there is no surface at " + number_text(sides[2 * i + 1].level));
+      report.warn("wall-thin", "the wall at offset " + number_text(offsets[i]) +
+                                   " is solid: there is no surface at " +
+                                   number_text(sides[2 * i + 1].level));
     for (int f = 0; f < inner.n_faces(); ++f)
       std::reverse(inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f)],
                    inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f) + 1]);
@@ -113,9 +117,10 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
     const SurfaceMesh mesh(wall);
     for (int e = 0; e < mesh.n_edges(); ++e) open_edges += mesh.edge_faces(e).size() == 1;
     if (open_edges > 0)
-      report.warn("the wall at offset " + number_text(offsets[i]) + " is open along " +
-                  std::to_string(open_edges) +
-                  " edges where it meets the box: use a larger option padding, or option clip");
+      report.warn("open-surface",
+                  "the wall at offset " + number_text(offsets[i]) + " is open along " +
+                      std::to_string(open_edges) +
+                      " edges where it meets the box: use a larger option padding, or option clip");
     walls.push_back({offsets[i], std::move(wall)});
   }
   return walls;

@@ -45,12 +45,8 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
                     const PolygonSoup& completion, Report& report, const Task& task) {
   const PolygonSoup& surface = offset.surface;
   if (surface.n_faces() == 0) return;
-  const MatX3i triangles = triangles_of(triangulate(input)), patches = triangles_of(completion);
-  MatX3 points(input.points.rows() + completion.points.rows(), 3);
-  points << input.points, completion.points;
-  MatX3i all(triangles.rows() + patches.rows(), 3);
-  all << triangles, patches.array() + static_cast<int>(input.points.rows());
-  const TriangleBvh bvh(points, all);
+  const JoinedTriangles target = join_triangles(input, completion);
+  const TriangleBvh bvh(target.points, target.triangles);
   task.checkpoint();
 
   const auto n = surface.points.rows();
@@ -64,7 +60,7 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
       const NearestPoint foot = bvh.closest_point(surface.points.row(order[i]), near);
       near = foot.face;
       distance[order[i]] = foot.distance;
-      over_hole[order[i]] = foot.face >= triangles.rows();
+      over_hole[order[i]] = foot.face >= target.n_first;
     }
   });
 
@@ -95,12 +91,13 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
   if (std::abs(median - asked) > median_allowed * asked || off > far_off_share * total) {
     report.status = "uncertain";
     report.warn(
+        "accuracy-missed",
         name + "half of the surface is nearer than " + short_text(median) + ", and " +
-        short_text(100 * off / total) +
-        " % of it is more than a tenth off what was asked; use a larger resolution" +
-        (report.method == SpaceAutomatic::method
-             ? ""
-             : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));
+            short_text(100 * off / total) +
+            " % of it is more than a tenth off what was asked; use a larger resolution" +
+            (report.method == SpaceAutomatic::method
+                 ? ""
+                 : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));
   }
 }
 

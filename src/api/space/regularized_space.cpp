@@ -76,7 +76,7 @@ VecX on_grid(const SpaceInput& input, const Grid& grid, const Regularized& optio
                "use a smaller resolution or another method");
   const NearestSource nearest(input.surface, input.samples);
   const KnownDistances known = known_distances(grid, nearest, input.samples);
-  if (known.empty()) throw InputError("the box holds no sample of the input");
+  if (known.empty()) throw InputError("the box holds no sample of the input", "nothing-there");
   const VecX sign = winding_signs(input, grid, task.stage(0.1, "signs"));
   return regularized_in_space(grid_calculus(grid), known, options, task.stage(0.9, "distance"),
                               report, &sign);
@@ -107,7 +107,7 @@ Method<TetDomain> through_tets(const std::string& summary, const std::string& re
           KnownDistances known;
           for (const auto& [v, at] : problem.known(corners, vertex, Around::with_neighbours))
             known.emplace(v, at.distance);
-          if (known.empty()) throw InputError("no source vertex belongs to a tet");
+          if (known.empty()) throw InputError("no source vertex belongs to a tet", "nothing-there");
           return regularized_in_space(*C, known, linear(options), task.stage(0.9, "distance"),
                                       report);
         };

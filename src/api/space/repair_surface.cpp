@@ -34,31 +34,15 @@ void check(const RepairOptions& options, bool is_cloud) {
                                     {"thicken", options.thicken},
                                     {"smallest-part", options.smallest_part}})
     if (!(value >= 0 && std::isfinite(value)))
-      throw InputError(std::string("option ") + name + " must be a length, not " +
-                       number_text(value));
+      throw InputError(
+          std::string("option ") + name + " must be a length, not " + number_text(value),
+          "option-value");
   if (options.thicken > 0 && is_cloud)
-    throw UnsupportedError("option thicken is for surfaces: points have no sheets between them");
+    throw UnsupportedError("option thicken is for surfaces: points have no sheets between them",
+                           "options-conflict");
   if (options.error > 0 && is_cloud)
-    throw UnsupportedError("option error is for surfaces: nothing is known between points");
-}
-
-MatX3i joined(const PolygonSoup& a, const PolygonSoup& b, MatX3& points) {
-  const MatX3i first = triangles_of(triangulate(a)), second = triangles_of(b);
-  points.resize(a.points.rows() + b.points.rows(), 3);
-  points << a.points, b.points;
-  MatX3i faces(first.rows() + second.rows(), 3);
-  faces << first, second.array() + static_cast<int>(a.points.rows());
-  return faces;
-}
-
-PolygonSoup soup_of(const MatX3& points, const MatX3i& faces) {
-  PolygonSoup soup;
-  soup.points = points;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const std::array face{faces(f, 0), faces(f, 1), faces(f, 2)};
-    soup.add_face(face);
-  }
-  return soup;
+    throw UnsupportedError("option error is for surfaces: nothing is known between points",
+                           "options-conflict");
 }
 
 /// A surface on its way.
@@ -84,15 +68,15 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   SpaceAnswer answer =
       grid_answer(input, made.distance.grid, request, task.stage(0.5, "distance"), report);
   made.distance.values = std::move(answer.at_nodes);
-  MatX3 points;
-  const MatX3i faces = joined(input, answer.completion, points);
-  made.target = soup_of(points, faces);
+  const JoinedTriangles target = join_triangles(input, answer.completion);
+  made.target = soup_of(target.points, target.triangles);
   VecX& values = made.distance.values;
   if (options.thicken > 0) {
     if (options.thicken < 2 * h)
-      report.warn("walls of thickness " + number_text(options.thicken) +
-                  " are thinner than two cells of the grid (" + number_text(2 * h) +
-                  "): they may have holes; use a larger resolution");
+      report.warn("wall-thin", "walls of thickness " + number_text(options.thicken) +
+                                   " are thinner than two cells of the grid (" +
+                                   number_text(2 * h) +
+                                   "): they may have holes; use a larger resolution");
     const VecX to_input = redistance(made.distance.grid, values, 0, triangulate(input),
                                      options.thicken + 2 * h, task.stage(0.1, "walls"));
     values = values.cwiseMin((to_input.cwiseAbs().array() - options.thicken / 2).matrix());
@@ -100,14 +84,16 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   if (!(values.array() < 0).any())
     throw InputError(
         "the input has no inside: no node of the grid lies in it. Sheets become walls with option "
-        "thicken; thin parts need a larger resolution; if all of it is reversed, flip it");
+        "thicken; thin parts need a larger resolution; if all of it is reversed, flip it",
+        "no-inside");
   // Nodes that lie on a sheet have the value zero: they are not inside.
   made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                             task.stage(0.1, "contour"));
   untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   if (!options.fit || options.thicken > 0 || input.n_faces() == 0) return made;
-  const FittedSurface fitted = fit_to_surface(made.surface.points, triangles_of(made.surface),
-                                              points, faces, h, task.stage(0.6, "fitting"));
+  const FittedSurface fitted =
+      fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
+                     target.triangles, h, task.stage(0.6, "fitting"));
   made.surface = soup_of(fitted.points, fitted.faces);
   made.fitted = true;
   made.moved = fitted.n_moved;
@@ -189,7 +175,8 @@ void drop_parts(PolygonSoup& surface, const RepairOptions& options, Report& repo
   const auto left = std::count(stays.begin(), stays.end(), 1);
   if (left == 0)
     throw InputError("option smallest-part: all " + std::to_string(stays.size()) +
-                     " parts are smaller than " + number_text(options.smallest_part));
+                         " parts are smaller than " + number_text(options.smallest_part),
+                     "option-value");
   if (small + cavities > 0) surface = with_parts(surface, parts, stays);
   report.sizes.emplace_back("parts", static_cast<double>(left));
   report.sizes.emplace_back("small parts dropped", small);
@@ -262,9 +249,10 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
       crossing = value_of(after, "self_intersecting_triangles");
       open + crossing > 0) {
     report.status = "uncertain";
-    report.warn("the result is not sound: " + number_text(open) +
-                " edges or vertices are open or nonmanifold, " + number_text(crossing) +
-                " faces cross others; try another resolution");
+    report.warn("result-unsound", "the result is not sound: " + number_text(open) +
+                                      " edges or vertices are open or nonmanifold, " +
+                                      number_text(crossing) +
+                                      " faces cross others; try another resolution");
   }
   const OneSidedDistance to_input =
       one_sided_distance(result, input, samples, task.stage(0.2, "comparing"));
@@ -286,9 +274,11 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
   report.sizes.emplace_back("input missed, share", share.outside);
   if (share.outside > missed_share) {
     report.status = "uncertain";
-    report.warn(number_text(std::round(1000 * share.outside) / 10) +
-                " % of the input's area is not part of the result: sheets without an inside, or "
-                "parts thinner than the grid; use option thicken, or a larger resolution");
+    report.warn(
+        "parts-lost",
+        number_text(std::round(1000 * share.outside) / 10) +
+            " % of the input's area is not part of the result: sheets without an inside, or "
+            "parts thinner than the grid; use option thicken, or a larger resolution");
   }
 }
 
@@ -321,8 +311,9 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
     if (largest_error(report) <= options.error) return surface;
   }
   report.status = "uncertain";
-  report.warn("the largest error is " + number_text(largest_error(report)) + " with " +
-              std::to_string(resolutions.back()) + " nodes, not " + number_text(options.error));
+  report.warn("accuracy-missed", "the largest error is " + number_text(largest_error(report)) +
+                                     " with " + std::to_string(resolutions.back()) +
+                                     " nodes, not " + number_text(options.error));
   return surface;
 }
 

@@ -15,12 +15,13 @@ SampledDistance::SampledDistance(Volume field) : field_(std::move(field)) {
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");
   if (static_cast<std::size_t>(field_.values.size()) != grid.n_nodes())
     throw InputError("the volume has " + std::to_string(field_.values.size()) + " values for " +
-                     std::to_string(grid.n_nodes()) + " nodes");
+                         std::to_string(grid.n_nodes()) + " nodes",
+                     "sizes-differ");
   if (!grid.origin.allFinite() || !grid.spacing.allFinite() || !(grid.spacing.minCoeff() > 0))
-    throw InputError("the volume's box must be finite and its spacings positive");
+    throw InputError("the volume's box must be finite and its spacings positive", "option-value");
   for (Eigen::Index v = 0; v < field_.values.size(); ++v)
     if (!std::isfinite(field_.values[v]))
-      throw InputError("the value of node " + std::to_string(v) + " is not finite");
+      throw InputError("the value of node " + std::to_string(v) + " is not finite", "not-finite");
 }
 
 DistanceSample SampledDistance::at(const Vec3& x) const {

@@ -27,32 +27,34 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Spa
 void check_queries(const MatX3& queries, Eigen::Index first) {
   for (Eigen::Index i = 0; i < queries.rows(); ++i)
     if (!queries.row(i).allFinite())
-      throw InputError("query point " + std::to_string(first + i) +
-                       " has coordinates that are not finite");
+      throw InputError(
+          "query point " + std::to_string(first + i) + " has coordinates that are not finite",
+          "not-finite");
 }
 
 Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   if (request.resolution && request.spacing)
-    throw InputError("only one of resolution and spacing can be given");
+    throw InputError("only one of resolution and spacing can be given", "option-value");
   if (request.resolution && *request.resolution < 2)
-    throw InputError("option resolution must be at least 2");
+    throw InputError("option resolution must be at least 2", "option-value");
   if (request.spacing && !(*request.spacing > 0 && std::isfinite(*request.spacing)))
-    throw InputError("option spacing must be positive");
+    throw InputError("option spacing must be positive", "option-value");
   if (!(request.padding >= 0 && request.padding <= 1e3))
-    throw InputError("option padding must be in [0, 1000]");
+    throw InputError("option padding must be in [0, 1000]", "option-value");
   Box box = bounding_box(input);
   if (request.bounds) {
     const auto& b = *request.bounds;
     const Box wanted{Vec3(b[0], b[1], b[2]), Vec3(b[3], b[4], b[5])};
     if (!(wanted.size().minCoeff() > 0) || !wanted.size().allFinite())
-      throw InputError("option bounds must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1");
+      throw InputError("option bounds must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1",
+                       "option-value");
     if ((wanted.low.array() > box.high.array()).any() ||
         (wanted.high.array() < box.low.array()).any())
-      throw InputError("the box of option bounds misses the input");
+      throw InputError("the box of option bounds misses the input", "nothing-there");
     box = wanted;
   } else {
     const double longest = box.size().maxCoeff();
-    if (!(longest > 0)) throw InputError("all points of the input are at one place");
+    if (!(longest > 0)) throw InputError("all points of the input are at one place", "empty-input");
     // Flat inputs still get nodes on both sides.
     const double margin = std::max(request.padding, 1e-3) * longest;
     box.low.array() -= margin;
@@ -65,7 +67,7 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   for (int a = 0; a < 3; ++a) {
     const double cells = box.size()[a] / spacing;
     if (!(cells < 1e6))
-      throw InputError("the grid would have more than a million nodes along an axis");
+      throw InputError("the grid would have more than a million nodes along an axis", "too-large");
     const auto s = static_cast<std::size_t>(a);
     if (request.bounds) {
       grid.n[s] = std::max(2, static_cast<int>(std::lround(cells)) + 1);

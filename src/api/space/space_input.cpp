@@ -35,15 +35,18 @@ Box bounding_box(const PolygonSoup& input) {
   Box box;
   const auto add = [&](int v) {
     if (!input.points.row(v).allFinite())
-      throw InputError("vertex " + std::to_string(v) + " has coordinates that are not finite");
+      throw InputError("vertex " + std::to_string(v) + " has coordinates that are not finite",
+                       "not-finite");
     box.add(input.points.row(v));
   };
   if (input.n_faces() > 0)
     for (int v : input.corners) add(v);
   else
     for (int v = 0; v < input.n_vertices(); ++v) add(v);
-  if (!(box.size().minCoeff() >= 0)) throw InputError("the input has no faces and no points");
-  if (!box.size().allFinite()) throw InputError("the input is too large for double precision");
+  if (!(box.size().minCoeff() >= 0))
+    throw InputError("the input has no faces and no points", "empty-input");
+  if (!box.size().allFinite())
+    throw InputError("the input is too large for double precision", "too-large");
   return box;
 }
 
@@ -75,7 +78,8 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
     if (surface.normals.rows() == 0)
       throw InputError(
           "the input has no faces, and its points have no normals; option estimate-normals "
-          "computes some");
+          "computes some",
+          "no-normals");
     if (has_tori(soup) && !sources.estimate_normals) {
       for (const Torus& t : tori_of_cloud(soup)) input.tori.push_back(frame.local(t));
       if (sources.flip)
@@ -93,10 +97,10 @@ void check_grid(const Grid& grid) {
   for (int n : grid.n)
     if (n < 2) throw InputError("a grid needs two nodes along each axis at least");
   if (!grid.origin.allFinite() || !grid.spacing.allFinite() || !(grid.spacing.minCoeff() > 0))
-    throw InputError("the grid's box must be finite and its spacings positive");
+    throw InputError("the grid's box must be finite and its spacings positive", "option-value");
   const double nodes = double(grid.n[0]) * grid.n[1] * grid.n[2];
   if (nodes > std::numeric_limits<int>::max())
-    throw InputError(grid_text(grid) + " is too large; use a smaller resolution");
+    throw InputError(grid_text(grid) + " is too large; use a smaller resolution", "too-large");
   check_memory(bytes_per_node * nodes, grid_text(grid), "use a smaller resolution");
 }
 
@@ -105,7 +109,7 @@ Box box_on_grid(const PolygonSoup& input, const Grid& grid) {
   Box box = bounding_box(input);
   const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
   if ((grid.origin.array() > box.high.array()).any() || (far.array() < box.low.array()).any())
-    throw InputError("the box of the grid misses the input");
+    throw InputError("the box of the grid misses the input", "nothing-there");
   return box;
 }
 

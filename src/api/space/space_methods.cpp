@@ -39,10 +39,11 @@ namespace {
 
 TorusFit torus_fit(const Tori& options) {
   if (options.fit == TorusWeights::closed) {
-    if (!options.weights.empty()) throw InputError("option weights goes with fit learned");
+    if (!options.weights.empty())
+      throw InputError("option weights goes with fit learned", "option-value");
     return options.noisy ? TorusFit::noisy() : TorusFit::exact();
   }
-  if (options.noisy) throw InputError("option noisy goes with fit closed");
+  if (options.noisy) throw InputError("option noisy goes with fit closed", "option-value");
   if (options.weights.empty()) return TorusFit::by(LearnedFit::built_in());
   return TorusFit::by(std::make_shared<const LearnedFit>(
       LearnedFit::parse(io::read_bytes(options.weights), options.weights)));

@@ -22,7 +22,7 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   for (int f = 0; f < triangles.n_faces(); ++f)
     sum.push_back(sum.back() +
                   (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm() / 2);
-  if (!(sum.back() > 0)) throw InputError("the surface has no area");
+  if (!(sum.back() > 0)) throw InputError("the surface has no area", "empty-input");
   constexpr double first_step = 0.7548776662466927, second_step = 0.5698402909980532;
   MatX3 points(n, 3);
   int f = 0;

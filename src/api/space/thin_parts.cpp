@@ -107,11 +107,13 @@ void warn_of_thin_parts(const PointwiseDistance& distance, const OrientedPoints&
     if (below >= thinnest * thin) break;
   }
   const int nodes = *std::max_element(grid.n.begin(), grid.n.end());
-  report.warn(rounded(100 * share) +
-              " % of the surface bounds parts or gaps thinner than the grid's spacing with no node "
-              "in them: contours miss or tear them. Resolution " +
-              std::to_string(static_cast<int>(std::ceil(slack * h / thickest * (nodes - 1))) + 1) +
-              " in this box would hold them");
+  report.warn(
+      "thin-parts",
+      rounded(100 * share) +
+          " % of the surface bounds parts or gaps thinner than the grid's spacing with no node "
+          "in them: contours miss or tear them. Resolution " +
+          std::to_string(static_cast<int>(std::ceil(slack * h / thickest * (nodes - 1))) + 1) +
+          " in this box would hold them");
 }
 
 }  // namespace littoral

@@ -58,7 +58,8 @@ std::vector<Torus> tori_of_cloud(const PolygonSoup& cloud) {
     t.n = n.stableNormalized();
     t.e1 = (e1 - e1.dot(t.n) * t.n).stableNormalized();
     if (!finite || !(t.n.norm() > 0.5) || !(t.e1.norm() > 0.5) || !(v[8] > 0) || v[9] > 0)
-      throw InputError("the torus of point " + std::to_string(i) + " has unusable numbers");
+      throw InputError("the torus of point " + std::to_string(i) + " has unusable numbers",
+                       "not-finite");
     t.q = Vec3(v[0], v[1], v[2]);
     t.k1 = v[6];
     t.k2 = v[7];

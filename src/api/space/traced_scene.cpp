@@ -78,7 +78,8 @@ void hide_triangles(io::Scene& scene, Eigen::Index first) {
 
 io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedView& view, Task task,
                        Report& report) {
-  if (!std::isfinite(view.level)) throw InputError("the level must be a finite number");
+  if (!std::isfinite(view.level))
+    throw InputError("the level must be a finite number", "option-value");
   CsgShapes used = shapes;
   std::vector<Torus> tori;
   if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
@@ -86,8 +87,9 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
   const Volume volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
     throw InputError("the distance does not pass level " + number_text(view.level) +
-                     " in the box: it is from " + number_text(volume.values.minCoeff()) + " to " +
-                     number_text(volume.values.maxCoeff()));
+                         " in the box: it is from " + number_text(volume.values.minCoeff()) +
+                         " to " + number_text(volume.values.maxCoeff()),
+                     "nothing-there");
 
   io::VolumeView shown;
   shown.axis = view.axis;

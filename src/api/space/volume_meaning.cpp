@@ -96,12 +96,14 @@ std::string about(double value) {
     text += ", have a slope of about " + about(seen.zero_slope) +
             " where they are 0, and near 1 in " + about(std::round(100 * seen.near_one)) +
             " % of the cells";
-  throw InputError(text +
-                   ", which is neither a mask (0 and one other value) nor signed distance "
-                   "(both signs, slope 1). Say what they are: option as distance (taken as it is, "
-                   "negative inside), option as mask (not 0 is inside), option as density (larger "
-                   "than option threshold is inside), or option redistance (measured from where "
-                   "they are 0, negative inside)");
+  throw InputError(
+      text +
+          ", which is neither a mask (0 and one other value) nor signed distance "
+          "(both signs, slope 1). Say what they are: option as distance (taken as it is, "
+          "negative inside), option as mask (not 0 is inside), option as density (larger "
+          "than option threshold is inside), or option redistance (measured from where "
+          "they are 0, negative inside)",
+      "volume-meaning");
 }
 
 Volume with_border(const Volume& mask) {
@@ -119,12 +121,14 @@ Volume with_border(const Volume& mask) {
 }
 
 Shape shape_of_mask(const Volume& mask) {
-  if (!mask.values.allFinite()) throw InputError("a mask needs finite values, 0 outside");
+  if (!mask.values.allFinite())
+    throw InputError("a mask needs finite values, 0 outside", "not-finite");
   const Volume bordered = with_border(mask);
   Report unheard;
   Shape shape;
   shape.surface = isosurface(bordered.grid, bordered.values, 0.5, {}, unheard);
-  if (shape.surface.n_faces() == 0) throw InputError("nothing is inside: all values are 0");
+  if (shape.surface.n_faces() == 0)
+    throw InputError("nothing is inside: all values are 0", "no-inside");
   return shape;
 }
 
@@ -135,7 +139,8 @@ Shape shape_of_density(Volume density, std::optional<double> threshold) {
   const double level = threshold.value_or((seen.low + seen.high) / 2);
   if (!(level >= seen.low && level < seen.high))
     throw InputError("option threshold: no surface at " + about(level) + "; values run from " +
-                     about(seen.low) + " to " + about(seen.high));
+                         about(seen.low) + " to " + about(seen.high),
+                     "nothing-there");
   density.values = -density.values;
   return shape_at_level(density, -level);
 }
@@ -145,7 +150,7 @@ Shape shape_of_density(Volume density, std::optional<double> threshold) {
 VolumeMeaning meaning_of(const Volume& volume) {
   ValueTraits seen;
   look_at_values(volume, seen);
-  if (!(seen.low <= seen.high)) throw InputError("the volume has no finite values");
+  if (!(seen.low <= seen.high)) throw InputError("the volume has no finite values", "empty-input");
   if (seen.zero_and_another && seen.low < seen.high) return VolumeMeaning::mask;
   look_at_slopes(volume, seen);
   const bool both = seen.low < 0 && seen.high > 0;
@@ -157,7 +162,7 @@ VolumeMeaning meaning_of(const Volume& volume) {
 Shape shape_of(Volume volume, VolumeMeaning meaning, std::optional<double> threshold) {
   if (meaning == VolumeMeaning::automatic) meaning = meaning_of(volume);
   if (threshold && meaning != VolumeMeaning::density)
-    throw InputError("option threshold goes with option as density");
+    throw InputError("option threshold goes with option as density", "option-value");
   if (meaning == VolumeMeaning::mask) return shape_of_mask(volume);
   if (meaning == VolumeMeaning::density) return shape_of_density(std::move(volume), threshold);
   Shape shape;

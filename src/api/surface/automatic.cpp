@@ -111,9 +111,10 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat
     const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
     Report& report) {
   if (options.confidence)
-    throw UnsupportedError("option confidence: there is none with metric heat");
+    throw UnsupportedError("option confidence: there is none with metric heat", "options-conflict");
   if (options.completion != Completion::automatic && options.completion != Completion::heat)
-    throw UnsupportedError("option completion: with metric heat there is heat only");
+    throw UnsupportedError("option completion: with metric heat there is heat only",
+                           "options-conflict");
   return [heat = prepare<SurfaceDomain>(SignedHeat{}, domain, hint, task, report)](
              const Sources& sources, Automatic& used, Task& t, Report& r) {
     used.completion = Completion::heat;

@@ -138,7 +138,8 @@ Sources without_nonbounding(const SurfaceDomain& domain, const Sources& sources,
   kept.points = sources.points;
   if (kept.empty())
     throw InputError(
-        "no part of the curves bounds a region; option discontinuous takes such curves");
+        "no part of the curves bounds a region; option discontinuous takes such curves",
+        "option-value");
   for (const auto& [name, value] : winding.sizes)
     if (name.ends_with("bounding_length")) report.sizes.emplace_back(name, value);
   return kept;

@@ -121,7 +121,7 @@ CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report) {
   for (int f = 0; f < input.n_faces(); ++f)  // n corners give n - 2 triangles
     cut.face_offsets.push_back(cut.face_offsets.back() + static_cast<int>(input.face(f).size()) -
                                2);
-  report.warn("the polygons were cut into triangles, as the options ask for these");
+  report.warn("polygons-cut", "the polygons were cut into triangles, as the options ask for these");
   return cut;
 }
 

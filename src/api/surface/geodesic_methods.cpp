@@ -29,7 +29,7 @@ void warn_of_signs(const Sources& given, Report& report) {
   const auto is_signed = [](const auto& curve) { return curve.is_signed; };
   if (std::any_of(given.curves.begin(), given.curves.end(), is_signed) ||
       std::any_of(given.space_curves.begin(), given.space_curves.end(), is_signed))
-    report.warn("exact distance is unsigned: signed curves count as unsigned ones");
+    report.warn("sign-ignored", "exact distance is unsigned: signed curves count as unsigned ones");
 }
 
 }  // namespace

@@ -28,25 +28,29 @@ enum class Diffused { functions, vectors };
 /// Throws where there are no polygons to cut into triangles.
 void needs_triangles(const std::string& kind, const std::string& option) {
   if (kind != "triangle mesh" && kind != "polygon mesh")
-    throw UnsupportedError("option " + option + " works on triangle and polygon meshes, not on a " +
-                           kind);
+    throw UnsupportedError(
+        "option " + option + " works on triangle and polygon meshes, not on a " + kind,
+        "options-conflict");
 }
 
 /// Throws unless the options go with the domain and with each other.
 void check_options(const std::string& kind, const SignedHeat& options) {
   if (options.sharpen != Sharpening::off && options.discontinuous)
     throw InputError(
-        "option sharpen makes a continuous distance and does not go with option discontinuous");
+        "option sharpen makes a continuous distance and does not go with option discontinuous",
+        "option-value");
   if (options.discontinuous) needs_triangles(kind, "discontinuous");
   if (options.discontinuous && options.constraint == Constraint::level_sets)
-    throw UnsupportedError("option discontinuous goes with constraint zero-set or none");
+    throw UnsupportedError("option discontinuous goes with constraint zero-set or none",
+                           "options-conflict");
   if (options.sharpen == Sharpening::quadratic) needs_triangles(kind, "sharpen quadratic");
   if (options.bounding_only) needs_triangles(kind, "bounding-only");
   if (options.intrinsic_delaunay) needs_triangles(kind, "intrinsic-delaunay");
   if (options.discontinuous && options.intrinsic_delaunay)
     throw UnsupportedError(
         "options discontinuous and intrinsic-delaunay exclude each other: the surface is split "
-        "along its own edges");
+        "along its own edges",
+        "options-conflict");
 }
 
 /// Operators with sources on them.

@@ -22,12 +22,14 @@ VecX offset_back(const Solver<SurfaceDomain>& solver, const SurfaceMesh& mesh, c
   }
   if (between.curves.empty())
     throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
-                     " leaves nothing: no line at distance " + number_text(level));
+                         " leaves nothing: no line at distance " + number_text(level),
+                     "nothing-there");
   Report second;
   VecX distance = solver.solve(between, std::move(task), second).values;
   for (const auto& [stage, seconds] : second.timings)
     report.timings.emplace_back(std::string(name) + ": " + stage, seconds);
-  for (const std::string& text : second.warnings) report.warn(std::string(name) + ": " + text);
+  for (const auto& [code, text] : second.warnings)
+    report.warn(code, std::string(name) + ": " + text);
   distance.array() -= back;
   return distance;
 }
@@ -41,10 +43,11 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
   for (const double level : levels) {
     task.stage(1.0 / static_cast<double>(levels.size()), "tracing lines").checkpoint();
     all.push_back({level, isolines(mesh, values, level)});
-    if (all.back().lines.empty()) report.warn("there are no lines at level " + number_text(level));
+    if (all.back().lines.empty())
+      report.warn("level-missed", "there are no lines at level " + number_text(level));
     any = any || !all.back().lines.empty();
   }
-  if (!any) throw InputError("none of the levels is met by a face");
+  if (!any) throw InputError("none of the levels is met by a face", "nothing-there");
   return all;
 }
 
@@ -53,7 +56,8 @@ std::vector<LevelLines> offset_lines(const Solver<SurfaceDomain>& solver, const 
                                      const Morphology& morphology, Report& report, Task task) {
   const double open = morphology.open, close = morphology.close;
   if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
-    throw InputError("offset: the radii of opening and closing must not be negative");
+    throw InputError("offset: the radii of opening and closing must not be negative",
+                     "option-value");
   const double steps = 1 + (open > 0) + (close > 0);
   VecX values = solver.solve(sources, task.stage(0.9 / steps, "distance"), report).values;
   if (open > 0)

@@ -67,8 +67,8 @@ void merge_components(const std::vector<std::pair<int, Report>>& of, Report& rep
     report.sizes.emplace_back(name, v.worst());
   });
   for (const auto& [c, one] : of) {
-    for (const std::string& text : one.warnings)
-      report.warn(of.size() > 1 ? "component " + std::to_string(c) + ": " + text : text);
+    for (const auto& [code, text] : one.warnings)
+      report.warn(code, of.size() > 1 ? "component " + std::to_string(c) + ": " + text : text);
     if (one.status != "converged") report.status = one.status;
   }
 }
@@ -102,11 +102,13 @@ MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Re
         D(vertices[i], vertices[j]) = U(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   merge_components(of_components, report);
-  if (of_components.empty()) throw InputError("the mesh has no face with three different vertices");
+  if (of_components.empty())
+    throw InputError("the mesh has no face with three different vertices", "empty-input");
   if (without > 0)
-    report.warn(std::to_string(without) +
-                " components have no face with three different vertices; their distances are "
-                "infinite");
+    report.warn("component-unreached",
+                std::to_string(without) +
+                    " components have no face with three different vertices; their distances are "
+                    "infinite");
   return D;
 }
 
@@ -222,8 +224,8 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
   });
   if (unconverged > 0) {
     report.status = "not converged";
-    report.warn(std::to_string(unconverged) + " of " + std::to_string(n) +
-                " solves did not converge");
+    report.warn("not-converged", std::to_string(unconverged) + " of " + std::to_string(n) +
+                                     " solves did not converge");
   }
   return D;
 }
@@ -232,10 +234,11 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
                            const AnyMethod& method, Task task, Report& report) {
   check_pairs_method(method);
   const SurfaceMesh& mesh = *domain.mesh;
-  if (mesh.n_vertices() == 0) throw InputError("the mesh has no vertices");
+  if (mesh.n_vertices() == 0) throw InputError("the mesh has no vertices", "empty-input");
   for (int v : vertices)
     if (v < 0 || v >= mesh.n_vertices())
-      throw InputError("there is no vertex " + std::to_string(v) + " to measure from");
+      throw InputError("there is no vertex " + std::to_string(v) + " to measure from",
+                       "no-such-element");
   std::vector<int> rows = vertices;
   if (rows.empty()) {
     rows.resize(static_cast<std::size_t>(mesh.n_vertices()));

@@ -49,7 +49,8 @@ VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
            const std::shared_ptr<const Operators>& ops, const Regularized& options,
            const Task& task, Report& report) {
   if (options.field.empty())
-    throw InputError("regularizer align needs directions: option field names their file");
+    throw InputError("regularizer align needs directions: option field names their file",
+                     "nothing-given");
   const io::FaceDirections read = io::read_directions(options.field, mesh.n_faces());
   if (read.all.rows() > 0) {
     VecX V(2 * T.n_faces());
@@ -63,8 +64,9 @@ VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
       if (!(std::abs(v) > 0)) ++without;
     }
     if (without)
-      report.warn(std::to_string(without) +
-                  " faces have no direction in their plane; nothing is aligned there");
+      report.warn("direction-missing",
+                  std::to_string(without) +
+                      " faces have no direction in their plane; nothing is aligned there");
     return V;
   }
   std::vector<std::pair<int, Complex>> given;
@@ -116,7 +118,8 @@ class RegularizedTriangles {
       if (regularizer != Regularizer::dirichlet)
         throw UnsupportedError(
             "quadratic elements have the Dirichlet energy only: they do not go with option "
-            "regularizer");
+            "regularizer",
+            "options-conflict");
       elements_ = std::make_shared<const P2Elements<2>>(p2_elements(*T_));
     }
     const auto ops = operators_for(*T_, elements_.get(), regularizer == Regularizer::hessian);

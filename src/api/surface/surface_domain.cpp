@@ -11,7 +11,8 @@ std::string SurfaceDomain::kind() const {
 SurfaceDomain domain_of(const SurfaceMesh& mesh, const MatX3* face_normals) {
   if (face_normals && face_normals->rows() != mesh.n_faces())
     throw InputError("there are " + std::to_string(face_normals->rows()) + " normals for " +
-                     std::to_string(mesh.n_faces()) + " faces");
+                         std::to_string(mesh.n_faces()) + " faces",
+                     "sizes-differ");
   const auto borrowed = [](const auto* object) {
     return std::shared_ptr<std::remove_pointer_t<decltype(object)>>(object, [](const auto*) {});
   };

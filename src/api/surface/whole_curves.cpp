@@ -98,7 +98,8 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
   if (how == Completion::none)
     throw InputError(
         "option completion: none needs curves that bound; these have gaps, reversed "
-        "pieces or no inside");
+        "pieces or no inside",
+        "no-inside");
   complete_by_heat(given, placed, open, whole, task.stage(0.6, "signed heat"), report);
   whole.by = Completion::heat;
   return whole;
@@ -251,9 +252,10 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
     if (const int c = component_of(piece.face); piece.is_signed && c >= 0 && open[c])
       length += piece.length;
   if (added > length)
-    report.warn("more of the zero set completes the curves (" + number_text(added) +
-                ") than they make up themselves (" + number_text(length) +
-                "): which side is which is a guess there; option confidence shows where");
+    report.warn("completion-guessed",
+                "more of the zero set completes the curves (" + number_text(added) +
+                    ") than they make up themselves (" + number_text(length) +
+                    "): which side is which is a guess there; option confidence shows where");
 }
 
 }  // namespace littoral

@@ -155,20 +155,24 @@ void warn_of_nonmanifold_edges(const SurfaceMesh& mesh, const JumpCalculus& J, R
       if (count++ == 0) first = e;
     }
   if (count == 0) return;
-  report.warn(
-      std::to_string(count) + " edges have more than two faces, the first between vertices " +
-      std::to_string(mesh.edges()(first, 0)) + " and " + std::to_string(mesh.edges()(first, 1)) +
-      "; the surface was taken apart there; formulation dual goes on across them");
+  report.warn("nonmanifold-edges",
+              std::to_string(count) +
+                  " edges have more than two faces, the first between vertices " +
+                  std::to_string(mesh.edges()(first, 0)) + " and " +
+                  std::to_string(mesh.edges()(first, 1)) +
+                  "; the surface was taken apart there; formulation dual goes on across them");
 }
 
 void check_combination(const SurfaceWinding& options) {
   const auto formulation = options.formulation;
   if (formulation != Formulation::primal &&
       options.boundary_condition != BoundaryCondition::natural)
-    throw UnsupportedError("option boundary-condition: free boundaries need formulation primal");
+    throw UnsupportedError("option boundary-condition: free boundaries need formulation primal",
+                           "options-conflict");
   if (formulation == Formulation::nonconforming && options.labels == Labels::cut)
     throw UnsupportedError(
-        "option labels: cut needs curves along edges, formulation primal or dual");
+        "option labels: cut needs curves along edges, formulation primal or dual",
+        "options-conflict");
 }
 
 class WindingOnSurface {

@@ -106,7 +106,8 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
   Report unread;
   const VecX height = mesh.points.col(axis).array() - position;
   const PolygonSoup section = isosurface(mesh, height, 0, unread);
-  if (section.n_faces() == 0) throw InputError("the plane of option slice misses the tets");
+  if (section.n_faces() == 0)
+    throw InputError("the plane of option slice misses the tets", "nothing-there");
   const TetLocator locator(mesh);
   std::vector<int> number;
   for (int v = 0; v < section.n_vertices(); ++v) {

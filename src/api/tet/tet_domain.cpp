@@ -21,7 +21,7 @@ Box box_of(const TetMesh& mesh) {
         box.add(mesh.points.row(v));
     }
   if (!(box.size().minCoeff() >= 0) || !box.size().allFinite())
-    throw InputError("the tet mesh has no volume");
+    throw InputError("the tet mesh has no volume", "empty-input");
   return box;
 }
 
@@ -97,7 +97,8 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   for (const int v : sources.vertices)
     if (v < 0 || v >= mesh_->n_vertices())
       throw InputError("there is no vertex " + std::to_string(v) +
-                       " to measure from, the mesh has " + std::to_string(mesh_->n_vertices()));
+                           " to measure from, the mesh has " + std::to_string(mesh_->n_vertices()),
+                       "no-such-element");
   TetProblem problem;
   problem.mesh = mesh_;
   problem.ops = ops_;
@@ -112,7 +113,8 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   if (vertices.empty()) place(problem, sources, task, report);
   for (const int v : vertices)
     if (ops_->component[static_cast<std::size_t>(v)] < 0)
-      report.warn("source vertex " + std::to_string(v) + " belongs to no tet and is left out");
+      report.warn("sources-outside",
+                  "source vertex " + std::to_string(v) + " belongs to no tet and is left out");
   return problem;
 }
 
@@ -140,10 +142,12 @@ void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Tas
     placed.places.push_back(placed.locator->locate(placed.samples.points.row(i)));
     outside += placed.places.back().tet < 0 ? 1 : 0;
   }
-  if (outside == placed.samples.size()) throw InputError("no source lies within the tets");
+  if (outside == placed.samples.size())
+    throw InputError("no source lies within the tets", "nothing-there");
   if (outside > 0)
-    report.warn(std::to_string(outside) + " of " + std::to_string(placed.samples.size()) +
-                " samples of the sources lie outside the tets and are left out");
+    report.warn("sources-outside",
+                std::to_string(outside) + " of " + std::to_string(placed.samples.size()) +
+                    " samples of the sources lie outside the tets and are left out");
 }
 
 }  // namespace littoral

@@ -100,7 +100,7 @@ class HeatThroughTets {
       reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(mesh.tets(t, 0))])] =
           1;
     if (std::count(reached.begin(), reached.end(), 1) == 0)
-      throw InputError("no source vertex belongs to a tet");
+      throw InputError("no source vertex belongs to a tet", "nothing-there");
     Task solving = task.stage(options.sharpen ? 0.4 : 0.9, "distance");
     VecX phi = VecX::Constant(mesh.n_vertices(), std::numeric_limits<double>::infinity());
     for (int c = 0; c < ops.n_components; ++c) {

@@ -52,7 +52,7 @@ VecX quadratic(const Elements3& E, const TetProblem& problem, const Quadratic& o
         "quadratic distance through tets is from vertices or a surface with faces, not from a "
         "cloud");
   const auto sources = sources_of(problem, E.tets);
-  if (sources.empty()) throw InputError("no source vertex belongs to a tet");
+  if (sources.empty()) throw InputError("no source vertex belongs to a tet", "nothing-there");
   return E.method.solve(sources, options, task.stage(0.9, "distance"), report).at_vertices();
 }
 

@@ -126,7 +126,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
 
   const pid_t pid = ::fork();
   if (pid < 0)
-    throw IoError("cannot start " + path + ": " + std::generic_category().message(errno));
+    throw IoError("cannot start " + path + ": " + std::generic_category().message(errno), "system");
   if (pid == 0) become(path.c_str(), pointers.data(), where.c_str(), output.c_str(), memory);
   Child child(pid);
   using Clock = std::chrono::steady_clock;

@@ -305,7 +305,7 @@ class Server {
 };
 
 [[noreturn]] void throw_gone() {
-  throw IoError("the process that starts all others has ended; run again to go on");
+  throw IoError("the process that starts all others has ended; run again to go on", "system");
 }
 
 }  // namespace
@@ -313,7 +313,7 @@ class Server {
 ForkServer::ForkServer(Work work, Hooks hooks) {
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
-    throw IoError("cannot start a process: " + std::generic_category().message(errno));
+    throw IoError("cannot start a process: " + std::generic_category().message(errno), "system");
   for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
   std::cout.flush();
   std::fflush(nullptr);
@@ -330,7 +330,7 @@ ForkServer::ForkServer(Work work, Hooks hooks) {
   socket_ = ends[0];
   if (server_ > 0) return;
   ::close(socket_);
-  throw IoError("cannot start a process: " + std::generic_category().message(error));
+  throw IoError("cannot start a process: " + std::generic_category().message(error), "system");
 }
 
 ForkServer::~ForkServer() {

@@ -46,7 +46,7 @@ LocalServer::LocalServer() : listener_(::socket(AF_INET, SOCK_STREAM, 0)), port_
   if (listener_ < 0 || ::bind(listener_, generic, size) != 0 || ::listen(listener_, 16) != 0 ||
       ::getsockname(listener_, generic, &size) != 0) {
     if (listener_ >= 0) ::close(listener_);
-    throw IoError("cannot open a port on 127.0.0.1");
+    throw IoError("cannot open a port on 127.0.0.1", "system");
   }
   port_ = ntohs(address.sin_port);
 }

@@ -80,7 +80,7 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",
                 bytes / 1e9, available / 1e9);
-  throw IoError(what + numbers + remedy);
+  throw IoError(what + numbers + remedy, "too-large");
 }
 
 }  // namespace littoral

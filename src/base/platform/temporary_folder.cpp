@@ -14,8 +14,9 @@ TemporaryFolder::TemporaryFolder(const std::string& name) {
   if (error) base = "/tmp";
   std::string path = (base / (name + "-XXXXXX")).string();
   if (::mkdtemp(path.data()) == nullptr)
-    throw IoError("cannot make a folder in " + base.string() + ": " +
-                  std::generic_category().message(errno));
+    throw IoError(
+        "cannot make a folder in " + base.string() + ": " + std::generic_category().message(errno),
+        "cannot-write");
   path_ = path;
 }
 

@@ -45,10 +45,13 @@ std::vector<ListedJob> of_folder(const fs::path& folder, const fs::path& without
     else if (!is_folder && !hidden && may_be_input(path))
       jobs.push_back({path.string(), name_of(path.lexically_relative(folder)), {}, ""});
   }
-  if (error) throw InputError("cannot read the folder " + folder.string() + ": " + error.message());
+  if (error)
+    throw InputError("cannot read the folder " + folder.string() + ": " + error.message(),
+                     "cannot-read");
   if (jobs.empty())
     throw InputError("there are no inputs in the folder " + folder.string() +
-                     ": files of the formats that 'littoral formats' lists");
+                         ": files of the formats that 'littoral formats' lists",
+                     "bad-file");
   std::sort(jobs.begin(), jobs.end(),
             [](const ListedJob& a, const ListedJob& b) { return a.input < b.input; });
   return jobs;
@@ -56,8 +59,9 @@ std::vector<ListedJob> of_folder(const fs::path& folder, const fs::path& without
 
 std::vector<ListedJob> of_pattern(const std::string& pattern) {
   if (pattern.find("**") != std::string::npos)
-    throw InputError("'**' in " + pattern +
-                     " matches no subfolders: name the folder, all of which is taken");
+    throw InputError(
+        "'**' in " + pattern + " matches no subfolders: name the folder, all of which is taken",
+        "nothing-there");
   const std::string fixed = pattern.substr(0, pattern.find_first_of("*?["));
   const fs::path root = fixed.substr(0, fixed.rfind('/') + 1);  // 0 where there is none
   std::vector<ListedJob> jobs;
@@ -66,7 +70,7 @@ std::vector<ListedJob> of_pattern(const std::string& pattern) {
     const fs::path below = root.empty() ? fs::path(path) : fs::path(path).lexically_relative(root);
     jobs.push_back({path, name_of(below), {}, ""});
   }
-  if (jobs.empty()) throw InputError("no file matches " + pattern);
+  if (jobs.empty()) throw InputError("no file matches " + pattern, "nothing-there");
   return jobs;
 }
 
@@ -92,7 +96,7 @@ std::vector<std::string> shell_words(const std::string& line) {
     else
       words.back() += c;
   }
-  if (quote != 0) throw InputError("a quotation does not end");
+  if (quote != 0) throw InputError("a quotation does not end", "bad-file");
   return words;
 }
 
@@ -118,7 +122,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     else if (c != '\r' || quoted)
       cells.back() += c;
   }
-  if (quoted) throw InputError("a quotation does not end");
+  if (quoted) throw InputError("a quotation does not end", "bad-file");
   return cells;
 }
 
@@ -138,13 +142,15 @@ class TableRows {
     const std::vector<std::string> cells = cells_of(line);
     if (columns_.empty()) {
       if (std::find(cells.begin(), cells.end(), "input") == cells.end())
-        throw InputError("the first line names the columns, and one of them is 'input'");
+        throw InputError("the first line names the columns, and one of them is 'input'",
+                         "bad-file");
       columns_ = cells;
       return std::nullopt;
     }
     if (cells.size() != columns_.size())
       throw InputError("there are " + std::to_string(cells.size()) + " cells for " +
-                       std::to_string(columns_.size()) + " columns");
+                           std::to_string(columns_.size()) + " columns",
+                       "bad-file");
     ListedJob job;
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (columns_[c] == "input")
@@ -166,16 +172,17 @@ std::optional<ListedJob> of_json(const std::string& line) {
   try {
     json = Json::parse(line);
   } catch (const Json::exception&) {
-    throw InputError("this is no JSON");
+    throw InputError("this is no JSON", "bad-file");
   }
-  if (!json.is_object()) throw InputError("expected an object {\"input\": ...}");
+  if (!json.is_object()) throw InputError("expected an object {\"input\": ...}", "bad-file");
   ListedJob job;
   const auto text = [](const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
   };
   for (const auto& [key, value] : json.items()) {
     if (value.is_object() || (key == "input" && !value.is_string()))
-      throw InputError("'" + key + "' is no text" + (key == "input" ? "" : ", number or list"));
+      throw InputError("'" + key + "' is no text" + (key == "input" ? "" : ", number or list"),
+                       "bad-file");
     if (key == "input")
       job.input = value;
     else if (value.is_array())
@@ -189,7 +196,7 @@ std::optional<ListedJob> of_json(const std::string& line) {
 template <class Read>
 std::vector<ListedJob> of_list(const std::string& list, Read read) {
   std::ifstream in(list, std::ios::binary);
-  if (!in) throw InputError("cannot read " + list);
+  if (!in) throw InputError("cannot read " + list, "cannot-read");
   std::vector<ListedJob> jobs;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -197,15 +204,15 @@ std::vector<ListedJob> of_list(const std::string& list, Read read) {
     try {
       std::optional<ListedJob> job = read(line);
       if (!job) continue;
-      if (job->input.empty()) throw InputError("there is no input");
+      if (job->input.empty()) throw InputError("there is no input", "nothing-given");
       job->name = name_of(job->input);
       job->line = where;
       jobs.push_back(std::move(*job));
     } catch (const InputError& e) {
-      throw InputError(where + e.what());
+      throw InputError(where + e.what(), e.code());
     }
   }
-  if (jobs.empty()) throw InputError("there are no inputs in the list " + list);
+  if (jobs.empty()) throw InputError("there are no inputs in the list " + list, "bad-file");
   return jobs;
 }
 
@@ -214,7 +221,7 @@ std::vector<ListedJob> all_jobs(const std::string& jobs, const fs::path& without
   if (fs::is_directory(jobs, error)) return of_folder(jobs, without);
   if (!fs::exists(jobs, error)) {
     if (is_pattern(jobs)) return of_pattern(jobs);
-    throw InputError("there is no file or folder " + jobs);
+    throw InputError("there is no file or folder " + jobs, "cannot-read");
   }
   if (io::has_extension(jobs, ".txt")) return of_list(jobs, of_text);
   if (io::has_extension(jobs, ".csv")) return of_list(jobs, TableRows());

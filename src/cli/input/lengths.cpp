@@ -21,13 +21,15 @@ std::vector<double> parse_lengths(const std::string& option, const std::string& 
 
 double parse_length(const std::string& option, const std::string& text, const InputSize& size) {
   const std::vector<double> lengths = parse_lengths(option, text, size);
-  if (lengths.size() != 1) throw InputError("option " + option + " takes one length");
+  if (lengths.size() != 1)
+    throw InputError("option " + option + " takes one length", "option-value");
   return lengths.front();
 }
 
 double parse_radius(const std::string& option, const std::string& text, const InputSize& size) {
   const double radius = text.empty() ? 0 : parse_length(option, text, size);
-  if (radius < 0) throw InputError("option " + option + " takes no negative number");
+  if (radius < 0)
+    throw InputError("option " + option + " takes no negative number", "option-value");
   return radius;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/option_table.h"
 #include "littoral/methods.h"
 
 namespace littoral::cli {
@@ -45,8 +46,7 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
 
 void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
                  const std::string& fallback) {
-  std::string names;
-  for (const MethodInfo& method : methods) names += (names.empty() ? "" : ", ") + method.name;
+  const std::string names = listed(methods, &MethodInfo::name);
   verb.add_option("--method", arguments.name,
                   names + " [default " + (fallback.empty() ? methods.front().name : fallback) + "]")
       ->type_name("NAME");

@@ -17,8 +17,9 @@ int checked_element(const std::string& option, double number, int count, const s
   const int base = session.index_base.value_or(0);
   if (number != std::floor(number) || number < base || number - base >= count)
     throw InputError("option " + option + ": there is no element " + number_text(number) + "; " +
-                     file + " has " + std::to_string(count) + ", counted from " +
-                     std::to_string(base));
+                         file + " has " + std::to_string(count) + ", counted from " +
+                         std::to_string(base),
+                     "option-value");
   return static_cast<int>(number) - base;
 }
 
@@ -26,12 +27,14 @@ SurfacePoint in_named_face(const std::string& text, const SurfaceMesh& mesh,
                            const std::string& file, const Session& session) {
   const std::vector<double> n = parse_numbers("face", text);
   if (n.size() != 4)
-    throw InputError("option face takes a face and three barycentric coordinates: I,a,b,c");
+    throw InputError("option face takes a face and three barycentric coordinates: I,a,b,c",
+                     "option-value");
   const int face = checked_element("face", n[0], mesh.n_faces(), file, session);
   const double sum = n[1] + n[2] + n[3];
   if (n[1] < 0 || n[2] < 0 || n[3] < 0 || std::abs(sum - 1) > 1e-6)
     throw InputError("option face: barycentric coordinates are not negative and add up to 1, " +
-                     text + " has " + number_text(sum));
+                         text + " has " + number_text(sum),
+                     "option-value");
   return SurfacePoint::in_face(face, n[1] / sum, n[2] / sum, n[3] / sum);
 }
 
@@ -39,13 +42,15 @@ SurfacePoint on_named_edge(const std::string& text, const SurfaceMesh& mesh,
                            const std::string& file, const Session& session) {
   const std::vector<double> n = parse_numbers("edge", text);
   if (n.size() != 3 || n[2] < 0 || n[2] > 1)
-    throw InputError("option edge takes two vertices and the place between them, 0 to 1: I,J,t");
+    throw InputError("option edge takes two vertices and the place between them, 0 to 1: I,J,t",
+                     "option-value");
   const int i = checked_element("edge", n[0], mesh.n_vertices(), file, session);
   const int j = checked_element("edge", n[1], mesh.n_vertices(), file, session);
   const int edge = mesh.find_edge(i, j);
   if (edge < 0)
     throw InputError("option edge: " + file + " has no edge from " + number_text(n[0]) + " to " +
-                     number_text(n[1]));
+                         number_text(n[1]),
+                     "no-such-element");
   return SurfacePoint::on_edge(edge, mesh.edges()(edge, 0) == i ? n[2] : 1 - n[2]);
 }
 
@@ -57,8 +62,9 @@ SurfacePoint nearest_to(const std::string& text, const SurfaceMesh& mesh,
   const MatX3& points = mesh.soup().points;
   const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   if (found.distances[0] > 0.01 * size)
-    session.report.warn("option at: " + text + " is " + number_text(found.distances[0]) +
-                        " from the surface; its nearest point there is taken");
+    session.report.warn("source-moved", "option at: " + text + " is " +
+                                            number_text(found.distances[0]) +
+                                            " from the surface; its nearest point there is taken");
   const int face = found.elements[0];
   const auto b = found.barycentric.row(0);
   if (mesh.n_faces() > 0 && mesh.face(face).size() == 3)
@@ -109,7 +115,8 @@ Sources named_sources(const NamedSources& named, const SurfaceMesh& mesh, const 
     std::vector<int> vertices;
     for (const double v : parse_numbers("curve-vertices", text))
       vertices.push_back(checked_element("curve-vertices", v, mesh.n_vertices(), file, session));
-    if (vertices.size() < 2) throw InputError("option curve-vertices takes at least two vertices");
+    if (vertices.size() < 2)
+      throw InputError("option curve-vertices takes at least two vertices", "option-value");
     sources.add(Curve::along_vertices(vertices));
   }
   return sources;

@@ -25,7 +25,7 @@ void add_space_method(CLI::App& verb, SpaceArguments& texts) {
 namespace {
 
 void add_meaning_options(CLI::App& verb, SpaceArguments& texts) {
-  const auto group = [](CLI::Option* option) { return option->group("Volumes as input"); };
+  const auto group = in_group("Volumes as input");
   group(verb.add_option("--as", texts.meaning,
                         "what volumes hold: mask (0 outside, all else inside), distance (negative "
                         "inside, taken as it is) or density (larger than --threshold inside) "
@@ -45,7 +45,7 @@ void add_meaning_options(CLI::App& verb, SpaceArguments& texts) {
 }  // namespace
 
 void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) {
-  const auto group = [](CLI::Option* option) { return option->group("Several shapes"); };
+  const auto group = in_group("Several shapes");
   const std::string kinds = ": mesh, soup, cloud, or volume of distance; may be repeated";
   for (const auto& [name, files, what] :
        {std::tuple("--unite", &texts.unite, "also this shape"),
@@ -75,7 +75,7 @@ void add_confidence_option(CLI::App& verb, bool& confidence) {
 VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& session) {
   const Shape& input = shapes.all.front();
   if (!shapes.plain() || input.field)
-    throw InputError("option confidence is for one mesh, soup or cloud");
+    throw InputError("option confidence is for one mesh, soup or cloud", "option-value");
   Report ignored;  // the distance's holds the same
   const Task task = session.task();
   const WindingOfInput winding(input.surface, {input.request.flip, input.request.estimate_normals},
@@ -131,7 +131,7 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
     if (!texts.threshold.empty()) threshold = parse_number("threshold", texts.threshold);
     return shape_of(std::move(volume), meaning, threshold);
   } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what());
+    throw InputError(file + ": " + e.what(), e.code());
   }
 }
 
@@ -144,8 +144,9 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
   if (auto* volume = std::get_if<Volume>(&content))
     return shape_of_volume(std::move(*volume), file, texts, redistance, session);
   if (redistance)
-    throw InputError(file + " is no volume: option redistance is for " +
-                     io::read_extensions({io::Kind::volume}));
+    throw InputError(
+        file + " is no volume: option redistance is for " + io::read_extensions({io::Kind::volume}),
+        "option-value");
   Shape shape;
   shape.surface = std::get<PolygonSoup>(std::move(content));
   return shape;
@@ -167,15 +168,17 @@ void warn_without_box(const std::string& file, Session& session) {
   const io::Format& format = io::format_to_read(std::filesystem::path(file).extension().string(),
                                                 file, {io::Kind::volume});
   if (format.no_box)
-    session.report.warn(file +
-                        " holds no origin and spacing: its first node is taken at 0, 0, 0 and the "
-                        "others 1 apart, and lengths are in that unit (VTK image data, NRRD and "
-                        "NumPy archives hold them)");
+    session.report.warn(
+        "grid-unplaced",
+        file +
+            " holds no origin and spacing: its first node is taken at 0, 0, 0 and the "
+            "others 1 apart, and lengths are in that unit (VTK image data, NRRD and "
+            "NumPy archives hold them)");
 }
 
 CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
   if (texts.redistance && texts.meaning != "auto")
-    throw InputError("option redistance does not go with option as");
+    throw InputError("option redistance does not go with option as", "option-value");
   CsgShapes shapes;
   shapes.all.push_back(read_shape(texts.input, texts, true, session));
   for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
@@ -195,7 +198,7 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
   if (first.request.method.name().empty())
     first.request.method = AnyMethod::named(own.name(), first.request.method.values());
   if (!texts.operand_method.empty() && shapes.all.size() == 1)
-    throw InputError("option operand-method: there is no shape but INPUT");
+    throw InputError("option operand-method: there is no shape but INPUT", "option-value");
   for (std::size_t s = 1; s < shapes.all.size(); ++s) {
     Shape& shape = shapes.all[s];
     const std::string name = !texts.operand_method.empty() ? texts.operand_method
@@ -214,11 +217,12 @@ GridOptions grid_request(const SpaceArguments& texts, const InputSize& size) {
   if (texts.resolution > 0) request.resolution = texts.resolution;
   if (!texts.spacing.empty()) request.spacing = parse_length("spacing", texts.spacing, size);
   if (request.spacing && !(*request.spacing > 0))
-    throw InputError("option spacing takes a positive length");
+    throw InputError("option spacing takes a positive length", "option-value");
   request.padding = texts.padding;
   if (!texts.bounds.empty()) {
     const std::vector<double> numbers = parse_numbers("bounds", texts.bounds);
-    if (numbers.size() != 6) throw InputError("option bounds takes x0,y0,z0,x1,y1,z1");
+    if (numbers.size() != 6)
+      throw InputError("option bounds takes x0,y0,z0,x1,y1,z1", "option-value");
     request.bounds.emplace();
     std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
   }

@@ -1,5 +1,6 @@
 #include "cli/input/surface_input.h"
 
+#include "base/option_table.h"
 #include "domain/volume/voxels.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -25,7 +26,7 @@ SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {
   try {
     return SurfaceMesh(std::move(soup));
   } catch (const InputError& e) {
-    throw InputError(path.filename().string() + ": " + e.what());
+    throw InputError(path.filename().string() + ": " + e.what(), e.code());
   }
 }
 
@@ -48,8 +49,9 @@ PolygonSoup read_surfaces(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const PolygonSoup more = io::read_surface(file);
     if (all.n_vertices() > 0 && (more.n_faces() > 0) != (all.n_faces() > 0))
-      throw InputError("option sources: " + file +
-                       " is a cloud and others are meshes, or the other way round");
+      throw InputError(
+          "option sources: " + file + " is a cloud and others are meshes, or the other way round",
+          "option-value");
     const int first = all.n_vertices();
     const auto append = [first](MatX3& to, const MatX3& from) {
       to.conservativeResize(first + from.rows(), 3);
@@ -75,8 +77,9 @@ std::vector<int> checked_vertices(const std::vector<long long>& given, int n_ver
   for (long long v : given) {
     if (v < base || v - base >= n_vertices)
       throw InputError("option vertex: there is no vertex " + std::to_string(v) + "; " + file +
-                       " has " + std::to_string(n_vertices) + ", counted from " +
-                       std::to_string(base));
+                           " has " + std::to_string(n_vertices) + ", counted from " +
+                           std::to_string(base),
+                       "no-such-element");
     vertices.push_back(static_cast<int>(v - base));
   }
   return vertices;
@@ -84,12 +87,12 @@ std::vector<int> checked_vertices(const std::vector<long long>& given, int n_ver
 
 std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
                          const std::string& file, bool optional) {
-  std::string known;
-  for (const auto& [name, values] : soup.scalars) known += (known.empty() ? "" : ", ") + name;
+  const std::string known = listed_names(soup.scalars);
   if (!wanted.empty()) {
     if (soup.scalars.count(wanted) != 0) return wanted;
-    throw InputError(file + " has no field '" + wanted +
-                     "'; it has: " + (known.empty() ? "none" : known));
+    throw InputError(
+        file + " has no field '" + wanted + "'; it has: " + (known.empty() ? "none" : known),
+        "unknown-name");
   }
   for (const char* name : {"distance", "u"})
     if (soup.scalars.count(name) != 0) return name;
@@ -97,7 +100,8 @@ std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
   if (optional) return "";
   throw InputError(known.empty()
                        ? file + " holds no field with one value per vertex"
-                       : file + " has the fields " + known + ": choose one with option field");
+                       : file + " has the fields " + known + ": choose one with option field",
+                   "option-value");
 }
 
 }  // namespace littoral::cli

@@ -52,7 +52,8 @@ void check_verb(const CLI::App& verb) {
       verb.get_name() != batch_verb)
     return;
   throw InputError("option verb: batch is for verbs of one input, and " + verb.get_name() +
-                   (inputs > 1 ? " takes " + std::to_string(inputs) : " takes no file"));
+                       (inputs > 1 ? " takes " + std::to_string(inputs) : " takes no file"),
+                   "option-value");
 }
 
 /// The words of both, where those of the line replace the others of the same option.
@@ -84,9 +85,9 @@ class JobMaker {
     try {
       return made(listed);
     } catch (const CLI::ParseError& e) {
-      throw InputError(listed.line + e.what());
+      throw InputError(listed.line + e.what(), "usage");
     } catch (const InputError& e) {
-      throw InputError(listed.line + e.what());
+      throw InputError(listed.line + e.what(), e.code());
     }
   }
 
@@ -183,7 +184,7 @@ void read_shard(const std::string& text, BatchOptions& options) {
   const auto number = [&](const std::string& part) {
     if (part.empty() || part.size() > 6 ||
         part.find_first_not_of("0123456789") != std::string::npos)
-      throw InputError("option shard: '" + text + "' is not I/N, as 3/8 is");
+      throw InputError("option shard: '" + text + "' is not I/N, as 3/8 is", "option-value");
     return std::stoi(part);
   };
   options.shard = number(text.substr(0, slash));

@@ -9,6 +9,7 @@
 #include "cli/input/method_options.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
 #include "littoral/error.h"
@@ -35,7 +36,8 @@ struct DistanceArguments {
   throw InputError(
       "nothing to measure distance from: name --sources FILE, --vertex I, --at X,Y,Z or --boundary "
       "(" +
-      domain + " has no " + own + " of its own)");
+          domain + " has no " + own + " of its own)",
+      "nothing-given");
 }
 
 Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Session& session) {
@@ -44,7 +46,7 @@ Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Sess
   if (arguments.boundary) {
     const std::vector<Curve> loops = boundary_curves(mesh);
     if (loops.empty())
-      throw InputError("option boundary: " + arguments.domain + " has no boundary");
+      throw InputError("option boundary: " + arguments.domain + " has no boundary", "option-value");
     sources.curves.insert(sources.curves.end(), loops.begin(), loops.end());
   }
   if (sources.empty()) {
@@ -60,7 +62,8 @@ TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, S
   if (!named.at.empty() || !named.faces.empty() || !named.edges.empty() || !named.curves.empty())
     throw InputError(
         "options --at, --face, --edge and --curve-vertices are for surfaces; tets take "
-        "--vertex, --boundary and --sources");
+        "--vertex, --boundary and --sources",
+        "option-value");
   sources.vertices =
       checked_vertices(named.vertices, file.mesh.n_vertices(), arguments.domain, session);
   sources.boundary = arguments.boundary;
@@ -97,9 +100,11 @@ void measure(const DistanceArguments& arguments, const io::Kinds& outputs, Sessi
     return std::pair(std::move(opened), std::move(from));
   }();
   session.reading = false;
+  const D on = domain(*input);
+  if (planned(plan_on(method, on), session)) return;
   Task task = session.task();
   const auto answer =
-      solve_once<D>(method, domain(*input), sources, task.stage(0.95, "distance"), session.report);
+      solve_once<D>(method, on, sources, task.stage(0.95, "distance"), session.report);
   session.record.values = {range_of("distance", values_of(answer))};
   finish(arguments.out, task.stage(0.05, "writing"), session,
          [&, &from = sources, &opened = input](const std::string& file) {
@@ -176,6 +181,7 @@ void add_distance(CLI::App& program, Session& session) {
       joined(Registry<SurfaceDomain>::instance().infos(), Registry<TetDomain>::instance().infos()));
   verb.add_flag("--flip", session.flip, "reverse every signed curve: the other side is positive");
   add_index_option(verb, session);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

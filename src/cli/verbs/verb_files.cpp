@@ -43,8 +43,8 @@ Overloaded(Jobs...) -> Overloaded<Jobs...>;
 void info(FileArguments& arguments, Session& session) {
   if (arguments.mesh.empty() && io::is_read_as(arguments.in, {Kind::sources}) &&
       !io::is_read_as(arguments.in, {Kind::surface}))
-    throw InputError(arguments.in +
-                     " holds sources: name the surface they lie on with --mesh FILE");
+    throw InputError(arguments.in + " holds sources: name the surface they lie on with --mesh FILE",
+                     "nothing-given");
   std::vector<InfoEntry> entries;
   if (arguments.mesh.empty()) {
     entries = content_info(io::read_content(arguments.in, arguments.field));
@@ -81,7 +81,7 @@ void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& ses
 void convert(FileArguments& arguments, Session& session) {
   check_outputs({arguments.out}, {Kind::surface, Kind::field, Kind::volume, Kind::tets});
   if (arguments.band > 0 && !io::has_extension(arguments.out, ".vdb"))
-    throw InputError("option band is for .vdb; other formats hold every node");
+    throw InputError("option band is for .vdb; other formats hold every node", "option-value");
   const bool to_tets = io::is_written_as(arguments.out, {Kind::tets});
   if (to_tets && !io::is_read_as(arguments.in, {Kind::tets}))
     throw InputError(arguments.out + " holds tets, " + arguments.in + " has none");
@@ -116,16 +116,17 @@ std::vector<double> levels_for(const FileArguments& arguments, const VecX& value
   }
   const ValueRange range = range_of("", values);
   if (!(range.low < range.high))
-    throw InputError("option count: the values of " + arguments.in + " do not differ");
+    throw InputError("option count: the values of " + arguments.in + " do not differ",
+                     "option-value");
   for (int i = 1; i <= n; ++i) levels.push_back(range.low + (range.high - range.low) * i / (n + 1));
   return levels;
 }
 
 void contour(FileArguments& arguments, Session& session) {
   if (arguments.levels.empty() == (arguments.count == 0))
-    throw InputError("name either option level or option count");
+    throw InputError("name either option level or option count", "nothing-given");
   if (!arguments.range.empty() && arguments.count == 0)
-    throw InputError("option range goes with option count");
+    throw InputError("option range goes with option count", "option-value");
   const std::size_t count = levels_for(arguments, Eigen::Vector2d(0, 1)).size();
   const bool lines = io::is_read_as(arguments.in, {Kind::surface, Kind::cloud});
   check_level_outputs(arguments.outs, count, {lines ? Kind::sources : Kind::surface});

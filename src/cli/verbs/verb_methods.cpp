@@ -1,11 +1,10 @@
-// littoral methods, formats and help: what there is, also as pages of the documentation.
+// littoral methods and formats: what there is, also as pages of the documentation.
 
 #include <iostream>
 #include <memory>
 
 #include "api/report_json.h"
-#include "cli/arguments.h"
-#include "cli/input/method_options.h"
+#include "base/option_table.h"
 #include "cli/verbs/verbs.h"
 #include "io/formats.h"
 #include "littoral/methods.h"
@@ -13,12 +12,6 @@
 namespace littoral::cli {
 
 namespace {
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string out;
-  for (const auto& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
 
 void print_table() {
   for (const MethodFamily& family : method_families()) {
@@ -54,49 +47,6 @@ void print_all_markdown() {
   }
 }
 
-/// Text in a cell of a table.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; ++at) {
-    text.replace(at, 1, text[at] == '|' ? "\\|" : " ");
-    if (text[at] == '\\') ++at;
-  }
-  return text;
-}
-
-bool is_common(const CLI::Option& option) { return option.get_group() == common_options_group; }
-
-void print_option(const CLI::Option& option) {
-  const std::string value = option.get_type_name();
-  std::cout << "| `" << option.get_name(option.get_positional(), true)
-            << cell(value.empty() ? "" : " " + value) << "` | " << cell(option.get_description())
-            << (option.get_required() && !option.get_positional() ? "; required" : "") << " |\n";
-}
-
-/// The verb's options but those of all verbs and those of methods, which `littoral methods` lists.
-void print_verb(const CLI::App& verb) {
-  std::cout << "\n## " << verb.get_name() << "\n\n" << verb.get_description() << "\n\n";
-  std::cout << "| option | meaning |\n|---|---|\n";
-  for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_group() == method_options_group || option == verb.get_help_ptr() ||
-        option == verb.get_help_all_ptr())
-      continue;
-    if (is_common(*option)) continue;
-    print_option(*option);
-  }
-}
-
-void print_verbs(const CLI::App& program) {
-  std::cout << "# Verbs and their options\n\nOptions of methods are [a page of their own]"
-               "(support.md), file formats [another](formats.md); "
-               "[the command line](../guides/command_line.md) has examples.\n";
-  const auto verbs = verbs_of(program);
-  for (const CLI::App* verb : verbs) print_verb(*verb);
-  std::cout << "\n## Options of all verbs\n\nBut of those that tell what there is.\n\n"
-               "| option | meaning |\n|---|---|\n";
-  for (const CLI::Option* option : verbs.front()->get_options())
-    if (is_common(*option)) print_option(*option);
-}
-
 }  // namespace
 
 void add_methods(CLI::App& program, Session& session) {
@@ -121,24 +71,6 @@ void add_formats(CLI::App& program, Session& session) {
   verb->callback([markdown, &session] {
     session.job = [markdown] {
       std::cout << (*markdown ? io::formats_markdown() : io::formats_text());
-    };
-  });
-}
-
-void add_help(CLI::App& program, Session& session) {
-  CLI::App* verb = program.add_subcommand("help", "all verbs, or one with its options");
-  auto markdown = std::make_shared<bool>(false);
-  auto name = std::make_shared<std::string>();
-  verb->add_option("VERB", *name, "the verb to explain")->type_name("");
-  verb->add_flag("--markdown", *markdown, "with their options, as tables for the documentation");
-  verb->callback([=, &program, &session] {
-    session.job = [=, &program] {
-      if (*markdown)
-        print_verbs(program);
-      else if (name->empty())
-        std::cout << program.help("", CLI::AppFormatMode::Normal);
-      else
-        std::cout << help_text(program, verb_named(program, *name).get_name(), false);
     };
   });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "api/space/isosurfaces.h"
 #include "api/space/offset_quality.h"
@@ -11,6 +12,7 @@
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "littoral/error.h"
 
@@ -44,7 +46,7 @@ OffsetLengths lengths_of(const OffsetArguments& arguments, const InputSize& size
   all.morphology.close = parse_radius("close", arguments.close, size);
   all.wall = parse_radius("shell", arguments.wall, size);
   if (!arguments.wall.empty() && all.wall == 0)
-    throw InputError("option shell takes a positive thickness");
+    throw InputError("option shell takes a positive thickness", "option-value");
   if (!arguments.distances.empty())
     all.distances = parse_lengths("distance", arguments.distances, size);
   for (const auto& [option, text, sign] :
@@ -52,20 +54,23 @@ OffsetLengths lengths_of(const OffsetArguments& arguments, const InputSize& size
     if (text->empty()) continue;
     for (const double radius : parse_lengths(option, *text, size)) {
       if (radius < 0)
-        throw InputError(std::string("option ") + option + " takes no negative number");
+        throw InputError(std::string("option ") + option + " takes no negative number",
+                         "option-value");
       all.distances.push_back(sign * radius);
     }
   }
   if (!all.distances.empty()) return all;
   if (all.plain())
     throw InputError(
-        "no offset given: use --distance, --dilate, --erode, --shell, --open or --close");
+        "no offset given: use --distance, --dilate, --erode, --shell, --open or --close",
+        "nothing-given");
   all.distances = {0};
   return all;
 }
 
 void offset_curves(OffsetArguments& arguments, std::size_t count, Session& session) {
-  if (!arguments.wall.empty()) throw InputError("option shell is for shapes in space");
+  if (!arguments.wall.empty())
+    throw InputError("option shell is for shapes in space", "option-value");
   check_level_outputs(arguments.out, count, {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
@@ -76,10 +81,12 @@ void offset_curves(OffsetArguments& arguments, std::size_t count, Session& sessi
   sources.add(named_sources(arguments.named, mesh, arguments.in, session));
   if (session.flip) sources = sources.reversed();
   session.reading = false;
+  const SurfaceDomain domain = domain_of(mesh);
+  if (planned(plan_on(method, domain), session)) return;
   Task task = session.task();
-  const auto solver = prepare(method, domain_of(mesh),
-                              lengths.plain() ? SolveHint::single_rhs : SolveHint::many_rhs,
-                              task.stage(0.2, "preparing"), session.report);
+  const auto solver =
+      prepare(method, domain, lengths.plain() ? SolveHint::single_rhs : SolveHint::many_rhs,
+              task.stage(0.2, "preparing"), session.report);
   const auto levels = offset_lines(*solver, mesh, sources, lengths.distances, lengths.morphology,
                                    session.report, task.stage(0.75, "offsets"));
   task.checkpoint(1);
@@ -96,7 +103,8 @@ struct DistanceAround {
 
 /// Around a shape or several, on a grid that holds all offsets of it; that of a volume alone is
 /// there already.
-DistanceAround distance_around(OffsetArguments& arguments, Session& session) {
+/// None where only the plan was asked for.
+std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Session& session) {
   SpaceArguments& space = arguments.space;
   space.input = arguments.in;
   space.field = arguments.field;
@@ -105,7 +113,9 @@ DistanceAround distance_around(OffsetArguments& arguments, Session& session) {
   const InputSize size = [&] { return longest_side(shapes); };
   const OffsetLengths lengths = lengths_of(arguments, size);
   if (shapes.all.size() == 1 && shapes.all.front().field)
-    return {*shapes.all.front().field, {}, {}, lengths};
+    return planned(plan_in_space(shapes, shapes.all.front().field->grid), session)
+               ? std::nullopt
+               : std::optional(DistanceAround{*shapes.all.front().field, {}, {}, lengths});
   double farthest = 0;
   for (const double d : lengths.distances) farthest = std::max(farthest, std::abs(d));
   const double reach =
@@ -116,6 +126,7 @@ DistanceAround distance_around(OffsetArguments& arguments, Session& session) {
   around.lengths = lengths;
   around.distance.grid = choose_grid(shapes, grid);
   session.reading = false;
+  if (planned(plan_in_space(shapes, around.distance.grid), session)) return {};
   SpaceAnswer answer = grid_answer(shapes, around.distance.grid, session.task(), session.report);
   around.distance.values = std::move(answer.at_nodes);
   around.completion = std::move(answer.completion);
@@ -125,7 +136,9 @@ DistanceAround distance_around(OffsetArguments& arguments, Session& session) {
 
 void offset_shape(OffsetArguments& arguments, std::size_t count, Session& session) {
   check_level_outputs(arguments.out, count, {io::Kind::surface});
-  const DistanceAround around = distance_around(arguments, session);
+  const std::optional<DistanceAround> measured = distance_around(arguments, session);
+  if (!measured) return;
+  const DistanceAround& around = *measured;
   const OffsetLengths& lengths = around.lengths;
   session.record.grid = around.distance.grid;
   session.reading = false;
@@ -153,7 +166,7 @@ void run_offset(OffsetArguments& arguments, Session& session) {
     offset_shape(arguments, count, session);
   else
     offset_curves(arguments, count, session);
-  session.print_report();
+  if (!session.dry_run) session.print_report();
 }
 
 void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
@@ -205,6 +218,7 @@ void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
                             {on_surfaces.find(Automatic::method)->info,
                              on_surfaces.find(SignedHeat::method)->info}));
   add_index_option(verb, session);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

@@ -1,5 +1,6 @@
 // littoral pairs: distance between all pairs of vertices of a surface.
 
+#include <algorithm>
 #include <memory>
 
 #include "api/surface/pairs.h"
@@ -7,6 +8,7 @@
 #include "cli/input/method_options.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "io/write_table.h"
 
@@ -34,9 +36,17 @@ void run_pairs(PairsArguments& arguments, Session& session) {
   const std::vector<int> vertices =
       checked_vertices(arguments.vertices, mesh.n_vertices(), arguments.domain, session);
   session.reading = false;
+  const SurfaceDomain domain = domain_of(mesh, input.normals());
+  RunPlan plan = plan_on(method, domain);
+  plan.methods = pair_methods();
+  if (!vertices.empty()) {
+    plan.sizes.emplace_back("from", static_cast<double>(vertices.size()));
+    plan.share = std::min(1.0, static_cast<double>(vertices.size()) / plan.elements);
+  }
+  if (planned(plan, session)) return;
   Task task = session.task();
-  const PairsAnswer answer = pair_distances(domain_of(mesh, input.normals()), vertices, method,
-                                            task.stage(0.95, "pairs of vertices"), report);
+  const PairsAnswer answer =
+      pair_distances(domain, vertices, method, task.stage(0.95, "pairs of vertices"), report);
   session.record.values = {range_of("distance", answer.distances.reshaped())};
   io::Table table{{}, answer.distances};
   for (int v = 0; v < mesh.n_vertices(); ++v) table.names.push_back("to " + std::to_string(v));
@@ -64,6 +74,7 @@ void add_pairs(CLI::App& program, Session& session) {
                         io::written_extensions({io::Kind::table}));
   add_methods(verb, arguments->method, pair_methods());
   add_index_option(verb, session);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/input/space_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 
 namespace littoral::cli {
@@ -22,6 +23,8 @@ void run_query(QueryArguments& arguments, Session& session) {
   const CsgShapes shapes = read_shapes(arguments.space, session);
   const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
+  const auto count = static_cast<double>(queries.points.rows());
+  if (planned(plan_in_space(shapes, "set of points", count), session)) return;
   MatX3 gradients;
   const VecX values =
       query_distance(shapes, queries.points, arguments.gradient ? &gradients : nullptr,
@@ -58,6 +61,7 @@ void add_query(CLI::App& program, Session& session) {
   add_confidence_option(verb, arguments->confidence);
   add_space_method(verb, arguments->space);
   add_shape_options(verb, arguments->space);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

@@ -5,6 +5,7 @@
 #include "api/space/repair_surface.h"
 #include "cli/input/space_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -36,8 +37,10 @@ void run_repair(RepairArguments& arguments, Session& session) {
   options.fit = !arguments.no_fit;
   options.cavities = !arguments.fill_cavities;
   if (options.error > 0 && (grid.resolution || grid.spacing))
-    throw InputError("option error chooses the grid: give it, or resolution or spacing");
+    throw InputError("option error chooses the grid: give it, or resolution or spacing",
+                     "option-value");
   session.reading = false;
+  if (planned(plan_in_space(shapes, choose_grid(shapes, options.grid)), session)) return;
   const PolygonSoup result =
       repair_surface(shape.surface, options, shape.request, session.task(), session.report);
   session.record.values = {range_of("distance", result.scalars.at("distance"))};
@@ -69,6 +72,7 @@ void add_options(CLI::App& verb, RepairArguments& arguments, Session& session) {
                 "keep the contour of the grid: vertices are not moved onto the input");
   add_grid_options(verb, arguments.space, RepairOptions().grid);
   add_space_method(verb, arguments.space);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

@@ -31,7 +31,7 @@ void run_samples(SamplesArguments& arguments, Session& session) {
   try {
     io::check_arrays_output(arguments.out);
   } catch (const IoError& e) {
-    throw OutputError(e.what());
+    throw OutputError(e.what(), e.code());
   }
   SampleOptions& options = arguments.options;
   options.numbers = numbers_named(arguments.numbers);

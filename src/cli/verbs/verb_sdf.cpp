@@ -5,12 +5,14 @@
 #include "api/space/isosurfaces.h"
 #include "cli/input/space_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "contour/isosurface.h"
 #include "io/render/scene_style.h"
 #include "io/render/volume_scene.h"
 #include "io/volume/volume.h"
 #include "littoral/error.h"
+#include "spatial/grid_values.h"
 
 namespace littoral::cli {
 
@@ -63,15 +65,6 @@ void add_confidence(std::vector<Isosurface>& surfaces, const CsgShapes& shapes, 
     each.surface.scalars["confidence"] = confidence_at(shapes, each.surface.points, session);
 }
 
-MatX3 nodes_of(const Grid& grid) {
-  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
-  for (int k = 0; k < grid.n[2]; ++k)
-    for (int j = 0; j < grid.n[1]; ++j)
-      for (int i = 0; i < grid.n[0]; ++i)
-        nodes.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
-  return nodes;
-}
-
 void write_distance(const std::string& file, const SdfArguments& arguments, const CsgShapes& shapes,
                     const Volume& volume, const TetField& tets, Session& session) {
   const std::vector<double> levels = arguments.level_values;
@@ -80,7 +73,7 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
     io::VolumeWriteOptions options{.band = arguments.band};
     if (arguments.confidence)
       options.more.emplace_back("confidence",
-                                confidence_at(shapes, nodes_of(volume.grid), session));
+                                confidence_at(shapes, grid_points(volume.grid), session));
     return io::write_volume(file, volume, options);
   }
   if (io::is_written_as(file, {Kind::tets}))
@@ -104,9 +97,9 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
 
 void check_field(const SdfArguments& arguments) {
   if (arguments.field == "winding" && arguments.domain == "tets")
-    throw UnsupportedError("option field winding is for grids");
+    throw UnsupportedError("option field winding is for grids", "options-conflict");
   if (arguments.field != "winding" && arguments.smoothing > 0)
-    throw InputError("option smoothing goes with --field winding");
+    throw InputError("option smoothing goes with --field winding", "option-value");
 }
 
 bool holds_confidence(const std::string& file) {
@@ -126,9 +119,10 @@ void run_sdf(SdfArguments& arguments, Session& session) {
           " holds one number a node: confidence is written to VTK image data, and with "
           "the surface at --level to formats with numbers at vertices");
   if (arguments.tets != "lattice" && arguments.domain != "tets")
-    throw InputError("option tets goes with --domain tets");
+    throw InputError("option tets goes with --domain tets", "option-value");
   if (arguments.clip && arguments.domain == "tets")
-    throw UnsupportedError("option clip is for grids: the cube of the tets is larger than the box");
+    throw UnsupportedError("option clip is for grids: the cube of the tets is larger than the box",
+                           "options-conflict");
   if (arguments.field != "winding" && !arguments.levels.empty())
     check_lengths("level", arguments.levels);
   check_field(arguments);
@@ -141,19 +135,21 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   Volume volume;
   volume.grid = choose_grid(shapes, grid_request(arguments.space, size));
   session.reading = false;
+  if (planned(plan_in_space(shapes, volume.grid), session)) return;
   TetField tets;
   if (arguments.field == "winding") {
     const Shape& shape = shapes.all.front();
     if (shapes.all.size() != 1 || shape.field || shapes.csg.offset != 0 ||
         !shape.request.method.name().empty() || !arguments.space.method.options.empty())
       throw InputError(
-          "option field winding takes one mesh, soup or cloud, no method and no offset");
+          "option field winding takes one mesh, soup or cloud, no method and no offset",
+          "option-value");
     volume.values = grid_winding(shape.surface, volume.grid, shape.request, session.task(),
                                  session.report, arguments.smoothing);
     volume.name = "winding";
   } else if (arguments.domain == "tets") {
     if (shapes.all.size() != 1 || shapes.all.front().field || shapes.csg.offset != 0)
-      throw InputError("option domain tets takes one mesh, soup or cloud");
+      throw InputError("option domain tets takes one mesh, soup or cloud", "option-value");
     const Shape& shape = shapes.all.front();
     arguments.tetgen.by =
         arguments.tets == "tetgen" ? TetFilling::By::tetgen : TetFilling::By::lattice;
@@ -216,6 +212,7 @@ void add_sdf(CLI::App& program, Session& session) {
   add_confidence_option(verb, arguments->confidence);
   add_space_method(verb, arguments->space);
   add_shape_options(verb, arguments->space);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

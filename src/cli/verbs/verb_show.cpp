@@ -78,7 +78,7 @@ void set_style(io::Scene& scene, const ShowArguments& arguments) {
 }
 
 void add_style_options(CLI::App& verb, ShowArguments& arguments) {
-  const auto style = [](CLI::Option* option) { return option->group("Looks"); };
+  const auto style = in_group("Looks");
   style(verb.add_option("--up", arguments.up,
                         "what points up: x, y, z, -x, -y, -z or X,Y,Z [default: y, or z for what "
                         "stands on z = 0]"))
@@ -102,7 +102,7 @@ void add_style_options(CLI::App& verb, ShowArguments& arguments) {
 }
 
 void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
-  const auto volumes = [](CLI::Option* option) { return option->group("Volumes"); };
+  const auto volumes = in_group("Volumes");
   volumes(verb.add_option("--axis", texts.axis,
                           "the slice is orthogonal to this axis: x, y or z [default z]"))
       ->check(one_of({"x", "y", "z"}))
@@ -137,7 +137,8 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
 void check_no_trace_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     if (option->get_group() == trace_group && option->count() > 0)
-      throw InputError("option " + option->get_single_name() + " goes with option trace");
+      throw InputError("option " + option->get_single_name() + " goes with option trace",
+                       "option-value");
 }
 
 io::Scene volume_scene(const Volume& volume, const std::string& file,
@@ -150,7 +151,7 @@ io::Scene volume_scene(const Volume& volume, const std::string& file,
   try {
     return io::make_volume_scene(volume, view);
   } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what());
+    throw InputError(file + ": " + e.what(), e.code());
   }
 }
 
@@ -201,15 +202,16 @@ io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Sess
 
 io::Scene scene_of(const Volume& volume, const ShowArguments& arguments, Session&) {
   if (!arguments.sources.empty())
-    throw InputError("option sources: sources are drawn on surfaces, " + arguments.in +
-                     " is a volume");
+    throw InputError(
+        "option sources: sources are drawn on surfaces, " + arguments.in + " is a volume",
+        "option-value");
   return volume_scene(volume, arguments.in, arguments.volume);
 }
 
 io::Scene read_scene_of(ShowArguments& arguments, bool for_page, Session& session) {
   if (arguments.trace.trace) {
     if (!arguments.sources.empty() || !arguments.field.empty())
-      throw InputError("options --sources and --field do not go with --trace");
+      throw InputError("options --sources and --field do not go with --trace", "option-value");
     return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
   }
   check_no_trace_options(*arguments.verb);

@@ -7,6 +7,7 @@
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
+#include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
 #include "io/surface/write_winding.h"
@@ -46,7 +47,8 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   if (!arguments.sources.empty() || !arguments.named.empty() || !arguments.curves.empty() ||
       !arguments.method.options.empty())
     throw InputError(
-        "option points: winding numbers in space take no sources, no curves and no options");
+        "option points: winding numbers in space take no sources, no curves and no options",
+        "nothing-given");
   check_outputs(arguments.out, query_outputs);
   SpaceRequest request;
   request.flip = session.flip;
@@ -66,10 +68,12 @@ void run_winding(WindingArguments& arguments, Session& session) {
     run_at_points(arguments, session);
     return;
   }
-  if (arguments.smoothing > 0) throw InputError("option smoothing goes with --points");
+  if (arguments.smoothing > 0)
+    throw InputError("option smoothing goes with --points", "option-value");
   check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
-    throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj");
+    throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj",
+                     "cannot-write");
   if (!arguments.curves.empty()) check_outputs({arguments.curves}, {Kind::surface});
   const AnyMethod method = arguments.method.method();
   check_method<WindingDomain>(method);
@@ -80,9 +84,13 @@ void run_winding(WindingArguments& arguments, Session& session) {
     sources = io::sources_from_lines(mesh->soup(), arguments.domain);
   if (sources.empty())
     throw InputError("no curves given: use option sources or option curve-vertices (" +
-                     arguments.domain + " has no lines of its own)");
+                         arguments.domain + " has no lines of its own)",
+                     "nothing-given");
   session.reading = false;
   if (session.flip) sources = sources.reversed();
+  RunPlan plan = plan_on(AnyMethod(), domain_of(*mesh));
+  plan.methods = Registry<WindingDomain>::instance().infos();
+  if (planned(plan, session)) return;
   const WindingAnswer answer =
       solve_once<WindingDomain>(method, {mesh}, sources, session.task(), session.report);
   session.record.values = {range_of("region", answer.region.cast<double>())};
@@ -128,6 +136,7 @@ void add_winding(CLI::App& program, Session& session) {
   verb.add_flag("--flip", session.flip, "reverse every curve, or the surface");
   add_method_options(verb, arguments->method.options, Registry<WindingDomain>::instance().infos());
   add_index_option(verb, session);
+  add_plan_option(verb, session);
   add_json_option(verb, session);
 }
 

@@ -23,13 +23,15 @@ constexpr int neighbours = 16;  // enough for principal directions
 void check_cloud(const MatX3& points) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (!points.row(i).allFinite())
-      throw InputError("point " + std::to_string(i) + " has coordinates that are not finite");
+      throw InputError("point " + std::to_string(i) + " has coordinates that are not finite",
+                       "not-finite");
   Eigen::Index second = 0, third = 0;
   while (second < points.rows() && points.row(second) == points.row(0)) ++second;
   for (third = second; third < points.rows(); ++third)
     if (points.row(third) != points.row(0) && points.row(third) != points.row(second)) break;
   if (third >= points.rows())
-    throw InputError("a point cloud needs points at three different places at least");
+    throw InputError("a point cloud needs points at three different places at least",
+                     "empty-input");
 }
 
 MatX3 estimate_normals(const MatX3& points, const Task& task) {

@@ -23,7 +23,7 @@ std::vector<std::vector<Neighbour>> find_neighbours(const MatX3& points) {
   std::vector<int> finite;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (points.row(i).allFinite()) finite.push_back(i);
-  if (finite.empty()) throw InputError("the point cloud has no finite point");
+  if (finite.empty()) throw InputError("the point cloud has no finite point", "empty-input");
   MatX3 kept(finite.size(), 3);
   for (std::size_t i = 0; i < finite.size(); ++i) kept.row(i) = points.row(finite[i]);
   const PointTree tree(kept);
@@ -139,6 +139,7 @@ LocalTriangles triangulated(const PolygonSoup& cloud, Report& report, const Task
   if (cloud.normals.rows() != points.rows()) {
     out.normals = finite_normals(points, task);
     report.warn(
+        "normals-estimated",
         "the point cloud has no normals; they were estimated, upward at the top of each part");
   }
   for (auto n : out.normals.rowwise()) n = normalized_or_z(n.transpose()).transpose();

@@ -23,9 +23,10 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
     kept.push_back(f);
   }
   const int n = kept.size();
-  if (n == 0) throw InputError("the mesh has no face with three different vertices");
+  if (n == 0) throw InputError("the mesh has no face with three different vertices", "empty-input");
   if (n < mesh.n_faces())
-    report.warn(std::to_string(mesh.n_faces() - n) + " faces that repeat a vertex were left out");
+    report.warn("degenerate-faces",
+                std::to_string(mesh.n_faces() - n) + " faces that repeat a vertex were left out");
   T.faces.resize(n, 3);
   T.side_edge.resize(n, 3);
   T.along.resize(n, 3);
@@ -45,7 +46,8 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
       high = high.cwiseMax(mesh.point(T.faces(f, k)));
     }
   const double extent = (0.5 * high - 0.5 * low).maxCoeff();  // halved first: must not overflow
-  if (!(extent > 0)) throw InputError("the mesh has no extent: all its vertices are at one point");
+  if (!(extent > 0))
+    throw InputError("the mesh has no extent: all its vertices are at one point", "empty-input");
   if (extent < 1e-290) throw InputError("the mesh is too small for double precision; scale it up");
   T.unit = std::exp2(std::floor(std::log2(extent)));
 
@@ -84,8 +86,9 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
     T.length.row(f) = l.matrix();
   }
   if (mollified)
-    report.warn(std::to_string(mollified) +
-                " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
+    report.warn("degenerate-faces",
+                std::to_string(mollified) +
+                    " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
 }
 
 /// Unit vector from side k of f into the face, in space; zero if the face is degenerate.

@@ -32,10 +32,12 @@ void check_faces(const PolygonSoup& soup) {
     for (int v : corners) {
       if (v < 0 || v >= soup.n_vertices())
         throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-                         ", there are " + std::to_string(soup.n_vertices()));
+                             ", there are " + std::to_string(soup.n_vertices()),
+                         "no-such-element");
       if (!soup.points.row(v).allFinite())
         throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
-                         ", has a coordinate that is not finite");
+                             ", has a coordinate that is not finite",
+                         "not-finite");
     }
   }
 }
@@ -75,7 +77,7 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
 
 void SurfaceMesh::check() {
   if (soup_.corners.size() > std::numeric_limits<int>::max() / 2)
-    throw InputError("the mesh has too many face corners for 32-bit numbering");
+    throw InputError("the mesh has too many face corners for 32-bit numbering", "too-large");
   check_faces(soup_);
 }
 

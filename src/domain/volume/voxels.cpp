@@ -44,9 +44,9 @@ std::vector<Surfel> find_surfels(const Voxels& voxels) {
             if (!voxels(next)) out.push_back({{i, j, k}, axis, sign});
           }
       }
-  if (out.empty()) throw InputError("the volume has no voxel that is set");
+  if (out.empty()) throw InputError("the volume has no voxel that is set", "no-inside");
   if (out.size() > 200'000'000)
-    throw InputError("the volume has more than 200 million boundary quads");
+    throw InputError("the volume has more than 200 million boundary quads", "too-large");
   return out;
 }
 

@@ -17,9 +17,9 @@ MatX3 rows_of(const std::vector<double>& numbers) {
 
 PolygonSoup cloud_of(const std::vector<double>& points, const std::vector<double>& normals,
                      const std::string& name) {
-  if (points.empty()) throw InputError(name + ": no points");
+  if (points.empty()) throw InputError(name + ": no points", "bad-file");
   if (points.size() / 3 > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw InputError(name + ": more than 2147483647 points");
+    throw InputError(name + ": more than 2147483647 points", "too-large");
   PolygonSoup cloud;
   cloud.points = rows_of(points);
   if (!normals.empty()) cloud.normals = rows_of(normals);
@@ -41,7 +41,8 @@ PolygonSoup read_pc(std::string_view bytes, const std::string& name) {
   }
   if (!normals.empty() && normals.size() != points.size())
     throw InputError(name + ": " + std::to_string(points.size() / 3) + " points but " +
-                     std::to_string(normals.size() / 3) + " normals");
+                         std::to_string(normals.size() / 3) + " normals",
+                     "bad-file");
   return cloud_of(points, normals, name);
 }
 

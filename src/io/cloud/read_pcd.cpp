@@ -89,7 +89,8 @@ double load_field(const char* from, const Field& f, const std::string& name) {
   const auto is = [&](char type, int size) { return f.type == type && f.size == size; };
   if (is('F', 4)) return load<float>(from, little);
   if (is('F', 8)) return load<double>(from, little);
-  throw InputError(name + ": field " + in_quotes(f.name) + " is not of type F and size 4 or 8");
+  throw InputError(name + ": field " + in_quotes(f.name) + " is not of type F and size 4 or 8",
+                   "bad-file");
 }
 
 /// First byte after the line that starts with DATA.
@@ -122,15 +123,16 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
     per_row += f.count;
   }
   if (where[0] < 0 || where[1] < 0 || where[2] < 0)
-    throw InputError(name + ": FIELDS has no x, y and z");
+    throw InputError(name + ": FIELDS has no x, y and z", "bad-file");
   const bool normals = where[3] >= 0 && where[4] >= 0 && where[5] >= 0;
   // Every value takes a byte in a binary file and two in a text.
   const std::uint64_t needed = static_cast<std::uint64_t>(header.points) *
                                static_cast<std::uint64_t>(header.binary ? stride : 2 * per_row - 1);
   if (needed > bytes.size() - body + 1)
     throw InputError(name + ": the header promises " + std::to_string(header.points) +
-                     " points, the file has " + std::to_string(bytes.size()) + " bytes");
-  if (header.points == 0) throw InputError(name + ": no points");
+                         " points, the file has " + std::to_string(bytes.size()) + " bytes",
+                     "bad-file");
+  if (header.points == 0) throw InputError(name + ": no points", "bad-file");
   PolygonSoup cloud;
   cloud.points.resize(header.points, 3);
   if (normals) cloud.normals.resize(header.points, 3);

@@ -333,9 +333,11 @@ void write_page(const std::filesystem::path& path, const Scene& scene) {
   check_scene(scene);
   const std::string_view page = page_template();
   if (page.empty()) {
-    throw UnsupportedError("cannot write " + path.string() +
-                           ": this build lacks the viewer (configure with LITTORAL_VIEWER=ON and "
-                           "npm installed); pictures (.png) work");
+    throw UnsupportedError(
+        "cannot write " + path.string() +
+            ": this build lacks the viewer (configure with LITTORAL_VIEWER=ON and "
+            "npm installed); pictures (.png) work",
+        "cannot-write");
   }
   constexpr std::string_view title_mark = "LITTORAL_TITLE", data_mark = "\"LITTORAL_DATA\"";
   const std::size_t title = page.find(title_mark);

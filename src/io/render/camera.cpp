@@ -26,7 +26,8 @@ void for_each_point(const Scene& scene, const Visit& visit) {
 Vec3 direction(const Vec3& v, const char* name) {
   const double length = v.stableNorm();
   if (!(length > 0) || !std::isfinite(length)) {
-    throw InputError(std::string("picture: ") + name + " must be a finite, nonzero direction");
+    throw InputError(std::string("picture: ") + name + " must be a finite, nonzero direction",
+                     "option-value");
   }
   return v / length;
 }
@@ -44,7 +45,7 @@ Camera fit_camera(const Scene& scene, const PictureOptions& options,
     wish = std::abs(z[1]) > 0.9 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
     x = wish.cross(z);
   }
-  if (x.norm() < 1e-6) throw InputError("picture: up is parallel to towards_eye");
+  if (x.norm() < 1e-6) throw InputError("picture: up is parallel to towards_eye", "option-value");
   x.normalize();
 
   Camera camera;

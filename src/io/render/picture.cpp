@@ -21,11 +21,11 @@ void check_options(const PictureOptions& options) {
   const auto side_ok = [](int n) { return n >= 16 && n <= 16384; };
   if (!side_ok(options.width) || !side_ok(options.height) ||
       static_cast<long long>(options.width) * options.height > 64'000'000) {
-    throw InputError(
-        "picture: width and height must be 16 to 16384, and 64 million pixels at most");
+    throw InputError("picture: width and height must be 16 to 16384, and 64 million pixels at most",
+                     "option-value");
   }
   if (options.supersampling < 1 || options.supersampling > 4) {
-    throw InputError("picture: supersampling must be 1 to 4");
+    throw InputError("picture: supersampling must be 1 to 4", "option-value");
   }
 }
 

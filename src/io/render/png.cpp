@@ -21,7 +21,7 @@ std::string encode_png(const Image& image) {
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) {
     const std::string message = header.message;
     png_image_free(&header);
-    throw IoError("cannot encode a picture as PNG: " + message);
+    throw IoError("cannot encode a picture as PNG: " + message, "cannot-write");
   }
   bytes.resize(size);
   return bytes;
@@ -30,7 +30,7 @@ std::string encode_png(const Image& image) {
 #else
 
 std::string encode_png(const Image&) {
-  throw UnsupportedError("this build of the library writes no pictures");
+  throw UnsupportedError("this build of the library writes no pictures", "unsupported-file");
 }
 
 #endif

@@ -9,7 +9,9 @@ namespace littoral::io {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError("scene: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError("scene: " + what, "option-value");
+}
 
 void check_values(const VecX& values, Eigen::Index n) {
   if (values.size() != n)
@@ -92,7 +94,7 @@ void describe(Scene& scene, const std::string& title, const Report& report) {
   facts.emplace_back("time", text);
   scene.facts = std::move(facts);
   scene.options.insert(scene.options.end(), report.options.begin(), report.options.end());
-  scene.warnings.insert(scene.warnings.end(), report.warnings.begin(), report.warnings.end());
+  for (const Warning& warning : report.warnings) scene.warnings.push_back(warning.text);
 }
 
 void check_scene(const Scene& scene) {

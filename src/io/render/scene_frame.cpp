@@ -57,7 +57,8 @@ Vec3 front_view(const Eigen::Matrix3d& second) {
 Vec3 unit_direction(const Vec3& v, const std::string& name) {
   const double length = v.stableNorm();
   if (!(length > 0) || !std::isfinite(length))
-    throw InputError("option " + name + ": a direction must be finite and not zero");
+    throw InputError("option " + name + ": a direction must be finite and not zero",
+                     "option-value");
   return v / length;
 }
 
@@ -119,7 +120,8 @@ SceneFrame scene_frame(const Scene& scene) {
   frame.towards_eye = view.normalized();
   Vec3 up = scene.up ? unit_direction(*scene.up, "up") : Vec3(upright.row(1));
   if (std::abs(frame.towards_eye.dot(up)) > (scene.up ? 1 - 1e-9 : 0.99)) {
-    if (scene.up) throw InputError("option up is parallel to the direction of the view");
+    if (scene.up)
+      throw InputError("option up is parallel to the direction of the view", "option-value");
     up = -upright.row(2);
   }
   frame.up = (up - up.dot(frame.towards_eye) * frame.towards_eye).normalized();

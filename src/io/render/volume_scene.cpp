@@ -42,16 +42,19 @@ Volume thinned(const Volume& volume) {
 
 std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& view) {
   const Grid& grid = volume.grid;
-  if (view.axis < 0 || view.axis > 2) throw InputError("volume: the axis must be x, y or z");
+  if (view.axis < 0 || view.axis > 2)
+    throw InputError("volume: the axis must be x, y or z", "option-value");
   for (int a = 0; a < 3; ++a)
-    if (grid.n[a] < 2) throw InputError("volume: a grid needs two nodes along each axis");
+    if (grid.n[a] < 2)
+      throw InputError("volume: a grid needs two nodes along each axis", "option-value");
   auto known = std::make_shared<SceneVolume>();
   known->low = std::numeric_limits<double>::infinity();
   known->high = -known->low;
   for (Eigen::Index v = 0; v < volume.values.size(); ++v) {
     const double value = volume.values[v];
     if (std::isnan(value))
-      throw InputError("volume: the value of node " + std::to_string(v) + " is NaN");
+      throw InputError("volume: the value of node " + std::to_string(v) + " is NaN",
+                       "option-value");
     if (!std::isfinite(value)) {
       known->infinite = true;
       continue;
@@ -59,10 +62,11 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
     known->low = std::min(known->low, value);
     known->high = std::max(known->high, value);
   }
-  if (known->low > known->high) throw InputError("volume: no value is finite");
+  if (known->low > known->high) throw InputError("volume: no value is finite", "option-value");
   const bool zero = known->low < 0 && known->high > 0;
   known->level = view.level.value_or(zero ? 0 : 0.5 * known->low + 0.5 * known->high);
-  if (!std::isfinite(known->level)) throw InputError("volume: the level must be a finite number");
+  if (!std::isfinite(known->level))
+    throw InputError("volume: the level must be a finite number", "option-value");
   known->isosurface = view.isosurface && !known->infinite;
   known->axis = view.axis;
   const double low = grid.origin[view.axis];
@@ -70,7 +74,8 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
   const double position = view.position.value_or(low + step * std::floor(0.5 * steps));
   if (!(position >= low && position <= low + step * steps))
     throw InputError("volume: the slice at " + number_text(position) + " is outside the box, " +
-                     number_text(low) + " to " + number_text(low + step * steps));
+                         number_text(low) + " to " + number_text(low + step * steps),
+                     "option-value");
   known->slice = static_cast<int>(std::lround((position - low) / step));
   known->position = known->slice / steps;
   known->thin = thinned(volume);

@@ -31,8 +31,9 @@ bool same_points(const MatX3& a, const MatX3& b) {
 
 void check_finite(const PolygonSoup& soup, int v, const std::string& name) {
   if (soup.points.row(v).allFinite()) return;
-  throw InputError(name + ": a line uses vertex " + std::to_string(v) +
-                   " (counted from 0), which is not finite");
+  throw InputError(
+      name + ": a line uses vertex " + std::to_string(v) + " (counted from 0), which is not finite",
+      "bad-file");
 }
 
 Sources space_curves_from_lines(const PolygonSoup& soup, const std::string& name) {
@@ -70,7 +71,8 @@ Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
                            const std::string& name, const SurfaceMesh& mesh,
                            std::optional<int> index_base, Report& report) {
   if (index_base && *index_base != 0 && *index_base != 1) {
-    throw InputError("the index base must be 0 or 1, not " + std::to_string(*index_base));
+    throw InputError("the index base must be 0 or 1, not " + std::to_string(*index_base),
+                     "option-value");
   }
   const Format& format = format_to_read(extension, name, {Kind::sources});
   Sources sources;
@@ -79,15 +81,16 @@ Sources read_sources_bytes(std::string_view bytes, const std::string& extension,
   } else {
     const PolygonSoup soup = format.read_surface(bytes, name);
     if (soup.lines.empty()) {
-      throw InputError(name + ": no lines; sources need 'l' records (.obj) or edges (.ply)");
+      throw InputError(name + ": no lines; sources need 'l' records (.obj) or edges (.ply)",
+                       "bad-file");
     }
     if (index_base)
-      report.warn(name + ": the index base has no effect on " + std::string(format.extension) +
-                  " files");
+      report.warn("option-without-effect", name + ": the index base has no effect on " +
+                                               std::string(format.extension) + " files");
     sources = same_points(soup.points, mesh.points()) ? sources_from_lines(soup, name)
                                                       : space_curves_from_lines(soup, name);
   }
-  if (sources.empty()) throw InputError(name + ": no sources");
+  if (sources.empty()) throw InputError(name + ": no sources", "nothing-given");
   return sources;
 }
 

@@ -140,16 +140,17 @@ Sources read_sources_json(std::string_view bytes, const std::string& name, const
   // Each bracket of a deep nest takes many times its byte in memory, and no valid file has more
   // than 5.
   const auto check_depth = [&](int depth, Json::parse_event_t, const Json&) {
-    if (depth > 8) throw InputError(name + ": the JSON is nested too deeply");
+    if (depth > 8) throw InputError(name + ": the JSON is nested too deeply", "bad-file");
     return true;
   };
   Json root;
   try {
     root = Json::parse(text.begin(), text.end(), check_depth);
   } catch (const Json::parse_error& error) {
-    throw InputError(name + ": byte " + std::to_string(error.byte) + ": not valid JSON");
+    throw InputError(name + ": byte " + std::to_string(error.byte) + ": not valid JSON",
+                     "bad-file");
   } catch (const Json::exception&) {  // a number beyond the doubles
-    throw InputError(name + ": a number in it is out of range");
+    throw InputError(name + ": a number in it is out of range", "bad-file");
   }
   return JsonReader(name, mesh, index_base).read(root);
 }

@@ -8,7 +8,9 @@
 
 namespace littoral::io {
 
-void NodeMaker::fail(const std::string& text) const { throw InputError(where_() + ": " + text); }
+void NodeMaker::fail(const std::string& text) const {
+  throw InputError(where_() + ": " + text, "bad-file");
+}
 
 int NodeMaker::in_range(std::int64_t index, int base, int count, const char* what) const {
   if (index < base || index - base >= count) {

@@ -49,7 +49,8 @@ OrderedJson curve_json(bool is_signed, bool is_closed, const char* key, OrderedJ
 
 std::string chains_txt(const Sources& sources) {
   if (!sources.curves.empty() || !sources.points.empty())
-    throw UnsupportedError("chains of faces are written to a file of their own");
+    throw UnsupportedError("chains of faces are written to a file of their own",
+                           "unsupported-file");
   std::string out = "#offset 0\n";
   for (const FaceChain& chain : sources.chains) {
     out += "c";
@@ -63,7 +64,8 @@ std::string chains_txt(const Sources& sources) {
 
 std::string sources_txt(const Sources& sources, const SurfaceMesh& mesh) {
   if (!sources.space_curves.empty())
-    throw UnsupportedError("a .txt file does not hold curves in space; .json does");
+    throw UnsupportedError("a .txt file does not hold curves in space; .json does",
+                           "unsupported-file");
   if (!sources.chains.empty()) return chains_txt(sources);
   std::string out;
   for (const Curve& curve : sources.curves) {
@@ -77,7 +79,8 @@ std::string sources_txt(const Sources& sources, const SurfaceMesh& mesh) {
 
 std::string sources_json(const Sources& sources, const SurfaceMesh& mesh) {
   if (!sources.chains.empty())
-    throw UnsupportedError("a .json file does not hold chains of faces; .txt does");
+    throw UnsupportedError("a .json file does not hold chains of faces; .txt does",
+                           "unsupported-file");
   OrderedJson curves = OrderedJson::array(), points = OrderedJson::array();
   for (const Curve& curve : sources.curves) {
     OrderedJson nodes = OrderedJson::array();

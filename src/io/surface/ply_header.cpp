@@ -50,7 +50,7 @@ class HeaderLines {
   std::size_t at() const { return at_; }
   std::size_t line() const { return line_; }
   [[noreturn]] void fail(const std::string& text) const {
-    throw InputError(name_ + ":" + std::to_string(line_) + ": " + text);
+    throw InputError(name_ + ":" + std::to_string(line_) + ": " + text, "bad-file");
   }
 
  private:
@@ -143,9 +143,9 @@ std::size_t byte_size(PlyType type) {
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   HeaderLines lines(bytes, name);
   PlyHeader header;
-  if (bytes.empty()) throw InputError(name + ": the file is empty");
+  if (bytes.empty()) throw InputError(name + ": the file is empty", "bad-file");
   if (!bytes.starts_with("ply") || lines.next() != Words{"ply"}) {
-    throw InputError(name + ":1: expected the word 'ply'");
+    throw InputError(name + ":1: expected the word 'ply'", "bad-file");
   }
   bool has_format = false;
   while (true) {
@@ -174,8 +174,9 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
     if (row == 0) continue;
     if (element.count > left / row || element.count > std::numeric_limits<int>::max()) {
       throw InputError(name + ": the header promises " + std::to_string(element.count) +
-                       " of element " + in_quotes(element.name) + ", " + std::to_string(left - 1) +
-                       " bytes follow it");
+                           " of element " + in_quotes(element.name) + ", " +
+                           std::to_string(left - 1) + " bytes follow it",
+                       "bad-file");
     }
   }
   return header;

@@ -11,13 +11,13 @@ namespace littoral::io {
 
 FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
   std::ifstream file(path);
-  if (!file) throw IoError("cannot open " + path.string());
+  if (!file) throw IoError("cannot open " + path.string(), "cannot-read");
   FaceDirections out;
   std::vector<Vec3> rows;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     const auto fail = [&](const std::string& what) {
-      throw InputError(path.string() + ":" + std::to_string(number) + ": " + what);
+      throw InputError(path.string() + ":" + std::to_string(number) + ": " + what, "bad-file");
     };
     std::istringstream words(line.substr(0, line.find('#')));
     std::vector<std::string> word;
@@ -48,11 +48,13 @@ FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
     out.sparse.emplace_back(static_cast<int>(f), v / v.cwiseAbs().maxCoeff());
   }
   if (!rows.empty() && !out.sparse.empty())
-    throw InputError(path.string() + ": lines `x y z` and `f I x y z` are mixed");
-  if (rows.empty() && out.sparse.empty()) throw InputError(path.string() + ": holds no direction");
+    throw InputError(path.string() + ": lines `x y z` and `f I x y z` are mixed", "bad-file");
+  if (rows.empty() && out.sparse.empty())
+    throw InputError(path.string() + ": holds no direction", "bad-file");
   if (!rows.empty() && static_cast<int>(rows.size()) != n_faces)
     throw InputError(path.string() + ": " + std::to_string(rows.size()) + " directions for " +
-                     std::to_string(n_faces) + " faces");
+                         std::to_string(n_faces) + " faces",
+                     "bad-file");
   out.all.resize(static_cast<Eigen::Index>(rows.size()), 3);
   for (std::size_t i = 0; i < rows.size(); ++i) out.all.row(static_cast<Eigen::Index>(i)) = rows[i];
   return out;

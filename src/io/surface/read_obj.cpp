@@ -159,7 +159,7 @@ std::vector<double> per_vertex(const ObjFile& file, const std::vector<int>& refs
 PolygonSoup read_obj(std::string_view bytes, const std::string& name) {
   LineScanner scan(without_byte_order_mark(bytes, name), name, '#', true);
   ObjFile file = parse(scan);
-  if (file.n_vertices() == 0) throw InputError(name + ": no vertices");
+  if (file.n_vertices() == 0) throw InputError(name + ": no vertices", "bad-file");
   check_range(scan, file);
 
   PolygonSoup soup;

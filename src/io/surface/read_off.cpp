@@ -98,7 +98,7 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
 PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   LineScanner scan(without_byte_order_mark(bytes, name), name, '#');
   const OffHeader header = read_header(scan, bytes.size());
-  if (header.vertices == 0) throw InputError(name + ": no vertices");
+  if (header.vertices == 0) throw InputError(name + ": no vertices", "bad-file");
   PolygonSoup soup;
   soup.points.resize(header.vertices, 3);
   if (header.normals) soup.normals.resize(header.vertices, 3);

@@ -79,7 +79,7 @@ class BinaryBody {
   void end_row() {}
   std::size_t bytes_left() const { return bytes_.size() - at_; }
   [[noreturn]] void fail(const std::string& text) const {
-    throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text);
+    throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text, "bad-file");
   }
 
  private:
@@ -113,7 +113,7 @@ class PlyReader {
   }
 
   PolygonSoup read(const std::string& name) {
-    if (n_vertices_ == 0) throw InputError(name + ": no vertices");
+    if (n_vertices_ == 0) throw InputError(name + ": no vertices", "bad-file");
     for (const PlyElement& e : header_.elements) {
       if (e.name == "vertex") {
         read_vertices(e);

@@ -123,14 +123,16 @@ PolygonSoup read_text(std::string_view bytes, const std::string& name) {
 PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
   if (bytes.size() < header_size) {
     throw InputError(name + ": byte " + std::to_string(bytes.size()) +
-                     ": the file ends inside the header of a binary STL");
+                         ": the file ends inside the header of a binary STL",
+                     "bad-file");
   }
   const std::uint64_t count = load_little<std::uint32_t>(bytes.data() + 80);
   const std::uint64_t fit = (bytes.size() - header_size) / triangle_size;
   // Programs add trailing bytes, but never a whole triangle.
   if (count != fit || count > std::numeric_limits<int>::max() / 3) {
     throw InputError(name + ": byte 80: the header says " + std::to_string(count) +
-                     " triangles, the data hold " + std::to_string(fit));
+                         " triangles, the data hold " + std::to_string(fit),
+                     "bad-file");
   }
   Merger merger;
   PolygonSoup soup;
@@ -169,7 +171,7 @@ bool is_text(std::string_view bytes) {
 
 PolygonSoup read_stl(std::string_view bytes, const std::string& name) {
   PolygonSoup soup = is_text(bytes) ? read_text(bytes, name) : read_binary(bytes, name);
-  if (soup.n_vertices() == 0) throw InputError(name + ": no vertices");
+  if (soup.n_vertices() == 0) throw InputError(name + ": no vertices", "bad-file");
   return soup;
 }
 

@@ -14,7 +14,7 @@ namespace littoral::io {
 
 std::string read_bytes(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& why) -> std::string {
-    throw IoError("cannot read " + path.string() + ": " + why);
+    throw IoError("cannot read " + path.string() + ": " + why, "cannot-read");
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return fail("it is a directory");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/option_table.h"
 #include "io/binary.h"
 #include "io/formats.h"
 #include "io/surface/surface_writers.h"
@@ -18,13 +19,14 @@ const VecX& find_field(const std::filesystem::path& path, const PolygonSoup& sou
   if (found != soup.scalars.end()) {
     if (found->second.size() == soup.points.rows()) return found->second;
     throw InputError("cannot write " + path.string() + ": " + std::to_string(found->second.size()) +
-                     " values of '" + field + "' for " + std::to_string(soup.points.rows()) +
-                     " points");
+                         " values of '" + field + "' for " + std::to_string(soup.points.rows()) +
+                         " points",
+                     "cannot-write");
   }
-  std::string names;
-  for (const auto& [name, values] : soup.scalars) names += (names.empty() ? "" : ", ") + name;
+  const std::string names = listed_names(soup.scalars);
   throw InputError("cannot write " + path.string() + ": there is no field " + in_quotes(field) +
-                   (names.empty() ? "" : ", only " + names));
+                       (names.empty() ? "" : ", only " + names),
+                   "cannot-write");
 }
 
 // Offsets (running ends) and corners of a set of cells, as VTK stores them.

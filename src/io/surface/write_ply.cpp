@@ -24,8 +24,9 @@ void check_names(const PolygonSoup& soup) {
     const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
     const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
     if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
-    throw UnsupportedError("the scalar " + in_quotes(field) +
-                           " cannot be the name of a PLY property; rename it");
+    throw UnsupportedError(
+        "the scalar " + in_quotes(field) + " cannot be the name of a PLY property; rename it",
+        "unsupported-file");
   }
 }
 

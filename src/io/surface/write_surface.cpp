@@ -26,7 +26,8 @@ void check_lengths(const std::string& name, const PolygonSoup& soup) {
   const auto check = [&](Eigen::Index length, const std::string& what) {
     if (length == soup.points.rows()) return;
     throw InputError("cannot write " + name + ": " + std::to_string(length) + " " + what + " for " +
-                     std::to_string(soup.points.rows()) + " points");
+                         std::to_string(soup.points.rows()) + " points",
+                     "cannot-write");
   };
   if (soup.normals.rows() > 0) check(soup.normals.rows(), "normals");
   for (const auto& [field, values] : soup.scalars)
@@ -36,20 +37,24 @@ void check_lengths(const std::string& name, const PolygonSoup& soup) {
 void check_stl(const PolygonSoup& soup) {
   if (soup.n_faces() == 0 && soup.n_vertices() > 0)
     throw UnsupportedError(
-        "there are points and no faces, STL holds triangles only; .ply and .obj hold points");
+        "there are points and no faces, STL holds triangles only; .ply and .obj hold points",
+        "unsupported-file");
   for (int f = 0; f < soup.n_faces(); ++f) {
     if (soup.face(f).size() != 3) {
       throw UnsupportedError(
           "face " + std::to_string(f) + " has " + std::to_string(soup.face(f).size()) +
-          " corners, STL holds triangles only; .obj, .ply and .off hold polygons");
+              " corners, STL holds triangles only; .obj, .ply and .off hold polygons",
+          "unsupported-file");
     }
   }
   for (int f = 0; f < soup.n_faces(); ++f) {
     for (int v : soup.face(f)) {
       const double largest = soup.points.row(v).cwiseAbs().maxCoeff();
       if (largest <= std::numeric_limits<float>::max()) continue;
-      throw UnsupportedError("vertex " + std::to_string(v) +
-                             " is beyond STL's single precision; .obj, .ply and .off hold doubles");
+      throw UnsupportedError(
+          "vertex " + std::to_string(v) +
+              " is beyond STL's single precision; .obj, .ply and .off hold doubles",
+          "unsupported-file");
     }
   }
 }
@@ -128,7 +133,7 @@ void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
   try {
     write_atomically(path, [&](std::ostream& out) { format.write_surface(out, soup, field); });
   } catch (const UnsupportedError& e) {
-    throw UnsupportedError("cannot write " + path.string() + ": " + e.what());
+    throw UnsupportedError("cannot write " + path.string() + ": " + e.what(), e.code());
   }
 }
 

@@ -84,7 +84,8 @@ void skip_section(WordScanner& scan, const std::string& keyword) {
     if (keyword != s.name) continue;
     const int n = scan.count(s.name, 2);
     if (s.solid && n > 0)
-      throw UnsupportedError("section " + keyword + ": only tetrahedra fill space here");
+      throw UnsupportedError("section " + keyword + ": only tetrahedra fill space here",
+                             "unsupported-file");
     for (std::int64_t i = 0; i < std::int64_t{n} * s.numbers; ++i)
       scan.number([&] { return "a number of section " + keyword; });
     return;
@@ -117,7 +118,7 @@ TetFile read_medit(std::string_view bytes, const std::string& name) {
       try {
         skip_section(scan, keyword);
       } catch (const UnsupportedError& e) {
-        throw UnsupportedError(name + ": " + e.what());
+        throw UnsupportedError(name + ": " + e.what(), e.code());
       }
     }
   }
@@ -156,7 +157,7 @@ TetFile read_tet(std::string_view bytes, const std::string& name) {
 TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
                         const std::string& name) {
   TetFile file = format_to_read(extension, name, {Kind::tets}).read_tets(bytes, name);
-  if (file.mesh.n_tets() == 0) throw InputError(name + ": the file has no tets");
+  if (file.mesh.n_tets() == 0) throw InputError(name + ": the file has no tets", "bad-file");
   return file;
 }
 

@@ -23,11 +23,12 @@ class VtkScanner {
   [[noreturn]] void fail(const std::string& text) const {
     throw InputError(
         name_ +
-        (binary ? ": byte " + std::to_string(at_) + ": " : ":" + std::to_string(line_) + ": ") +
-        text);
+            (binary ? ": byte " + std::to_string(at_) + ": " : ":" + std::to_string(line_) + ": ") +
+            text,
+        "bad-file");
   }
   [[noreturn]] void unsupported(const std::string& text) const {
-    throw UnsupportedError(name_ + ": " + text);
+    throw UnsupportedError(name_ + ": " + text, "unsupported-file");
   }
 
   /// The rest of the current line; the next one becomes current.

@@ -96,13 +96,16 @@ void write_input(const std::filesystem::path& folder, const Facets& facets, cons
   const std::string said = end.said.empty() ? "" : " (" + end.said + ")";
   if (end.timed_out)
     throw SolveError(name + " did not end within " + number_text(request.timeout) +
-                     " s and was stopped; option tetgen-timeout allows it more" + remedy);
+                         " s and was stopped; option tetgen-timeout allows it more" + remedy,
+                     "tetgen-failed");
   if (end.signal != 0)
     throw SolveError(name + " was ended by signal " + std::to_string(end.signal) + ", " +
-                     ::strsignal(end.signal) + said + remedy);
+                         ::strsignal(end.signal) + said + remedy,
+                     "tetgen-failed");
   if (end.status != 0)
-    throw SolveError(name + " failed with status " + std::to_string(end.status) + said + remedy);
-  throw SolveError(name + " wrote no tets" + said + remedy);
+    throw SolveError(name + " failed with status " + std::to_string(end.status) + said + remedy,
+                     "tetgen-failed");
+  throw SolveError(name + " wrote no tets" + said + remedy, "tetgen-failed");
 }
 
 }  // namespace
@@ -111,7 +114,8 @@ TetMesh run_tetgen(const PolygonSoup& surface, const TetgenRequest& request, con
   const auto program = find_program(request.program);
   if (!program)
     throw UnsupportedError("the program " + request.program +
-                           " was not found; Debian's package tetgen has it" + remedy);
+                               " was not found; Debian's package tetgen has it" + remedy,
+                           "tetgen-failed");
   std::string answer;
   {
     const TemporaryFolder folder("littoral-tetgen");
@@ -131,8 +135,9 @@ TetMesh run_tetgen(const PolygonSoup& surface, const TetgenRequest& request, con
   try {
     return read_tets_bytes(answer, ".mesh", "in.1.mesh").mesh;
   } catch (const InputError& e) {
-    throw SolveError("the answer of the program " + request.program +
-                     " is not a tet mesh: " + e.what() + remedy);
+    throw SolveError(
+        "the answer of the program " + request.program + " is not a tet mesh: " + e.what() + remedy,
+        "tetgen-failed");
   }
 }
 

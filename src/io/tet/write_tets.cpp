@@ -84,7 +84,8 @@ void write_tets(const std::filesystem::path& path, const TetMesh& mesh, const Ve
                 const std::string& field) {
   if (values.size() != mesh.n_vertices())
     throw InputError("cannot write " + path.string() + ": " + std::to_string(values.size()) +
-                     " values for " + std::to_string(mesh.n_vertices()) + " vertices");
+                         " values for " + std::to_string(mesh.n_vertices()) + " vertices",
+                     "cannot-write");
   const Format& format = format_to_write(path, {Kind::tets});
   write_atomically(path, [&](std::ostream& out) { format.write_tets(out, mesh, values, field); });
 }

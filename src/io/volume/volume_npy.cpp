@@ -64,7 +64,7 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
 
 NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
   const auto header = parse_npy_header(bytes);
-  if (!header) throw InputError(name + ": the header is not that of a NumPy array");
+  if (!header) throw InputError(name + ": the header is not that of a NumPy array", "bad-file");
   const std::string& type = header->type;
   NumberKind kind;
   std::int64_t size = 0;
@@ -77,16 +77,18 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
                       (size == 1 || size == 2 || size == 4 || size == 8));
   if (!known || (type[0] != '<' && type[0] != '>' && type[0] != '|'))
     throw UnsupportedError(name + ": numbers of type " + in_quotes(type) +
-                           "; floating-point numbers and integers are read");
+                               "; floating-point numbers and integers are read",
+                           "unsupported-file");
   kind.size = static_cast<std::size_t>(size);
   const std::size_t most = (bytes.size() - header->data) / kind.size;
   std::uint64_t count = 1;
   for (const std::int64_t n : header->shape) {
     if (n > 0 && count > most / static_cast<std::uint64_t>(n))
-      throw InputError(name + ": the shape has more numbers than the file holds");
+      throw InputError(name + ": the shape has more numbers than the file holds", "bad-file");
     count *= static_cast<std::uint64_t>(n);
   }
-  if (count > most) throw InputError(name + ": a number without its bytes");  // shape ()
+  if (count > most)
+    throw InputError(name + ": a number without its bytes", "bad-file");  // shape ()
   const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
   return {header->shape, header->fortran,
           load_numbers(bytes.substr(header->data), kind, static_cast<std::size_t>(count), order)};
@@ -95,7 +97,8 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
 Volume npy_volume(const NpyArray& array, const std::string& name) {
   if (array.shape.size() != 3)
     throw InputError(name + ": the array has " + std::to_string(array.shape.size()) +
-                     " dimensions, a volume has 3");
+                         " dimensions, a volume has 3",
+                     "bad-file");
   const std::array<std::int64_t, 3> n{array.shape[0], array.shape[1], array.shape[2]};
   checked_nodes(n, static_cast<std::size_t>(array.numbers.size()), name);
   Volume volume;
@@ -119,9 +122,10 @@ MatX3 npy_points(const NpyArray& array, const std::string& name) {
     for (const std::int64_t n : array.shape)
       shape += (shape.empty() ? "" : " x ") + std::to_string(n);
     throw InputError(name + ": points are an array of N x 3, this one is " +
-                     (shape.empty() ? "a number" : shape));
+                         (shape.empty() ? "a number" : shape),
+                     "bad-file");
   }
-  if (array.shape[0] == 0) throw InputError(name + ": no points");
+  if (array.shape[0] == 0) throw InputError(name + ": no points", "bad-file");
   const Eigen::Index rows = array.numbers.size() / 3;
   if (array.fortran) return Eigen::Map<const Eigen::MatrixX3d>(array.numbers.data(), rows, 3);
   return Eigen::Map<const MatX3>(array.numbers.data(), rows, 3);

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/option_table.h"
 #include "io/volume/volume_formats.h"
 #include "io/write_table.h"
 #include "io/zip_archive.h"
@@ -29,9 +30,7 @@ NpyArrays read_arrays(std::string_view bytes, const std::string& name) {
 }
 
 std::string names_of(const NpyArrays& arrays) {
-  std::string names;
-  for (const auto& [key, array] : arrays) names += (names.empty() ? "" : ", ") + key;
-  return names.empty() ? "none" : names;
+  return arrays.empty() ? "none" : listed_names(arrays);
 }
 
 /// The array wanted by name or, where there is none of these names, the only one that will do.
@@ -49,11 +48,14 @@ const NpyArray& choose_array(const NpyArrays& arrays, const std::vector<std::str
     if (!fits(array)) continue;
     if (only)
       throw InputError(name + ": several arrays could be " + what + "; name one '" +
-                       wanted.front() + "'; there are: " + names_of(arrays));
+                           wanted.front() + "'; there are: " + names_of(arrays),
+                       "bad-file");
     only = &array;
     chosen = key;
   }
-  if (!only) throw InputError(name + ": no array is " + what + "; there are: " + names_of(arrays));
+  if (!only)
+    throw InputError(name + ": no array is " + what + "; there are: " + names_of(arrays),
+                     "bad-file");
   return *only;
 }
 
@@ -63,7 +65,8 @@ void read_triple(const NpyArrays& arrays, const std::string& key, const std::str
   const auto found = arrays.find(key);
   if (found == arrays.end())
     throw InputError(name + ": an archive of a volume holds '" + key +
-                     "', three numbers; there are: " + names_of(arrays));
+                         "', three numbers; there are: " + names_of(arrays),
+                     "bad-file");
   const VecX& numbers = found->second.numbers;
   if (numbers.size() == 1)
     triple.setConstant(numbers[0]);
@@ -71,7 +74,8 @@ void read_triple(const NpyArrays& arrays, const std::string& key, const std::str
     triple = numbers;
   else
     throw InputError(name + ": '" + key + "' has " + std::to_string(numbers.size()) +
-                     " numbers instead of three");
+                         " numbers instead of three",
+                     "bad-file");
 }
 
 template <class Write>
@@ -89,7 +93,8 @@ Volume read_npz_volume(std::string_view bytes, const std::string& name, const st
   const auto wanted = field.empty() ? std::vector<std::string>{"distance", "values"}
                                     : std::vector<std::string>{field};
   if (!field.empty() && arrays.count(field) == 0 && field != "distance")
-    throw InputError(name + ": there is no array '" + field + "'; there are: " + names_of(arrays));
+    throw InputError(name + ": there is no array '" + field + "'; there are: " + names_of(arrays),
+                     "bad-file");
   const NpyArray& values = choose_array(
       arrays, wanted, "a volume of three axes", name,
       [](const NpyArray& array) { return array.shape.size() == 3; }, chosen);

@@ -18,14 +18,16 @@ class NrrdReader {
   Volume read() {
     read_header();
     if (fields_.count("data file") + fields_.count("datafile") != 0)
-      throw UnsupportedError(name_ + ": the data are in another file; only attached data are read");
+      throw UnsupportedError(name_ + ": the data are in another file; only attached data are read",
+                             "unsupported-file");
     for (const char* skip : {"line skip", "lineskip", "byte skip", "byteskip"}) {
       if (fields_.count(skip) != 0 && fields_[skip] != "0")
-        throw UnsupportedError(name_ + ": '" + skip + "' is not supported");
+        throw UnsupportedError(name_ + ": '" + skip + "' is not supported", "unsupported-file");
     }
     if (need("dimension") != "3")
-      throw UnsupportedError(name_ + ": the data have " + in_quotes(need("dimension")) +
-                             " axes; three are read");
+      throw UnsupportedError(
+          name_ + ": the data have " + in_quotes(need("dimension")) + " axes; three are read",
+          "unsupported-file");
     std::array<std::int64_t, 3> n{};
     Words sizes(need("sizes"));
     for (auto& k : n) {
@@ -61,7 +63,9 @@ class NrrdReader {
     std::string_view text_;
   };
 
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ": " + what, "bad-file");
+  }
 
   const std::string& need(const std::string& key) const {
     const auto found = fields_.find(key);
@@ -145,8 +149,9 @@ class NrrdReader {
       if (!bytes) fail("the compressed data are damaged or not of the size stated");
       return load_numbers(*bytes, kind, nodes, order);
     }
-    throw UnsupportedError(name_ + ": encoding " + in_quotes(encoding) +
-                           "; raw, ascii and gzip are read");
+    throw UnsupportedError(
+        name_ + ": encoding " + in_quotes(encoding) + "; raw, ascii and gzip are read",
+        "unsupported-file");
   }
 
   // "(1,0,0) (0,1,0)": numbers between brackets and commas.
@@ -175,7 +180,8 @@ class NrrdReader {
       for (int a = 0; a < 3; ++a) {
         for (int b = 0; b < 3; ++b) {
           if (a == b ? !(d[4 * a] > 0) : d[3 * a + b] != 0)
-            throw UnsupportedError(name_ + ": axes that do not run along x, y and z");
+            throw UnsupportedError(name_ + ": axes that do not run along x, y and z",
+                                   "unsupported-file");
         }
         grid.spacing[a] = d[4 * a];
       }

@@ -56,10 +56,11 @@ std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t mo
   most = std::min<std::uint64_t>(most, std::numeric_limits<std::ptrdiff_t>::max());
   std::size_t nodes = 1;
   for (const std::int64_t k : n) {
-    if (k < 1) throw InputError(name + ": the grid has no nodes");
+    if (k < 1) throw InputError(name + ": the grid has no nodes", "bad-file");
     if (k > std::numeric_limits<int>::max() || nodes > most / static_cast<std::uint64_t>(k))
       throw InputError(name + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
-                       std::to_string(n[2]) + " nodes are more than the file holds");
+                           std::to_string(n[2]) + " nodes are more than the file holds",
+                       "bad-file");
     nodes *= static_cast<std::size_t>(k);
   }
   return nodes;
@@ -68,9 +69,9 @@ std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t mo
 void check_box(const Grid& grid, const std::string& name) {
   const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
   if (!(grid.spacing.minCoeff() > 0) || !grid.spacing.allFinite())
-    throw InputError(name + ": the spacing of the grid must be positive");
+    throw InputError(name + ": the spacing of the grid must be positive", "option-value");
   if (!grid.origin.allFinite() || !far.allFinite())
-    throw InputError(name + ": the box of the grid is not finite");
+    throw InputError(name + ": the box of the grid is not finite", "bad-file");
 }
 
 std::optional<std::string> decode_base64(std::string_view text, std::size_t& used) {

@@ -47,7 +47,8 @@ bool has_openvdb() { return module() != nullptr; }
 void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {
   if (module() == nullptr)
     throw UnsupportedError(std::string("there is no module ") + file_name +
-                           " beside the program; it is built where OpenVDB is");
+                               " beside the program; it is built where OpenVDB is",
+                           "unsupported-file");
   const std::string error = module()->write(out, volume, options.band);
   if (!error.empty()) throw IoError("OpenVDB: " + error);
 }

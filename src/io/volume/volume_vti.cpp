@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/option_table.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
@@ -63,7 +64,10 @@ class VtiReader {
     std::size_t offset = 0;   // of appended ones
   };
 
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(name_ + ": " + what, "bad-file");
+  }
+  [[noreturn]] void refuse(const std::string& what) const { refuse("" + what); }
 
   // The next tag from `at` on; comments, declarations and text are passed over.
   bool next_tag(std::size_t at, Tag& tag) const {
@@ -143,9 +147,9 @@ class VtiReader {
       } else if (tag.name == "ImageData") {
         read_image_tag(tag);
       } else if (tag.name == "Piece") {
-        if (++pieces_ > 1) throw UnsupportedError(name_ + ": only one piece is read");
+        if (++pieces_ > 1) refuse("only one piece is read");
         if (numbers<6>(tag, "Extent", extent_text_) != extent_)
-          throw UnsupportedError(name_ + ": a piece that is not the whole grid");
+          refuse("a piece that is not the whole grid");
       } else if (tag.name == "PointData") {
         in_points = !tag.empty;
       } else if (tag.name == "/PointData") {
@@ -166,15 +170,14 @@ class VtiReader {
 
   void read_file_tag(const Tag& tag) {
     if (attribute(tag, "type", "") != "ImageData")
-      throw UnsupportedError(name_ + ": VTK data of type " + in_quotes(attribute(tag, "type", "")) +
-                             "; ImageData is read");
+      refuse("VTK data of type " + in_quotes(attribute(tag, "type", "")) + "; ImageData is read");
     order_ = attribute(tag, "byte_order", "LittleEndian") == "BigEndian" ? std::endian::big
                                                                          : std::endian::little;
     header_size_ = attribute(tag, "header_type", "UInt32") == "UInt64" ? 8 : 4;
     const std::string compressor = attribute(tag, "compressor", "");
     compressed_ = compressor == "vtkZLibDataCompressor";
     if (!compressed_ && !compressor.empty())
-      throw UnsupportedError(name_ + ": compressor " + in_quotes(compressor) + "; zlib is read");
+      refuse("compressor " + in_quotes(compressor) + "; zlib is read");
   }
 
   void read_image_tag(const Tag& tag) {
@@ -184,7 +187,7 @@ class VtiReader {
     const auto spacing = numbers<3>(tag, "Spacing", "1 1 1");
     const std::array<double, 9> straight{1, 0, 0, 0, 1, 0, 0, 0, 1};
     if (numbers<9>(tag, "Direction", "1 0 0 0 1 0 0 0 1") != straight)
-      throw UnsupportedError(name_ + ": a grid whose axes do not run along x, y and z");
+      refuse("a grid whose axes do not run along x, y and z");
     std::array<std::int64_t, 3> n{};
     for (int k = 0; k < 3; ++k) {
       const double first = extent_[2 * k], last = extent_[2 * k + 1];
@@ -214,11 +217,9 @@ class VtiReader {
   }
 
   const Array& chosen() const {
-    std::string known;
-    for (const Array& array : arrays_) {
+    for (const Array& array : arrays_)
       if (!wanted_.empty() && array.name == wanted_) return array;
-      known += (known.empty() ? "" : ", ") + array.name;
-    }
+    const std::string known = listed(arrays_, &Array::name);
     if (!wanted_.empty())
       fail("there is no field " + in_quotes(wanted_) +
            "; it has: " + (known.empty() ? "none" : known));
@@ -230,7 +231,7 @@ class VtiReader {
   }
 
   NumberKind number_kind(const std::string& type) const {
-    for (const char* family : {"Float", "Int", "UInt"}) {
+    for (const char* family : {"Float", "Int", "UInt"})
       for (const char* bits : {"8", "16", "32", "64"}) {
         if (type != std::string(family) + bits) continue;
         const NumberKind kind{family[0] == 'F'   ? 'f'
@@ -239,7 +240,6 @@ class VtiReader {
                               static_cast<std::size_t>(std::stoi(bits) / 8)};
         if (kind.family != 'f' || kind.size >= 4) return kind;
       }
-    }
     fail("unknown number type " + in_quotes(type));
   }
 

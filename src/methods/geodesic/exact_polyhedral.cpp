@@ -378,7 +378,7 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
         << front.exact_within() * T.unit
         << " are exact; beyond, true distances are at least that and at most the values, which are "
            "lengths of paths. Merge or remove overlapping faces";
-    report.warn(text.str());
+    report.warn("not-converged", text.str());
   }
   VecXi nearest = front.nearest();
   return {finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),

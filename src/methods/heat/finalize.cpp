@@ -50,13 +50,14 @@ VecX finalize_field(const std::vector<int>& component, int n_components, double 
   VecX out = phi * unit;
   set_unreached(out, component, reached, report);
   if (!report.unreachable_components.empty())
-    report.warn(std::to_string(report.unreachable_components.size()) + " of " +
-                std::to_string(n_components) +
-                " components hold no source; their distance is infinite");
+    report.warn("component-unreached",
+                std::to_string(report.unreachable_components.size()) + " of " +
+                    std::to_string(n_components) +
+                    " components hold no source; their distance is infinite");
   const auto isolated = std::count(component.begin(), component.begin() + out.size(), -1);
   if (isolated > 0)
-    report.warn(std::to_string(isolated) +
-                " vertices belong to no face; their distance is infinite");
+    report.warn("isolated-vertices", std::to_string(isolated) +
+                                         " vertices belong to no face; their distance is infinite");
   return out;
 }
 

@@ -72,7 +72,7 @@ void ScalarHeat::add_nearest(const Calculus& C, const SourceSystem& system, doub
     if (k == 0 || inner.warnings.size() < least.warnings.size()) least = inner;
   }
   report.iterations.emplace_back("heat passes", passes);
-  for (const std::string& warning : least.warnings) report.warn(warning);
+  for (const auto& [code, text] : least.warnings) report.warn(code, text);
 }
 
 }  // namespace littoral

@@ -281,8 +281,9 @@ VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
   dual.report_worst(report.residuals);
   if (stopped > 0) {
     report.status = "not converged";
-    report.warn("sharpening stopped after " + std::to_string(static_cast<int>(iterations.worst())) +
-                " iterations above the tolerance");
+    report.warn("not-converged", "sharpening stopped after " +
+                                     std::to_string(static_cast<int>(iterations.worst())) +
+                                     " iterations above the tolerance");
   }
   return out;
 }

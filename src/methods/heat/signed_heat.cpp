@@ -154,7 +154,8 @@ VecX SignedHeatSolver::directions(const SourceSystem& system, const SignedHeat& 
     return X.Y;
   }();
   if (!(Y.cwiseAbs().maxCoeff() > 0))
-    report.warn("the normals of the sources cancel everywhere; the distance is zero");
+    report.warn("normals-cancel",
+                "the normals of the sources cancel everywhere; the distance is zero");
   return Y;
 }
 

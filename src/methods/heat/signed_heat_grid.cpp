@@ -75,7 +75,8 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
   const GridRows rows = grid_rows(grid, source.points, source.areas);
   if (rows.A.rows() == 0) {
-    report.warn("the box holds no sample of the input; distances are shifted by the box's centre");
+    report.warn("box-misses-input",
+                "the box holds no sample of the input; distances are shifted by the box's centre");
     return phi;
   }
   const auto constraint = options.constraint;

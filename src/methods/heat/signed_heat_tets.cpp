@@ -88,7 +88,8 @@ VecX TetHeatSolver::signed_distance(const TetSourceSystem& system, double h, dou
     int zeros = 0;
     Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
     if (zeros > 0)
-      report.warn(std::to_string(zeros) + " tets have no direction: too far from the input");
+      report.warn("direction-missing",
+                  std::to_string(zeros) + " tets have no direction: too far from the input");
   }
   return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }
@@ -116,7 +117,8 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, d
     int zeros = 0;
     Y = normalize_rows(-ops.gradient(u), ops.volumes, zeros);
     if (zeros > 0)
-      report.warn(std::to_string(zeros) + " tets have no direction: too far from the sources");
+      report.warn("direction-missing",
+                  std::to_string(zeros) + " tets have no direction: too far from the sources");
   }
   return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }

@@ -70,11 +70,13 @@ void warn_off_unit(const std::string& kind, Report& report) {
     if (name == off_unit_area_fraction) share = value;
   if (share <= remarkable_off_unit) return;
   const bool triangles = kind == "triangle mesh" || kind == "polygon mesh";
-  report.warn("the gradient of the distance is more than a quarter off unit length on " +
-              in_short(100 * share) + " % of the surface: the distance is not right there. " +
-              (triangles ? "Method auto measures exactly; otherwise finer or more even triangles "
-                           "help, as by option intrinsic-delaunay"
-                         : "A finer surface helps"));
+  report.warn(
+      "gradient-off-unit",
+      "the gradient of the distance is more than a quarter off unit length on " +
+          in_short(100 * share) + " % of the surface: the distance is not right there. " +
+          (triangles ? "Method auto measures exactly; otherwise finer or more even triangles "
+                       "help, as by option intrinsic-delaunay"
+                     : "A finer surface helps"));
 }
 
 double misaligned_fraction(const Report& report) {
@@ -95,9 +97,11 @@ std::string raised_warning(double from, double to, double share_before, double s
 void warn_misaligned(Report& report) {
   const double share = misaligned_fraction(report);
   if (share > remarkable_share)
-    report.warn("the distance falls along the diffused directions on " + in_short(100 * share) +
-                " % of the surface: sources contradict each other, or the time scale is too small "
-                "for this mesh; the automatic one finds out");
+    report.warn(
+        "directions-misaligned",
+        "the distance falls along the diffused directions on " + in_short(100 * share) +
+            " % of the surface: sources contradict each other, or the time scale is too small "
+            "for this mesh; the automatic one finds out");
 }
 
 }  // namespace littoral

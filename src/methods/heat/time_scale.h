@@ -83,7 +83,8 @@ VecX solve_raising(
   }
   report.merge(best);
   if (time_scale > given)
-    report.warn(raised_warning(given, time_scale, first, misaligned_fraction(best)));
+    report.warn("time-scale-raised",
+                raised_warning(given, time_scale, first, misaligned_fraction(best)));
   return phi;
 }
 

@@ -63,8 +63,9 @@ void check_combination(const Csg& csg, std::size_t fields) {
     throw InputError("a combination of " + std::to_string(csg.operations.size() + 1) +
                      " shapes got " + std::to_string(fields));
   if (!(csg.blend >= 0 && std::isfinite(csg.blend)))
-    throw InputError("option blend must be finite and not negative");
-  if (!std::isfinite(csg.offset)) throw InputError("the offset must be a finite number");
+    throw InputError("option blend must be finite and not negative", "option-value");
+  if (!std::isfinite(csg.offset))
+    throw InputError("the offset must be a finite number", "option-value");
 }
 
 DistanceSample combine(const Csg& csg, std::span<const DistanceSample> fields) {

@@ -46,6 +46,7 @@ CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, dou
                               patch_.area / (patch_.area + area_of(points, sides_.faces)));
     if (patch_.finest > 0.6 * spacing)
       report.warn(
+          "free-edges",
           "the input's faces have so many free edges that patches end a spacing before them; "
           "distances are less exact there. Weld vertices that belong together");
   }
@@ -125,9 +126,11 @@ VecX CompletedSurface::at_nodes(const Grid& grid, const Task& task, Report& repo
   report.sizes.emplace_back("share of sign changes without surface", share);
   if (share > jumps_allowed) {
     report.status = "uncertain";
-    report.warn("at " + percent_text(share) +
-                " of the places where the sign changes there is neither input nor patch: signs are "
-                "uncertain there, as around faces that are reversed or missing");
+    report.warn(
+        "sign-uncertain",
+        "at " + percent_text(share) +
+            " of the places where the sign changes there is neither input nor patch: signs are "
+            "uncertain there, as around faces that are reversed or missing");
   }
   return values;
 }

@@ -101,6 +101,7 @@ CompletedCloud::CompletedCloud(std::unique_ptr<const ToriDistance> tori, const G
   if (static_cast<double>(open) > much * std::sqrt(static_cast<double>(all.rows()))) {
     report.status = "uncertain";
     report.warn(
+        "points-not-enclosing",
         "the points do not enclose what they bound: the surface through them goes on beyond them "
         "and ends where it was no longer looked for; signs are uncertain there");
   }

@@ -26,22 +26,27 @@ void report_shares(const SideCensus::Shares& shares, Report& report) {
   if (shares.bounds < nothing) {
     report.status = "uncertain";
     report.warn(
+        "nothing-enclosed",
         "the input encloses nothing, so there is no inside: it is a sheet, or too many faces are "
         "missing; method signed-heat closes sheets that are consistently oriented");
     return;
   }
   if (shares.without > doubtful) {
     report.status = "uncertain";
-    report.warn(percent_text(shares.without) +
-                " of the input's area has the outside on both sides: sheets, or faces that are "
-                "double or reversed; signs are uncertain there. Orient faces consistently, leave "
-                "out double ones and fill holes, or look whether method signed-heat agrees");
+    report.warn(
+        "sheets",
+        percent_text(shares.without) +
+            " of the input's area has the outside on both sides: sheets, or faces that are "
+            "double or reversed; signs are uncertain there. Orient faces consistently, leave "
+            "out double ones and fill holes, or look whether method signed-heat agrees");
   }
   if (shares.within > walls)
-    report.warn(percent_text(shares.within) +
-                " of the input's area lies inside, on both sides: walls within, or parts that "
-                "overlap. Distances inside are to the nearest of them; leave them out to measure "
-                "to the outer surface alone");
+    report.warn(
+        "walls-inside",
+        percent_text(shares.within) +
+            " of the input's area lies inside, on both sides: walls within, or parts that "
+            "overlap. Distances inside are to the nearest of them; leave them out to measure "
+            "to the outer surface alone");
 }
 
 void report_orientation(const OrientedSoup& soup, Report& report) {
@@ -49,11 +54,12 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
   report.sizes.emplace_back("share of the area left out of the sign", soup.left_out);
   report.sizes.emplace_back("certainty of the orientation", soup.certainty);
   report.warn(
+      "orientation-mixed",
       "the orientation of faces disagrees, or faces are double: " + percent_text(soup.turned) +
-      " of the area was turned and " + percent_text(soup.left_out) +
-      " left out of the sign, by the parity of lines through it, of which " +
-      percent_text((1 + soup.certainty) / 2) +
-      " agree. Orient faces consistently and leave out double ones to be sure");
+          " of the area was turned and " + percent_text(soup.left_out) +
+          " left out of the sign, by the parity of lines through it, of which " +
+          percent_text((1 + soup.certainty) / 2) +
+          " agree. Orient faces consistently and leave out double ones to be sure");
   if (soup.certainty < sure) report.status = "uncertain";
 }
 
@@ -96,12 +102,14 @@ SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_giv
   }
   if (against > doubtful) {
     report.status = "uncertain";
-    report.warn("lines through " + percent_text(against) +
-                " of the area tell another orientation than its faces have, but do not agree: "
-                "signs are uncertain there");
+    report.warn("sign-uncertain",
+                "lines through " + percent_text(against) +
+                    " of the area tell another orientation than its faces have, but do not agree: "
+                    "signs are uncertain there");
   }
   if (rule.sense < 0)
     report.warn(
+        "orientation-reversed",
         "most normals point into the space that the input encloses: all count as reversed, so that "
         "this space is inside");
   report_shares(given, report);

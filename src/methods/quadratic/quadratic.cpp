@@ -107,8 +107,9 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   field.elements = elements_;
   field.u = VecX::Constant(E.n_nodes(), std::numeric_limits<double>::infinity());
   if (E.mollified > 0)
-    report.warn(std::to_string(E.mollified) +
-                " nearly degenerate elements had their sides lengthened minimally");
+    report.warn("degenerate-faces",
+                std::to_string(E.mollified) +
+                    " nearly degenerate elements had their sides lengthened minimally");
   std::vector<std::vector<P2Source<D>>> of_part(parts_.size());
   for (const P2Source<D>& source : sources)
     of_part[E.component[E.node[source.where.at(0).element][0]]].push_back(source);
@@ -162,10 +163,12 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   if (!converged) {
     report.status = "not converged";
     if (missing > 0)
-      report.warn("between samples the constraint is still violated at " + number_text(missing) +
-                  " points, after the last round of insertion");
-    report.warn("the solver stopped at a relative duality gap of " + number_text(gap.worst()) +
-                " and residuals of " + number_text(std::max(residual.worst(), dual.worst())));
+      report.warn("not-converged", "between samples the constraint is still violated at " +
+                                       number_text(missing) +
+                                       " points, after the last round of insertion");
+    report.warn("not-converged", "the solver stopped at a relative duality gap of " +
+                                     number_text(gap.worst()) + " and residuals of " +
+                                     number_text(std::max(residual.worst(), dual.worst())));
   }
   return field;
 }

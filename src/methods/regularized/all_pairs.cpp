@@ -103,8 +103,8 @@ class AllPairs {
     report.residuals.emplace_back("largest gradient over 1", std::max(0.0, longest_ - 1));
     if (worst > 1) {
       report.status = "not converged";
-      report.warn("all pairs stopped after " + std::to_string(k) +
-                  " iterations above the tolerance");
+      report.warn("not-converged", "all pairs stopped after " + std::to_string(k) +
+                                       " iterations above the tolerance");
     }
     T_.resize(0, 0), X_.resize(0, 0), response_.resize(0, 0), S_.clear();
     return U_.template cast<double>();
@@ -279,7 +279,8 @@ class AllPairs {
     const double dual1 = over(s.dz, std::max(s.w, given1));
     const double dual2 = over(s.du, std::max(s.h, given2));
     const double worst = std::max({primal1, dual1, primal2, dual2});
-    if (!std::isfinite(worst)) throw SolveError("all pairs diverged: non-finite iterate");
+    if (!std::isfinite(worst))
+      throw SolveError("all pairs diverged: non-finite iterate", "diverged");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));
     if (worst <= 1 || k < next_change_) return worst;
     auto factor_of = [](double primal, double dual) {
@@ -351,7 +352,8 @@ MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task,
     } catch (const SolveError&) {  // thin triangles take more digits
       check_memory(full, "all pairs of " + std::to_string(C.M.size()) + " vertices",
                    "simplify the mesh: its thin triangles take full precision");
-      report.warn("thin triangles take full precision: option storage was not followed");
+      report.warn("option-without-effect",
+                  "thin triangles take full precision: option storage was not followed");
       return in_full();
     }
   };

@@ -91,9 +91,10 @@ VecX times(const SpMat& lower, const VecX& x) { return lower.selfadjointView<Eig
 void check_data(const Calculus& C, Regularizer regularizer, const RegularizerData& data) {
   if (regularizer == Regularizer::align && data.V.size() != C.G.rows)
     throw InputError(
-        "aligned distance needs one direction per face: option field names a file of them");
+        "aligned distance needs one direction per face: option field names a file of them",
+        "option-value");
   if (regularizer == Regularizer::align && !data.V.allFinite())
-    throw InputError("a direction of the field is not finite");
+    throw InputError("a direction of the field is not finite", "not-finite");
   if (regularizer == Regularizer::max_norm && data.frames.rows() != C.G.rows)
     throw UnsupportedError("the max-norm regularizer needs faces in space");
   if (regularizer == Regularizer::hessian && data.W.rows() != C.L.rows())

@@ -18,7 +18,7 @@ class Numbers {
   Numbers(std::string_view text, const std::string& file) : left_(text), file_(file) {}
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(file_ + ": not the weights of a torus fit: " + what);
+    throw InputError(file_ + ": not the weights of a torus fit: " + what, "bad-file");
   }
   std::string_view word() {
     for (;;) {

@@ -161,7 +161,7 @@ void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const Surfac
   }
   bool bounded = true;
   const L1Solution v = integrate_l1_if_bounded(std::move(problem), {}, task, report, bounded);
-  if (!bounded) report.warn(unbounded_warning);
+  if (!bounded) report.warn("curve-crosses-itself", unbounded_warning);
   result.objective = v.primal;
   result.gap = v.gap();
   for (Eigen::Index a = 0; a < m; ++a) {
@@ -195,7 +195,8 @@ WindingNumbers dual_winding(const JumpCalculus& J, const DualCurve& curve,
   result.u = result.w = at_corners(J, u);
   // Round edges of three or more faces turns would have to be told apart from loops.
   if (!options.keep_nonbounding && !curve.pairs.empty())
-    report.warn("edges of three or more faces: parts of curves that bound nothing are kept");
+    report.warn("nonmanifold-edges",
+                "edges of three or more faces: parts of curves that bound nothing are kept");
   if (!options.keep_nonbounding && curve.pairs.empty()) {
     const Stopwatch watch(report, "residual function");
     // Steps 2 to 4.

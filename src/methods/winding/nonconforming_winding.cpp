@@ -35,7 +35,8 @@ WindingNumbers nonconforming_winding(const JumpCalculus& J,
     may_not_bound = may_not_bound || !J.simply_connected[J.component[s.face]];
   }
   if (may_not_bound && !options.keep_nonbounding)
-    report.warn("formulation nonconforming: parts of curves that bound nothing are kept");
+    report.warn("nonbounding-kept",
+                "formulation nonconforming: parts of curves that bound nothing are kept");
   {
     const Stopwatch watch(report, "Poisson");
     result.u = solve_jump_laplace(J, result.curve, density, Boundary::natural,

@@ -140,7 +140,7 @@ void WindingSolver::decompose(WindingNumbers& result, const SurfaceWinding& opti
                                     report)
           : integrate_jumps(J, integrate_locally(J, result.gamma), weight, lo, hi, take, {}, {},
                             integration, report);
-  if (!residual.bounded) report.warn(unbounded_warning);
+  if (!residual.bounded) report.warn("curve-crosses-itself", unbounded_warning);
   for (int f = 0; f < J.n_faces; ++f)
     if (take[J.component[f]]) result.v.row(f) = residual.v.row(f);
   result.objective = residual.objective;

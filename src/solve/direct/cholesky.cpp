@@ -97,7 +97,8 @@ void Cholesky<Scalar>::factor(const Matrix& lower, const std::vector<char>& stal
     });
   } catch (const std::bad_alloc&) {
     supernodes_.clear();
-    throw SolveError("not enough memory to factor a matrix of order " + std::to_string(E.n));
+    throw SolveError("not enough memory to factor a matrix of order " + std::to_string(E.n),
+                     "too-large");
   }
   if (!to_be_patched_)
     for (Supernode& node : supernodes_) node.update.reset();

@@ -67,7 +67,8 @@ Ordering dissect(Graph& g) {
   options[METIS_OPTION_SEED] = 1;
   if (METIS_NodeND(&n, g.begin.data(), g.to.data(), nullptr, options, order.data(),
                    position.data()) != METIS_OK)
-    throw SolveError("not enough memory to order a matrix of order " + std::to_string(n));
+    throw SolveError("not enough memory to order a matrix of order " + std::to_string(n),
+                     "too-large");
 #else
   // With its diagonal: Eigen puts every column without one at the end, as it does dense ones.
   const Eigen::Index n = order.size();

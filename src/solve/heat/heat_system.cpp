@@ -146,8 +146,9 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
   for (Eigen::Index i = 0; i < n; ++i)
     if (field.layer[i] < 0) field.x.segment(i * block_, block_).setZero();
   if (left > 0)
-    report.warn("heat did not reach " + std::to_string(left) +
-                " elements; their directions are left to the Poisson step");
+    report.warn("direction-missing",
+                "heat did not reach " + std::to_string(left) +
+                    " elements; their directions are left to the Poisson step");
   return field;
 }
 

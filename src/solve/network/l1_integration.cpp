@@ -22,7 +22,7 @@ void check(const L1Integration& p) {
   const bool bounded = p.lo.size() > 0 || p.hi.size() > 0;
   if (p.f.size() != m || p.g.size() != m || p.w.size() != p.c.size() ||
       (bounded && (p.lo.size() != p.c.size() || p.hi.size() != p.c.size())))
-    throw InputError("L1 integration: the lists have different lengths");
+    throw InputError("L1 integration: the lists have different lengths", "sizes-differ");
   for (std::size_t k = 0; k < m; ++k) {
     const Eigen::Index e = k;
     const std::string arc = "L1 integration: arc " + std::to_string(k);

@@ -233,7 +233,7 @@ void check(const FlowNetwork& network, const FlowStart& start) {
       network.cost.size() != m || (!network.supply.empty() && network.supply.size() != n) ||
       (!start.flow.empty() && start.flow.size() != m) ||
       (!start.key.empty() && start.key.size() != m))
-    throw InputError("flow network: the lists have different lengths");
+    throw InputError("flow network: the lists have different lengths", "sizes-differ");
   for (std::size_t e = 0; e < m; ++e) {
     const auto inside = [&](int v) { return v >= 0 && v < network.n_nodes; };
     if (!inside(network.tail[e]) || !inside(network.head[e]))

@@ -123,7 +123,7 @@ class Admm {
     dual_tolerance_ =
         std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(state_.w);
     if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
-      throw SolveError("alternating directions diverged: non-finite iterate");
+      throw SolveError("alternating directions diverged: non-finite iterate", "diverged");
   }
 
   /// Section 3.4.1. Rarer and rarer, so that it ends.
@@ -212,8 +212,9 @@ void report_admm(const AdmmResult& result, Report& report) {
     values->report_worst(report.residuals);
   if (!result.converged) {
     report.status = "not converged";
-    report.warn("alternating directions stopped after " + std::to_string(result.iterations) +
-                " iterations above the tolerance");
+    report.warn("not-converged", "alternating directions stopped after " +
+                                     std::to_string(result.iterations) +
+                                     " iterations above the tolerance");
   }
 }
 

@@ -73,7 +73,7 @@ AdmmResult pdhg(const SplitProblem& p, const VecX& M, const VecX& u0, const Admm
       const VecX left = p.b - force;
       r.dual = std::sqrt(left.dot(inverse.cwiseProduct(left)) / total);
       if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
-        throw SolveError("the primal-dual method diverged: non-finite iterate");
+        throw SolveError("the primal-dual method diverged: non-finite iterate", "diverged");
       const double primal_tolerance = options.relative * std::sqrt(std::max(g2 / total, 1e-6));
       const double dual_tolerance =
           options.relative * std::sqrt(p.b.dot(inverse.cwiseProduct(p.b)) / total);

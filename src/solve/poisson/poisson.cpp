@@ -198,7 +198,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   report.residuals.emplace_back("constraints", violation);
   if (violation > 1e-8) {
     report.status = "not converged";
-    report.warn("the constraints could not be met exactly; the result is their least-squares fit");
+    report.warn("constraints-unmet",
+                "the constraints could not be met exactly; the result is their least-squares fit");
   }
   drop_constants(fixed, x);
   return x;

@@ -251,7 +251,7 @@ export class App {
   /** Not in the middle of a stroke: the picture would change its size. */
   showWarnings(): void {
     if (this.tools.drawing) return;
-    showWarnings([...(this.engine.surface?.warnings ?? []), ...(this.answer?.report.warnings ?? [])], this.failure);
+    showWarnings([...(this.engine.surface?.warnings ?? []), ...(this.answer?.report.warnings ?? []).map(({ message }) => message)], this.failure);
   }
 
   private drawLegend(): void {

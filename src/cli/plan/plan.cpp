@@ -1,0 +1,115 @@
+#include "cli/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include "api/report_json.h"
+#include "base/option_table.h"
+#include "base/parallel.h"
+#include "base/platform/memory.h"
+#include "cli/plan/run_costs.h"
+
+namespace littoral::cli {
+
+namespace {
+
+constexpr double long_run = 30;      // seconds that are said before they pass
+constexpr double shared_work = 0.8;  // of the work that threads share: Amdahl's law
+
+/// Two digits: more would promise too much.
+double rough(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return std::strtod(text, nullptr);
+}
+
+PlannedRun estimated(const RunPlan& plan, const std::string& verb, const MethodInfo& method) {
+  PlannedRun out;
+  out.reason = (plan.method.empty() ? "the default: " : "asked for: ") + method.summary;
+  out.available_memory_mb = std::round(std::min(available_memory(), 1e18) / (1 << 20));
+  const std::optional<RunCost> cost = run_cost(verb, method.name, plan.elements);
+  if (!cost) return out;
+  const double seconds = plan.share * cost->seconds;
+  out.processor_seconds = rough(seconds);
+  out.seconds = rough(seconds * (1 - shared_work + shared_work / std::max(1, thread_count())));
+  out.memory_mb = rough(plan.share * cost->bytes / (1 << 20));
+  return out;
+}
+
+std::string estimate_text(const std::optional<double>& value, const char* unit) {
+  return value ? "about " + number_text(*value) + " " + unit : "not known";
+}
+
+}  // namespace
+
+RunPlan plan_in_space(const CsgShapes& shapes, const std::string& domain, double points) {
+  RunPlan plan{shapes.all.front().request.method.name(),
+               domain,
+               Registry<SpaceDomain>::instance().infos(),
+               {},
+               points};
+  double vertices = 0, faces = 0;
+  for (const Shape& shape : shapes.all) {
+    vertices += shape.surface.n_vertices();
+    faces += shape.surface.n_faces();
+  }
+  plan.sizes = {{"shapes", static_cast<double>(shapes.all.size())},
+                {"vertices", vertices},
+                {"faces", faces},
+                {domain == "grid" ? "nodes" : "points", points}};
+  return plan;
+}
+
+RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid) {
+  RunPlan plan = plan_in_space(shapes, "grid", static_cast<double>(grid.n_nodes()));
+  for (const auto& [name, a] :
+       {std::pair("nodes along x", 0), {"nodes along y", 1}, {"nodes along z", 2}})
+    plan.sizes.emplace_back(name, grid.n[static_cast<std::size_t>(a)]);
+  plan.sizes.emplace_back("spacing", grid.spacing.minCoeff());
+  return plan;
+}
+
+void add_plan_option(CLI::App& verb, Session& session) {
+  verb.add_flag("--dry-run", session.dry_run,
+                "read and check the input, and print the method, the sizes and the estimated time "
+                "and memory; compute and write nothing");
+}
+
+bool planned(const RunPlan& plan, Session& session) {
+  const auto found = std::ranges::find(plan.methods, plan.method, &MethodInfo::name);
+  const MethodInfo& method = found == plan.methods.end() ? plan.methods.front() : *found;
+  const PlannedRun run = estimated(plan, session.record.verb, method);
+  if (!session.dry_run) {
+    if (run.seconds.value_or(0) > long_run) {
+      session.note("this will take " + estimate_text(run.seconds, "s") + " and " +
+                   estimate_text(run.memory_mb, "MB"));
+    }
+    return false;
+  }
+  session.print_warnings();
+  Report& report = session.report;
+  report.method = method.name;
+  report.domain = plan.domain;
+  report.status = "planned";
+  report.sizes = plan.sizes;
+  session.record.plan = run;
+  if (session.json) {
+    std::cout << run_json(session.record, report) << "\n";
+    return true;
+  }
+  std::cout << "method: " << method.name << " (" << run.reason << ")\ndomain: " << plan.domain
+            << "\n";
+  for (const auto& [name, size] : plan.sizes)
+    std::cout << name << ": " << number_text(size) << "\n";
+  std::cout << "time: " << estimate_text(run.seconds, "s")
+            << "\nprocessor time: " << estimate_text(run.processor_seconds, "s")
+            << "\nmemory: " << estimate_text(run.memory_mb, "MB") << ", "
+            << number_text(run.available_memory_mb)
+            << " MB are free\noutputs: " << listed(session.record.outputs) << "\n";
+  return true;
+}
+
+}  // namespace littoral::cli

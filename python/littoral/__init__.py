@@ -32,7 +32,7 @@ from ._methods import Method, Option, methods
 from ._operators import Factorization, Operators, operators
 from ._regions import Regions, winding
 from ._repair import Repaired, repair
-from ._report import Report
+from ._report import Report, ReportWarning
 from ._samples import Samples, samples
 from ._settings import progress, set_memory_limit, set_threads
 from ._sources import Curve, FaceChain, SurfacePoint
@@ -78,6 +78,7 @@ __all__ = [
     "Regions",
     "Repaired",
     "Report",
+    "ReportWarning",
     "Samples",
     "SolveError",
     "Surface",

@@ -6,30 +6,41 @@ from __future__ import annotations
 class Error(Exception):
     """Root of all errors raised by littoral; the page of messages explains each `code`."""
 
-    code: str = ""
+    code: str = "internal"
 
 
 class InputError(Error, ValueError):
     """Bad input: the message names the file, line or element."""
 
+    code: str = "bad-input"
+
 
 class IndexOutOfRange(InputError, IndexError):
     """An index that names nothing: the message gives the first such and what there is."""
+
+    code: str = "no-such-element"
 
 
 class UnsupportedError(Error, NotImplementedError):
     """A combination that is not supported: the message says what would work."""
 
+    code: str = "unsupported"
+
 
 class SolveError(Error, ArithmeticError):
     """A solve broke down; `residual` is what was reached, -1 where that is not known."""
 
+    code: str = "solve-failed"
     residual: float = -1.0
 
 
 class IoError(Error, OSError):
     """A file could not be read or written, or a size will not fit into memory."""
 
+    code: str = "io-error"
+
 
 class Cancelled(Error):
     """The call was stopped."""
+
+    code: str = "cancelled"

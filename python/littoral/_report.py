@@ -25,9 +25,9 @@ class ReportWarning(str):
         self.code = code
         return self
 
-    def __getnewargs__(self) -> tuple[str, str]:
+    def __reduce__(self) -> tuple[Any, ...]:
         """What copies and pickles are made of."""
-        return str(self), self.code
+        return type(self), (str(self), self.code)
 
 
 @dataclass

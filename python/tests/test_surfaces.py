@@ -264,3 +264,22 @@ def test_what_does_not_fit_is_refused(square):
         littoral.Surface()
     with pytest.raises(littoral.UnsupportedError, match=r"^chains of faces"):
         littoral.distance(square, littoral.FaceChain([0, 1]))
+
+
+def test_errors_and_warnings_have_codes(square):
+    for call, code in (
+        (lambda: littoral.distance(square, points=10**6), "no-such-element"),
+        (lambda: littoral.distance(square, points=0, method="exat"), "unknown-name"),
+        (lambda: littoral.read("no-such-file.obj"), "cannot-read"),
+    ):
+        with pytest.raises(littoral.Error) as raised:
+            call()
+        assert raised.value.code == code
+    points = np.vstack([square.points, [[9, 9, 9]]])
+    field = littoral.distance(littoral.Mesh(points, square.faces), points=0)
+    (warning,) = field.warnings
+    assert warning.code == "isolated-vertices"
+    assert "belong to no face" in warning
+    kept = pickle.loads(pickle.dumps(field)).warnings
+    assert [(w, w.code) for w in kept] == [(warning, warning.code)]
+    assert field.report.as_dict()["warnings"] == [{"code": warning.code, "message": str(warning)}]

@@ -154,8 +154,8 @@ std::string run_json(const RunRecord& record, const Report& report) {
                    {"axis_order", "array[i, j, k] is at origin + (i, j, k) * spacing"}};
   if (record.plan) {
     const PlannedRun& plan = *record.plan;
-    Json& planned = out["plan"] = {{"reason", plan.reason},
-                                   {"available_memory_mb", plan.available_memory_mb}};
+    Json& planned =
+        out["plan"] = {{"reason", plan.reason}, {"available_memory_mb", plan.available_memory_mb}};
     for (const auto& [name, value] : {std::pair("seconds", plan.seconds),
                                       {"processor_seconds", plan.processor_seconds},
                                       {"memory_mb", plan.memory_mb}})

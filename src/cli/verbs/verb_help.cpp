@@ -9,7 +9,7 @@
 #include "cli/input/method_options.h"
 #include "cli/verbs/manual.h"
 #include "cli/verbs/verbs.h"
-#include "io/write_atomically.h"
+#include "io/write.h"
 #include "littoral/error.h"
 
 namespace littoral::cli {

@@ -4,8 +4,8 @@ usage: run_costs.py PROGRAM
 
 Runs each method of `distance`, `pairs`, `winding`, `sdf`, `query` and `repair` on bumpy spheres of
 two sizes, on one thread, and prints rows for the table: seconds of the processor as
-`seconds * (n / unit)^power`, and bytes for each element. Times of the processor hardly depend on
-what else runs.
+`seconds * (n / unit)^power`, and bytes for each element, of pairs for each pair. Times of the
+processor hardly depend on what else runs.
 """
 
 import json
@@ -72,15 +72,15 @@ def run(*arguments: object) -> tuple[float, float]:
     return used.ru_utime + used.ru_stime, memory * 2**20
 
 
-def fitted(sizes: list[float], runs: list[tuple[float, float]]) -> str:
-    """Power law through two runs, and bytes an element."""
+def fitted(sizes: list[float], runs: list[tuple[float, float]], order: int = 1) -> str:
+    """Power law through two runs, and bytes for each element to this power."""
     (t0, _), (t1, memory) = runs
     if not math.isfinite(t0 + t1):
         return "not measured: it fails or takes too long"
     t0, t1 = max(t0 - START, 1e-4), max(t1 - START, 2e-4)
     power = min(max(math.log(t1 / t0) / math.log(sizes[1] / sizes[0]), 1.0), 2.5)
     seconds = t1 * (1e4 / sizes[1]) ** power
-    return f"{seconds:.3g}, {power:.2f}, {max(memory - PROGRAM, 0) / sizes[1]:.0f}"
+    return f"{seconds:.3g}, {power:.2f}, {max(memory - PROGRAM, 0) / sizes[1] ** order:.3g}"
 
 
 def main() -> None:
@@ -114,7 +114,7 @@ def main() -> None:
     m = [sphere(12, tiny[0]), sphere(24, tiny[1])]
     for method in ("exact", "signed-heat", "unsigned-heat", "regularized", "fast-marching"):
         runs = [run("pairs", f, "--method", method, "-o", "a.npy") for f in tiny]
-        print(f'{{"pairs", "{method}", {fitted([float(i) for i in m], runs)}}},', flush=True)
+        print(f'{{"pairs", "{method}", {fitted([float(i) for i in m], runs, 2)}}},', flush=True)
     for method in SPACE:
         runs = [
             run("sdf", small, "--method", method, "--resolution", r, "-o", "a.npy")

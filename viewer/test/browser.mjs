@@ -73,11 +73,30 @@ export const drag = (page, id, value) => page.evaluate(([name, x]) => {
   slider.dispatchEvent(new Event("input"));
 }, [id, value]);
 
+/// Watches an element from now on. What comes back waits until it has been shown, however briefly, and gives what `look` finds then.
+export async function whenShown(page, id, look = (element) => element.textContent) {
+  await page.evaluate(`window.seen = new Promise((done, fail) => {
+    const element = document.getElementById(${JSON.stringify(id)});
+    new MutationObserver((_, observer) => {
+      if (element.hidden) return;
+      observer.disconnect();
+      done((${look})(element));
+    }).observe(element, { attributes: true });
+    setTimeout(() => fail(new Error("#${id} was not shown")), 30000);
+  }), undefined`);
+  return () => page.evaluate(() => window.seen);
+}
+
+/// Waits for so many frames of the page: one for what was asked for, one more if a size or a scheme changes first.
+export const frames = (page, count = 2) => page.evaluate(async (n) => {
+  for (let i = 0; i < n; ++i) await new Promise(requestAnimationFrame);
+}, count);
+
 /// Counts the pixels that an action changes.
 export async function changed(page, act) {
   await page.evaluate(() => { window.was = littoral.pixels(); });
   await act();
-  await page.waitForTimeout(150);
+  await frames(page);
   return page.evaluate(() => {
     const now = littoral.pixels();
     let count = 0;

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { assertAlone, changed } from "./browser.mjs";
+import { assertAlone, changed, frames } from "./browser.mjs";
 import { base64, field, scene, show, square, torus } from "./scenes.mjs";
 
 const flat = square(4), corners = (f) => Array.from({ length: flat.triangles.length }, (_, c) => f(Math.floor(c / 3), c % 3, flat.triangles[c]));
@@ -149,7 +149,7 @@ test("a lost graphics context gives a message, and the picture comes back", asyn
   assert.match(await page.textContent("#message"), /graphics context/);
   await page.evaluate(() => loser.restoreContext());
   await page.waitForSelector("#message", { state: "hidden" });
-  await page.waitForTimeout(200);
+  await frames(page);
   const seen = await colour(-0.5, 0.07);
   assert.ok(Math.max(...seen) - Math.min(...seen) > 20, "the surface is back");
 });
@@ -163,7 +163,7 @@ test("warnings come first, options are folded away, all in order", async () => {
 test("from 360 to 2560 pixels panels and model stand side by side", async () => {
   for (const [width, height] of [[360, 640], [420, 800], [1400, 900], [2560, 1440]]) {
     await page.setViewportSize({ width, height });
-    await page.waitForTimeout(150);
+    await frames(page, 3);
     const boxes = await Promise.all(["#stage", "#panel"].map((id) => page.locator(id).boundingBox()));
     const [stage, panel] = boxes, apart = stage.x >= panel.x + panel.width - 1 || panel.y >= stage.y + stage.height - 1;
     assert.ok(apart, `${width} x ${height}`);
@@ -225,6 +225,12 @@ test("large volumes get their surface, at every node, from a worker", async () =
     close(high, 0.3 * far, 2e-3);
     assert.ok(triangles > 20000, `${triangles} triangles`);
     const working = await large.page.evaluate(() => {
+      const { worker } = littoral.volume.marcher, { onmessage } = worker, held = [];
+      worker.onmessage = (message) => held.push(message);  // the surface is in the making until it is let through
+      window.letThrough = () => {
+        worker.onmessage = onmessage;
+        for (const message of held) onmessage.call(worker, message);
+      };
       const slider = document.getElementById("level");
       for (const value of [310, 350, 400]) {
         slider.value = String(value);
@@ -234,6 +240,7 @@ test("large volumes get their surface, at every node, from a worker", async () =
     });
     assert.ok(working, "made beside the page");
     await large.page.waitForSelector("#hint:not([hidden])");
+    await large.page.evaluate(() => letThrough());
     close((await radii())[0], 0.4 * far, 2e-3);
     assert.ok(await large.page.isHidden("#hint"));
     assertAlone(large);

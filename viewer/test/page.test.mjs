@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { assertAlone, changed as changedPixels, openPage, openResult } from "./browser.mjs";
+import { assertAlone, changed as changedPixels, frames, openPage, openResult } from "./browser.mjs";
 
 const shown = await openResult("PAGE");
 const { page } = shown;
@@ -108,14 +108,14 @@ test("mouse, wheel and keys move the view; reset brings it back", async () => {
     assert.ok((await changed(move)) > 500, `${name} moves the view`);
   }
   await page.click("#reset");
-  await page.waitForTimeout(200);
+  await frames(page);
   const off = await page.evaluate(() => littoral.pixels().reduce((n, b, i) => n + (Math.abs(b - start[i]) > 8), 0));
   assert.ok(off < 200, `${off} bytes differ after a reset`);
 });
 
 test("nothing is drawn while nothing changes", async () => {
   await page.mouse.move(2, 320);
-  await page.waitForTimeout(300);
+  await frames(page);
   const before = await page.evaluate(() => littoral.frames());
   await page.waitForTimeout(400);
   assert.equal(await page.evaluate(() => littoral.frames()), before);
@@ -142,7 +142,7 @@ test("labels for those who cannot see", async () => {
 
 test("dark scheme darkens the page", async () => {
   await page.emulateMedia({ colorScheme: "dark" });
-  await page.waitForTimeout(200);
+  await frames(page, 3);
   const corner = await page.evaluate(() => littoral.pixels().slice(0, 3));
   assert.ok(Math.max(...Object.values(corner)) < 60);
   await page.emulateMedia({ colorScheme: "light" });

@@ -5,6 +5,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { test } from "node:test";
+import { frames } from "./browser.mjs";
 import { field, scene, show, torus } from "./scenes.mjs";
 
 const folder = join(dirname(fileURLToPath(import.meta.url)), "screens");
@@ -59,7 +60,7 @@ for (const [name, made, options] of screens) test(`the page looks as it did: ${n
   const shown = await show(made, options), file = join(folder, `${name}.png`);
   try {
     if (/labels=1/.test(options.hash ?? "")) await shown.page.waitForFunction(() => littoral.written() > 0);
-    await shown.page.waitForTimeout(100);
+    await frames(shown.page);
     const taken = await shown.page.screenshot();
     assert.deepEqual(shown.errors, []);
     if (process.env.UPDATE) {

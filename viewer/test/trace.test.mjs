@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { assertAlone, changed, drag as dragOn, openResult } from "./browser.mjs";
+import { assertAlone, changed, drag as dragOn, openResult, whenShown } from "./browser.mjs";
 import { load } from "./scenes.mjs";
 
 const { kth, makeTree } = await load("tori-tree.ts");
@@ -74,16 +74,16 @@ test("rays meet what the library's rays meet", async () => {
 test("while it refines it says so, and nothing is black", async () => {
   await settled();
   assert.ok(await page.isHidden("#hint"));
-  await page.focus("#view");
-  await page.keyboard.press("ArrowRight");
-  await page.waitForSelector("#hint:not([hidden])");
-  assert.match(await page.textContent("#hint"), /Tracing the cloud/);
-  const black = await page.evaluate(() => {
+  const refining = await whenShown(page, "hint", (hint) => {
     const bytes = littoral.pixels();
     let count = 0;
     for (let i = 0; i < bytes.length; i += 4) if (bytes[i] + bytes[i + 1] + bytes[i + 2] < 60) ++count;
-    return count / (bytes.length / 4);
+    return { text: hint.textContent, black: count / (bytes.length / 4) };
   });
+  await page.focus("#view");
+  await page.keyboard.press("ArrowRight");
+  const { text, black } = await refining();
+  assert.match(text, /Tracing the cloud/);
   assert.ok(black < 0.01, `${black} of the picture`);
   await page.keyboard.press("r");
   await settled();

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { whenShown } from "../../../viewer/test/browser.mjs";
 import {
   assertClose, byProgram, changedPixels, clickAll, closeQuietly, folder, openStudio, pickFile, ring, saved, settled, state,
 } from "./helpers.mjs";
@@ -50,9 +51,9 @@ test("the cursor reads value and node, a click copies the node", async () => {
   await page.mouse.move(x, y);
   await page.waitForSelector("#readout:not([hidden])");
   assert.match(await page.textContent("#readout"), /^distance -?[\d.e-]+\nf \d+ [\d.]+ [\d.]+ [\d.]+$/);
+  const toast = await whenShown(page, "toast");
   await page.mouse.click(x, y);
-  await page.waitForSelector("#toast:not([hidden])");
-  assert.match(await page.textContent("#toast"), /f \d+ /);
+  assert.match(await toast(), /f \d+ /);
   await closeQuietly(shown);
 });
 

@@ -56,6 +56,7 @@ TEST(Repair, BoxWithItsEdgesAndCorners) {
   const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(0.5, Vec3(1, 2, 3).normalized()));
   box.points = box.points * turn.transpose();
   RepairOptions options;
+  options.remesh = true;
   options.grid.resolution = 32;
   const Repaired with = repair(box, options);
   options.fit = false;
@@ -132,6 +133,73 @@ TEST(Repair, PartsAndCavities) {
   EXPECT_THROW(repair(all, options), InputError);
 }
 
+TEST(Repair, KeepsTrianglesThatNeedOnlyTurning) {
+  // Two balls, one with a cavity, every corner by itself as in STL files; a third of the faces is
+  // turned round, some are there twice.
+  const PolygonSoup ball = test::octasphere_soup(3);
+  PolygonSoup cavity = ball, second = ball;
+  cavity.points *= 0.5;
+  second.points.col(0).array() += 3;
+  const PolygonSoup all = test::joined(test::joined(ball, test::reversed(cavity)), second);
+  PolygonSoup broken;
+  broken.points.resize(3 * 2 * all.n_faces(), 3);
+  std::mt19937 random(3);
+  int n = 0;
+  for (int f = 0; f < all.n_faces(); ++f)
+    for (int again = random() % 10 == 0 ? 2 : 1; again > 0; --again) {
+      for (const int v : all.face(f)) broken.points.row(n++) = all.points.row(v);
+      if (all.face(f)[0] < 2 * ball.n_vertices() && random() % 3 == 0)
+        test::add_triangle(broken, n - 3, n - 1, n - 2);
+      else
+        test::add_triangle(broken, n - 3, n - 2, n - 1);
+    }
+  broken.points.conservativeResize(n, 3);
+  const Repaired out = repair(broken);
+  expect_watertight(out.surface);
+  EXPECT_EQ(size_named(out.report, "parts"), 3);
+  EXPECT_EQ(out.surface.soup().n_faces(), 3 * ball.n_faces());
+  EXPECT_NEAR(volume_of(out.surface.soup()), (1 - 0.125 + 1) * volume_of(ball), 1e-12);
+  EXPECT_LT(size_named(out.report, "result to input: largest"), 1e-14);
+  EXPECT_GT(size_named(out.report, "triangles of the input turned, share"), 0.1);
+}
+
+TEST(Repair, LeavesOutAWholePartWithinAnother) {
+  const PolygonSoup ball = test::octasphere_soup(3);
+  PolygonSoup within = ball;
+  within.points *= 0.5;
+  const Repaired out = repair(test::joined(within, ball));
+  EXPECT_EQ(out.surface.soup().points, ball.points);
+  EXPECT_EQ(size_named(out.report, "parts"), 1);
+  EXPECT_NEAR(size_named(out.report, "input within the result, share"), 0.2, 1e-12);
+}
+
+TEST(Repair, KeepsABoxInsideOutToTheBit) {
+  const PolygonSoup box = test::box_soup(Vec3(0.1, 0.7, 0.3));
+  for (const PolygonSoup& given : {box, test::reversed(box)}) {
+    const PolygonSoup kept = repair(given).surface.soup();
+    EXPECT_EQ(kept.points, box.points);
+    EXPECT_EQ(kept.n_faces(), 12);
+    EXPECT_GT(volume_of(kept), 0);
+  }
+  RepairOptions options;
+  options.remesh = true;
+  options.grid.resolution = 16;
+  EXPECT_GT(repair(box, options).surface.soup().n_faces(), 100);
+}
+
+TEST(Repair, GridsAreFinerWherePartsAreThin) {
+  // A ruler of which a face is missing, thinner than a spacing of the usual grid.
+  PolygonSoup ruler;
+  const PolygonSoup box = test::box_soup(Vec3(0.5, 0.03, 0.004));
+  ruler.points = box.points;
+  for (int f = 0; f < box.n_faces() - 1; ++f) ruler.add_face(box.face(f));
+  const Repaired out = repair(ruler);
+  expect_watertight(out.surface);
+  EXPECT_GT(size_named(out.report, "nodes"), 128);
+  EXPECT_NEAR(volume_of(out.surface.soup()), 0.06 * 0.008, 0.02 * 0.06 * 0.008);
+  EXPECT_LT(size_named(out.report, "input missed, share"), 0.01);
+}
+
 TEST(Repair, SheetsBecomeWalls) {
   const PolygonSoup sheet = test::grid_soup(4, 4);
   RepairOptions options;
@@ -162,6 +230,7 @@ TEST(Repair, WarnsOfWhatItMisses) {
 TEST(Repair, RefinesUntilTheErrorIsMet) {
   const PolygonSoup sphere = test::octasphere_soup(3);
   RepairOptions options;
+  options.remesh = true;
   options.fit = false;
   options.error = 0.004;
   const Repaired out = repair(sphere, options);

@@ -12,12 +12,14 @@ namespace littoral {
 
 /// What `repair` makes of an input.
 struct RepairOptions {
-  GridOptions grid{128, {}, {}, 0.1};  // that the surface is taken from
+  GridOptions grid{{}, {}, {}, 0.1};  // that the surface is taken from: 128 nodes along the longest
+                                      // side, or up to 256 where parts are thinner than a spacing
   double error = 0;          // > 0: grids from 64 to 512 nodes until no point of the result is
                              // farther than that from the input or what closes it [length]
   double thicken = 0;        // > 0: sheets become walls that thick [length]
   double smallest_part = 0;  // parts whose boxes have shorter diagonals go [length]
   bool cavities = true;      // keep parts that are holes in others
+  bool remesh = false;       // also where the input's own triangles will do
   bool fit = true;           // move vertices onto the input, and cut along its creases
 };
 
@@ -28,8 +30,12 @@ struct Repaired {
 };
 
 /// The boundary of the inside of a surface, soup or oriented cloud, by any method for distance in
-/// space (none: SpaceAutomatic), contoured on a grid and fitted to the input where that does not
-/// make it cross itself. The result is checked without rounding; where it is not closed, manifold
+/// space (none: SpaceAutomatic).
+///
+/// Where orientation, doubled faces and parts within others are all that is wrong, the input's
+/// triangles are kept where they are; not with a method, `flip`, `thicken` or `remesh`. Otherwise
+/// the surface is contoured on a grid and fitted to the input where that does not make it cross
+/// itself. The result is checked without rounding; where it is not closed, manifold
 /// and free of crossings, or misses more than a hundredth of the input's area, the report's status
 /// is "uncertain" and says why. Throws InputError for bad input, for options out of range and where
 /// the input has no inside (`thicken` gives it one); UnsupportedError for `thicken` and `error` of

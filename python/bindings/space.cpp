@@ -74,17 +74,16 @@ void bind_repair(nb::module_& m) {
       "repair",
       [](const Mesh& input, const std::string& method, const OptionValues& values, bool flip,
          bool estimate_normals, std::optional<int> resolution, std::optional<double> spacing,
-         double error, double thicken, double smallest_part, bool cavities, bool fit,
+         double error, double thicken, double smallest_part, bool cavities, bool remesh, bool fit,
          const Settings* settings) {
         RepairOptions options;
-        if (resolution || spacing) {
-          options.grid.resolution = resolution;
-          options.grid.spacing = spacing;
-        }
+        options.grid.resolution = resolution;
+        options.grid.spacing = spacing;
         options.error = error;
         options.thicken = thicken;
         options.smallest_part = smallest_part;
         options.cavities = cavities;
+        options.remesh = remesh;
         options.fit = fit;
         Repaired out = released(settings, [&](const Context& context) {
           return repair(input.soup(), options, AnyMethod::named(method, values),
@@ -95,7 +94,7 @@ void bind_repair(nb::module_& m) {
       nb::arg("input"), nb::arg("method"), nb::arg("options"), nb::arg("flip"),
       nb::arg("estimate_normals"), nb::arg("resolution").none(), nb::arg("spacing").none(),
       nb::arg("error"), nb::arg("thicken"), nb::arg("smallest_part"), nb::arg("cavities"),
-      nb::arg("fit"), nb::arg("settings").none());
+      nb::arg("remesh"), nb::arg("fit"), nb::arg("settings").none());
 }
 
 void bind_sdf(nb::module_& m) {

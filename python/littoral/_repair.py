@@ -17,8 +17,8 @@ class Repaired(Reported):
     """What `repair` returns: `surface`, closed, and the `report` of what was changed.
 
     >>> import littoral
-    >>> littoral.repair(littoral.examples.cube(), resolution=12).report.status
-    'converged'
+    >>> littoral.repair(littoral.examples.cube())
+    <littoral.Repaired: <littoral.Mesh: 8 vertices, 12 triangles>, converged>
     """
 
     def __init__(self, surface: Surface, report: Report) -> None:
@@ -39,6 +39,7 @@ def repair(
     thicken: float = 0.0,
     smallest_part: float = 0.0,
     cavities: bool = True,
+    remesh: bool = False,
     fit: bool = True,
     method: str | None = None,
     flip: bool = False,
@@ -49,8 +50,11 @@ def repair(
 ) -> Repaired:
     """A closed, manifold surface that does not cross itself, from a broken one or a cloud.
 
-    V, F and method as for `SDF`. It is taken from a grid (resolution: nodes along the longest side,
-    128 without; or spacing [length]) and fitted to the input with its creases, unless fit is False.
+    V, F and method as for `SDF`. Where orientation, doubled faces and parts within others are all
+    that is wrong, the input's triangles are kept where they are, unless remesh is True. Otherwise
+    the surface is taken from a grid (resolution: nodes along the longest side, 128 without, or up to
+    256 where parts are thin; or spacing [length]) and fitted to the input with its creases, unless
+    fit is False.
     error: refine the grid, up to 512 nodes, until no point of the result is farther than that from
     the input or what closes it. thicken: sheets become walls that thick. smallest_part: parts whose
     boxes have shorter diagonals go [all lengths]. cavities: keep holes inside of parts. The
@@ -77,6 +81,7 @@ def repair(
         float(thicken),
         float(smallest_part),
         bool(cavities),
+        bool(remesh),
         bool(fit),
         settings(threads, progress),
     )

@@ -4,19 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "api/space/input_queries.h"
+#include "api/space/kept_surface.h"
 #include "api/space/surface_difference.h"
+#include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
-#include "base/disjoint_sets.h"
 #include "base/option_table.h"
 #include "contour/fit_to_surface.h"
 #include "contour/isosurface.h"
 #include "contour/redistance.h"
 #include "littoral/error.h"
+#include "littoral/options.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -24,9 +27,10 @@ namespace littoral {
 namespace {
 
 constexpr std::array resolutions = {64, 96, 128, 192, 256, 384, 512};  // for an error
-constexpr int samples = 20000;  // on each surface, for distances
-constexpr double missed = 0.5;  // spacings: input farther from the result is not part of it;
-                                // twice that where edges are cut off
+constexpr int most_nodes = 256;  // along the longest side, unless more are asked for
+constexpr int samples = 20000;   // on each surface, for distances
+constexpr double missed = 0.5;   // spacings: input farther from the result is not part of it;
+                                 // twice that where edges are cut off
 constexpr double missed_share = 0.01;
 
 void check(const RepairOptions& options, bool is_cloud) {
@@ -52,7 +56,32 @@ struct Made {
   PolygonSoup target;  // the input and what closes it
   bool fitted = false;
   double moved = 0, kept = 0;  // vertices by the fit
+  double within = 0;           // without a grid: share of the input's area left out
 };
+
+double size_named(const Report& report, const std::string& name) {
+  for (const auto& [each, value] : report.sizes)
+    if (each == name) return value;
+  return 0;
+}
+
+/// Distance on the grid asked for; without one, on a finer grid where parts are thinner than the
+/// spacing of the usual one.
+SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceRequest& request,
+                     Grid& grid, Task task, Report& report) {
+  const bool free = !asked.resolution && !asked.spacing;
+  if (free) asked.resolution = repair_nodes;
+  const Report before = report;
+  grid = choose_grid(input, asked);
+  SpaceAnswer answer =
+      grid_answer(input, grid, request, task.stage(free ? 0.3 : 1, "distance"), report);
+  const double needed = size_named(report, "resolution that holds the thin parts");
+  if (!free || needed <= repair_nodes) return answer;
+  report = before;
+  asked.resolution = static_cast<int>(std::min<double>(needed, most_nodes));
+  grid = choose_grid(input, asked);
+  return grid_answer(input, grid, request, task.stage(1, "distance"), report);
+}
 
 Made contoured(const PolygonSoup& input, const RepairOptions& options, const SpaceRequest& request,
                const GridOptions& grid, Task task, Report& report) {
@@ -63,10 +92,9 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     for (const auto& point : input.points.rowwise()) box.add(point.transpose());
     wide.padding += options.thicken / box.size().maxCoeff();
   }
-  made.distance.grid = choose_grid(input, wide);
-  const double h = made.distance.grid.spacing.minCoeff();
   SpaceAnswer answer =
-      grid_answer(input, made.distance.grid, request, task.stage(0.5, "distance"), report);
+      answered(input, wide, request, made.distance.grid, task.stage(0.5, "distance"), report);
+  const double h = made.distance.grid.spacing.minCoeff();
   made.distance.values = std::move(answer.at_nodes);
   const JoinedTriangles target = join_triangles(input, answer.completion);
   made.target = soup_of(target.points, target.triangles);
@@ -101,66 +129,8 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   return made;
 }
 
-/// Closed parts: which one each face is in, the box and the volume of each.
-struct Parts {
-  std::vector<int> of_face;
-  std::vector<Box> boxes;
-  std::vector<double> volumes;
-};
-
-Parts parts_of(const PolygonSoup& surface) {
-  DisjointSets sets(surface.n_vertices());
-  for (int f = 0; f < surface.n_faces(); ++f)
-    for (const int v : surface.face(f)) sets.join(surface.face(f)[0], v);
-  int count = 0;
-  const std::vector<int> number = sets.numbered(count);
-  Parts parts;
-  parts.boxes.resize(static_cast<std::size_t>(count));
-  parts.volumes.resize(static_cast<std::size_t>(count), 0);
-  std::vector<int> first(static_cast<std::size_t>(count), -1);  // a vertex of each
-  for (int f = 0; f < surface.n_faces(); ++f) {
-    const auto face = surface.face(f);
-    const int part = number[face[0]];
-    parts.of_face.push_back(part);
-    std::array<Vec3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = surface.points.row(face[k]);
-      parts.boxes[part].add(x[k]);
-    }
-    if (first[part] < 0) first[part] = face[0];
-    const Vec3 origin = surface.points.row(first[part]);  // near the part: little cancels
-    parts.volumes[part] += (x[0] - origin).dot((x[1] - origin).cross(x[2] - origin)) / 6;
-  }
-  return parts;
-}
-
-/// The faces of the parts that stay, with their vertices alone.
-PolygonSoup with_parts(const PolygonSoup& surface, const Parts& parts,
-                       const std::vector<char>& stays) {
-  PolygonSoup out;
-  std::vector<int> number(static_cast<std::size_t>(surface.n_vertices()), -1);
-  std::vector<int> used;
-  for (int f = 0; f < surface.n_faces(); ++f) {
-    if (!stays[parts.of_face[f]]) continue;
-    std::array<int, 3> face;
-    for (std::size_t k = 0; k < 3; ++k) {
-      int& v = number[surface.face(f)[k]];
-      if (v < 0) {
-        v = static_cast<int>(used.size());
-        used.push_back(surface.face(f)[k]);
-      }
-      face[k] = v;
-    }
-    out.add_face(face);
-  }
-  out.points.resize(static_cast<Eigen::Index>(used.size()), 3);
-  for (std::size_t v = 0; v < used.size(); ++v)
-    out.points.row(static_cast<Eigen::Index>(v)) = surface.points.row(used[v]);
-  return out;
-}
-
 void drop_parts(PolygonSoup& surface, const RepairOptions& options, Report& report) {
-  const Parts parts = parts_of(surface);
+  const SurfaceParts parts = parts_of(surface);
   std::vector<char> stays(parts.boxes.size(), 1);
   double small = 0, cavities = 0;
   for (std::size_t i = 0; i < stays.size(); ++i) {
@@ -269,7 +239,9 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
         {"input to result: largest", back.largest},
         {"input to result: mean", back.mean}})
     report.sizes.emplace_back(name, value);
-  const Missed share = missed_parts(input, made, task.stage(0.2, "comparing"));
+  const Missed share = made.distance.values.size() > 0
+                           ? missed_parts(input, made, task.stage(0.2, "comparing"))
+                           : Missed{made.within, 0};
   report.sizes.emplace_back("input within the result, share", share.inside);
   report.sizes.emplace_back("input missed, share", share.outside);
   if (share.outside > missed_share) {
@@ -283,9 +255,7 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
 }
 
 double largest_error(const Report& report) {
-  for (const auto& [name, value] : report.sizes)
-    if (name == "result to input and closure: largest") return value;
-  return 0;
+  return size_named(report, "result to input and closure: largest");
 }
 
 }  // namespace
@@ -293,6 +263,21 @@ double largest_error(const Report& report) {
 PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& options,
                            const SpaceRequest& request, Task task, Report& report) {
   check(options, input.n_faces() == 0);
+  const bool as_it_is =
+      !options.remesh && options.thicken == 0 && !request.flip && request.method.name().empty();
+  if (auto kept =
+          as_it_is ? kept_surface(input, task.stage(0.3, "looking"), report) : std::nullopt) {
+    report.method = SpaceAutomatic::method;
+    report.domain = "surface";
+    report.sizes.emplace_back("triangles of the input turned, share", kept->turned);
+    Made made;
+    made.surface = std::move(kept->surface);
+    made.target = triangulate(input);
+    made.within = kept->dropped;
+    drop_parts(made.surface, options, report);
+    compare(input, made, report, task.stage(1, "comparing"));
+    return std::move(made.surface);
+  }
   const Report before = report;
   const auto once = [&](const GridOptions& grid, Task part) {
     report = before;

@@ -7,6 +7,8 @@
 
 namespace littoral {
 
+constexpr int repair_nodes = 128;  // along the longest side, where none are asked for
+
 /// As `repair` (littoral/repair.h), with the distance from the input at the vertices as scalar
 /// "distance"; the report says what was changed.
 PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& options,

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
+#include "methods/implicit/settled_sides.h"
 
 namespace littoral {
 
@@ -49,12 +50,6 @@ double thickness(const PointwiseDistance& distance, const Vec3& x, const Vec3& t
     if (fits == most) break;
   }
   return 2 * fits;
-}
-
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
 }
 
 }  // namespace
@@ -107,13 +102,14 @@ void warn_of_thin_parts(const PointwiseDistance& distance, const OrientedPoints&
     if (below >= thinnest * thin) break;
   }
   const int nodes = *std::max_element(grid.n.begin(), grid.n.end());
+  const double needed = std::ceil(slack * h / thickest * (nodes - 1)) + 1;
+  report.sizes.emplace_back("resolution that holds the thin parts", needed);
   report.warn(
       "thin-parts",
-      rounded(100 * share) +
-          " % of the surface bounds parts or gaps thinner than the grid's spacing with no node "
+      percent_text(share) +
+          " of the surface bounds parts or gaps thinner than the grid's spacing with no node "
           "in them: contours miss or tear them. Resolution " +
-          std::to_string(static_cast<int>(std::ceil(slack * h / thickest * (nodes - 1))) + 1) +
-          " in this box would hold them");
+          number_text(needed) + " in this box would hold them");
 }
 
 }  // namespace littoral

@@ -17,7 +17,7 @@ namespace {
 struct RepairArguments {
   std::vector<std::string> out;
   std::string error, thicken, smallest_part;
-  bool no_fit = false, fill_cavities = false;
+  bool no_fit = false, fill_cavities = false, remesh = false;
   SpaceArguments space;
 };
 
@@ -28,12 +28,11 @@ void run_repair(RepairArguments& arguments, Session& session) {
   const InputSize size = [&] { return longest_side(shapes); };
   RepairOptions options;
   const GridOptions grid = grid_request(arguments.space, size);
-  if (grid.resolution || grid.spacing) options.grid = grid;
-  options.grid.bounds = grid.bounds;
-  options.grid.padding = grid.padding;
+  options.grid = grid;
   options.error = parse_radius("error", arguments.error, size);
   options.thicken = parse_radius("thicken", arguments.thicken, size);
   options.smallest_part = parse_radius("smallest-part", arguments.smallest_part, size);
+  options.remesh = arguments.remesh;
   options.fit = !arguments.no_fit;
   options.cavities = !arguments.fill_cavities;
   if (options.error > 0 && (grid.resolution || grid.spacing))
@@ -68,9 +67,11 @@ void add_options(CLI::App& verb, RepairArguments& arguments, Session& session) {
                   "drop parts whose boxes have shorter diagonals" + unit)
       ->type_name("D");
   verb.add_flag("--fill-cavities", arguments.fill_cavities, "drop holes inside of parts");
+  verb.add_flag("--remesh", arguments.remesh,
+                "take the surface from a grid also where the input's own triangles will do");
   verb.add_flag("--no-fit", arguments.no_fit,
                 "keep the contour of the grid: vertices are not moved onto the input");
-  add_grid_options(verb, arguments.space, RepairOptions().grid);
+  add_grid_options(verb, arguments.space, {repair_nodes, {}, {}, RepairOptions().grid.padding});
   add_space_method(verb, arguments.space);
   add_plan_option(verb, session);
   add_json_option(verb, session);

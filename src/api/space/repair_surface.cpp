@@ -27,10 +27,11 @@ namespace littoral {
 namespace {
 
 constexpr std::array resolutions = {64, 96, 128, 192, 256, 384, 512};  // for an error
-constexpr int most_nodes = 256;  // along the longest side, unless more are asked for
-constexpr int samples = 20000;   // on each surface, for distances
-constexpr double missed = 0.5;   // spacings: input farther from the result is not part of it;
-                                 // twice that where edges are cut off
+constexpr int most_nodes = 256;    // along the longest side, unless more are asked for
+constexpr double hopeless = 1024;  // nodes: thinner parts are not worth a finer grid
+constexpr int samples = 20000;     // on each surface, for distances
+constexpr double missed = 0.5;     // spacings: input farther from the result is not part of it;
+                                   // twice that where edges are cut off
 constexpr double missed_share = 0.01;
 
 void check(const RepairOptions& options, bool is_cloud) {
@@ -76,7 +77,7 @@ SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceReq
   SpaceAnswer answer =
       grid_answer(input, grid, request, task.stage(free ? 0.3 : 1, "distance"), report);
   const double needed = size_named(report, "resolution that holds the thin parts");
-  if (!free || needed <= repair_nodes) return answer;
+  if (!free || needed <= repair_nodes || needed > hopeless) return answer;
   report = before;
   asked.resolution = static_cast<int>(std::min<double>(needed, most_nodes));
   grid = choose_grid(input, asked);

@@ -12,7 +12,7 @@ nb::object error_class(const char* name) {
   return nb::module_::import_("littoral._errors").attr(name);
 }
 
-nb::object made(const char* name, const Error& error) {
+nb::object error_object(const char* name, const Error& error) {
   nb::object instance = error_class(name)(error.what());
   instance.attr("code") = error.code();
   return instance;
@@ -26,19 +26,19 @@ void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const SolveError& error) {
-    const nb::object instance = made("SolveError", error);
+    const nb::object instance = error_object("SolveError", error);
     instance.attr("residual") = error.residual();
     raise("SolveError", instance);
   } catch (const InputError& error) {
-    raise("InputError", made("InputError", error));
+    raise("InputError", error_object("InputError", error));
   } catch (const UnsupportedError& error) {
-    raise("UnsupportedError", made("UnsupportedError", error));
+    raise("UnsupportedError", error_object("UnsupportedError", error));
   } catch (const IoError& error) {
-    raise("IoError", made("IoError", error));
+    raise("IoError", error_object("IoError", error));
   } catch (const Cancelled& error) {
-    raise("Cancelled", made("Cancelled", error));
+    raise("Cancelled", error_object("Cancelled", error));
   } catch (const Error& error) {
-    raise("Error", made("Error", error));
+    raise("Error", error_object("Error", error));
   }
 }
 

@@ -2,18 +2,65 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "api/space/volume_meaning.h"
 #include "api/surface/mesh_info.h"
+#include "api/surface/surface_advice.h"
 #include "base/option_table.h"
 #include "domain/tet/tet_locator.h"
 #include "littoral/error.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 
 namespace {
 
-std::vector<InfoEntry> info_of(const PolygonSoup& soup) { return surface_info(soup); }
+/// Of surface_info.
+template <class Value>
+Value fact_of(const std::vector<InfoEntry>& facts, const std::string& key) {
+  const auto found = std::ranges::find(facts, key, &InfoEntry::key);
+  return found == facts.end() ? Value() : std::get<Value>(found->value);
+}
+
+void add_thickness(std::vector<InfoEntry>& facts, const PolygonSoup& soup) {
+  constexpr int samples = 1000;
+  const bool measurable = fact_of<bool>(facts, "closed") && fact_of<bool>(facts, "orientable") &&
+                          fact_of<double>(facts, "vertices_not_finite") == 0 &&
+                          fact_of<double>(facts, "degenerate_faces") < soup.n_faces();
+  if (!measurable) return;
+  const std::vector<double> balls = inner_ball_diameters(triangulate(soup), samples);
+  if (balls.empty()) return;
+  facts.push_back({"thickness_5_percent", balls[balls.size() / 20]});
+  facts.push_back({"thickness_median", balls[balls.size() / 2]});
+}
+
+std::vector<InfoEntry> info_of(const PolygonSoup& soup) {
+  std::vector<InfoEntry> facts = surface_info(soup);
+  const auto number = [&](const char* key) { return fact_of<double>(facts, key); };
+  const auto is = [&](const char* key) { return fact_of<bool>(facts, key); };
+  SurfaceTraits traits;
+  traits.has_faces = soup.n_faces() > 0;
+  traits.has_normals = is("has_normals");
+  traits.only_triangles =
+      std::all_of(soup.face_offsets.begin() + 1, soup.face_offsets.end(),
+                  [before = 0](int end) mutable { return end - std::exchange(before, end) == 3; });
+  traits.closed = is("closed");
+  traits.watertight = is("watertight");
+  traits.orientable = is("orientable");
+  traits.boundary_loops = number("boundary_loops");
+  traits.nonmanifold_edges = number("nonmanifold_edges");
+  traits.turned = number("triangles_turned_against_most");
+  traits.crossing = number("self_intersecting_triangles");
+  if (const double angle = number("smallest_angle"); angle > 0) traits.smallest_angle = angle;
+  add_thickness(facts, soup);
+  double longest = 0;
+  if (const auto box = fact_of<std::vector<double>>(facts, "bounding_box"); box.size() == 6)
+    for (std::size_t a = 0; a < 3; ++a) longest = std::max(longest, box[a + 3] - box[a]);
+  facts.push_back({"unit_guess", guess_unit(longest)});
+  facts.push_back({"recommendation", recommendation_for(traits)});
+  return facts;
+}
 
 std::string recommendation_for(const Volume& volume) {
   try {

@@ -7,7 +7,6 @@
 #include <map>
 #include <numbers>
 
-#include "api/surface/surface_advice.h"
 #include "base/disjoint_sets.h"
 #include "base/option_table.h"
 #include "domain/mesh/face_orientation.h"
@@ -19,7 +18,6 @@ namespace littoral {
 
 namespace {
 
-constexpr int thickness_samples = 1000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool has_finite_corners(const PolygonSoup& soup, int f) {
@@ -265,8 +263,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   count("self_intersecting_triangles", static_cast<double>(n_crossing));
   const bool closed = soup.n_faces() > 0 && n_boundary + n_nonmanifold == 0;
   out.push_back({"closed", closed});
-  const bool watertight = closed && orientation.inconsistent_edges + n_crossing == 0;
-  out.push_back({"watertight", watertight});
+  out.push_back({"watertight", closed && orientation.inconsistent_edges + n_crossing == 0});
   count("degenerate_faces", shapes.degenerate);
   count("duplicate_faces", count_duplicate_faces(mesh));
   count("coincident_vertices", count_coincident_vertices(soup.points));
@@ -279,23 +276,6 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   out.push_back({"bounding_box", box});
   count("mean_edge_length", shapes.mean_edge);
   if (std::isfinite(shapes.smallest_angle)) count("smallest_angle", shapes.smallest_angle);
-  if (closed && turned.orientable && n_bad == 0 && diagonal > 0 &&
-      shapes.degenerate < soup.n_faces()) {
-    const std::vector<double> balls = inner_ball_diameters(triangles, thickness_samples);
-    if (!balls.empty()) {
-      count("thickness_5_percent", balls[balls.size() / 20]);
-      count("thickness_median", balls[balls.size() / 2]);
-    }
-  }
-  out.push_back({"unit_guess", guess_unit(has_box ? (high - low).maxCoeff() : 0)});
-  SurfaceTraits traits{soup.n_faces() > 0, soup.normals.rows() > 0, mesh.is_triangle_mesh(), closed,
-                       watertight,         orientation.orientable};
-  traits.boundary_loops = n_loops;
-  traits.nonmanifold_edges = n_nonmanifold;
-  traits.turned = turned.flipped;
-  traits.crossing = static_cast<double>(n_crossing);
-  traits.smallest_angle = shapes.smallest_angle;
-  out.push_back({"recommendation", recommendation_for(traits)});
   return out;
 }
 

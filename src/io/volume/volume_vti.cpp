@@ -64,11 +64,12 @@ class VtiReader {
     std::size_t offset = 0;   // of appended ones
   };
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(name_ + ": " + what, "bad-file");
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(name_ + ": " + why, "bad-file");
   }
-  [[noreturn]] void refuse(const std::string& what) const { refuse("" + what); }
-
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw UnsupportedError(name_ + ": " + what, "unsupported-file");
+  }
   // The next tag from `at` on; comments, declarations and text are passed over.
   bool next_tag(std::size_t at, Tag& tag) const {
     for (;;) {

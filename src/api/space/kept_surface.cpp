@@ -77,7 +77,7 @@ std::vector<Corners> cleaned(const PolygonSoup& input) {
   return out;
 }
 
-PolygonSoup soup_of_corners(const MatX3& points, const std::vector<Corners>& faces) {
+PolygonSoup assembled(const MatX3& points, const std::vector<Corners>& faces) {
   PolygonSoup soup;
   soup.points = points;
   for (const Corners& face : faces) soup.add_face(face);
@@ -121,7 +121,7 @@ std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Rep
   for (const Corners& face : faces)
     for (const int v : face) box.add(input.points.row(v).transpose());
   const MatX3 points = Frame(box).local(input.points);
-  const SurfaceMesh mesh(soup_of_corners(points, faces));
+  const SurfaceMesh mesh(assembled(points, faces));
   if (!two_at_each_edge(mesh)) return std::nullopt;
   const FaceOrientation agreed = face_orientation(mesh);
   if (!agreed.orientable) return std::nullopt;
@@ -135,7 +135,7 @@ std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Rep
   if (said.status != report.status) return std::nullopt;
   for (std::size_t f = 0; f < faces.size(); ++f)
     if (agreed.sign[f] < 0) std::swap(faces[f][1], faces[f][2]);
-  const SurfaceParts parts = parts_of(soup_of_corners(points, faces));
+  const SurfaceParts parts = parts_of(assembled(points, faces));
   const std::size_t n = parts.boxes.size();
   std::vector<int> widest(n, -1);
   std::vector<double> areas(faces.size());
@@ -164,7 +164,7 @@ std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Rep
   }
   out.turned /= static_cast<double>(faces.size());
   out.dropped /= area;
-  out.surface = with_parts(soup_of_corners(input.points, faces), parts, stays);
+  out.surface = with_parts(assembled(input.points, faces), parts, stays);
   task.checkpoint(0.7);
   if (out.surface.n_faces() == 0 || !is_sound(out.surface)) return std::nullopt;
   report = std::move(said);

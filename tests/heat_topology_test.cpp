@@ -166,6 +166,31 @@ TEST(HeatTopology, ACurveTwiceRoundAMoebiusBand) {
     }
 }
 
+TEST(HeatTopology, ACurveTwiceRoundAMoebiusBandOfPolygons) {
+  const MoebiusBand band{60};
+  const SurfaceMesh mesh(band.soup(true));
+  const int quarter = 3 * band.nw / 4;
+  Sources sources;
+  sources.curves = {band.curve(0, 2 * band.nu, quarter)};
+  for (const AnyMethod& method : {AnyMethod(Automatic{}), AnyMethod(SignedHeat{})}) {
+    Report report;
+    const VecX phi = test::surface_distance(mesh, sources, method, report);
+    for (int i = 0; i < band.nu; ++i)
+      for (int j = 0; j <= band.nw; ++j)
+        ASSERT_NEAR(phi[band.vertex(i, j)], std::abs(band.across(j)) - band.across(quarter), 0.03)
+            << report.method << " at " << i << " " << j;
+  }
+  Sources core;
+  core.curves = {band.curve(0, band.nu, band.nw / 2).unsigned_curve()};
+  for (const char* method : {"unsigned-heat", "belyaev-fayolle", "signed-heat"}) {
+    Report report;
+    const VecX phi = test::surface_distance(mesh, core, AnyMethod::named(method), report);
+    for (int i = 0; i < band.nu; ++i)
+      for (int j = 0; j <= band.nw; ++j)
+        ASSERT_NEAR(phi[band.vertex(i, j)], std::abs(band.across(j)), 0.03) << method;
+  }
+}
+
 TEST(HeatTopology, ACurveAlongTheSeamOfAMoebiusBand) {
   // Straight across the band where the faces on both sides lie on the same side of their edge, and
   // elsewhere. It bounds nothing, so that the distance is flattened; its signs are as drawn.

@@ -130,7 +130,8 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error_of_sources("unsigned_point\n"),
             "a.txt:1: unsigned_point has 0 nodes, at least 1 is needed");
   EXPECT_EQ(error_of_sources("signed_curve 2\nv 1\nv 2\n"),
-            "a.txt:1: after signed_curve only 0 or 1 (reversed) may follow, found '2'");
+            "a.txt:1: after signed_curve only 0 or 1 (reversed) and 'value NUMBER' may follow, "
+            "found '2'");
   EXPECT_EQ(error("v 99999"),
             "a.txt:3: node refers to vertex 99999, the mesh has 8 (counted from 0)");
   EXPECT_EQ(error("v -1"), "a.txt:3: node refers to vertex -1, the mesh has 8 (counted from 0)");

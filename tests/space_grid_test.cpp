@@ -163,6 +163,37 @@ TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
   }
 }
 
+TEST(HeldPoisson, OneValueAlongEachGroupAgreesWithTheSaddlePointSystem) {
+  // Unknowns x, multipliers and a constant for each group: A x - B c = 0.
+  const Grid grid = odd_grid();
+  const auto n = static_cast<Eigen::Index>(grid.n_nodes());
+  const GridRows rows = grid_rows(
+      grid, (test::random_points(9, 0.5).rowwise() + Eigen::RowVector3d(1.8, 3, 3.5)).eval(),
+      VecX::Ones(9));
+  const Eigen::Index m = rows.A.rows();
+  ASSERT_GE(m, 4);
+  std::vector<int> group(static_cast<std::size_t>(m));
+  for (Eigen::Index r = 0; r < m; ++r) group[static_cast<std::size_t>(r)] = r % 2;
+  VecX b = VecX::Random(n);
+  b.array() -= b.mean();
+  const GridPoisson poisson(grid.n, grid.spacing);
+  const auto solve = [&](VecX& v) { poisson.solve(v, Task()); };
+  VecX x = b;
+  solve(x);
+  Report report;
+  x = solve_constrained(solve, x, {rows.A, VecX::Zero(m), 1e-13, group}, Task(), report);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m + 2, n + m + 2);
+  K.topLeftCorner(n, n) = laplacian(grid);
+  K.block(n, 0, m, n) = rows.A;
+  K.block(0, n, n, m) = Eigen::MatrixXd(rows.A).transpose();
+  for (Eigen::Index r = 0; r < m; ++r) K(n + r, n + m + r % 2) = K(n + m + r % 2, n + r) = -1;
+  VecX rhs = VecX::Zero(n + m + 2);
+  rhs.head(n) = b;
+  VecX exact = VecX(K.fullPivLu().solve(rhs)).head(n);  // up to a constant
+  exact.array() += x[0] - exact[0];
+  EXPECT_LT((x - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.cwiseAbs().maxCoeff());
+}
+
 TEST(Convolution, FarDirectionIsThatOfTheNearestSampleAndNeverUnderflows) {
   OrientedPoints two;
   two.points.resize(2, 3);
@@ -258,19 +289,32 @@ TEST(SignedHeatGrid, SoftConstraintLiesBetweenNoneAndZeroSet) {
   planes.normals = Eigen::RowVector3d(0, 0, 1).replicate(planes.points.rows(), 1);
   planes.areas = VecX::Constant(planes.points.rows(), 0.01);
   const Grid grid = test::cube_grid(21, 1);
+  std::vector<int> sheets(450, 0);
+  std::fill(sheets.begin() + 225, sheets.end(), 1);
   const auto spread = [&](SpaceConstraint constraint, double soft) {
     SpaceSignedHeat options;
     options.constraint = constraint;
     options.soft = soft;
     Report report;
-    const VecX phi = signed_heat_grid(grid, planes, options, Task(), report);
-    const VecX at = grid_rows(grid, planes.points, planes.areas).A * phi;
+    const bool levels = constraint == SpaceConstraint::level_sets;
+    const VecX phi = signed_heat_grid(grid, planes, options, Task(), report,
+                                      levels ? sheets : std::vector<int>());
+    const GridRows rows = grid_rows(grid, planes.points, planes.areas, sheets);
+    const VecX at = rows.A * phi;
+    if (levels) {  // each at one value, zero between them
+      for (const int sheet : {0, 1})
+        for (Eigen::Index r = 0; r < at.size(); ++r)
+          if (rows.part[static_cast<std::size_t>(r)] == sheet) {
+            EXPECT_NEAR(at[r], at[at.size() - 1] * (sheet == 0 ? -1 : 1), 0.005);
+          }
+    }
     return at.maxCoeff() - at.minCoeff();
   };
   const double none = spread(SpaceConstraint::none, 1), held = spread(SpaceConstraint::zero_set, 1);
   const double weak = spread(SpaceConstraint::soft, 0.1);
   const double strong = spread(SpaceConstraint::soft, 100);
   EXPECT_NEAR(none, 0.5, 0.1);
+  EXPECT_NEAR(spread(SpaceConstraint::level_sets, 0), 0.5, 0.05);
   EXPECT_LT(held, 0.05);
   EXPECT_LT(strong, weak);
   EXPECT_LT(weak, none);

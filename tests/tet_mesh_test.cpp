@@ -89,6 +89,30 @@ TEST(TetMeshDistance, IsExactFromAPlaneBetweenFaces) {
   }
 }
 
+TEST(TetMeshDistance, ParallelPlanesAreLevelSetsOfOneFunction) {
+  const int n = 6;
+  TetMesh mesh = test::tet_box(n);
+  PolygonSoup planes = test::square_at(0.27, 9);
+  const PolygonSoup second = test::square_at(0.71, 9);
+  const int first = planes.n_vertices();
+  planes.points.conservativeResize(2 * first, 3);
+  planes.points.bottomRows(first) = second.points;
+  for (int f = 0; f < second.n_faces(); ++f) {
+    std::vector<int> face;
+    for (const int v : second.face(f)) face.push_back(first + v);
+    planes.add_face(face);
+  }
+  const VecX x = mesh.points.col(0).array() - 0.49;
+  const auto worst = [&](const char* constraint) {
+    const VecX phi = tet_distance(mesh, {planes, {}}, {{"constraint", constraint}});
+    return (phi - x).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(worst("level-sets"), 2e-3);
+  EXPECT_GT(worst("zero-set"), 0.1);  // it holds both at zero
+  EXPECT_THROW(tet_distance(mesh, {planes, {}}, {{"constraint", "level-sets"}, {"sharpen", "on"}}),
+               InputError);
+}
+
 TEST(TetMeshDistance, IsZeroAtTheVerticesOfFacesThatAreSources) {
   const int n = 6;
   const TetMesh mesh = test::tet_box(n);

@@ -29,7 +29,8 @@ struct MethodInfo {
   std::string summary;               // one sentence
   std::vector<std::string> domains;  // that it runs on: "triangle mesh"
   std::vector<OptionInfo> options;
-  std::string reference;  // the paper
+  std::string reference;          // the paper
+  bool different_values = false;  // takes sources whose values differ (surfaces)
 };
 
 /// Options by name and text; those that are not named have their defaults.

@@ -203,10 +203,10 @@ struct SpaceAutomatic {
   static constexpr const char* method = "auto";
 };
 
-/// How values at the source are held in space: not, at zero, or pulled towards zero. Level sets of
-/// parts are not told apart. Automatic: zero through tets that are given or follow the input, where
-/// no weight is given; otherwise pulled.
-enum class SpaceConstraint { automatic, none, zero_set, soft };
+/// How values at the source are held in space: not, at zero, pulled towards zero, or at one value
+/// for each connected part of a surface (clouds are one part). Automatic: zero through tets that
+/// are given or follow the input, where no weight is given; otherwise pulled.
+enum class SpaceConstraint { automatic, none, zero_set, soft, level_sets };
 
 /// Signed distance around surfaces that may be broken, on grids and through tets.
 /// Feng, Crane: A Heat Method for Generalized Signed Distance (2024), section 8.2.

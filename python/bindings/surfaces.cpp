@@ -111,16 +111,17 @@ void bind_sources(nb::module_& m) {
   nb::class_<Sources>(m, "Sources")
       .def(nb::init<>())
       .def("add_curve",
-           [](Sources& self, const PointArrays& nodes, bool is_signed) {
-             self.add(Curve{nodes.points, is_signed, {}});
+           [](Sources& self, const PointArrays& nodes, bool is_signed, double value) {
+             self.add(Curve{nodes.points, is_signed, {}, value});
            })
       .def("add_points",
-           [](Sources& self, const PointArrays& points) {
-             for (const SurfacePoint& p : points.points) self.add(p);
+           [](Sources& self, const PointArrays& points, Numbers values) {
+             for (std::size_t i = 0; i < points.points.size(); ++i)
+               self.add(points.points[i], values[static_cast<Eigen::Index>(i)]);
            })
       .def("add_space_curve",
-           [](Sources& self, Points points, bool is_signed) {
-             self.add(SpaceCurve{points, is_signed, {}});
+           [](Sources& self, Points points, bool is_signed, double value) {
+             self.add(SpaceCurve{points, is_signed, {}, value});
            })
       .def("add_chain",
            [](Sources& self, Integers faces) {
@@ -134,14 +135,22 @@ void bind_sources(nb::module_& m) {
            })
       .def("curve",
            [](const Sources& self, std::size_t i) {
-             return std::pair(PointArrays{self.curves.at(i).nodes}, self.curves.at(i).is_signed);
+             const Curve& curve = self.curves.at(i);
+             return std::tuple(PointArrays{curve.nodes}, curve.is_signed, curve.value);
            })
       .def("space_curve",
            [](const Sources& self, std::size_t i) {
-             return std::pair(self.space_curves.at(i).points, self.space_curves.at(i).is_signed);
+             const SpaceCurve& curve = self.space_curves.at(i);
+             return std::tuple(curve.points, curve.is_signed, curve.value);
            })
       .def("chain", [](const Sources& self, std::size_t i) { return self.chains.at(i).faces; })
-      .def("points", [](const Sources& self) { return PointArrays{self.points}; });
+      .def("points", [](const Sources& self) { return PointArrays{self.points}; })
+      .def("point_values", [](const Sources& self) {
+        VecX values(std::ssize(self.points));
+        for (Eigen::Index i = 0; i < values.size(); ++i)
+          values[i] = self.point_value(static_cast<std::size_t>(i));
+        return values;
+      });
   m.def("read_sources",
         [](const std::string& path, const Mesh& mesh) { return read_sources(path, mesh); });
 }

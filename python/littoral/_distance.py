@@ -158,11 +158,12 @@ class DistanceSolver:
         points: Any = None,
         *,
         signed: Any = None,
+        values: Any = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Field:
         """Distance from curves and points [length]; all arguments and errors as for `distance`."""
-        sources = make_sources(self.mesh, curves, points, signed)
+        sources = make_sources(self.mesh, curves, points, signed, values)
         return Field(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -183,6 +184,7 @@ def distance(
     points: Any = None,
     *,
     signed: Any = None,
+    values: Any = None,
     method: str | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -194,6 +196,7 @@ def distance(
     them; points in space (n x 3 floats), which are projected; `Curve`, `FaceChain`. They may be
     broken. signed: one truth value for all curves or one for each; signed curves (the default) have
     positive distances to the left of travel. points: vertices, pairs or `SurfacePoint`s.
+    values: what distance is counted from, one number or one for each curve and then each point.
     as_: "pyvista", "trimesh" or "meshio" for the surface as that library's object, with
     "distance" at its vertices, instead of a `Field`; InputError for another name.
     Raises what `DistanceSolver` does, InputError without a source, IndexOutOfRange for one that is
@@ -205,7 +208,7 @@ def distance(
     [0.5, 0.25, 0.0, -0.25, -0.5]
     """
     surface = as_surface(mesh)
-    sources = make_sources(surface, curves, points, signed)
+    sources = make_sources(surface, curves, points, signed, values)
     core = _core.distance(
         surface._handle, sources, method or "", option_texts(options), settings(threads, progress)
     )

@@ -69,8 +69,9 @@ class Curve:
 
     `nodes`: vertices by number, surface points, potpourri3d's (element, [barycentric]) pairs, or
     points in space (n x 3), which are projected. Consecutive nodes need not share a face. A signed
-    curve has positive distances to the left of travel. A closed one repeats its first node. What
-    takes the curve checks the nodes, and raises as `distance`.
+    curve has positive distances to the left of travel. A closed one repeats its first node.
+    Distance is counted from `value` [length]. What takes the curve checks the nodes, and raises as
+    `distance`.
 
     >>> import littoral
     >>> line = littoral.Curve([2, 7, 12, 17, 22], signed=False)
@@ -80,6 +81,7 @@ class Curve:
 
     nodes: Any
     signed: bool = True
+    value: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -209,9 +211,12 @@ def _curves(value: Any) -> list[Any]:
 
 
 def make_sources(
-    mesh: Any, curves: Any = None, points: Any = None, signed: Any = None
+    mesh: Any, curves: Any = None, points: Any = None, signed: Any = None, values: Any = None
 ) -> _core.Sources:
-    """The sources on a mesh; `signed` is one truth value for all curves or one for each."""
+    """The sources on a mesh; `signed` is one truth value for all curves or one for each.
+
+    `values`: one number for all sources, or one for each curve and then for each point.
+    """
     if isinstance(curves, _core.Sources):
         return curves
     out = _core.Sources()
@@ -222,6 +227,9 @@ def make_sources(
         signs = list(signed)
         if len(signs) != len(given):
             raise InputError(f"signed: there are {len(signs)} truth values for {len(given)} curves")
+    on_mesh = None if points is None else point_arrays(points, mesh, "points")
+    n_points = 0 if on_mesh is None else len(on_mesh)
+    counted = None if values is None else _values(values, len(given), n_points)
     for i, (curve, sign) in enumerate(zip(given, signs, strict=True)):
         name = f"curves[{i}]"
         if isinstance(curve, FaceChain):
@@ -230,16 +238,30 @@ def make_sources(
             out.add_chain(faces)
             continue
         is_signed = True if sign is None else bool(sign)
+        value = 0.0 if counted is None else float(counted[i])
         if isinstance(curve, Curve):
             is_signed = curve.signed if sign is None else bool(sign)
+            value = float(curve.value) if counted is None else value
             curve = curve.nodes
         in_space = _space_points(curve)
         if in_space is not None:
-            out.add_space_curve(in_space, is_signed)
+            out.add_space_curve(in_space, is_signed, value)
         else:
-            out.add_curve(point_arrays(curve, mesh, name), is_signed)
-    if points is not None:
-        out.add_points(point_arrays(points, mesh, "points"))
+            out.add_curve(point_arrays(curve, mesh, name), is_signed, value)
+    if on_mesh is not None:
+        out.add_points(on_mesh, np.zeros(n_points) if counted is None else counted[len(given) :])
+    return out
+
+
+def _values(values: Any, n_curves: int, n_points: int) -> Floats:
+    """What distance is counted from: curves, then points."""
+    out = floats(np.atleast_1d(as_array(values, "values")), "values")
+    if as_array(values, "values").ndim == 0:
+        return np.full(n_curves + n_points, out[0])
+    if len(out) != n_curves + n_points:
+        raise InputError(
+            f"values: there are {len(out)} for {n_curves} curves and {n_points} points"
+        )
     return out
 
 
@@ -248,8 +270,8 @@ def sources_state(sources: _core.Sources) -> tuple[Any, ...]:
     n_curves, _, n_space, n_chains = sources.sizes()
     curves = [sources.curve(i) for i in range(n_curves)]
     return (
-        [(points.arrays(), signed) for points, signed in curves],
-        sources.points().arrays(),
+        [(points.arrays(), signed, value) for points, signed, value in curves],
+        (sources.points().arrays(), sources.point_values()),
         [sources.space_curve(i) for i in range(n_space)],
         [sources.chain(i) for i in range(n_chains)],
     )
@@ -259,11 +281,12 @@ def sources_from(state: tuple[Any, ...]) -> _core.Sources:
     """The sources of such data."""
     out = _core.Sources()
     curves, points, space, chains = state
-    for arrays, signed in curves:
-        out.add_curve(_core.Points(*arrays), signed)
-    out.add_points(_core.Points(*points))
-    for nodes, signed in space:
-        out.add_space_curve(nodes, signed)
+    for arrays, signed, value in curves:
+        out.add_curve(_core.Points(*arrays), signed, value)
+    arrays, values = points
+    out.add_points(_core.Points(*arrays), values)
+    for nodes, signed, value in space:
+        out.add_space_curve(nodes, signed, value)
     for faces in chains:
         out.add_chain(np.asarray(faces, np.int32))
     return out

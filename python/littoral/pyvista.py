@@ -49,14 +49,15 @@ class Accessor:
     def distance(self, curves: Any = None, points: Any = None, **options: Any) -> Any:
         """A copy of the mesh with point data "distance" from curves and points [length].
 
-        Arguments as for `littoral.distance`, `signed`, `method` and its options among them.
+        Arguments as for `littoral.distance`, `signed`, `values`, `method` and its options among
+        them.
         """
         surface = self.surface
-        signed = options.pop("signed", None)
+        signed, values = options.pop("signed", None), options.pop("values", None)
         words = ("distance", *sorted(options.items()))
         if words not in self._prepared:
             self._prepared[words] = DistanceSolver(surface, **options)
-        field = self._prepared[words].solve(curves, points, signed=signed)
+        field = self._prepared[words].solve(curves, points, signed=signed, values=values)
         out = self._mesh.copy()
         out.point_data["distance"] = np.array(field.values)
         return out

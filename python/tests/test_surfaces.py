@@ -54,6 +54,31 @@ def test_no_curves_are_none(square):
     np.testing.assert_array_equal(littoral.distance(square, points=(7,)).values, expected)
 
 
+def test_distance_is_counted_from_values(square):
+    def to(v):
+        return np.linalg.norm(square.points - square.points[v], axis=1)
+
+    expected = np.minimum(to(0) + 0.25, to(40) - 0.1)
+    field = littoral.distance(square, points=[0, 40], values=[0.25, -0.1])
+    np.testing.assert_allclose(field.values, expected, atol=1e-12)
+    again = pickle.loads(pickle.dumps(field))
+    np.testing.assert_array_equal(again.values, field.values)
+    line = [4, 13, 22, 31, 40, 49, 58, 67, 76]
+    x = square.points[:, 0] - square.points[4, 0]
+    for counted in (
+        littoral.distance(square, Curve(line, signed=False, value=2)),
+        littoral.distance(square, line, signed=False, values=2),
+        littoral.distance(square, line, signed=False, values=[2]),
+    ):
+        np.testing.assert_allclose(counted.values, np.abs(x) + 2, atol=1e-12)
+    both = littoral.distance(square, [line], 0, signed=False, values=[2, 1.75])
+    np.testing.assert_allclose(both.values, np.minimum(np.abs(x) + 2, to(0) + 1.75), atol=1e-12)
+    with pytest.raises(littoral.InputError, match="values: there are 1 for 1 curves and 1 points"):
+        littoral.distance(square, [line], 0, values=[2])
+    with pytest.raises(littoral.UnsupportedError, match="one value"):
+        littoral.distance(square, points=[0, 40], values=[0, 0.1], method="quadratic")
+
+
 def test_points_in_every_form_are_the_same(square):
     a = littoral.distance(square, points=40).values
     for points in ([40], np.array([40]), [(40, [])], (40, []), SurfacePoint.vertex(40)):

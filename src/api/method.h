@@ -130,6 +130,13 @@ Method<D> make_method(MethodInfo info, const OptionTable<S>& table, Prepare prep
 template <class D>
 std::vector<Method<D>> library_methods();
 
+/// What a domain adds to all methods, whatever they know of it: nothing, unless it says so.
+template <class D>
+std::shared_ptr<const Solver<D>> with_additions(const MethodInfo&,
+                                                std::shared_ptr<const Solver<D>> solver) {
+  return solver;
+}
+
 /// All methods for domains of one type.
 template <class D>
 class Registry {
@@ -213,7 +220,7 @@ std::shared_ptr<const Solver<D>> prepare(const AnyMethod& choice, const D& domai
   report.method = method->info.name;
   report.domain = domain.kind();
   check_domain(method->info, report.domain, Registry<D>::instance().infos());
-  return method->prepare(domain, options, hint, task, report);
+  return with_additions<D>(method->info, method->prepare(domain, options, hint, task, report));
 }
 
 /// Both in a row.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/index.h"
@@ -37,9 +39,11 @@ VecX grid_divergence(const Grid& grid, const Directions& Y, const Task& task) {
   return b;
 }
 
-GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights) {
+GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
+                   const std::vector<int>& part) {
   struct Place {
     std::size_t cell;
+    int part;
     Eigen::Index point;
   };
   std::vector<Place> places;
@@ -56,16 +60,20 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights) {
   std::array<int, 3> low{};
   Vec3 t = Vec3::Zero();
   for (Eigen::Index p = 0; p < points.rows(); ++p)
-    if (lower(p, low, t)) places.push_back({grid.node(low[0], low[1], low[2]), p});
+    if (lower(p, low, t))
+      places.push_back({grid.node(low[0], low[1], low[2]), part.empty() ? 0 : part[p], p});
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return a.cell < b.cell || (a.cell == b.cell && a.point < b.point);
+    return std::tie(a.cell, a.part, a.point) < std::tie(b.cell, b.part, b.point);
   });
   Triplets entries;
   std::vector<double> row_weight;
+  std::vector<int> row_part;
   for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
     std::array<double, 8> sum{};
     double total = 0;
-    for (to = from; to < places.size() && places[to].cell == places[from].cell; ++to) {
+    for (to = from; to < places.size() && places[to].cell == places[from].cell &&
+                    places[to].part == places[from].part;
+         ++to) {
       const Eigen::Index p = places[to].point;
       lower(p, low, t);
       for (std::size_t c = 0; c < 8; ++c)
@@ -80,8 +88,10 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights) {
                              grid.node(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2)),
                              sum[c] / total);
     row_weight.push_back(total);
+    if (!part.empty()) row_part.push_back(places[from].part);
   }
   GridRows rows;
+  rows.part = std::move(row_part);
   rows.weight = Eigen::Map<const VecX>(row_weight.data(), row_weight.size());
   rows.A.resize(rows.weight.size(), grid.n_nodes());
   rows.A.setFromTriplets(entries.begin(), entries.end());

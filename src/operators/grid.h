@@ -2,6 +2,7 @@
 // The calculus of a regular grid, without matrices: values at nodes, gradients at grid edges.
 
 #include <functional>
+#include <vector>
 
 #include "base/task.h"
 #include "littoral/report.h"
@@ -29,12 +30,14 @@ double grid_sharpening_memory(double nodes);
 /// Values at points from values at the nodes, linear along each axis. One row per grid cell that
 /// holds points: the mean over these points by weight, so that rows are independent (a point of
 /// which a cell has many would be held by many rows, and the cell would lock). Points outside the
-/// box are left out.
+/// box are left out. Where points have parts a row has those of one.
 struct GridRows {
-  SpMat A;      // rows x nodes, row sums 1
-  VecX weight;  // rows: sum of the points' weights
+  SpMat A;                // rows x nodes, row sums 1
+  VecX weight;            // rows: sum of the points' weights
+  std::vector<int> part;  // rows; empty: points have none
 };
-GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights);
+GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
+                   const std::vector<int>& part = {});
 
 /// A unit vector at each node from one that is dear to evaluate and smooth far from the sources.
 ///

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace littoral {
 
@@ -13,6 +14,7 @@ int SourceNodes::id(const SurfacePoint& p) {
   if (added) {
     points.push_back(p);
     weight.push_back(0);
+    value.push_back(std::numeric_limits<double>::infinity());
     joined_.add();
   }
   return it->second;
@@ -39,11 +41,12 @@ void ConstraintRowBuilder::end_run() {
   int blocks = -1;
   for (const Row& piece : run_) {
     const int at = static_cast<int>((passed + 0.5 * piece.weight) / block);
-    if (at != blocks) rows_.push_back({{}, 0, piece.node});
+    if (at != blocks) rows_.push_back({{}, 0, piece.node, 0});
     blocks = at;
     for (const auto& [v, value] : piece.entries)
       rows_.back().entries.emplace_back(v, piece.weight * value);
     rows_.back().weight += piece.weight;
+    rows_.back().value += piece.weight * piece.value;
     passed += piece.weight;
   }
   run_.clear();
@@ -54,15 +57,18 @@ void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes,
   end_run();
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
     if (nodes.weight[i] > 0)
-      rows_.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i)});
+      rows_.push_back({hats(mesh, nodes.points[i]), nodes.weight[i], static_cast<int>(i),
+                       nodes.weight[i] * nodes.value[i]});
   Triplets entries;
   std::map<int, int> group_of_root;
   system.weight.resize(rows_.size());
+  system.value.resize(rows_.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     double sum = 0;  // a mean, whatever the coefficients were weighted with
     for (const auto& [v, value] : rows_[r].entries) sum += value;
     for (const auto& [v, value] : rows_[r].entries) entries.emplace_back(r, v, value / sum);
     system.weight[r] = rows_[r].weight;
+    system.value[r] = rows_[r].value / rows_[r].weight;
     const auto [it, added] = group_of_root.try_emplace(nodes.root(rows_[r].node), system.n_groups);
     if (added) ++system.n_groups;
     system.group.push_back(it->second);

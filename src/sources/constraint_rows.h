@@ -22,6 +22,7 @@ class SourceNodes {
   int root(int a) { return joined_.find(a); }
   std::vector<SurfacePoint> points;
   std::vector<double> weight;  // length that the node's value stands for, mean edge lengths
+  std::vector<double> value;   // the least of the sources' there [units]; +inf: of none yet
 
  private:
   std::map<std::tuple<int, int, std::array<double, 3>>, int> ids_;
@@ -40,14 +41,15 @@ class ConstraintRowBuilder {
   /// h: mean edge length.
   explicit ConstraintRowBuilder(double h) : h_(h) {}
 
-  /// A piece inside a face: hat functions at its middle, its length, one of its nodes.
-  void add_piece(const std::vector<std::pair<int, double>>& middle, double length, int node) {
-    run_.push_back({middle, length / h_, node});
+  /// A piece inside a face: hat functions at its middle, its length, one of its nodes, its value.
+  void add_piece(const std::vector<std::pair<int, double>>& middle, double length, int node,
+                 double value) {
+    run_.push_back({middle, length / h_, node, value});
   }
   /// Ends a stretch of consecutive pieces inside faces.
   void end_run();
-  /// Ends the last stretch, adds the nodes that have weight and writes A, weight, group and
-  /// n_groups.
+  /// Ends the last stretch, adds the nodes that have weight and writes A, value, weight, group
+  /// and n_groups.
   void write(const SurfaceMesh& mesh, SourceNodes& nodes, SourceSystem& system);
 
  private:
@@ -55,6 +57,7 @@ class ConstraintRowBuilder {
     std::vector<std::pair<int, double>> entries;  // vertex, coefficient; may repeat a vertex
     double weight = 0;                            // length, mean edge lengths
     int node = 0;                                 // a node of the same connected part
+    double value = 0;                             // times the weight while rows are summed
   };
   double h_;
   std::vector<Row> run_, rows_;

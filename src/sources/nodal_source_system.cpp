@@ -132,18 +132,18 @@ void on_cells(const NodalSurface& S, SourceSystem& system) {
 }  // namespace
 
 SourceSystem nodal_source_system(const NodalSurface& S, const PlacedSources& sources) {
-  SourceSystem system = source_system(*S.refined, *S.place, sources, NodeDofs(S));
+  // Exact distances would be needed at all nodes of a polygon.
+  const bool at_vertices = S.P.rows() == S.P.cols();
+  SourceSystem system = source_system(*S.refined, *S.place, sources, NodeDofs(S), at_vertices);
   // What is held at vertices of the refined mesh is held at the nodes that determine them.
   const SpMat P = S.P;
   system.u0 = SpMat(P.transpose() * system.u0);
   system.A = SpMat(system.A * P);
   system.mean = SpMat(system.mean * P);
-  if (P.rows() == P.cols())
+  if (at_vertices)
     on_cells(S, system);
-  else {  // exact distances would be needed at all nodes of a polygon
+  else
     system.d0 = VecX::Zero(P.cols());
-    system.near.clear();
-  }
   return system;
 }
 

@@ -1,6 +1,7 @@
 #include "sources/pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,8 +46,9 @@ class Preparation {
   explicit Preparation(const SurfaceMesh& mesh) : mesh_(mesh), tracer_(mesh) {}
 
   /// Appends one curve; `label` names it in messages.
-  void add_curve(const std::vector<SurfacePoint>& nodes, bool is_signed, const std::string& label,
-                 const Task& task) {
+  void add_curve(const std::vector<SurfacePoint>& nodes, bool is_signed, double value,
+                 const std::string& label, const Task& task) {
+    check_value(value, label);
     const int curve = out_.n_curves++;
     std::vector<SurfacePoint> placed;
     int empty_steps = 0;
@@ -80,6 +82,7 @@ class Preparation {
       dropped_.add(counted(lost_, "piece of ", "pieces of ") + label +
                    " in faces that repeat a vertex" + (lost_ == 1 ? " was" : " were") +
                    " left out");
+    for (std::size_t i = pieces_before; i < out_.pieces.size(); ++i) out_.pieces[i].value = value;
     if (empty_steps > 0)
       dropped_.add(counted(empty_steps, "zero-length step of ", "zero-length steps of ") + label +
                    (empty_steps == 1 ? " was" : " were") + " left out");
@@ -87,9 +90,10 @@ class Preparation {
       vanished_.add(label + " has no length on the mesh and was left out");
   }
 
-  void add_point(const SurfacePoint& point, std::size_t number) {
+  void add_point(const SurfacePoint& point, double value, std::size_t number) {
+    check_value(value, "point source " + std::to_string(number));
     try {
-      out_.points.push_back(simplest(mesh_, point));
+      out_.add_point(simplest(mesh_, point), value);
       const std::vector<int> faces = faces_at(mesh_, out_.points.back());
       if (std::none_of(faces.begin(), faces.end(),
                        [&](int f) { return has_distinct_corners(mesh_, f); }))
@@ -115,6 +119,10 @@ class Preparation {
   }
 
  private:
+  static void check_value(double value, const std::string& label) {
+    if (!std::isfinite(value))
+      throw InputError(label + " has a value that is not finite", "not-finite");
+  }
   /// Nodes that share no face are as good as others. But where they are much farther apart than the
   /// curve's nodes are elsewhere, some may be missing.
   void warn_of_leaps(std::vector<double> lengths, const std::vector<double>& traced,
@@ -189,7 +197,7 @@ PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Rep
   for (const Curve& curve : sources.curves) {
     const std::string label = curve_label(index++, curve.origin);
     check_count(curve.nodes.size(), label);
-    preparation.add_curve(curve.nodes, curve.is_signed, label, task);
+    preparation.add_curve(curve.nodes, curve.is_signed, curve.value, label, task);
   }
   std::optional<CurveProjector> projector;
   for (const SpaceCurve& curve : sources.space_curves) {
@@ -198,10 +206,10 @@ PlacedSources place_sources(const SurfaceMesh& mesh, const Sources& sources, Rep
     if (!projector) projector.emplace(mesh);
     const ProjectedCurve projected = projector->project(curve, report, task);
     for (const Curve& part : projected.curves)
-      preparation.add_curve(part.nodes, part.is_signed, label, task);
+      preparation.add_curve(part.nodes, part.is_signed, curve.value, label, task);
   }
   for (std::size_t i = 0; i < sources.points.size(); ++i)
-    preparation.add_point(sources.points[i], i + 1);
+    preparation.add_point(sources.points[i], sources.point_value(i), i + 1);
   PlacedSources placed = preparation.finish(report);
   if (sides == SidesBy::faces) carry_sides(mesh, placed, report);
   return placed;

@@ -20,14 +20,25 @@ struct CurvePiece {
   std::array<double, 3> a{}, b{};  // start and end: barycentrics in `face`, in its corner order
   int edge = -1;                   // the edge the piece runs along (third barycentric exactly 0)
   double length = 0;               // [length], positive
+  double value = 0;                // of its curve [length]
 };
 
 /// Sources ready to be turned into right-hand sides and constraints.
 struct PlacedSources {
   std::vector<CurvePiece> pieces;                // by curve, in the direction of travel
   std::vector<SurfacePoint> points;              // isolated points, in their simplest form
+  std::vector<double> point_values;              // of the first points; those beyond have 0
   std::vector<std::vector<SurfacePoint>> nodes;  // per curve; consecutive nodes share a face
   int n_curves = 0;                              // = nodes.size()
+
+  void add_point(const SurfacePoint& point, double value) {
+    if (value != 0) {
+      point_values.resize(points.size(), 0);
+      point_values.push_back(value);
+    }
+    points.push_back(point);
+  }
+  double point_value(std::size_t i) const { return i < point_values.size() ? point_values[i] : 0; }
 };
 
 /// What tells left from right: faces, from which sides are carried along curves

@@ -80,7 +80,11 @@ PlacedSources covering_sources(const SurfaceMesh& mesh, const IntrinsicTriangula
       }
     out.pieces.push_back(piece);
   }
-  for (const SurfacePoint& p : sources.points) add_on_sheets(mesh, T, cover, p, out.points);
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    std::vector<SurfacePoint> sheets;
+    add_on_sheets(mesh, T, cover, sources.points[i], sheets);
+    for (const SurfacePoint& p : sheets) out.add_point(p, sources.point_value(i));
+  }
   return out;
 }
 
@@ -88,9 +92,13 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
                               const PlacedSources& sources, const RefineOptions& options,
                               Report& report, const Task& task) {
   PlacedSources kept = sources;
-  std::erase_if(kept.points, [&](const SurfacePoint& p) {
-    return p.on == SurfacePoint::On::face && T.triangle_of_face[p.element] < 0;
-  });
+  kept.points.clear();
+  kept.point_values.clear();
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    const SurfacePoint& p = sources.points[i];
+    if (p.on != SurfacePoint::On::face || T.triangle_of_face[p.element] >= 0)
+      kept.add_point(p, sources.point_value(i));
+  }
   CurveNetwork curves = curve_network_of(mesh, T, kept);
   const std::size_t first_point = curves.nodes.size() - kept.points.size();
   Retriangulation fine = intrinsic_delaunay(mesh, T, std::move(curves), options, report, task);
@@ -122,8 +130,8 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
     ends.push_back(nodes[s.b]);
     out.sources.pieces.push_back(piece);
   }
-  for (std::size_t i = first_point; i < first_point + kept.points.size(); ++i)
-    out.sources.points.push_back(nodes[i]);
+  for (std::size_t i = 0; i < kept.points.size(); ++i)
+    out.sources.add_point(nodes[first_point + i], kept.point_value(i));
   if (lost)
     report.warn("pieces-lost",
                 std::to_string(lost) + " tiny pieces of curves were lost to rounding");

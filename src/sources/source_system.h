@@ -16,14 +16,18 @@ struct SourceSystem {
   VecX X0_points;  // 2 dofs: radial vectors of the isolated points (eq. 19)
   SpMat u0;        // nodes x batches: unsigned measure, integrated against the nodes' functions
   std::vector<char> batch_of_points;  // batches: 1 for points, 0 for curves
-  VecX d0;  // nodes: exact distance to the nearest point, on cells that hold points; 0 elsewhere
+  VecX batch_value;                   // batches: the sources' value
+  VecX d0;  // nodes: exact distance to the nearest point, counted from its value, on cells that
+            // hold points; 0 elsewhere
   std::vector<int> near;   // those cells
   SpMat A;                 // rows x nodes: the value at a point of the source (eq. 14)
+  VecX value;              // rows: what that is, less what d0 has of it
   VecX weight;             // rows: length the row stands for, in mean edge lengths
   std::vector<int> group;  // rows: connected part of the source
   int n_groups = 0;
   SpMat mean;                 // samples x nodes: values at midpoints of the source (Alg. 13, 18)
   VecX mean_weight;           // samples: lengths
+  VecX mean_value;            // samples: of the source
   std::vector<char> reached;  // components that hold a source
   bool only_points = false;
 };

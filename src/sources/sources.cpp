@@ -9,7 +9,7 @@ Sources& Sources::add(const Sources& other) {
     to.insert(to.end(), from.begin(), from.end());
   };
   append(curves, other.curves);
-  append(points, other.points);
+  for (std::size_t i = 0; i < other.points.size(); ++i) add(other.points[i], other.point_value(i));
   append(space_curves, other.space_curves);
   append(chains, other.chains);
   return *this;

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace littoral {
 
 TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
                                   const OrientedPoints& source, const std::vector<TetPoint>& places,
-                                  const std::vector<int>& group) {
+                                  const std::vector<int>& group, const std::vector<int>& part) {
   TetSourceSystem system;
   system.X0 = MatX3::Zero(ops.n_faces, 3);
-  std::map<int, int> row_of;  // group -> row
+  std::map<std::pair<int, int>, int> row_of;  // group and part -> row
   std::vector<double> weight;
   Triplets entries;
   for (Eigen::Index i = 0; i < source.size(); ++i) {
@@ -20,8 +21,10 @@ TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
       continue;
     }
     const double area = source.areas[i];
-    const auto [at, is_new] = row_of.try_emplace(group[i], row_of.size());
+    const auto [at, is_new] =
+        row_of.try_emplace({group[i], part.empty() ? 0 : part[i]}, row_of.size());
     if (is_new) weight.push_back(0);
+    if (is_new && !part.empty()) system.part.push_back(part[i]);
     weight[at->second] += area;
     for (int k = 0; k < 4; ++k) {
       const double lambda = p.barycentric[k];

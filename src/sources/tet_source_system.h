@@ -11,17 +11,19 @@
 namespace littoral {
 
 struct TetSourceSystem {
-  MatX3 X0;         // faces x 3: sum of A n phi_f(p)
-  SpMat A;          // rows x vertices: mean value at the samples of one group, row sums 1
-  VecX weight;      // rows: area
-  int outside = 0;  // samples in no tet
+  MatX3 X0;                 // faces x 3: sum of A n phi_f(p)
+  SpMat A;                  // rows x vertices: mean value at the samples of one group, row sums 1
+  VecX weight;              // rows: area
+  int outside = 0;          // samples in no tet
+  std::vector<int> part{};  // rows: of the source; empty: it is one
 };
 
 /// `places` says where each sample lies, `group` which of them share a constraint row: a row each
-/// would hold every value around them.
+/// would hold every value around them; `part`, to which part of the source each belongs (empty: it
+/// is one), which a row holds one of.
 TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
                                   const OrientedPoints& source, const std::vector<TetPoint>& places,
-                                  const std::vector<int>& group);
+                                  const std::vector<int>& group, const std::vector<int>& part = {});
 
 /// Each vertex a row of its own, all of one weight; X0 is empty.
 TetSourceSystem vertex_source_system(const TetOperators& ops, std::vector<int> vertices);

@@ -66,14 +66,16 @@ struct Numbered {
 };
 
 TriangleSources::Points sorted_out(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                                   std::vector<Numbered> points, std::vector<char>& reached) {
+                                   const std::vector<double>& value, std::vector<Numbered> points,
+                                   std::vector<char>& reached) {
   auto key = [](const SurfacePoint& p) {
     return std::tuple(static_cast<int>(p.on), p.element,
                       p.on == SurfacePoint::On::vertex ? std::array<double, 3>{} : p.b);
   };
   for (Numbered& n : points) n.point = simplest(mesh, n.point);
   std::sort(points.begin(), points.end(), [&](const Numbered& p, const Numbered& q) {
-    return std::pair(key(p.point), p.source) < std::pair(key(q.point), q.source);
+    return std::tuple(key(p.point), value[p.source], p.source) <
+           std::tuple(key(q.point), value[q.source], q.source);
   });
   const auto same = [&](const Numbered& p, const Numbered& q) {
     return key(p.point) == key(q.point);
@@ -121,6 +123,9 @@ TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangu
                                  const PlacedSources& sources) {
   TriangleSources out;
   out.reached.assign(T.n_components, 0);
+  for (const CurvePiece& piece : sources.pieces) out.value.push_back(piece.value / T.unit);
+  for (std::size_t i = 0; i < sources.points.size(); ++i)
+    out.value.push_back(sources.point_value(i) / T.unit);
   std::vector<Numbered> nodes, isolated;
   for (std::size_t i = 0; i < sources.pieces.size(); ++i) {
     const CurvePiece& piece = sources.pieces[i];
@@ -136,8 +141,8 @@ TriangleSources triangle_sources(const SurfaceMesh& mesh, const IntrinsicTriangu
   add_other_nodes(mesh, sources, nodes);
   for (std::size_t i = 0; i < sources.points.size(); ++i)
     isolated.push_back({sources.points[i], static_cast<int>(sources.pieces.size() + i)});
-  out.nodes = sorted_out(mesh, T, std::move(nodes), out.reached);
-  out.isolated = sorted_out(mesh, T, std::move(isolated), out.reached);
+  out.nodes = sorted_out(mesh, T, out.value, std::move(nodes), out.reached);
+  out.isolated = sorted_out(mesh, T, out.value, std::move(isolated), out.reached);
   if (std::find(out.reached.begin(), out.reached.end(), 1) == out.reached.end())
     throw InputError("no source lies on a face with three different vertices", "nothing-there");
   return out;

@@ -23,12 +23,18 @@ struct TriangleSources {
   struct Points {
     std::vector<int> vertices;
     std::vector<PointInFace> inside;
-    std::vector<int> vertex_source, inside_source;  // number of each entry; the least, if several
+    std::vector<int> vertex_source, inside_source;  // number of each entry; of several at one
+                                                    // place one of least value
   };
   std::vector<Segment> segments;  // along an edge: once for every triangle there
   Points nodes;                   // ends of segments
   Points isolated;
   std::vector<char> reached;  // components that hold a source
+  std::vector<double> value;  // by number [units]; empty: all 0
+
+  double value_of(int source) const {
+    return source < 0 || value.empty() ? 0 : value[static_cast<std::size_t>(source)];
+  }
 };
 
 /// Throws InputError if no source lies on a face with three different vertices.

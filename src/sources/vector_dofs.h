@@ -37,9 +37,11 @@ class VectorDofs {
                           std::vector<DofVector>& out) const = 0;
 };
 
-/// The system of curves and points placed on a triangle mesh, with nodes at its vertices. Throws
-/// InputError if no source lies on a face with three different vertices.
+/// The system of curves and points placed on a triangle mesh, with nodes at its vertices. `d0` and
+/// `near` are left empty unless asked for. Throws InputError if no source lies on a face with three
+/// different vertices.
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                           const PlacedSources& sources, const VectorDofs& dofs);
+                           const PlacedSources& sources, const VectorDofs& dofs,
+                           bool exact_near_points = true);
 
 }  // namespace littoral

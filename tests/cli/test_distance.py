@@ -1,6 +1,7 @@
 """littoral distance: values, formats, statuses."""
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -213,3 +214,28 @@ def test_tables_of_distance_that_jumps_have_the_inputs_vertices(
     assert b"element vertex 121" not in (tmp_path / "a.ply").read_bytes()
     level = (*words, "--constraint", "level-sets", "-o", "b.txt")
     assert "constraint" in run(*level, status=2).stderr
+
+
+def test_distance_is_counted_from_values_of_sources(run: Run, mesh: Path, tmp_path: Path) -> None:
+    (tmp_path / "s.txt").write_text(
+        "unsigned_point value 0.2\nv 0\nunsigned_point\nv 120\n"
+        "unsigned_curve value 0.5\nv 10\nv 21\n"
+    )
+    run("distance", mesh, "--sources", "s.txt", "-o", "a.txt")
+    (tmp_path / "s.json").write_text(
+        '{"points": [{"v": 0, "value": 0.2}, {"v": 120}],'
+        ' "curves": [{"signed": false, "value": 0.5, "nodes": [{"v": 10}, {"v": 21}]}]}'
+    )
+    run("distance", mesh, "--sources", "s.json", "-o", "b.txt")
+    a = values(tmp_path / "a.txt")
+    assert a == values(tmp_path / "b.txt")
+    for v, found in enumerate(a):
+        x, y = v % 11 / 10, v // 11 / 10
+        line = math.hypot(1 - x, max(0.0, y - 0.1))
+        expected = min(0.2 + math.hypot(x, y), math.hypot(1 - x, 1 - y), 0.5 + line)
+        assert found == pytest.approx(expected, abs=1e-12)
+    quadratic = ("distance", mesh, "--sources", "s.txt", "--method", "quadratic", "-o", "c.txt")
+    assert "sources of one value" in run(*quadratic, status=2).stderr
+    (tmp_path / "shadowed.txt").write_text("unsigned_point\nv 0\nunsigned_point value 2\nv 5\n")
+    told = run("distance", mesh, "--sources", "shadowed.txt", "-o", "d.txt").stderr
+    assert "point source 2 has a value 1.5 above" in told

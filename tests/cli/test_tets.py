@@ -4,6 +4,7 @@ import itertools
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import Run
 
@@ -58,6 +59,27 @@ def test_distance_from_a_surface(run: Run, cube: str, tmp_path: Path) -> None:
     for v, value in enumerate(values):
         assert value == pytest.approx(v % 5 / 4 - 0.5, abs=1e-3)
     assert all((tmp_path / file).stat().st_size > 0 for file in out)
+
+
+def test_two_sheets_are_level_sets(run: Run, cube: str, tmp_path: Path) -> None:
+    def sheet(x: float) -> str:
+        return "".join(f"v {x} {y} {z}\n" for y, z in ((0, 0), (1, 0), (1, 1), (0, 1)))
+
+    faces = "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n"
+    (tmp_path / "sheets.obj").write_text(sheet(0.3) + sheet(0.7) + faces)
+    words = ("--method", "signed-heat", "--constraint", "level-sets")
+    run("distance", cube, "--sources", "sheets.obj", *words, "-o", "d.csv")
+    lines = (tmp_path / "d.csv").read_text().splitlines()[1:]
+    for v, line in enumerate(lines):
+        assert float(line.split(",")[1]) == pytest.approx(v % 5 / 4 - 0.5, abs=2e-3)
+    for domain in ("grid", "tets"):
+        box = ("--bounds", "0,0,0,1,1,1", "--resolution", 9, "--domain", domain)
+        run("sdf", "sheets.obj", *box, *words, "-o", "g.npy")
+        g = np.load(tmp_path / "g.npy")
+        assert g[0, 4, 4] == pytest.approx(-0.5, abs=0.05), domain
+        assert g[8, 4, 4] == pytest.approx(0.5, abs=0.05)
+    sharp = run("sdf", "sheets.obj", *box, *words, "--sharpen", "-o", "g.npy", status=2).stderr
+    assert "level-sets" in sharp
 
 
 def test_distance_from_a_vertex_and_its_level_set(run: Run, cube: str, tmp_path: Path) -> None:

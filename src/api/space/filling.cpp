@@ -56,7 +56,8 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
     places.push_back(lattice.locate(source.points.row(i)));
     cubes.push_back(places.back().tet < 0 ? -1 : lattice.cube_of(places.back().tet));
   }
-  const TetSourceSystem terms = tet_source_system(mesh, *ops, source, places, cubes);
+  const TetSourceSystem terms =
+      tet_source_system(mesh, *ops, source, places, cubes, parts_to_hold(input, options));
   if (terms.outside > 0)
     report.warn("samples-outside",
                 std::to_string(terms.outside) + " samples of the input lie outside the box");
@@ -155,6 +156,7 @@ Method<SpaceDomain> heat_filling_method(MethodInfo info) {
                         Report& report) {
           const bool lattice = domain.tets->by == TetFilling::By::lattice;
           options = settled(options, !lattice);
+          check_level_sets(options);
           return lattice
                      ? through_lattice(sources, *domain.grid, options, task, report)
                      : through_tetgen(sources, *domain.grid, *domain.tets, options, task, report);

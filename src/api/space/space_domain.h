@@ -68,6 +68,9 @@ std::vector<Method<SpaceDomain>> regularized_space_methods();
 /// hangs or answers nonsense, which it does for surfaces that cross themselves.
 Method<SpaceDomain> heat_filling_method(MethodInfo info);
 
+/// The part of the input that each sample belongs to where the options tell parts apart.
+std::vector<int> parts_to_hold(const SpaceInput& input, const SpaceSignedHeat& options);
+
 /// How fine a mesh is sampled for points that have no grid, in units of its frame.
 inline constexpr double query_side = 0.01;
 

@@ -11,6 +11,7 @@
 #include "methods/implicit/closest_point.h"
 #include "methods/implicit/convolutional_distance.h"
 #include "methods/tori/tori.h"
+#include "sources/parts_of_samples.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -84,15 +85,26 @@ Method<SpaceDomain> kernel_method(const std::string& summary, const std::string&
       });
 }
 
+}  // namespace
+
+std::vector<int> parts_to_hold(const SpaceInput& input, const SpaceSignedHeat& options) {
+  if (options.constraint != SpaceConstraint::level_sets) return {};
+  return parts_of_samples(input.surface, input.samples);
+}
+
+namespace {
+
 VecX heat_on_grid(const SpaceInput& input, const Grid& grid, SpaceSignedHeat& options, Task& task,
                   Report& report) {
   options = settled(options, false);
+  check_level_sets(options);
   if (options.sharpen)
     check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
                  "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
                  "use a smaller resolution or leave out sharpen");
   VecX phi = signed_heat_grid(grid, input.samples, options,
-                              task.stage(options.sharpen ? 0.2 : 1, "signed heat"), report);
+                              task.stage(options.sharpen ? 0.2 : 1, "signed heat"), report,
+                              parts_to_hold(input, options));
   if (!options.sharpen) return phi;
   Operators ops;
   ops.domain = "grid";

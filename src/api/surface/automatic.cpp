@@ -18,6 +18,7 @@
 #include "littoral/error.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
+#include "sources/source_values.h"
 #include "sources/triangle_sources.h"
 
 namespace littoral {
@@ -65,10 +66,15 @@ class AutomaticOnTriangles {
     const Stopwatch watch(report, "distance");
     const Task measuring = task.stage(0.55, "walking over the mesh");
     if (options.metric == Metric::automatic) options.metric = Metric::exact;
-    const VecX distance = options.metric == Metric::exact
-                              ? exact_polyhedral(*T_, on, measuring, report).distance
-                              : fast_marching(*T_, on, measuring, report).cwiseAbs();
-    SurfaceAnswer answer{distance.cwiseProduct(whole.sign).array() + 0.0, {}, {}};  // no -0
+    SurfaceAnswer answer{
+        value_range(given).same()
+            ? VecX(measured(on, options.metric, measuring, report)
+                       .cwiseAbs()
+                       .cwiseProduct(whole.sign))
+            : from_values(on, whole, placed.n_curves, options.metric, measuring, report),
+        {},
+        {}};
+    answer.values.array() += 0.0;  // no -0
     if (options.confidence) answer.confidence = confidence(placed, whole, measuring);
     if (input_.mesh == domain_.mesh) return answer;
     answer.shown = domain_.mesh->soup();  // a cloud is shown with its triangles
@@ -78,6 +84,28 @@ class AutomaticOnTriangles {
   }
 
  private:
+  VecX measured(const TriangleSources& on, Metric metric, const Task& task, Report& report) const {
+    return metric == Metric::exact ? exact_polyhedral(*T_, on, task, report).distance
+                                   : fast_marching(*T_, on, task, report);
+  }
+
+  /// The least of c_i + d_i on positive sides, the largest of c_i - d_i on negative ones: viscosity
+  /// solutions of |grad phi| = 1 for increasing and decreasing phi (Hopf and Lax). Where no source
+  /// is shadowed both are c_i at source i.
+  VecX from_values(TriangleSources on, const WholeSources& whole, int n_curves, Metric metric,
+                   Task task, Report& report) const {
+    for (TriangleSources::Segment& segment : on.segments) segment.is_signed = false;
+    VecX phi = measured(on, metric, task.stage(0.5, "walking over the mesh"), report);
+    warn_of_shadowed(*T_, on, whole.sources, n_curves, phi / T_->unit, report);
+    if (!(whole.sign.minCoeff() < 0)) return phi;
+    for (double& value : on.value) value = -value;
+    Report again;
+    const VecX below = measured(on, metric, task.stage(1, "walking over the mesh"), again);
+    for (Eigen::Index v = 0; v < phi.size(); ++v)
+      if (whole.sign[v] < 0) phi[v] = -below[v];
+    return phi;
+  }
+
   /// How sure the signs are. The curve that is missing in a gap lies beside its completion, at a
   /// distance like a normal variable of deviation `spread` times the gap's length.
   VecX confidence(const PlacedSources& given, const WholeSources& whole, const Task& task) const {
@@ -183,7 +211,8 @@ std::vector<Method<SurfaceDomain>> automatic_methods() {
        all_surfaces(),
        {},
        "completion: Feng, Crane (2024) and Feng, Gillespie, Crane (2023); distance: Mitchell, "
-       "Mount, Papadimitriou (1987)"},
+       "Mount, Papadimitriou (1987)",
+       true},
       automatic_options(), automatic)};
 }
 

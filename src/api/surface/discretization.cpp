@@ -2,11 +2,13 @@
 
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_surface.h"
+#include "domain/mesh/face_orientation.h"
 #include "domain/mesh/polygon_surface.h"
 #include "operators/nodal.h"
 #include "operators/triangles.h"
 #include "sources/nodal_source_system.h"
 #include "sources/refined_sources.h"
+#include "sources/source_values.h"
 #include "sources/triangle_source_system.h"
 #include "spatial/triangulate.h"
 
@@ -62,6 +64,16 @@ std::shared_ptr<const IntrinsicTriangulation> triangulation_of(const SurfaceDoma
 SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report)
     : domain_(std::move(domain)) {
   task.checkpoint();
+  if (domain_.kind() == "polygon mesh") {
+    Report quiet;
+    CutPolygons cut = cut_into_triangles(domain_, quiet);
+    if (!face_orientation(*cut.triangles.mesh).orientable) {
+      report.warn("polygons-cut",
+                  "the polygons were cut into triangles, as the surface is not orientable");
+      cut_ = std::make_shared<const CutPolygons>(std::move(cut));
+      domain_ = cut_->triangles;
+    }
+  }
   if (domain_.kind() == "triangle mesh") {
     T_ = triangulation_of(domain_, report);
   } else {
@@ -79,7 +91,7 @@ SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Re
 PlacedSources SurfaceDiscretization::placed(const Sources& sources, const Task& task,
                                             Report& report) const {
   const SurfaceMesh& mesh = *domain_.mesh;
-  if (T_) return place_sources(domain_, sources, task, report);
+  if (T_) return place_sources(domain_, cut_ ? cut_->cut(sources) : sources, task, report);
   const SurfaceMesh& refined = *nodal_->refined;
   return place_sources(domain_, refined,
                        refined_sources(mesh, refined, nodal_->face_offsets, sources), task, report);
@@ -88,6 +100,7 @@ PlacedSources SurfaceDiscretization::placed(const Sources& sources, const Task& 
 SourceSystem SurfaceDiscretization::system(const Sources& sources, const Task& task,
                                            Report& report) const {
   const PlacedSources on = placed(sources, task, report);
+  warn_of_shadowed(T_ ? *domain_.mesh : *nodal_->refined, T_ ? *T_ : *nodal_->place, on, report);
   return T_ ? source_system(*domain_.mesh, *T_, on) : nodal_source_system(*nodal_, on);
 }
 

@@ -31,8 +31,17 @@ PlacedSources place_sources(const SurfaceDomain& domain, const Sources& sources,
 std::shared_ptr<const IntrinsicTriangulation> triangulation_of(const SurfaceDomain& domain,
                                                                Report& report);
 
+/// A polygon mesh cut into triangles on its own vertices; sources follow.
+struct CutPolygons {
+  SurfaceDomain input, triangles;
+  std::vector<int> face_offsets;  // faces of the input + 1, into triangles
+
+  Sources cut(const Sources& sources) const;
+};
+CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report);
+
 /// Operators of any surface; immutable. Vectors live on edges of triangle meshes and at nodes
-/// elsewhere.
+/// elsewhere. Nodes need normals: polygon meshes that are not orientable are cut into triangles.
 class SurfaceDiscretization {
  public:
   SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report);
@@ -55,6 +64,7 @@ class SurfaceDiscretization {
   PlacedSources placed(const Sources& sources, const Task& task, Report& report) const;
 
   SurfaceDomain domain_;
+  std::shared_ptr<const CutPolygons> cut_;  // of polygons that are not orientable
   std::shared_ptr<const IntrinsicTriangulation> T_;
   std::shared_ptr<const NodalSurface> nodal_;  // of all but triangle meshes
   std::shared_ptr<const Operators> ops_;
@@ -67,14 +77,5 @@ struct JumpSurface {
 
   JumpSurface(const SurfaceMesh& mesh, Report& report);
 };
-
-/// A polygon mesh cut into triangles on its own vertices; sources follow.
-struct CutPolygons {
-  SurfaceDomain input, triangles;
-  std::vector<int> face_offsets;  // faces of the input + 1, into triangles
-
-  Sources cut(const Sources& sources) const;
-};
-CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report);
 
 }  // namespace littoral

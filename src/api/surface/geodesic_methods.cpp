@@ -1,11 +1,13 @@
 // Exact polyhedral distance and fast marching, as entries of the registry.
 
 #include <algorithm>
+#include <type_traits>
 
 #include "api/surface/discretization.h"
 #include "base/stopwatch.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
+#include "sources/source_values.h"
 #include "sources/triangle_sources.h"
 
 namespace littoral {
@@ -21,14 +23,23 @@ auto solve_on_triangles(const SurfaceDomain& domain, Run run, Report& report) {
         place_sources(domain, sources, task.stage(0.05, "placing the sources"), r);
     const TriangleSources on = triangle_sources(*domain.mesh, *T, placed);
     const Stopwatch watch(r, "solve");
-    return SurfaceAnswer{run(*T, on, task.stage(0.95, "walking over the mesh"), r), {}};
+    SurfaceAnswer answer{run(*T, on, task.stage(0.95, "walking over the mesh"), r), {}};
+    if (std::is_same_v<Options, Exact> && !value_range(sources).same())
+      warn_of_shadowed(*T, on, placed, placed.n_curves, answer.values / T->unit, r);
+    else
+      warn_of_shadowed(*domain.mesh, *T, placed, r);
+    return answer;
   };
 }
 
-void warn_of_signs(const Sources& given, Report& report) {
+bool has_sides(const Sources& given) {
   const auto is_signed = [](const auto& curve) { return curve.is_signed; };
-  if (std::any_of(given.curves.begin(), given.curves.end(), is_signed) ||
-      std::any_of(given.space_curves.begin(), given.space_curves.end(), is_signed))
+  return std::any_of(given.curves.begin(), given.curves.end(), is_signed) ||
+         std::any_of(given.space_curves.begin(), given.space_curves.end(), is_signed);
+}
+
+void warn_of_signs(const Sources& given, Report& report) {
+  if (has_sides(given))
     report.warn("sign-ignored", "exact distance is unsigned: signed curves count as unsigned ones");
 }
 
@@ -43,7 +54,8 @@ std::vector<Method<SurfaceDomain>> geodesic_methods() {
            "Exact unsigned distance along the polyhedral surface to points and curves.",
            {"triangle mesh"},
            {},
-           "Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987)"},
+           "Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987)",
+           true},
           exact_options,
           [](const SurfaceDomain& domain, const Exact&, SolveHint, const Task&, Report& report) {
             const auto distance = [](auto&&... of) { return exact_polyhedral(of...).distance; };
@@ -58,11 +70,18 @@ std::vector<Method<SurfaceDomain>> geodesic_methods() {
            "First-order distance to points and unbroken curves, signed or not.",
            {"triangle mesh"},
            {},
-           "Kimmel, Sethian: Computing Geodesic Paths on Manifolds (1998)"},
+           "Kimmel, Sethian: Computing Geodesic Paths on Manifolds (1998)",
+           true},
           marching_options,
           [](const SurfaceDomain& domain, const FastMarching&, SolveHint, const Task&,
              Report& report) {
-            return solve_on_triangles<FastMarching>(domain, fast_marching, report);
+            return [solve = solve_on_triangles<FastMarching>(domain, fast_marching, report)](
+                       const Sources& sources, FastMarching& options, Task& task, Report& r) {
+              if (!value_range(sources).same() && has_sides(sources))
+                throw UnsupportedError(
+                    "fast-marching takes different values of points and unsigned curves alone");
+              return solve(sources, options, task, r);
+            };
           })};
 }
 

@@ -16,6 +16,7 @@
 #include "methods/heat/time_scale.h"
 #include "operators/triangles.h"
 #include "sources/retriangulate_sources.h"
+#include "sources/source_values.h"
 #include "sources/triangle_source_system.h"
 
 namespace littoral {
@@ -53,6 +54,34 @@ void check_options(const std::string& kind, const SignedHeat& options) {
         "options-conflict");
 }
 
+/// Throws where values of sources differ and the method or the options know one alone: vectors are
+/// diffused equally strong from all curves, which agree where they are level sets of one function.
+void check_values(const Sources& sources, const SignedHeat& options) {
+  if (value_range(sources).same()) return;
+  const std::string different = " does not go with sources of different values";
+  if (options.constraint == Constraint::level_sets)
+    throw InputError("option constraint: level-sets finds the values of curves and" + different,
+                     "options-conflict");
+  if (options.sharpen != Sharpening::off)
+    throw UnsupportedError("option sharpen" + different, "options-conflict");
+  if (options.discontinuous)
+    throw UnsupportedError("option discontinuous" + different, "options-conflict");
+  if (options.bounding_only)
+    throw UnsupportedError("option bounding-only" + different, "options-conflict");
+  const auto is_signed = [](const auto& curve) { return curve.is_signed; };
+  const bool all_signed =
+      sources.points.empty() &&
+      std::all_of(sources.curves.begin(), sources.curves.end(), is_signed) &&
+      std::all_of(sources.space_curves.begin(), sources.space_curves.end(), is_signed);
+  const bool gradients = sources.curves.empty() && sources.space_curves.empty() &&
+                         options.point_sources == PointVectors::gradient &&
+                         !options.preserve_normals;
+  if (!all_signed && !gradients)
+    throw UnsupportedError(
+        "signed-heat takes different values of signed curves alone, or of points alone by their "
+        "gradients; auto, exact and unsigned-heat take them of all");
+}
+
 /// Operators with sources on them.
 struct Problem {
   std::shared_ptr<const Operators> ops;
@@ -72,6 +101,7 @@ class RetriangulatedSurface {
                   Task& task, Report& report) const {
     const PlacedSources placed =
         place_sources(domain_, sources, task.stage(0.02, "placing the sources"), report);
+    warn_of_shadowed(*domain_.mesh, *T_, placed, report);
     const Diffused diffused = needs(placed);
     const Task stage = task.stage(0.08, "operators");
     stage.checkpoint();
@@ -178,6 +208,7 @@ class SignedHeatOnSurface {
       : surface_(domain, options.intrinsic_delaunay, task, report), hint_(hint) {}
 
   SurfaceAnswer solve(const Sources& given, SignedHeat& options, Task& task, Report& report) const {
+    check_values(given, options);
     if (!options.bounding_only) return solve_all(given, options, task, report);
     return solve_all(
         without_nonbounding(surface_.domain(), given, task.stage(0.3, "bounding curves"), report),
@@ -334,13 +365,15 @@ std::vector<Method<SurfaceDomain>> heat_methods() {
                "curves.",
                all_surfaces(),
                {},
-               "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"},
+               "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)",
+               true},
               signed_heat_options(), signed_heat),
           make_method<SurfaceDomain>({UnsignedHeat::method,
                                       "Unsigned distance to curves and points.",
                                       all_surfaces(),
                                       {},
-                                      "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)"},
+                                      "Crane, Weischedel, Wardetzky: Geodesics in Heat (2013)",
+                                      true},
                                      unsigned_heat_options(), unsigned_heat)};
 }
 

@@ -1,6 +1,49 @@
 #include "api/surface/surface_domain.h"
 
+#include <cmath>
+
+#include "sources/source_values.h"
+
 namespace littoral {
+
+namespace {
+
+/// A method that measures from the least value of the sources.
+class FromLeastValue final : public Solver<SurfaceDomain> {
+ public:
+  FromLeastValue(const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> method)
+      : name_(info.name), different_(info.different_values), method_(std::move(method)) {}
+
+  SurfaceAnswer solve(const Sources& sources, Task task, Report& report) const override {
+    const ValueRange range = value_range(sources);
+    const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
+    if ((range.low == 0 && range.high == 0) || !finite)  // an error that names the source
+      return method_->solve(sources, task, report);
+    if (!range.same() && !different_)
+      throw UnsupportedError("method " + name_ +
+                             " measures from sources of one value, and these have several: auto, "
+                             "exact, fast-marching, signed-heat and unsigned-heat take them");
+    SurfaceAnswer answer = method_->solve(shifted_values(sources, -range.low), task, report);
+    answer.values.array() += range.low;
+    if (answer.shown)
+      if (const auto at = answer.shown->scalars.find("distance"); at != answer.shown->scalars.end())
+        at->second.array() += range.low;
+    return answer;
+  }
+
+ private:
+  std::string name_;
+  bool different_;
+  std::shared_ptr<const Solver<SurfaceDomain>> method_;
+};
+
+}  // namespace
+
+template <>
+std::shared_ptr<const Solver<SurfaceDomain>> with_additions<SurfaceDomain>(
+    const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> solver) {
+  return std::make_shared<const FromLeastValue>(info, std::move(solver));
+}
 
 std::string SurfaceDomain::kind() const {
   if (face_normals) return "voxel surface";

@@ -38,6 +38,12 @@ struct SurfaceDomain {
 /// A mesh that outlives the domain. Throws InputError if normals are given, not one for each face.
 SurfaceDomain domain_of(const SurfaceMesh& mesh, const MatX3* face_normals = nullptr);
 
+/// Methods measure from the least value. One that is common to all sources is added afterwards, for
+/// any method; where values differ and the method cannot, UnsupportedError.
+template <>
+std::shared_ptr<const Solver<SurfaceDomain>> with_additions<SurfaceDomain>(
+    const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> solver);
+
 template <>
 std::vector<Method<SurfaceDomain>> library_methods();
 // Its families:

@@ -9,6 +9,7 @@
 #include "methods/winding/shortest_completion.h"
 #include "sources/completed_curves.h"
 #include "sources/conform.h"
+#include "sources/source_values.h"
 #include "sources/straighten.h"
 #include "sources/surface_points.h"
 
@@ -85,6 +86,17 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
                                    Completion how, Task task, Report& report) const {
   WholeSources whole{placed, VecX::Ones(domain_.mesh->n_vertices()), Completion::none};
   if (pieces_with_sides(placed).empty()) return whole;
+  const ValueRange values = signed_value_range(given);
+  const auto finish = [&] {
+    if (whole.by == Completion::none) return whole;
+    if (!values.same())
+      throw UnsupportedError(
+          "signed curves of different values that do not bound, one by one, cannot be completed; "
+          "method signed-heat takes them");
+    for (std::size_t i = placed.pieces.size(); i < whole.sources.pieces.size(); ++i)
+      whole.sources.pieces[i].value = values.low;
+    return whole;
+  };
   const Stopwatch watch(report, "completion");
   std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 0);
   if (how != Completion::heat && has_regions_)
@@ -94,7 +106,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
     const int c = component_of(piece.face);
     if (piece.is_signed && c >= 0 && !settled[c]) open[c] = 1;
   }
-  if (std::find(open.begin(), open.end(), 1) == open.end()) return whole;
+  if (std::find(open.begin(), open.end(), 1) == open.end()) return finish();
   if (how == Completion::none)
     throw InputError(
         "option completion: none needs curves that bound; these have gaps, reversed "
@@ -102,7 +114,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
         "no-inside");
   complete_by_heat(given, placed, open, whole, task.stage(0.6, "signed heat"), report);
   whole.by = Completion::heat;
-  return whole;
+  return finish();
 }
 
 std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion how,
@@ -223,6 +235,8 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
     if (curve.is_signed) with_sides.curves.push_back(curve);
   for (const SpaceCurve& curve : given.space_curves)
     if (curve.is_signed) with_sides.space_curves.push_back(curve);
+  for (Curve& curve : with_sides.curves) curve.value = 0;
+  for (SpaceCurve& curve : with_sides.space_curves) curve.value = 0;
   const VecX phi = heat->solve(with_sides, task.stage(0.4, "solving"), quiet).values;
   PlacedSources sided = placed;
   sided.points.clear();

@@ -52,7 +52,7 @@ TetSourceSystem TetProblem::terms() const {
     nearest.push_back(
         p.tet < 0 ? -1 : mesh->tets(p.tet, static_cast<int>(corner - p.barycentric.begin())));
   }
-  return tet_source_system(*mesh, *ops, samples, places, nearest);
+  return tet_source_system(*mesh, *ops, samples, places, nearest, part);
 }
 
 std::map<int, TetNodeDistance> TetProblem::known(const std::vector<Eigen::Vector4d>& local,

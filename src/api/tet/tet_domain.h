@@ -52,6 +52,7 @@ struct TetProblem {
   PolygonSoup surface;
   OrientedPoints samples;                     // of the surface
   std::vector<TetPoint> places;               // of the samples
+  std::vector<int> part;                      // of the samples, where parts are told apart
   std::shared_ptr<const TetLocator> locator;  // of these
   double h = 0;                               // between samples
 

@@ -9,6 +9,7 @@
 #include "base/lazy.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/signed_heat_tets.h"
+#include "sources/parts_of_samples.h"
 
 namespace littoral {
 
@@ -145,7 +146,12 @@ std::vector<Method<TetDomain>> heat_tet_methods() {
             [heat = std::make_shared<const HeatThroughTets>(on)](
                 const TetProblem& problem, SpaceSignedHeat& options, Task& task, Report& report) {
               options = settled(options, true);
-              return heat->solve(problem, options, task, report);
+              check_level_sets(options);
+              if (options.constraint != SpaceConstraint::level_sets)
+                return heat->solve(problem, options, task, report);
+              TetProblem with_parts = problem;
+              with_parts.part = parts_of_samples(problem.surface, problem.samples);
+              return heat->solve(with_parts, options, task, report);
             };
       })};
 }

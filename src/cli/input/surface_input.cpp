@@ -33,14 +33,8 @@ SurfaceMesh mesh_of(PolygonSoup soup, const std::filesystem::path& path) {
 Sources read_all_sources(const std::vector<std::string>& files, const SurfaceMesh& mesh,
                          Session& session) {
   Sources all;
-  for (const std::string& file : files) {
-    Sources more = io::read_sources(file, mesh, session.index_base, session.report);
-    all.curves.insert(all.curves.end(), more.curves.begin(), more.curves.end());
-    all.points.insert(all.points.end(), more.points.begin(), more.points.end());
-    all.space_curves.insert(all.space_curves.end(), more.space_curves.begin(),
-                            more.space_curves.end());
-    all.chains.insert(all.chains.end(), more.chains.begin(), more.chains.end());
-  }
+  for (const std::string& file : files)
+    all.add(io::read_sources(file, mesh, session.index_base, session.report));
   return all;
 }
 

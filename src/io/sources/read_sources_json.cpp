@@ -1,6 +1,7 @@
 // Sources as JSON.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,8 @@ class JsonReader {
       std::size_t i = 0;
       for (const Json& node : root["points"]) {
         at_ = "points[" + std::to_string(i++) + "]";
-        sources_.points.push_back(read_node(node));
+        const double value = value_of(node);
+        sources_.add(read_node(node, true), value);
       }
     }
     return std::move(sources_);
@@ -66,6 +68,13 @@ class JsonReader {
     if (!value.is_number()) fail("expected a number");
     return value.get<double>();
   }
+  /// What distance is counted from.
+  double value_of(const Json& source) const {
+    if (!source.is_object() || !source.contains("value")) return 0;
+    const double value = number(source["value"]);
+    if (!std::isfinite(value)) fail("the value is not finite");
+    return value;
+  }
   const Json& array_of(const Json& value, std::size_t size) const {
     if (!value.is_array() || value.size() != size) {
       fail("expected an array of " + std::to_string(size) + " numbers");
@@ -73,14 +82,15 @@ class JsonReader {
     return value;
   }
 
-  SurfacePoint read_node(const Json& node) const {
-    expect_keys(node, {"v", "e", "t", "f", "b"});
-    if (node.contains("v") && node.size() == 1) return make_.vertex(index(node["v"]), base_);
-    if (node.contains("e") && node.contains("t") && node.size() == 2) {
+  SurfacePoint read_node(const Json& node, bool may_have_value) const {
+    expect_keys(node, {"v", "e", "t", "f", "b", "value"});
+    const std::size_t size = node.size() - (may_have_value && node.contains("value") ? 1 : 0);
+    if (node.contains("v") && size == 1) return make_.vertex(index(node["v"]), base_);
+    if (node.contains("e") && node.contains("t") && size == 2) {
       const Json& edge = array_of(node["e"], 2);
       return make_.edge(index(edge[0]), index(edge[1]), number(node["t"]), base_);
     }
-    if (node.contains("f") && node.contains("b") && node.size() == 2) {
+    if (node.contains("f") && node.contains("b") && size == 2) {
       const Json& b = array_of(node["b"], 3);
       return make_.face(index(node["f"]), {number(b[0]), number(b[1]), number(b[2])}, base_);
     }
@@ -90,12 +100,13 @@ class JsonReader {
   void read_curve(const Json& curve, std::size_t i) {
     const std::string origin = "curves[" + std::to_string(i) + "]";
     at_ = origin;
-    expect_keys(curve, {"signed", "closed", "points", "nodes"});
+    expect_keys(curve, {"signed", "closed", "points", "nodes", "value"});
     if (curve.contains("points") == curve.contains("nodes")) {
       fail("a curve has either 'points' (in space) or 'nodes' (on the mesh)");
     }
     const char* kind = curve.contains("points") ? "points" : "nodes";
     const bool is_signed = flag(curve, "signed", true), closed = flag(curve, "closed", false);
+    const double value = value_of(curve);
     const Json& items = curve[kind];
     expect_array(items, kind);
     if (items.size() < 2) {
@@ -105,16 +116,16 @@ class JsonReader {
       at_ = origin + "." + kind + "[" + std::to_string(k) + "]";
     };
     if (curve.contains("nodes")) {
-      Curve result{{}, is_signed, name_ + ":" + origin};
+      Curve result{{}, is_signed, name_ + ":" + origin, value};
       for (std::size_t k = 0; k < items.size(); ++k) {
         name_item(k);
-        result.nodes.push_back(read_node(items[k]));
+        result.nodes.push_back(read_node(items[k], false));
       }
       if (closed) result.nodes.push_back(result.nodes.front());
       sources_.curves.push_back(std::move(result));
     } else {
       const auto n = static_cast<Eigen::Index>(items.size());
-      SpaceCurve result{MatX3(closed ? n + 1 : n, 3), is_signed, name_ + ":" + origin};
+      SpaceCurve result{MatX3(closed ? n + 1 : n, 3), is_signed, name_ + ":" + origin, value};
       for (std::size_t k = 0; k < items.size(); ++k) {
         name_item(k);
         const Json& p = array_of(items[k], 3);

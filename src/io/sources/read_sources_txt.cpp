@@ -1,6 +1,7 @@
 // The two .txt formats for curves and points on a mesh.
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -99,10 +100,17 @@ class SignedHeatReader {
   void begin(std::string_view keyword) {
     keyword_ = keyword;
     keyword_line_ = scan_.line();
-    const auto flags = rest_of_line(scan_);
+    auto flags = rest_of_line(scan_);
+    value_ = 0;
+    if (flags.size() >= 2 && flags[flags.size() - 2] == "value") {
+      value_ = number_of(scan_, flags.back());
+      if (!std::isfinite(value_)) scan_.fail("the value is not finite");
+      flags.resize(flags.size() - 2);
+    }
     reversed_ = flags.size() == 1 && flags[0] == "1";
     if (flags.size() > 1 || (flags.size() == 1 && flags[0] != "0" && flags[0] != "1")) {
-      scan_.fail("after " + std::string(keyword) + " only 0 or 1 (reversed) may follow, found " +
+      scan_.fail("after " + std::string(keyword) +
+                 " only 0 or 1 (reversed) and 'value NUMBER' may follow, found " +
                  in_quotes(flags.back()));
     }
   }
@@ -130,10 +138,10 @@ class SignedHeatReader {
                                        (points ? " is needed" : " are needed"));
     }
     if (points) {
-      sources_.points.insert(sources_.points.end(), nodes_.begin(), nodes_.end());
+      for (const SurfacePoint& node : nodes_) sources_.add(node, value_);
     } else {
       if (reversed_) std::reverse(nodes_.begin(), nodes_.end());
-      sources_.curves.push_back({nodes_, keyword_ == "signed_curve", here(first_line_)});
+      sources_.curves.push_back({nodes_, keyword_ == "signed_curve", here(first_line_), value_});
     }
     nodes_.clear();
   }
@@ -146,6 +154,7 @@ class SignedHeatReader {
   std::string keyword_;
   std::size_t keyword_line_ = 0, first_line_ = 0;
   bool reversed_ = false;
+  double value_ = 0;
   std::vector<SurfacePoint> nodes_;
 };
 

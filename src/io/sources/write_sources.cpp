@@ -42,9 +42,16 @@ OrderedJson node_json(const SurfacePoint& p, const SurfaceMesh& mesh) {
   return {{"f", p.element}, {"b", p.b}};
 }
 
-OrderedJson curve_json(bool is_signed, bool is_closed, const char* key, OrderedJson nodes) {
+OrderedJson curve_json(bool is_signed, bool is_closed, double value, const char* key,
+                       OrderedJson nodes) {
   if (is_closed) nodes.erase(nodes.end() - 1);
-  return {{"signed", is_signed}, {"closed", is_closed}, {key, std::move(nodes)}};
+  OrderedJson out{{"signed", is_signed}, {"closed", is_closed}, {key, std::move(nodes)}};
+  if (value != 0) out["value"] = value;
+  return out;
+}
+
+std::string keyword_line(const char* keyword, double value) {
+  return keyword + (value != 0 ? " value " + exact_text(value) : std::string()) + "\n";
 }
 
 std::string chains_txt(const Sources& sources) {
@@ -69,11 +76,14 @@ std::string sources_txt(const Sources& sources, const SurfaceMesh& mesh) {
   if (!sources.chains.empty()) return chains_txt(sources);
   std::string out;
   for (const Curve& curve : sources.curves) {
-    out += curve.is_signed ? "signed_curve\n" : "unsigned_curve\n";
+    out += keyword_line(curve.is_signed ? "signed_curve" : "unsigned_curve", curve.value);
     for (const SurfacePoint& node : curve.nodes) out += node_line(node, mesh);
   }
-  if (!sources.points.empty()) out += "unsigned_point\n";
-  for (const SurfacePoint& point : sources.points) out += node_line(point, mesh);
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    if (i == 0 || sources.point_value(i) != sources.point_value(i - 1))
+      out += keyword_line("unsigned_point", sources.point_value(i));
+    out += node_line(sources.points[i], mesh);
+  }
   return out;
 }
 
@@ -87,16 +97,19 @@ std::string sources_json(const Sources& sources, const SurfaceMesh& mesh) {
     for (const SurfacePoint& node : curve.nodes) nodes.push_back(node_json(node, mesh));
     // Written as closed only where two nodes are left: with fewer it would not be read again.
     const bool closed = curve.nodes.size() > 2 && is_same(curve.nodes.front(), curve.nodes.back());
-    curves.push_back(curve_json(curve.is_signed, closed, "nodes", std::move(nodes)));
+    curves.push_back(curve_json(curve.is_signed, closed, curve.value, "nodes", std::move(nodes)));
   }
   for (const SpaceCurve& curve : sources.space_curves) {
     OrderedJson nodes = OrderedJson::array();
     for (const auto& x : curve.points.rowwise()) nodes.push_back({x[0], x[1], x[2]});
     const Eigen::Index last = curve.points.rows() - 1;
     const bool closed = last >= 2 && curve.points.row(0) == curve.points.row(last);
-    curves.push_back(curve_json(curve.is_signed, closed, "points", std::move(nodes)));
+    curves.push_back(curve_json(curve.is_signed, closed, curve.value, "points", std::move(nodes)));
   }
-  for (const SurfacePoint& point : sources.points) points.push_back(node_json(point, mesh));
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    points.push_back(node_json(sources.points[i], mesh));
+    if (sources.point_value(i) != 0) points.back()["value"] = sources.point_value(i);
+  }
   return OrderedJson{{"curves", curves}, {"points", points}}.dump(1) + "\n";
 }
 

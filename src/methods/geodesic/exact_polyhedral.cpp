@@ -37,27 +37,14 @@ class Front {
         nearest_(VecXi::Constant(T.n_vertices, -1)),
         winner_(3 * std::size_t(T.n_faces()), {inf, 0}) {}
 
-  void start_at(int vertex, int source) {
-    if (distance_[vertex] == 0) return;
-    distance_[vertex] = 0;
-    nearest_[vertex] = source;
-    ++n_reached_;
-    push({0, -1 - vertex});
-  }
-
-  /// A source inside a triangle.
-  void start_in(int triangle, const TriangleRays& rays, int source) {
-    for (int k = 0; k < 3; ++k) offer(T_.faces(triangle, k), rays.corners[k], source);
-    for (auto [side, w] : rays.leaving) {
-      w.source = source;
-      leave_face(side, w);
-    }
-  }
-
-  void run(const Task& task) {
-    std::size_t steps = 0;
+  void run(const std::vector<PolyhedralStart>& starts, const Task& task) {
+    std::size_t steps = 0, started = 0;
     double next_check = 0;
-    while (!queue_.empty()) {
+    while (true) {
+      while (started < starts.size() &&
+             (queue_.empty() || starts[started].value <= queue_.front().key))
+        begin(starts[started++]);
+      if (queue_.empty()) break;
       const double work = double(++steps) + windows();
       if (work > next_check) {
         task.checkpoint(double(n_reached_) / T_.n_vertices);
@@ -97,6 +84,26 @@ class Front {
     double distance;  // least at the far corner among rays through a side
     double crossing;  // where they cross the side
   };
+  void begin(const PolyhedralStart& start) {
+    const int v = start.vertex;
+    if (v < 0) {
+      const int triangle = start.point ? start.point->face : start.segment->triangle;
+      const TriangleRays rays =
+          start.point ? rays_of_point(T_, *start.point) : rays_of_segment(T_, *start.segment);
+      for (int k = 0; k < 3; ++k)
+        offer(T_.faces(triangle, k), start.value + rays.corners[k], start.source);
+      for (auto [side, w] : rays.leaving) {
+        w.source = start.source;
+        w.behind += start.value;
+        leave_face(side, w);
+      }
+    } else if (start.value < distance_[v]) {
+      if (distance_[v] == inf) ++n_reached_;
+      distance_[v] = start.value;
+      nearest_[v] = start.source;
+      push({start.value, -1 - v});
+    }
+  }
   void push(Entry entry) {
     queue_.push_back(entry);
     std::push_heap(queue_.begin(), queue_.end());
@@ -359,30 +366,23 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
                                const Task& task, Report& report, double most_windows) {
   if (!(most_windows > 0)) most_windows = std::max(1e7, 1000.0 * T.n_faces());
   Front front(T, most_windows);
-  for (const auto* points : {&sources.nodes, &sources.isolated}) {
-    for (std::size_t i = 0; i < points->vertices.size(); ++i)
-      front.start_at(points->vertices[i], points->vertex_source[i]);
-    for (std::size_t i = 0; i < points->inside.size(); ++i)
-      front.start_in(points->inside[i].face, rays_of_point(T, points->inside[i]),
-                     points->inside_source[i]);
-  }
-  for (const TriangleSources::Segment& s : sources.segments)
-    front.start_in(s.triangle, rays_of_segment(T, s), s.source);
-  front.run(task);
+  double least = 0;
+  const std::vector<PolyhedralStart> starts = starts_of(sources, least);
+  front.run(starts, task);
   report.iterations.emplace_back("windows", front.windows());
-  const double exact_within = front.exact_within() * T.unit;
+  const double exact_within = (front.exact_within() + least) * T.unit;
   if (exact_within < inf) {
     std::ostringstream text;
     text
         << "exact distance met its limit of " << most_windows << " windows: values up to "
-        << front.exact_within() * T.unit
+        << exact_within
         << " are exact; beyond, true distances are at least that and at most the values, which are "
            "lengths of paths. Merge or remove overlapping faces";
     report.warn("not-converged", text.str());
   }
   VecXi nearest = front.nearest();
-  return {finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
-                         report),
+  return {finalize_field(T.component, T.n_components, T.unit, sources.reached,
+                         front.distance().array() + least, report),
           std::move(nearest), exact_within};
 }
 

@@ -18,6 +18,9 @@ struct ExactDistance {
 /// distance to their straight pieces; +inf on components that no source reaches. Sources are
 /// numbered as in TriangleSources; of equally near ones any is named.
 ///
+/// Where sources have values the answer is the least of value + distance, and a source starts when
+/// the front has gone as far as its value.
+///
 /// Windows of straight rays are carried from edge to edge, nearly in the order of their distance
 /// (Mitchell, Mount and Papadimitriou, "The discrete geodesic problem", 1987). Each edge keeps the
 /// nearest window at each of its points, from whichever of its triangles; all that are new go on

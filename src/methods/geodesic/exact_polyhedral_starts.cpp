@@ -16,6 +16,27 @@ TriangleShape flat_triangle(const IntrinsicTriangulation& T, int f) {
 
 }  // namespace
 
+std::vector<PolyhedralStart> starts_of(const TriangleSources& sources, double& least) {
+  least = sources.value.empty() ? 0 : *std::min_element(sources.value.begin(), sources.value.end());
+  const auto value = [&](int source) { return sources.value_of(source) - least; };
+  std::vector<PolyhedralStart> starts;
+  for (const auto* points : {&sources.nodes, &sources.isolated}) {
+    for (std::size_t i = 0; i < points->vertices.size(); ++i) {
+      const int source = points->vertex_source[i];
+      starts.push_back({value(source), source, points->vertices[i], nullptr, nullptr});
+    }
+    for (std::size_t i = 0; i < points->inside.size(); ++i) {
+      const int source = points->inside_source[i];
+      starts.push_back({value(source), source, -1, &points->inside[i], nullptr});
+    }
+  }
+  for (const TriangleSources::Segment& s : sources.segments)
+    starts.push_back({value(s.source), s.source, -1, nullptr, &s});
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& a, const auto& b) { return a.value < b.value; });
+  return starts;
+}
+
 TriangleRays rays_of_point(const IntrinsicTriangulation& T, const PointInFace& where) {
   const TriangleShape t = flat_triangle(T, where.face);
   const Complex p = place_in(t, where.b);

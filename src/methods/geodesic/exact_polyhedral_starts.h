@@ -20,6 +20,18 @@ struct TriangleRays {
   std::vector<Leaving> leaving;
 };
 
+/// A source as the front meets it: a vertex, a point inside a triangle or a segment.
+struct PolyhedralStart {
+  double value;  // where the front is when it starts, >= 0
+  int source;
+  int vertex = -1;
+  const PointInFace* point = nullptr;
+  const TriangleSources::Segment* segment = nullptr;
+};
+
+/// All sources by their values less the least, which `least` is set to.
+std::vector<PolyhedralStart> starts_of(const TriangleSources& sources, double& least);
+
 /// Rays in every direction from a point, which lies on no side they leave through.
 TriangleRays rays_of_point(const IntrinsicTriangulation& T, const PointInFace& where);
 

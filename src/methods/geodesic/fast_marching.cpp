@@ -1,5 +1,6 @@
 #include "methods/geodesic/fast_marching.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -123,13 +124,20 @@ class Front {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
-    for (int v : sources.isolated.vertices) offer(v, 0, 0);
-    for (const PointInFace& where : sources.isolated.inside) {
+    if (!sources.value.empty())
+      least_ = *std::min_element(sources.value.begin(), sources.value.end());
+    const auto value = [&](int source) { return sources.value_of(source) - least_; };
+    const TriangleSources::Points& points = sources.isolated;
+    for (std::size_t i = 0; i < points.vertices.size(); ++i)
+      offer(points.vertices[i], value(points.vertex_source[i]), 0);
+    for (std::size_t i = 0; i < points.inside.size(); ++i) {
+      const PointInFace& where = points.inside[i];
       const TriangleShape t = T.shape(where.face);
       for (int k = 0; k < 3; ++k)
-        offer(T.faces(where.face, k), std::abs(t.p[k] - point(t, where.b)), 0);
+        offer(T.faces(where.face, k),
+              value(points.inside_source[i]) + std::abs(t.p[k] - point(t, where.b)), 0);
     }
-    for (const TriangleSources::Segment& s : sources.segments) add_segment(s);
+    for (const TriangleSources::Segment& s : sources.segments) add_segment(s, value(s.source));
     find_sides(sources);
   }
 
@@ -150,7 +158,7 @@ class Front {
     VecX phi = d_;
     for (Eigen::Index v = 0; v < phi.size(); ++v)
       if (sign_[v] < 0) phi[v] = -phi[v];
-    return phi;
+    return phi.array() + least_;
   }
   int n_unsplit() const { return stencils_.n_unsplit; }
 
@@ -175,14 +183,15 @@ class Front {
   }
 
   /// Corners of a triangle that holds a straight piece of a curve: exact in the triangle's plane.
-  void add_segment(const TriangleSources::Segment& s) {
+  void add_segment(const TriangleSources::Segment& s, double value) {
     const TriangleShape t = T_.shape(s.triangle);
     const Complex a = point(t, s.a), ab = point(t, s.b) - a;
     const double length2 = std::norm(ab);
     if (!(length2 > 0)) return;
     for (int k = 0; k < 3; ++k) {
       const Complex ap = t.p[k] - a;
-      const double distance = std::abs(ap - std::clamp(dot(ab, ap) / length2, 0.0, 1.0) * ab);
+      const double distance =
+          value + std::abs(ap - std::clamp(dot(ab, ap) / length2, 0.0, 1.0) * ab);
       const double left = cross(ab, ap);
       const bool on_line = std::abs(left) <= 1e-12 * (length2 + std::norm(ap));
       offer(T_.faces(s.triangle, k), distance, !s.is_signed || on_line ? 0 : left > 0 ? 1 : -1);
@@ -237,7 +246,8 @@ class Front {
 
   const IntrinsicTriangulation& T_;
   Stencils stencils_;
-  VecX d_;  // vertices, unsigned
+  double least_ = 0;  // of the sources' values
+  VecX d_;            // vertices, unsigned, without it
   std::vector<signed char> sign_;
   std::vector<signed char> beside_;  // side of the curve next to it, 0 elsewhere
   std::vector<char> fixed_;

@@ -19,7 +19,7 @@ void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(mean, r); it; ++it) {
       const int c = C.component[it.col()];
       if (c < 0) continue;
-      sum[c] += system.mean_weight[r] * it.value() * phi[it.col()];
+      sum[c] += system.mean_weight[r] * it.value() * (phi[it.col()] - system.mean_value[r]);
       length[c] += system.mean_weight[r] * it.value();
     }
   }

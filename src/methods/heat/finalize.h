@@ -12,7 +12,8 @@ namespace littoral {
 /// the exact distance there.
 void set_near(const Calculus& C, const SourceSystem& system, VecX& Y);
 
-/// Shifts phi (nodes) on each component to mean zero along the component's sources (Alg. 13).
+/// Shifts phi (nodes) on each component so that it deviates from the values of the component's
+/// sources by zero in the mean (Alg. 13).
 void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi);
 
 /// phi is +inf where no source reaches: on components that `reached` is 0 for, which are listed,

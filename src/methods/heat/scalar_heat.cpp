@@ -26,7 +26,8 @@ SpMat heat_matrix(const Calculus& C, double t, const std::vector<char>& dropped)
 }  // namespace
 
 ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint hint, const Ordering& order,
-                       const Task& task) {
+                       const Task& task)
+    : root_t_(std::sqrt(t)) {
   auto system = [&](const std::vector<char>& dropped) {
     return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
                                                       decay_lengths(C.M, t), hint, task, order);
@@ -67,7 +68,9 @@ void ScalarHeat::add_nearest(const Calculus& C, const SourceSystem& system, doub
     Report inner;
     const CellField flow = this->flow(C, VecX(system.u0.col(k)),
                                       task.stage(1.0 / double(n_batches), "diffuse"), inner);
-    take_longer(field, flow, system.batch_of_points[k] ? std::log(point_weight) : 0);
+    take_longer(
+        field, flow,
+        (system.batch_of_points[k] ? std::log(point_weight) : 0) - system.batch_value[k] / root_t_);
     for (const auto& [loop, count] : inner.iterations) passes += count;
     if (k == 0 || inner.warnings.size() < least.warnings.size()) least = inner;
   }

@@ -22,7 +22,8 @@ class ScalarHeat {
   /// Adds -grad u of all batches of sources to `field`: each cell takes the batch whose
   /// gradient is longest there, that is the nearest. A sum would turn the directions of two sources
   /// that face each other into their average, over a width of sqrt(t) on both sides of the line
-  /// between. Points are weighted as point_weight (> 0) times the curves' measure.
+  /// between. Points are weighted as point_weight (> 0) times the curves' measure; a source whose
+  /// distance is counted from c is weaker by exp(-c / sqrt(t)).
   void add_nearest(const Calculus& C, const SourceSystem& system, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
@@ -33,6 +34,7 @@ class ScalarHeat {
  private:
   CellField flow(const Calculus& C, const VecX& u0, const Task& task, Report& report) const;
 
+  double root_t_;
   std::shared_ptr<const HeatSystem<double>> neumann_, dirichlet_;  // no dirichlet_ without boundary
 };
 

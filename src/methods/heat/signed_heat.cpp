@@ -110,7 +110,8 @@ VecX SignedHeatSolver::integrate(const SourceSystem& system, const VecX& Y,
   const Calculus& C = ops_->scalar;
   const VecX b = C.divergence(Y);
   if (options.soft > 0)
-    return poisson_->solve_soft(b, system.A, options.soft * system.weight, task, report);
+    return poisson_->solve_soft(b, system.A, options.soft * system.weight, task, report,
+                                system.value);
   switch (options.constraint) {
     case Constraint::none: {
       VecX phi = poisson_->solve(b, report, task);
@@ -118,8 +119,8 @@ VecX SignedHeatSolver::integrate(const SourceSystem& system, const VecX& Y,
       return phi;
     }
     case Constraint::zero_set:
-      return poisson_->solve_levels(b, {system.A, std::vector<int>(system.group.size(), 0), {1}},
-                                    task, report);
+      return poisson_->solve_levels(
+          b, {system.A, std::vector<int>(system.group.size(), 0), {1}, system.value}, task, report);
     case Constraint::level_sets:
       break;
   }

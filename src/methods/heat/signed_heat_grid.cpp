@@ -1,8 +1,10 @@
 #include "methods/heat/signed_heat_grid.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/stopwatch.h"
+#include "littoral/error.h"
 #include "methods/heat/convolve.h"
 #include "solve/multigrid/cosine_transform.h"
 #include "solve/poisson/constrained_poisson.h"
@@ -22,9 +24,10 @@ const OptionTable<SpaceSignedHeat>& space_heat_options() {
               "Diffusion time t as a multiple of h^2, h being the mean distance between samples "
               "of the input; larger values smooth more and close wider gaps.")
           .choice(
-              &O::constraint, "constraint", {"automatic", "none", "zero-set", "soft"},
-              "Values at the source: shifted to mean zero, zero in every grid cell, or drawn "
-              "to zero by a penalty on their squares. Automatic: zero-set through tets that are "
+              &O::constraint, "constraint", {"automatic", "none", "zero-set", "soft", "level-sets"},
+              "Values at the source: shifted to mean zero, zero in every grid cell, drawn to zero "
+              "by a penalty on their squares, or constant along each connected part of a surface. "
+              "Automatic: zero-set through tets that are "
               "given or follow the input, where no weight is given, otherwise soft.")
           .number(&O::soft, "soft", "weight, 0 = 10", 0, 1e12,
                   "Weight of that penalty; larger values follow the source more closely, with its "
@@ -44,8 +47,26 @@ SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming) {
   return options;
 }
 
+void check_level_sets(const SpaceSignedHeat& options) {
+  if (options.constraint == SpaceConstraint::level_sets && options.sharpen)
+    throw InputError("option sharpen holds one zero set and does not go with constraint level-sets",
+                     "options-conflict");
+}
+
+HeldRows held_rows(const SpaceSignedHeat& options, const VecX& weight, double scale,
+                   const std::vector<int>& part) {
+  HeldRows held{VecX::Zero(weight.size()), {}};
+  if (options.constraint == SpaceConstraint::soft)
+    held.softness = scale / (options.soft * weight.array());
+  if (options.constraint == SpaceConstraint::level_sets) {
+    held.group = part;
+    held.group.resize(static_cast<std::size_t>(weight.size()), 0);
+  }
+  return held;
+}
+
 VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const SpaceSignedHeat& given,
-                      Task task, Report& report) {
+                      Task task, Report& report, const std::vector<int>& part) {
   const SpaceSignedHeat options = settled(given, false);
   const double h = sample_spacing(source);
   const double root_t = std::sqrt(options.time_scale) * h;
@@ -73,24 +94,25 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   VecX phi = grid_divergence(grid, Y, solve_stage);
   Y.resize(0, 3);
   GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
-  const GridRows rows = grid_rows(grid, source.points, source.areas);
+  const GridRows rows = grid_rows(grid, source.points, source.areas, part);
   if (rows.A.rows() == 0) {
     report.warn("box-misses-input",
                 "the box holds no sample of the input; distances are shifted by the box's centre");
     return phi;
   }
   const auto constraint = options.constraint;
-  if (constraint == SpaceConstraint::none) {
+  const auto shift_to_mean_zero = [&] {
     phi.array() -= rows.weight.dot(rows.A * phi) / rows.weight.sum();
+  };
+  if (constraint == SpaceConstraint::none) {
+    shift_to_mean_zero();
     return phi;
   }
-  VecX softness = VecX::Zero(rows.A.rows());
-  if (constraint == SpaceConstraint::soft) {
-    // L is the integral over space divided by the volume of a cell.
-    const double cell = grid.spacing.prod();
-    softness = cell * h / (options.soft * rows.weight.array());
-  }
-  const ConstraintRows constraints{rows.A, softness, zero_set_tolerance * grid.spacing.minCoeff()};
+  // L is the integral over space divided by the volume of a cell.
+  HeldRows held = held_rows(options, rows.weight, grid.spacing.prod() * h, rows.part);
+  const ConstraintRows constraints{rows.A, std::move(held.softness),
+                                   zero_set_tolerance * grid.spacing.minCoeff(),
+                                   std::move(held.group)};
   // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
   // speed.
   const GridPoisson<float> poisson(grid.n, grid.spacing);
@@ -99,7 +121,9 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
     poisson.solve(single, constrain_stage);
     b = single.cast<double>();
   };
-  return solve_constrained(solve, std::move(phi), constraints, constrain_stage, report);
+  phi = solve_constrained(solve, std::move(phi), constraints, constrain_stage, report);
+  if (constraint == SpaceConstraint::level_sets) shift_to_mean_zero();
+  return phi;
 }
 
 }  // namespace littoral

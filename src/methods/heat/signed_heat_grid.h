@@ -1,6 +1,8 @@
 #pragma once
 // The signed heat method in space on a regular grid (section 8.2).
 
+#include <vector>
+
 #include "base/option_table.h"
 #include "base/task.h"
 #include "littoral/options.h"
@@ -17,6 +19,9 @@ const OptionTable<SpaceSignedHeat>& space_heat_options();
 /// follow the input.
 SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming);
 
+/// Throws InputError for level sets with sharpen, which holds one zero set.
+void check_level_sets(const SpaceSignedHeat& options);
+
 /// Generalized signed distance to the source at the nodes [length]. h is `sample_spacing(source)`.
 ///
 /// X is the free-space convolution (convolve.h), Y = X / |X|, and phi solves L phi = G^T Y with the
@@ -24,7 +29,18 @@ SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming);
 /// area) is 0. zero-set: the mean over the part of the source in each grid cell is 0, which follows
 /// noise and holes cell by cell. soft = w: penalty w times the area in the cell over h, which
 /// follows the source at the scale of h.
+/// level-sets: one value along each part of the source, their mean by area 0. part: of each sample;
+/// empty: all are one.
 VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
-                      const SpaceSignedHeat& options, Task task, Report& report);
+                      const SpaceSignedHeat& options, Task task, Report& report,
+                      const std::vector<int>& part = {});
+
+/// What is held of the rows of a source, for `solve_constrained`, and the shift of its answer.
+struct HeldRows {
+  VecX softness;           // rows
+  std::vector<int> group;  // rows, or empty
+};
+HeldRows held_rows(const SpaceSignedHeat& options, const VecX& weight, double scale,
+                   const std::vector<int>& part);
 
 }  // namespace littoral

@@ -52,14 +52,16 @@ VecX TetHeatSolver::integrate(const TetSourceSystem& system, const MatX3& Y, dou
 
   const auto constraint = options.constraint;
   if (system.A.rows() > 0 && constraint != SpaceConstraint::none) {
-    VecX softness = VecX::Zero(system.A.rows());
-    if (constraint == SpaceConstraint::soft) softness = h / (options.soft * system.weight.array());
+    HeldRows held = held_rows(options, system.weight, h, system.part);
     phi = solve_constrained(
         [&](VecX& b) {
           Report ignored;
           b = poisson.solve(b, ignored);
         },
-        std::move(phi), {system.A, softness, tolerance}, constrain_stage, report);
+        std::move(phi), {system.A, std::move(held.softness), tolerance, std::move(held.group)},
+        constrain_stage, report);
+    if (constraint == SpaceConstraint::level_sets)
+      phi.array() -= system.weight.dot(system.A * phi) / system.weight.sum();
   } else if (system.A.rows() > 0) {
     phi.array() -= system.weight.dot(system.A * phi) / system.weight.sum();
   }

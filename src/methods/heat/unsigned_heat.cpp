@@ -48,7 +48,8 @@ VecX UnsignedHeatSolver::solve(const SourceSystem& system, Task task, Report& re
   // L phi = G^T A Y, phi = d0 + psi with psi = 0 at the sources.
   const VecX b = C.divergence(X.Y - C.G.apply(system.d0));
   const VecX psi = poisson_->solve_levels(
-      b, {system.A, std::vector<int>(system.group.size(), 0), {1}}, poisson_stage, report);
+      b, {system.A, std::vector<int>(system.group.size(), 0), {1}, system.value}, poisson_stage,
+      report);
   report_gradient(C, system.d0 + psi, X.Y, report);
   return finalize_field(*ops_, system, (system.d0 + psi).cwiseMax(0.0), report);
 }

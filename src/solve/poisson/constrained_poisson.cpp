@@ -1,5 +1,6 @@
 #include "solve/poisson/constrained_poisson.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace littoral {
@@ -7,7 +8,20 @@ namespace littoral {
 namespace {
 constexpr int max_iterations = 200;
 
-void remove_mean(VecX& v) { v.array() -= v.mean(); }
+/// Of each group.
+void remove_means(const std::vector<int>& group, VecX& v) {
+  if (group.empty()) {
+    v.array() -= v.mean();
+    return;
+  }
+  const int n = 1 + *std::max_element(group.begin(), group.end());
+  VecX sum = VecX::Zero(n), count = sum;
+  for (Eigen::Index r = 0; r < v.size(); ++r) {
+    sum[group[r]] += v[r];
+    count[group[r]] += 1;
+  }
+  for (Eigen::Index r = 0; r < v.size(); ++r) v[r] -= sum[group[r]] / count[group[r]];
+}
 }  // namespace
 
 VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
@@ -15,10 +29,11 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
   const SpMat& A = rows.A;
   if (A.rows() == 0) return x;
   // Stationarity: L x + A^T mu = b, A x = softness mu; L x sums to zero, so mu does too (the rows
-  // of A sum to 1), and the constant part of x balances the mean of A x.
+  // of A sum to 1), and the constant part of x balances the mean of A x. Groups: A x = B c +
+  // softness mu with c free, so B^T mu = 0.
   VecX mu = VecX::Zero(A.rows());
   VecX r = A * x;
-  remove_mean(r);
+  remove_means(rows.group, r);
   VecX p = r;
   double rr = r.squaredNorm();
   const double start = std::sqrt(rr / static_cast<double>(A.rows()));
@@ -31,7 +46,7 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     VecX s = A.transpose() * p;
     solve(s);
     VecX q = A * s + rows.softness.cwiseProduct(p);
-    remove_mean(q);
+    remove_means(rows.group, q);
     const double curvature = p.dot(q);
     if (!(curvature > 0)) break;
     const double step = rr / curvature;
@@ -49,6 +64,7 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     solve(s);
     x -= s;
   }
+  if (!rows.group.empty()) return x;
   const VecX left = A * x - rows.softness.cwiseProduct(mu);
   x.array() -= left.mean();
   return x;

@@ -2,6 +2,7 @@
 // Poisson problems with constraints for which only the unconstrained solve is at hand.
 
 #include <functional>
+#include <vector>
 
 #include "base/task.h"
 #include "littoral/report.h"
@@ -11,18 +12,21 @@ namespace littoral {
 
 /// What is asked of A x.
 struct ConstraintRows {
-  const SpMat& A;    // rows x unknowns; row sums 1
-  VecX softness;     // rows: 0 holds a row, s > 0 penalises it by (A x)^2 / (2 s)
-  double tolerance;  // largest root mean square of A x + softness * multiplier [as x]
+  const SpMat& A;            // rows x unknowns; row sums 1
+  VecX softness;             // rows: 0 holds a row, s > 0 penalises it by (A x)^2 / (2 s)
+  double tolerance;          // largest root mean square of A x + softness * multiplier [as x]
+  std::vector<int> group{};  // rows: A x takes one value, unknown, along each; empty: 0 along all
 };
 
-/// Minimiser of 1/2 x^T L x - b^T x subject to A x = 0 (or with penalties), where L is positive
+/// Minimiser of 1/2 x^T L x - b^T x subject to A x = 0 or to one value a group (or with penalties
+/// on what deviates from these), where L is positive
 /// semidefinite with the constants of one component as its null space; 1^T b = 0.
 ///
 /// `solve` replaces b by L^+ b up to a constant. The multipliers solve the Schur complement
-/// A L^+ A^T by conjugate gradients over multipliers of sum zero, one solve per iteration, so
-/// nothing is assembled or factored. x comes in as L^+ b. Iterations and the residual go to the
-/// report, with the status "not converged" where 200 iterations do not reach the tolerance.
+/// A L^+ A^T by conjugate gradients over multipliers of sum zero along each group, one solve per
+/// iteration, so nothing is assembled or factored. With groups the constant is left as it comes. x
+/// comes in as L^+ b. Iterations and the residual go to the report, with the status "not converged"
+/// where 200 iterations do not reach the tolerance.
 VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
                        const Task& task, Report& report);
 

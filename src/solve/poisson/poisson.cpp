@@ -114,11 +114,13 @@ DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX&
 }
 
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
-                         Report& report) const {
+                         Report& report, const VecX& value) const {
   const auto fixed = components_of(A);
   const DefiniteSystem system = with_penalty(pinned(fixed), A, weight, fixed, task);
-  VecX x = system.solve(b, task, report);
-  report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, b));
+  VecX pulled = b;
+  if (value.size() > 0) pulled += A.transpose() * weight.cwiseProduct(value);
+  VecX x = system.solve(pulled, task, report);
+  report.residuals.emplace_back("poisson, soft constraints", system.relative_residual(x, pulled));
   drop_constants(fixed, x);
   return x;
 }
@@ -164,7 +166,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     rest.emplace(0.5 * (S + S.transpose()));
   }
   VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
-  VecX miss = y;  // A x - B c
+  const VecX value = rows.value.size() > 0 ? rows.value : y;
+  VecX miss = -value;  // A x - B c - value
   double violation = 0, residual = 0;
   constexpr int max_steps = 30;
   int step = 0;
@@ -181,7 +184,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
       c += dc;
     }
     x += dx;
-    miss = rows.A * x - spread(c);
+    miss = rows.A * x - spread(c) - value;
     y += w * miss;
     const double before = violation, residual_before = residual;
     const double range = std::max(x.maxCoeff() - x.minCoeff(), 1e-300);

@@ -11,12 +11,13 @@
 
 namespace littoral {
 
-/// Rows of A x = B c with one unknown constant per group, c of the first group of every component
-/// being 0: x takes one value along all rows of a group.
+/// Rows of A x = B c + value with one unknown constant per group, c of the first group of every
+/// component being 0: x takes one value along all rows of a group.
 struct LevelRows {
   SpMat A;                  // rows x unknowns
   std::vector<int> group;   // per row
   std::vector<int> anchor;  // per group: 1 if its constant is fixed at 0, else 0
+  VecX value{};             // per row; empty: all 0
 };
 
 /// How Poisson problems are solved: by a factor, which makes further solves cheap, or by multigrid,
@@ -40,9 +41,10 @@ class Poisson {
   /// Dependent rows are harmless.
   VecX solve_levels(const VecX& b, const LevelRows& rows, const Task& task, Report& report) const;
 
-  /// Minimiser of 1/2 x^T L x - b^T x + 1/2 sum_r weight_r (A x)_r^2.
+  /// Minimiser of 1/2 x^T L x - b^T x + 1/2 sum_r weight_r (A x - value)_r^2. value: rows, or
+  /// empty: all 0.
   VecX solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
-                  Report& report) const;
+                  Report& report, const VecX& value = {}) const;
 
   double nonzeros() const { return free_.nonzeros(); }  // of the factor or the multigrid levels
   bool iterates() const { return free_.iterates(); }

@@ -1,0 +1,150 @@
+#include "sources/source_values.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace littoral {
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+class RangeOfValues {
+ public:
+  void add(double value) {
+    range_.low = std::min(range_.low, value);
+    range_.high = std::max(range_.high, value);
+  }
+  ValueRange range() const { return range_.low <= range_.high ? range_ : ValueRange{}; }
+
+ private:
+  ValueRange range_{inf, -inf};
+};
+
+/// Of a point of a triangle from its corners.
+std::array<double, 3> from_corners(const IntrinsicTriangulation& T, const PointInFace& p) {
+  const TriangleShape t = T.shape(p.face);
+  std::array<double, 3> out;
+  for (int k = 0; k < 3; ++k) out[k] = std::abs(t.p[k] - t.at(p.b));
+  return out;
+}
+
+}  // namespace
+
+ValueRange value_range(const Sources& sources) {
+  RangeOfValues all;
+  for (const Curve& curve : sources.curves) all.add(curve.value);
+  for (const SpaceCurve& curve : sources.space_curves) all.add(curve.value);
+  for (std::size_t i = 0; i < sources.points.size(); ++i) all.add(sources.point_value(i));
+  return all.range();
+}
+
+ValueRange signed_value_range(const Sources& sources) {
+  RangeOfValues all;
+  for (const Curve& curve : sources.curves)
+    if (curve.is_signed) all.add(curve.value);
+  for (const SpaceCurve& curve : sources.space_curves)
+    if (curve.is_signed) all.add(curve.value);
+  return all.range();
+}
+
+Sources shifted_values(const Sources& sources, double shift) {
+  Sources out = sources;
+  for (Curve& curve : out.curves) curve.value += shift;
+  for (SpaceCurve& curve : out.space_curves) curve.value += shift;
+  out.point_values.resize(out.points.size(), 0);
+  for (double& value : out.point_values) value += shift;
+  return out;
+}
+
+VecX reach_along_edges(const IntrinsicTriangulation& T, const TriangleSources& sources) {
+  std::vector<std::vector<std::pair<int, double>>> around(T.n_vertices);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = T.faces(f, k), b = T.faces(f, (k + 1) % 3);
+      around[a].emplace_back(b, T.length(f, k));
+      around[b].emplace_back(a, T.length(f, k));
+    }
+  VecX reach = VecX::Constant(T.n_vertices, inf);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto offer = [&](int v, double at) {
+    if (!(at < reach[v])) return;
+    reach[v] = at;
+    queue.emplace(at, v);
+  };
+  for (const auto* points : {&sources.nodes, &sources.isolated}) {
+    for (std::size_t i = 0; i < points->vertices.size(); ++i)
+      offer(points->vertices[i], sources.value_of(points->vertex_source[i]));
+    for (std::size_t i = 0; i < points->inside.size(); ++i) {
+      const auto far = from_corners(T, points->inside[i]);
+      for (int k = 0; k < 3; ++k)
+        offer(T.faces(points->inside[i].face, k),
+              sources.value_of(points->inside_source[i]) + far[k]);
+    }
+  }
+  while (!queue.empty()) {
+    const auto [at, v] = queue.top();
+    queue.pop();
+    if (at > reach[v]) continue;
+    for (const auto& [w, length] : around[v]) offer(w, at + length);
+  }
+  return reach;
+}
+
+void warn_of_shadowed(const IntrinsicTriangulation& T, const TriangleSources& sources,
+                      const PlacedSources& placed, int n_curves, const VecX& reach,
+                      Report& report) {
+  const int n_pieces = static_cast<int>(placed.pieces.size());
+  std::map<std::pair<bool, int>, double> excess;  // (point or curve, number) -> largest
+  const auto look = [&](int source, double reached) {
+    const double value = sources.value_of(source), over = value - reached;
+    if (!(over > 1e-9 * (std::abs(value) + std::abs(reached) + T.mean_edge_length))) return;
+    const bool is_point = source >= n_pieces;
+    if (!is_point && placed.pieces[source].curve >= n_curves) return;
+    double& most = excess[{is_point, is_point ? source - n_pieces : placed.pieces[source].curve}];
+    most = std::max(most, over);
+  };
+  for (const auto* points : {&sources.nodes, &sources.isolated}) {
+    for (std::size_t i = 0; i < points->vertices.size(); ++i)
+      look(points->vertex_source[i], reach[points->vertices[i]]);
+    for (std::size_t i = 0; i < points->inside.size(); ++i) {
+      const auto far = from_corners(T, points->inside[i]);
+      double least = inf;
+      for (int k = 0; k < 3; ++k)
+        least = std::min(least, reach[T.faces(points->inside[i].face, k)] + far[k]);
+      look(points->inside_source[i], least);
+    }
+  }
+  constexpr std::size_t shown = 8;
+  std::size_t n = 0;
+  for (const auto& [which, most] : excess) {
+    if (++n > shown) break;
+    std::ostringstream text;
+    text << (which.first ? "point source " : "curve ") << which.second + 1 << " has a value "
+         << most * T.unit
+         << " above what other sources give there: it is shadowed. Values may differ by no more "
+            "than the distance between their sources";
+    report.warn("source-shadowed", text.str());
+  }
+  if (excess.size() > shown)
+    report.warn("source-shadowed",
+                std::to_string(excess.size() - shown) + " more sources are shadowed");
+}
+
+void warn_of_shadowed(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                      const PlacedSources& placed, Report& report) {
+  const TriangleSources sources = triangle_sources(mesh, T, placed);
+  if (std::all_of(sources.value.begin(), sources.value.end(),
+                  [&](double c) { return c == sources.value.front(); }))
+    return;
+  warn_of_shadowed(T, sources, placed, placed.n_curves, reach_along_edges(T, sources), report);
+}
+
+}  // namespace littoral

@@ -1,7 +1,8 @@
 """Runs a GoogleTest program suite by suite, several at once: what failed, and how long it took.
 
 A suite is one process. If it crashes, or one of its tests takes longer than the limit, that test
-has failed, and the ones after it still run. Suites that took longest the last time begin first.
+has failed, and the ones after it still run. Suites that took longest the last time, here or else in
+another build, begin first.
 
 usage: run_tests.py PROGRAM [--jobs N] [--only REGEX] [--without REGEX] [--limit SECONDS]
                     [--run "COMMAND"]
@@ -116,6 +117,14 @@ def run_suite(command: list[str], tests: list[str], limit: float) -> list[Result
     return all_results
 
 
+def seconds_before(times_file: Path) -> dict[str, float]:
+    """How long each test took the last time; at first, how long it took in another build."""
+    others = times_file.absolute().parents[2].glob(f"*/tests/{times_file.name}")
+    known = [times_file] if times_file.is_file() else list(others)
+    newest = max(known, key=lambda file: file.stat().st_mtime, default=None)
+    return json.loads(newest.read_text()) if newest else {}
+
+
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program", type=Path)
@@ -138,9 +147,7 @@ def main(arguments: list[str]) -> int:
         and not (options.without and re.search(options.without, test))
     ]
     times_file = options.program.with_name(options.program.name + "-seconds.json")
-    times: dict[str, float] = {}
-    if times_file.is_file():
-        times = json.loads(times_file.read_text())
+    times = seconds_before(times_file)
     by_suite = sorted(
         suites(chosen).values(), key=lambda tests: -sum(times.get(test, 0.1) for test in tests)
     )

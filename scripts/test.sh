@@ -4,7 +4,8 @@
 #   scripts/test.sh check      the tier of `make check`: what takes a few minutes
 #   scripts/test.sh long       the tier of `make test-long`: what takes hours
 #   scripts/test.sh STAGE...   these only, e.g. `scripts/test.sh release cli`
-# A stage that fails does not stop the others; the exit status tells whether any did.
+# A stage that fails does not stop the others; the exit status tells whether any did. Stages that use one
+# core run beside those that use all; what they say is printed when they have ended.
 # LITTORAL_SHARED names a larger collection of test data (by default ../shared beside the checkout);
 # tests that need it are reported as skipped where it is absent.
 # FUZZ_SECONDS: time for each fuzz target (10; 300 in the long tier).   JOBS: processes at once (all cores).
@@ -202,20 +203,58 @@ for stage in "${stages[@]}"; do
 done
 
 mkdir -p "$logs"
-summary="" failed=0 begin=$SECONDS
-for stage in "${stages[@]}"; do
-  echo "==== $stage"
-  start=$SECONDS
-  if "stage_$stage" 2>&1 | tee "$logs/$stage.log"; then result=passed; else result=FAILED failed=$((failed + 1)); fi
+rm -f "$logs"/*.result
+begin=$SECONDS
+run_stage() {  # its output goes to its log, too; how it ended and how long it took to its result
+  local stage=$1 start=$SECONDS result=FAILED
+  "stage_$stage" 2>&1 | tee "$logs/$stage.log" && result=passed
   echo "stage $stage $result" >>"$logs/$stage.log"
-  summary+=$(printf '%-14s %-8s %5d s' "$stage" "$result" $((SECONDS - start)))$'\n'
+  printf '%-14s %-8s %5d s\n' "$stage" "$result" $((SECONDS - start)) >"$logs/$stage.result"
+}
+# Two lanes: what waits for one core most of the time runs beside what keeps all of them busy. Both may
+# use build/release, but only the first lane while it builds it, which is the first thing it does.
+busy=() beside=() other=()
+for stage in "${stages[@]}"; do
+  case "$stage" in
+    release | quick | sanitize | threads | fuzz) busy+=("$stage") ;;
+    files | format | tools | docs | cli | install | package | wheel | pages | permissive | viewer | web) beside+=("$stage") ;;
+    *) other+=("$stage") ;;
+  esac
 done
+run_beside() {
+  local stage before
+  for stage in "${beside[@]}"; do
+    case "$stage" in
+      files | format | tools | docs) ;;
+      *) for before in "${busy[@]}"; do
+           while [[ $before =~ ^(release|quick)$ && ! -f $logs/$before.result ]]; do sleep 1; done
+         done ;;
+    esac
+    run_stage "$stage" >/dev/null
+    echo "==== $stage, run beside"
+    cat "$logs/$stage.log"
+    echo "==== end of $stage"
+  done
+}
+if [ ${#busy[@]} -gt 0 ] && [ ${#beside[@]} -gt 0 ] && [ ${#other[@]} = 0 ] && [ "$jobs" -gt 1 ]; then
+  trap 'trap - INT; kill 0' INT  # jobs in the background would go on
+  run_beside &
+  in_turn=("${busy[@]}")
+else
+  in_turn=("${stages[@]}")
+fi
+for stage in "${in_turn[@]}"; do
+  echo "==== $stage"
+  run_stage "$stage"
+done
+wait
+results=("${stages[@]/#/$logs/}")
+failed=$(cat "${results[@]/%/.result}" | grep -c ' FAILED ')
 
 # The test programs state their counts in their closing lines.
-logs_run=("${stages[@]/#/$logs/}")
-counts=$(python3 scripts/count_tests.py "${logs_run[@]/%/.log}")
+counts=$(python3 scripts/count_tests.py "${results[@]/%/.log}")
 echo "==== summary"
-printf '%s' "$summary"
+cat "${results[@]/%/.result}"
 echo "stages: $((${#stages[@]} - failed)) passed, $failed failed (${stages[*]})"
 echo "==== $counts in $((SECONDS - begin)).00s ===="
 [ "$failed" = 0 ]

@@ -55,3 +55,15 @@ def test_a_choice_of_tests(program: Path, capsys: pytest.CaptureFixture[str]) ->
 
 def test_no_test_at_all_is_a_failure(program: Path) -> None:
     assert run_tests.main([str(program), "--only", "Nothing"]) == 1
+
+
+def test_what_took_long_in_another_build_begins_first(tmp_path: Path) -> None:
+    here, other = tmp_path / "asan/tests", tmp_path / "release/tests"
+    here.mkdir(parents=True)
+    other.mkdir(parents=True)
+    times = here / "littoral_tests-seconds.json"
+    assert run_tests.seconds_before(times) == {}
+    (other / times.name).write_text('{"A.B": 7.5}')
+    assert run_tests.seconds_before(times) == {"A.B": 7.5}
+    times.write_text('{"A.B": 80.0}')
+    assert run_tests.seconds_before(times) == {"A.B": 80.0}

@@ -39,8 +39,4 @@ target_link_libraries(littoral_vdb PRIVATE Eigen3::Eigen ${OpenVDB_LIBRARIES})
 target_compile_definitions(littoral_vdb PRIVATE LITTORAL_VERSION="${PROJECT_VERSION}" EIGEN_MPL2_ONLY)
 littoral_warnings(littoral_vdb)
 target_compile_options(littoral_vdb PRIVATE $<$<CONFIG:Release>:-O1>)
-if(LITTORAL_SANITIZE)
-  target_compile_options(littoral_vdb PRIVATE
-    -fsanitize-ignorelist=${CMAKE_CURRENT_SOURCE_DIR}/cmake/sanitizers.ignore)
-endif()
 install(TARGETS littoral_vdb LIBRARY DESTINATION ${littoral_modules_dir})

@@ -19,7 +19,8 @@ function(littoral_warnings target)
   endif()
   if(LITTORAL_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${LITTORAL_SANITIZE}
-                           -fno-sanitize-recover=all -fno-omit-frame-pointer)
+                           -fno-sanitize-recover=all -fno-omit-frame-pointer
+                           $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitizers.ignore>)
     target_link_options(${target} PUBLIC -fsanitize=${LITTORAL_SANITIZE})
   endif()
 endfunction()

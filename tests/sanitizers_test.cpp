@@ -1,0 +1,52 @@
+// That the build with sanitizers catches faults, in headers that cmake/sanitizers.ignore names as
+// well.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <climits>
+#include <vector>
+
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#define LITTORAL_TESTS_SANITIZED
+#endif
+#endif
+
+namespace littoral {
+namespace {
+
+// A value that the compiler does not know.
+template <class T>
+T unknown(T value) {
+  volatile T hidden = value;
+  return hidden;
+}
+
+TEST(SanitizersDeathTest, FaultsEndTheProgram) {
+#ifndef LITTORAL_TESTS_SANITIZED
+  GTEST_SKIP() << "built without sanitizers";
+#else
+  testing::FLAGS_gtest_death_test_style = "fast";
+  const int ten = unknown(10);
+  std::vector<double> five(5, 1.0);
+  five.shrink_to_fit();
+  const Eigen::Map<Eigen::VectorXd> too_long(five.data(), ten);
+  EXPECT_DEATH(unknown<double>(too_long.sum()), "AddressSanitizer: heap-");
+  const Eigen::VectorXd three = Eigen::VectorXd::Zero(3);
+  EXPECT_DEATH(unknown<double>(three.coeff(ten)), "AddressSanitizer: heap-");
+  EXPECT_DEATH(unknown<double>(three[ten]), "Assertion");
+  EXPECT_DEATH(unknown<double>(five[static_cast<std::size_t>(ten)]), "Assertion");
+  EXPECT_DEATH(unknown<double>(five.data()[ten]), "AddressSanitizer: heap-");
+  EXPECT_DEATH(unknown<double>(INT_MAX - 2 + ten), "signed integer overflow");
+  EXPECT_DEATH(unknown<double>(static_cast<int>(1e30 * ten)), "outside the range");
+  std::array<char, 16> bytes{};
+  const int* const odd = reinterpret_cast<const int*>(bytes.data() + unknown(1) + unknown(1) + 1);
+  EXPECT_DEATH(unknown<double>(*odd), "misaligned");
+  const int* const nowhere = unknown<int*>(nullptr);
+  EXPECT_DEATH(unknown<double>(*nowhere), "null pointer");
+#endif
+}
+
+}  // namespace
+}  // namespace littoral

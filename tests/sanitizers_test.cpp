@@ -18,7 +18,7 @@ namespace {
 
 // A value that the compiler does not know.
 template <class T>
-T unknown(T value) {
+T hidden_value(T value) {
   volatile T hidden = value;
   return hidden;
 }
@@ -28,23 +28,24 @@ TEST(SanitizersDeathTest, FaultsEndTheProgram) {
   GTEST_SKIP() << "built without sanitizers";
 #else
   testing::FLAGS_gtest_death_test_style = "fast";
-  const int ten = unknown(10);
+  const int ten = hidden_value(10);
   std::vector<double> five(5, 1.0);
   five.shrink_to_fit();
   const Eigen::Map<Eigen::VectorXd> too_long(five.data(), ten);
-  EXPECT_DEATH(unknown<double>(too_long.sum()), "AddressSanitizer: heap-");
+  EXPECT_DEATH(hidden_value<double>(too_long.sum()), "AddressSanitizer: heap-");
   const Eigen::VectorXd three = Eigen::VectorXd::Zero(3);
-  EXPECT_DEATH(unknown<double>(three.coeff(ten)), "AddressSanitizer: heap-");
-  EXPECT_DEATH(unknown<double>(three[ten]), "Assertion");
-  EXPECT_DEATH(unknown<double>(five[static_cast<std::size_t>(ten)]), "Assertion");
-  EXPECT_DEATH(unknown<double>(five.data()[ten]), "AddressSanitizer: heap-");
-  EXPECT_DEATH(unknown<double>(INT_MAX - 2 + ten), "signed integer overflow");
-  EXPECT_DEATH(unknown<double>(static_cast<int>(1e30 * ten)), "outside the range");
+  EXPECT_DEATH(hidden_value<double>(three.coeff(ten)), "AddressSanitizer: heap-");
+  EXPECT_DEATH(hidden_value<double>(three[ten]), "Assertion");
+  EXPECT_DEATH(hidden_value<double>(five[static_cast<std::size_t>(ten)]), "Assertion");
+  EXPECT_DEATH(hidden_value<double>(five.data()[ten]), "AddressSanitizer: heap-");
+  EXPECT_DEATH(hidden_value<double>(INT_MAX - 2 + ten), "signed integer overflow");
+  EXPECT_DEATH(hidden_value<double>(static_cast<int>(1e30 * ten)), "outside the range");
   std::array<char, 16> bytes{};
-  const int* const odd = reinterpret_cast<const int*>(bytes.data() + unknown(1) + unknown(1) + 1);
-  EXPECT_DEATH(unknown<double>(*odd), "misaligned");
-  const int* const nowhere = unknown<int*>(nullptr);
-  EXPECT_DEATH(unknown<double>(*nowhere), "null pointer");
+  const int* const odd =
+      reinterpret_cast<const int*>(bytes.data() + hidden_value(1) + hidden_value(1) + 1);
+  EXPECT_DEATH(hidden_value<double>(*odd), "misaligned");
+  const int* const nowhere = hidden_value<int*>(nullptr);
+  EXPECT_DEATH(hidden_value<double>(*nowhere), "null pointer");
 #endif
 }
 

@@ -1,9 +1,8 @@
 // Starts the installed Chromium on a page from disk and gathers what it complains about.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { existsSync } from "node:fs";
+import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
@@ -25,14 +24,34 @@ const flags = [
   "--disable-component-update", "--disable-sync",
 ];
 
+// One browser serves the pages of a test file; it ends soon after the last of them.
+let running = null, open = 0, ending = 0;
+const launch = (extraFlags) => chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
+
+async function contextOf(extraFlags, options) {
+  if (extraFlags.length > 0) {
+    const browser = await launch(extraFlags);
+    return { context: await browser.newContext(options), end: () => browser.close() };
+  }
+  clearTimeout(ending);
+  ++open;
+  running ??= launch([]);
+  const browser = await running, context = await browser.newContext(options);
+  return {
+    context,
+    async end() {
+      await context.close();
+      if (--open > 0) return;
+      ending = setTimeout(() => {
+        running = null;
+        void browser.close();
+      }, 200);
+    },
+  };
+}
+
 export async function openPage(url, { extraFlags = [], ...options } = {}) {
-  const folder = mkdtempSync(join(tmpdir(), "littoral-viewer-"));
-  const context = await chromium.launchPersistentContext(folder, {
-    executablePath: executable(),
-    args: [...flags, ...extraFlags],
-    viewport: { width: 900, height: 640 },
-    ...options,
-  });
+  const { context, end } = await contextOf(extraFlags, { viewport: { width: 900, height: 640 }, ...options });
   const page = await context.newPage();
   const errors = [], requests = [];
   page.on("console", (message) => {
@@ -43,10 +62,7 @@ export async function openPage(url, { extraFlags = [], ...options } = {}) {
   await page.goto(url);
   return {
     page, errors, requests,
-    async close() {
-      await context.close();
-      rmSync(folder, { recursive: true, force: true });
-    },
+    close: end,
   };
 }
 

@@ -27,7 +27,6 @@ TEST(SanitizersDeathTest, FaultsEndTheProgram) {
 #ifndef LITTORAL_TESTS_SANITIZED
   GTEST_SKIP() << "built without sanitizers";
 #else
-  testing::FLAGS_gtest_death_test_style = "fast";
   const int ten = hidden_value(10);
   std::vector<double> five(5, 1.0);
   five.shrink_to_fit();

@@ -13,7 +13,8 @@ set(littoral_hot_sources
   src/solve/multigrid/cosine_transform.cpp
   src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
   src/spatial/bound_kernels.cpp src/spatial/crossing_kernels.cpp src/spatial/crossing_number.cpp
-  src/spatial/point_kernels.cpp src/spatial/winding_kernels.cpp src/spatial/winding_number.cpp)
+  src/spatial/grid_distances.cpp src/spatial/nearest_kernels.cpp src/spatial/point_kernels.cpp
+  src/spatial/triangle_bvh.cpp src/spatial/winding_kernels.cpp src/spatial/winding_number.cpp)
 foreach(source ${littoral_hot_sources})
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${source})
     message(FATAL_ERROR "cmake/compile_times.cmake names ${source}, which is not there")

@@ -96,6 +96,21 @@ TEST(Completed, IsTheDefaultAndExactAroundClosedMeshes) {
   }
 }
 
+TEST(Completed, SamplesOnGridsAreTheAnswersAtTheirNodes) {
+  Grid grid = test::cube_grid(27, 1.31);
+  grid.n[1] = 19;
+  grid.spacing[1] *= 1.4;
+  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  for (int k = 0; k < grid.n[2]; ++k)
+    for (int j = 0; j < grid.n[1]; ++j)
+      for (int i = 0; i < grid.n[0]; ++i)
+        nodes.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
+  for (const PolygonSoup& shape : {test::off_centre_torus(), hemisphere(4, false)}) {
+    const Sdf distance = signed_distance(shape);
+    EXPECT_LT((distance.sample(grid).values - distance.at(nodes)).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
 TEST(Completed, EnclosedSpaceIsInsideWhicheverWayAllNormalsPoint) {
   const PolygonSoup torus = test::off_centre_torus();
   const Grid grid = test::cube_grid(15, 1.2);

@@ -6,8 +6,10 @@
 #include <limits>
 #include <random>
 
+#include "base/parallel.h"
 #include "brute_force.h"
 #include "littoral/error.h"
+#include "spatial/grid_values.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/triangulate.h"
 #include "test_meshes.h"
@@ -114,6 +116,70 @@ TEST(SpatialBvh, PruningNeverChangesTheWinner) {
       }
     }
   }
+}
+
+/// Nodes about the soup, from three times its size down to a thousandth of it.
+std::vector<Grid> grids_about_soups() {
+  Grid wide, flat, close, far;
+  wide.n = {37, 33, 9};
+  wide.origin = {-1.5, -1.5, -1.5};
+  wide.spacing = {0.08, 0.09, 0.37};
+  flat.n = {70, 1, 2};
+  flat.origin = {-3, 0.1, 0.2};
+  flat.spacing = {0.09, 1, 0.01};
+  close.n = {12, 11, 10};
+  close.origin = {0.1, 0.2, 0.3};
+  close.spacing.setConstant(1e-4);
+  far.n = {3, 3, 3};
+  far.origin = {5e3, 0, 0};
+  far.spacing.setConstant(0.5);
+  return {wide, flat, close, far};
+}
+
+void expect_distances_of_points(const MatX3& points, const MatX3i& faces, const Grid& grid,
+                                double allowed) {
+  const TriangleBvh bvh(points, faces);
+  set_thread_count(1);
+  const VecX one = bvh.distances(grid, Task());
+  set_thread_count(3);
+  const VecX three = bvh.distances(grid, Task());
+  set_thread_count(0);
+  EXPECT_TRUE(one == three);
+  const VecX slow =
+      grid_values(grid, Task(), [&](const Vec3& x, int&) { return bvh.closest_point(x).distance; });
+  EXPECT_LE((one - slow).cwiseAbs().maxCoeff(), allowed);
+}
+
+TEST(SpatialBvh, DistancesAtNodesAreThoseOfTheirPoints) {
+  std::mt19937 random(13);
+  for (Arrangement kind : {Arrangement::generic, Arrangement::needles, Arrangement::collinear,
+                           Arrangement::coincident, Arrangement::repeated, Arrangement::lattice})
+    for (int n : {1, 7, 60, 700}) {
+      const Soup soup = random_soup(random, kind, n);
+      for (const Grid& grid : grids_about_soups())
+        expect_distances_of_points(soup.points, soup.faces, grid, 1e-15 * 8 * grid.origin.norm());
+    }
+}
+
+TEST(SpatialBvh, DistancesAtNodesAreRightWhereManyFacesAreEquallyNear) {
+  // About the middle of a sphere all its faces are, in the middle of a torus rings of them.
+  for (const PolygonSoup& soup : {test::octasphere_soup(5), test::torus_soup(60, 30, 0.7, 0.3)})
+    for (Grid grid : grids_about_soups()) {
+      expect_distances_of_points(soup.points, triangles_of(triangulate(soup)), grid,
+                                 1e-15 * 8 * grid.origin.norm());
+      grid.origin =
+          -grid.spacing.cwiseProduct(Vec3(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1)) / 2;
+      expect_distances_of_points(soup.points, triangles_of(triangulate(soup)), grid, 1e-14);
+    }
+}
+
+TEST(SpatialBvh, DistancesAtNodesStopWhenAsked) {
+  CancelToken stop;
+  stop.cancel();
+  const PolygonSoup soup = test::octasphere_soup(3);
+  EXPECT_THROW(TriangleBvh(soup.points, triangles_of(soup))
+                   .distances(grids_about_soups().front(), Task(stop)),
+               Cancelled);
 }
 
 TEST(SpatialBvh, PropertyDistanceMatchesOracleAtAnyScaleAndOffset) {

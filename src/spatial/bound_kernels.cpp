@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/kernel_choice.h"
 #include "spatial/bound_node.h"
 
 #if defined(__x86_64__)
@@ -107,23 +108,15 @@ unsigned far_plain_bounds(const SmallBoundNode& n, const double* q, double bound
 }  // namespace
 
 BoundKernel* bound_kernel() {
-#if defined(__x86_64__)
-  static BoundKernel* const best = __builtin_cpu_supports("avx2") ? &bounds_avx2 : &bounds_plain;
+  static BoundKernel* const best = LITTORAL_FASTEST(&bounds_plain, &bounds_avx2);
   return best;
-#else
-  return &bounds_plain;
-#endif
 }
 
 const SmallBoundKernels& small_bound_kernels() {
-  static constexpr SmallBoundKernels plain{&near_plain, &far_plain_bounds};
-#if defined(__x86_64__)
-  static constexpr SmallBoundKernels avx2{&near_avx2, &far_avx2_bounds};
-  static const SmallBoundKernels& best = __builtin_cpu_supports("avx2") ? avx2 : plain;
+  static const SmallBoundKernels best =
+      LITTORAL_FASTEST((SmallBoundKernels{&near_plain, &far_plain_bounds}),
+                       (SmallBoundKernels{&near_avx2, &far_avx2_bounds}));
   return best;
-#else
-  return plain;
-#endif
 }
 
 }  // namespace littoral

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/kernel_choice.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -291,14 +293,10 @@ double careful_angle(const double* a, const double* b) {
 }
 
 const CrossingKernels& crossing_kernels() {
-  static constexpr CrossingKernels plain{&pierced_plain, &crossings_plain, &walk_plain};
-#if defined(__x86_64__)
-  static constexpr CrossingKernels avx2{&pierced_avx2, &crossings_avx2, &walk_avx2};
-  static const CrossingKernels& best = __builtin_cpu_supports("avx2") ? avx2 : plain;
+  static const CrossingKernels best =
+      LITTORAL_FASTEST((CrossingKernels{&pierced_plain, &crossings_plain, &walk_plain}),
+                       (CrossingKernels{&pierced_avx2, &crossings_avx2, &walk_avx2}));
   return best;
-#else
-  return plain;
-#endif
 }
 
 }  // namespace littoral

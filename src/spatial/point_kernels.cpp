@@ -4,6 +4,8 @@
 
 #include "spatial/point_kernels.h"
 
+#include "base/kernel_choice.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -47,12 +49,8 @@ unsigned leaf_plain(const PointLeaf& leaf, const double* q, double bound, double
 }  // namespace
 
 LeafKernel* leaf_kernel() {
-#if defined(__x86_64__)
-  static LeafKernel* const best = __builtin_cpu_supports("avx2") ? &leaf_avx2 : &leaf_plain;
+  static LeafKernel* const best = LITTORAL_FASTEST(&leaf_plain, &leaf_avx2);
   return best;
-#else
-  return &leaf_plain;
-#endif
 }
 
 }  // namespace littoral

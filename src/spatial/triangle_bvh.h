@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/task.h"
 #include "littoral/types.h"
+#include "littoral/volume.h"
 #include "spatial/bound_node.h"
 
 namespace littoral {
@@ -38,7 +40,12 @@ class TriangleBvh {
   /// answer. Throws InputError if the query is not finite.
   NearestPoint closest_point(const Vec3& query, int hint = -1) const;
 
+  /// The distances of closest_point at all nodes of a grid, whole blocks of them at once: the same
+  /// numbers, but for rounding where several faces are equally near. On all threads.
+  VecX distances(const Grid& grid, const Task& task) const;
+
  private:
+  class BlockSearch;
   struct Box {
     Vec3 low, high;
   };
@@ -52,6 +59,9 @@ class TriangleBvh {
   /// Stored triangles [begin, end) of the children of a node; none in empty lanes.
   using Lanes = std::array<std::pair<int, int>, width>;
   int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges);
+
+  Vec3 to_tree(const Vec3& query) const;  // coordinates as they are stored
+  double distance_to(int stored, const Vec3& query) const;
 
   int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
   Vec3 centre_ = Vec3::Zero();                // nodes: coordinates about it,

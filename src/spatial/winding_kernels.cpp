@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/kernel_choice.h"
+
 namespace littoral {
 
 namespace {
@@ -104,14 +106,10 @@ double dipoles_plain(const DipoleLanes& d, const double* q) { return dipole_sum(
 }  // namespace
 
 const WindingKernels& winding_kernels() {
-  static constexpr WindingKernels plain{&far_plain, &angles_plain, &dipoles_plain};
-#if defined(__x86_64__)
-  static constexpr WindingKernels avx2{&far_avx2, &angles_avx2, &dipoles_avx2};
-  static const WindingKernels& best = __builtin_cpu_supports("avx2") ? avx2 : plain;
+  static const WindingKernels best =
+      LITTORAL_FASTEST((WindingKernels{&far_plain, &angles_plain, &dipoles_plain}),
+                       (WindingKernels{&far_avx2, &angles_avx2, &dipoles_avx2}));
   return best;
-#else
-  return plain;
-#endif
 }
 
 }  // namespace littoral

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "spatial/grid_values.h"
-
 namespace littoral {
 
 namespace {
@@ -18,6 +16,11 @@ class Placed final : public PointwiseDistance {
   }
   double value(const Vec3& x) const override {
     return distance_->value(frame_.local(x)) * frame_.unit;
+  }
+  VecX on_grid(const Grid& grid, const Task& task) const override {
+    VecX values = distance_->on_grid(frame_.local(grid), task);
+    values *= frame_.unit;
+    return values;
   }
 
  private:
@@ -39,8 +42,7 @@ std::shared_ptr<const PointwiseDistance> placed(std::unique_ptr<const PointwiseD
 }
 
 VecX evaluate(const PointwiseDistance& distance, const Grid& grid, const Task& task) {
-  return grid_values(grid, task,
-                     [&](const Vec3& x, int& last) { return distance.value_after(x, last); });
+  return distance.on_grid(grid, task);
 }
 
 }  // namespace littoral

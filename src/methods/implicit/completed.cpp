@@ -85,27 +85,30 @@ double CompletedSurface::value_after(const Vec3& x, int& last) const {
   return is_inside(x) ? -foot.distance : foot.distance;
 }
 
-VecX CompletedSurface::at_nodes(const Grid& grid, const Task& task, Report& report) const {
-  VecX values(grid.n_nodes());
+VecX CompletedSurface::on_grid(const Grid& grid, const Task& task) const {
+  Task stages = task;
+  VecX values = bvh_->distances(grid, stages.stage(0.9, "distance"));
+  const Task rest = stages.stage(0.1, "sign");
   const std::size_t rows = std::size_t(grid.n[1]) * grid.n[2];
   const double reach = (closed_ ? 1 + 1e-9 : 1.5) * grid.spacing[0] + 1.5 * patch_.finest;
   parallel_for(rows, 1, [&](std::size_t row, std::size_t) {
-    task.checkpoint(static_cast<double>(row) / static_cast<double>(rows));
+    rest.checkpoint(static_cast<double>(row) / static_cast<double>(rows));
     const int j = static_cast<int>(row % grid.n[1]), k = static_cast<int>(row / grid.n[1]);
-    int last = -1;
     double before = 0;  // the value at the node before
     for (int i = 0; i < grid.n[0]; ++i) {
-      const Vec3 x = grid.point(i, j, k);
-      const NearestPoint foot = bvh_->closest_point(x, last);
-      last = foot.face;
+      double& value = values[index(grid.node(i, j, k))];
       // The ball up to the nearest point is on one side of the surface and its patches, which end
       // up to a cell before the surface.
       const bool same = std::abs(before) > reach;
-      const bool inside = same ? before < 0 : is_inside(x);
-      before = inside ? -foot.distance : foot.distance;
-      values[index(grid.node(i, j, k))] = before;
+      const bool inside = same ? before < 0 : is_inside(grid.point(i, j, k));
+      before = value = inside ? -value : value;
     }
   });
+  return values;
+}
+
+VecX CompletedSurface::at_nodes(const Grid& grid, const Task& task, Report& report) const {
+  VecX values = on_grid(grid, task);
   if (closed_) return values;
   // A surface between two nodes is no farther from them than they are from each other.
   std::size_t changes = 0, jumps = 0;

@@ -39,6 +39,7 @@ class CompletedSurface final : public CompletedDistance {
 
   DistanceSample at(const Vec3& x) const override;
   double value_after(const Vec3& x, int& last) const override;
+  VecX on_grid(const Grid& grid, const Task& task) const override;
 
   /// Reports where the sign changes without a surface between two nodes.
   VecX at_nodes(const Grid& grid, const Task& task, Report& report) const override;

@@ -1,9 +1,14 @@
 #include "methods/implicit/pointwise.h"
 
 #include "base/parallel.h"
+#include "spatial/grid_values.h"
 #include "spatial/morton_order.h"
 
 namespace littoral {
+
+VecX PointwiseDistance::on_grid(const Grid& grid, const Task& task) const {
+  return grid_values(grid, task, [&](const Vec3& x, int& last) { return value_after(x, last); });
+}
 
 VecX evaluate(const PointwiseDistance& distance, const MatX3& queries, MatX3* gradients,
               const Task& task) {

@@ -5,6 +5,7 @@
 
 #include "base/task.h"
 #include "littoral/types.h"
+#include "littoral/volume.h"
 
 namespace littoral {
 
@@ -24,6 +25,8 @@ class PointwiseDistance {
   /// The same for points that follow one another: `last` is -1 for the first, and whatever the
   /// method found for the one before afterwards. It changes the time, not the value.
   virtual double value_after(const Vec3& x, [[maybe_unused]] int& last) const { return value(x); }
+  /// The values at all nodes of a grid, for methods that have them for less together.
+  virtual VecX on_grid(const Grid& grid, const Task& task) const;
 };
 
 /// Values (queries) and, unless null, gradients (queries x 3) at queries x 3 points.

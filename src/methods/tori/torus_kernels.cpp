@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/kernel_choice.h"
 #include "methods/tori/torus.h"
 
 namespace littoral {
@@ -116,13 +117,8 @@ template <class S>
 
 template <class S>
 BlendKernel<S>* blend_kernel() {
-#if defined(__x86_64__)
-  static BlendKernel<S>* const best =
-      __builtin_cpu_supports("avx2") ? &blend_avx2<S> : &blend_plain<S>;
+  static BlendKernel<S>* const best = LITTORAL_FASTEST(&blend_plain<S>, &blend_avx2<S>);
   return best;
-#else
-  return &blend_plain<S>;
-#endif
 }
 
 template BlendKernel<float>* blend_kernel<float>();

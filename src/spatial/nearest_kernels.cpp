@@ -1,0 +1,258 @@
+// Loops over lanes that compilers turn into vector instructions: no calls, no branches. CMakeLists
+// lets the compiler assume for this file that square roots set no error number and comparisons do
+// not trap, and keeps it from fusing products and sums, which rounds otherwise.
+
+#include "spatial/nearest_kernels.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/kernel_choice.h"
+
+namespace littoral {
+
+namespace {
+
+constexpr int lanes = nearest_lanes;
+
+template <class S>
+[[gnu::always_inline]] inline S smaller(S a, S b) {
+  return a < b ? a : b;
+}
+template <class S>
+[[gnu::always_inline]] inline S larger(S a, S b) {
+  return a > b ? a : b;
+}
+
+[[gnu::always_inline]] inline float least_of(const std::array<float, lanes>& s) {
+  return smaller(smaller(smaller(s[0], s[4]), smaller(s[2], s[6])),
+                 smaller(smaller(s[1], s[5]), smaller(s[3], s[7])));
+}
+
+/// To the nearest side, or to the plane where the point lies above the triangle.
+[[gnu::always_inline]] inline float ways_of(const CornerLanes& t, const float* from,
+                                            WayLanes& out) {
+  const float qx = from[0], qy = from[1], qz = from[2];
+  for (int l = 0; l < lanes; ++l) {
+    const float ax = t.corner[0][l] - qx, ay = t.corner[1][l] - qy, az = t.corner[2][l] - qz;
+    const float bx = t.corner[3][l] - qx, by = t.corner[4][l] - qy, bz = t.corner[5][l] - qz;
+    const float cx = t.corner[6][l] - qx, cy = t.corner[7][l] - qy, cz = t.corner[8][l] - qz;
+    const float ux = bx - ax, uy = by - ay, uz = bz - az;
+    const float vx = cx - bx, vy = cy - by, vz = cz - bz;
+    const float wx = ax - cx, wy = ay - cy, wz = az - cz;
+    const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const float tiny = 1e-30f;
+    const auto along = [&](float px, float py, float pz, float ex, float ey, float ez) {
+      const float s = -(px * ex + py * ey + pz * ez) / (ex * ex + ey * ey + ez * ez + tiny);
+      return smaller(larger(s, 0.0f), 1.0f);
+    };
+    const float ta = along(ax, ay, az, ux, uy, uz), tb = along(bx, by, bz, vx, vy, vz),
+                tc = along(cx, cy, cz, wx, wy, wz);
+    float x = ax + ta * ux, y = ay + ta * uy, z = az + ta * uz;
+    float best = x * x + y * y + z * z;
+    const float x1 = bx + tb * vx, y1 = by + tb * vy, z1 = bz + tb * vz;
+    const float s1 = x1 * x1 + y1 * y1 + z1 * z1;
+    x = s1 < best ? x1 : x, y = s1 < best ? y1 : y, z = s1 < best ? z1 : z;
+    best = smaller(s1, best);
+    const float x2 = cx + tc * wx, y2 = cy + tc * wy, z2 = cz + tc * wz;
+    const float s2 = x2 * x2 + y2 * y2 + z2 * z2;
+    x = s2 < best ? x2 : x, y = s2 < best ? y2 : y, z = s2 < best ? z2 : z;
+    // n . (p x e): on which side of an edge the origin's foot lies.
+    const auto side = [&](float px, float py, float pz, float ex, float ey, float ez) {
+      return nx * (py * ez - pz * ey) + ny * (pz * ex - px * ez) + nz * (px * ey - py * ex);
+    };
+    const float in = smaller(side(ax, ay, az, ux, uy, uz),
+                             smaller(side(bx, by, bz, vx, vy, vz), side(cx, cy, cz, wx, wy, wz)));
+    const float up = (nx * ax + ny * ay + nz * az) / (nx * nx + ny * ny + nz * nz + tiny);
+    x = in > 0 ? nx * up : x, y = in > 0 ? ny * up : y, z = in > 0 ? nz * up : z;
+    out.way[0][l] = x;
+    out.way[1][l] = y;
+    out.way[2][l] = z;
+    out.squared[l] = x * x + y * y + z * z;
+  }
+  return least_of(out.squared);
+}
+
+[[gnu::always_inline]] inline float ways_to_middles_of(const CornerLanes& t, const float* from,
+                                                       WayLanes& out) {
+  for (int l = 0; l < lanes; ++l) {
+    float squared = 0;
+    for (int d = 0; d < 3; ++d) {
+      const float sum = t.corner[d][l] + t.corner[d + 3][l] + t.corner[d + 6][l];
+      const float way = sum * (1.0f / 3) - from[d];
+      out.way[d][l] = way;
+      squared += way * way;
+    }
+    out.squared[l] = squared;
+  }
+  return least_of(out.squared);
+}
+
+/// How far the balls of a box reach in a direction of some length.
+[[gnu::always_inline]] inline float reach_of(const BoxWithBalls& b, float x, float y, float z,
+                                             float length) {
+  const float hx = x * b.half[0], hy = y * b.half[1], hz = z * b.half[2];
+  const float yz = hy + hz, zy = hy - hz;
+  float most = hx + yz + length * b.radius[7];
+  most = larger(most, yz - hx + length * b.radius[6]);
+  most = larger(most, hx - zy + length * b.radius[5]);
+  most = larger(most, -hx - zy + length * b.radius[4]);
+  most = larger(most, hx + zy + length * b.radius[3]);
+  most = larger(most, zy - hx + length * b.radius[2]);
+  most = larger(most, hx - yz + length * b.radius[1]);
+  most = larger(most, -hx - yz + length * b.radius[0]);
+  return most + length * b.slack;
+}
+
+using Flags = std::array<std::int32_t, lanes>;
+
+[[gnu::always_inline]] inline unsigned bits_of(const Flags& flags) {
+  unsigned bits = 0;
+  for (int l = 0; l < lanes; ++l) bits |= static_cast<unsigned>(flags[l]) << l;
+  return bits;
+}
+
+/// Along its way every point of the triangle lies beyond all balls.
+[[gnu::always_inline]] inline unsigned within_of(const CornerLanes& t, const WayLanes& w,
+                                                 const BoxWithBalls& b) {
+  const float qx = b.centre[0], qy = b.centre[1], qz = b.centre[2];
+  alignas(32) Flags met;
+  for (int l = 0; l < lanes; ++l) {
+    const float x = w.way[0][l], y = w.way[1][l], z = w.way[2][l];
+    const auto along = [&](int k) {
+      return x * (t.corner[k][l] - qx) + y * (t.corner[k + 1][l] - qy) +
+             z * (t.corner[k + 2][l] - qz);
+    };
+    const float least = smaller(along(0), smaller(along(3), along(6)));
+    met[l] = least > reach_of(b, x, y, z, std::sqrt(w.squared[l])) ? 0 : 1;
+  }
+  return bits_of(met);
+}
+
+[[gnu::always_inline]] inline unsigned balls_of(const BallLanes& t, const BoxWithBalls& b,
+                                                unsigned& far) {
+  constexpr float small = 0.25f;
+  const float qx = b.centre[0], qy = b.centre[1], qz = b.centre[2];
+  alignas(32) Flags met, small_beside;
+  for (int l = 0; l < lanes; ++l) {
+    const float x = t.x[l] - qx, y = t.y[l] - qy, z = t.z[l] - qz;
+    const float squared = x * x + y * y + z * z, length = std::sqrt(squared);
+    met[l] = squared - length * t.radius[l] > reach_of(b, x, y, z, length) ? 0 : 1;
+    small_beside[l] = t.radius[l] < small * length ? 1 : 0;
+  }
+  far = bits_of(small_beside);
+  return bits_of(met);
+}
+
+[[gnu::always_inline]] inline void put_ball_of(const CornerLanes& t, BallLanes& out, int lane) {
+  float middle[3], squared = 0;
+  for (int d = 0; d < 3; ++d) {
+    alignas(32) std::array<float, lanes> low, high;
+    for (int l = 0; l < lanes; ++l) {
+      const float a = t.corner[d][l], b = t.corner[d + 3][l], c = t.corner[d + 6][l];
+      low[l] = smaller(a, smaller(b, c));
+      high[l] = larger(a, larger(b, c));
+    }
+    for (int step = lanes / 2; step > 0; step /= 2)
+      for (int l = 0; l < step; ++l) {
+        low[l] = smaller(low[l], low[l + step]);
+        high[l] = larger(high[l], high[l + step]);
+      }
+    middle[d] = (low[0] + high[0]) / 2;
+    squared += (high[0] - low[0]) * (high[0] - low[0]);
+  }
+  out.x[lane] = middle[0];
+  out.y[lane] = middle[1];
+  out.z[lane] = middle[2];
+  out.radius[lane] = std::sqrt(squared) / 2;
+}
+
+/// Eight nodes. The sums are those of a plane and three sides, each node against all of them.
+[[gnu::always_inline]] inline void look_eight(
+    const NearTriangle& t, double number, const double* __restrict X, const double* __restrict Y,
+    const double* __restrict Z, double* __restrict squared, double* __restrict nearest) {
+  for (int l = 0; l < lanes; ++l) {
+    const double x = X[l], y = Y[l], z = Z[l], best = squared[l], before = nearest[l];
+    double side = best, above = 1;
+    const auto add_side = [&](int k) {
+      const double px = x - t.corner[k][0], py = y - t.corner[k][1], pz = z - t.corner[k][2];
+      const double ex = t.edge[k][0], ey = t.edge[k][1], ez = t.edge[k][2];
+      const double s = (px * ex + py * ey + pz * ez) * t.per_length[k];
+      const double at = smaller(larger(s, 0.0), 1.0);
+      const double ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
+      side = smaller(side, ox * ox + oy * oy + oz * oz);
+      above = smaller(above, px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
+    };
+    add_side(0);
+    add_side(1);
+    add_side(2);
+    const double up = (x - t.corner[0][0]) * t.normal[0] + (y - t.corner[0][1]) * t.normal[1] +
+                      (z - t.corner[0][2]) * t.normal[2];
+    const double plane = up * up * t.per_normal;
+    const double found = above > 0 ? smaller(plane, best) : side;
+    nearest[l] = found < best ? number : before;
+    squared[l] = found;
+  }
+}
+
+[[gnu::always_inline]] inline void look_of(const NearTriangle& t, double number,
+                                           const NearNodes& nodes) {
+  for (int i = 0; i < nodes.n; i += lanes)
+    look_eight(t, number, nodes.x + i, nodes.y + i, nodes.z + i, nodes.squared + i,
+               nodes.nearest + i);
+}
+
+void put_ball_plain(const CornerLanes& t, BallLanes& out, int lane) { put_ball_of(t, out, lane); }
+unsigned balls_plain(const BallLanes& t, const BoxWithBalls& b, unsigned& far) {
+  return balls_of(t, b, far);
+}
+float ways_to_middles_plain(const CornerLanes& t, const float* from, WayLanes& out) {
+  return ways_to_middles_of(t, from, out);
+}
+float ways_plain(const CornerLanes& t, const float* from, WayLanes& out) {
+  return ways_of(t, from, out);
+}
+unsigned within_plain(const CornerLanes& t, const WayLanes& w, const BoxWithBalls& b) {
+  return within_of(t, w, b);
+}
+void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
+  look_of(t, number, nodes);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void put_ball_avx2(const CornerLanes& t, BallLanes& out, int lane) {
+  put_ball_of(t, out, lane);
+}
+[[gnu::target("avx2")]] unsigned balls_avx2(const BallLanes& t, const BoxWithBalls& b,
+                                            unsigned& far) {
+  return balls_of(t, b, far);
+}
+[[gnu::target("avx2")]] float ways_to_middles_avx2(const CornerLanes& t, const float* from,
+                                                   WayLanes& out) {
+  return ways_to_middles_of(t, from, out);
+}
+[[gnu::target("avx2")]] float ways_avx2(const CornerLanes& t, const float* from, WayLanes& out) {
+  return ways_of(t, from, out);
+}
+[[gnu::target("avx2")]] unsigned within_avx2(const CornerLanes& t, const WayLanes& w,
+                                             const BoxWithBalls& b) {
+  return within_of(t, w, b);
+}
+[[gnu::target("avx2")]] void look_avx2(const NearTriangle& t, double number,
+                                       const NearNodes& nodes) {
+  look_of(t, number, nodes);
+}
+#endif
+
+}  // namespace
+
+const NearestKernels& nearest_kernels() {
+  static const NearestKernels best =
+      LITTORAL_FASTEST((NearestKernels{&put_ball_plain, &balls_plain, &ways_plain,
+                                       &ways_to_middles_plain, &within_plain, &look_plain}),
+                       (NearestKernels{&put_ball_avx2, &balls_avx2, &ways_avx2,
+                                       &ways_to_middles_avx2, &within_avx2, &look_avx2}));
+  return best;
+}
+
+}  // namespace littoral

@@ -1,0 +1,69 @@
+#pragma once
+// What grid_distances.cpp does to many triangles or nodes at once, by the widest instructions the
+// processor has. Which ones changes nothing in the results.
+
+#include <array>
+
+namespace littoral {
+
+constexpr int nearest_lanes = 8;
+
+/// Corners a, b, c of eight triangles: ax ay az bx ...
+struct CornerLanes {
+  alignas(32) std::array<std::array<float, nearest_lanes>, 9> corner;
+};
+
+/// Balls about eight groups of triangles.
+struct BallLanes {
+  alignas(32) std::array<float, nearest_lanes> x, y, z, radius;
+};
+
+/// The way from a point to each of them, about, and its squared length.
+struct WayLanes {
+  alignas(32) std::array<std::array<float, nearest_lanes>, 3> way;
+  alignas(32) std::array<float, nearest_lanes> squared;
+};
+
+/// A box about a point, and for each corner of it (bits of the number: x, y, z) a radius.
+struct BoxWithBalls {
+  std::array<float, 3> centre, half;
+  std::array<float, 8> radius;
+  float slack;  // for rounding
+};
+
+/// One triangle seen by many nodes.
+struct NearTriangle {
+  std::array<std::array<double, 3>, 3> corner;
+  std::array<std::array<double, 3>, 3> edge;    // from each corner to the next
+  std::array<double, 3> per_length;             // 1 / squared length, 0 without a length
+  std::array<double, 3> normal;                 // not of unit length
+  std::array<std::array<double, 3>, 3> inward;  // across edges, in the plane
+  double per_normal = 0;                        // 1 / squared length of the normal
+};
+
+/// Places, a multiple of eight, with what is nearest to them so far.
+struct NearNodes {
+  const double *x, *y, *z;
+  int n;
+  double *squared, *nearest;
+};
+
+struct NearestKernels {
+  void (*put_ball)(const CornerLanes&, BallLanes&, int lane);
+  /// A bit for each ball that meets the convex hull of those of the box, or may; `far` gets one for
+  /// each that is small beside its distance from the box's centre.
+  unsigned (*balls_within)(const BallLanes&, const BoxWithBalls&, unsigned& far);
+  /// To the nearest points of the triangles. Returns the least of the squared lengths.
+  float (*ways)(const CornerLanes&, const float* from, WayLanes&);
+  /// To their middles, for triangles that are small beside their distance.
+  float (*ways_to_middles)(const CornerLanes&, const float* from, WayLanes&);
+  /// A bit for each triangle that meets the convex hull of the balls, or may.
+  unsigned (*within)(const CornerLanes&, const WayLanes&, const BoxWithBalls&);
+  /// Where the triangle is nearer than what was, `nearest` becomes `number`.
+  void (*look)(const NearTriangle&, double number, const NearNodes&);
+};
+
+/// The fastest ones for the processor that runs the program.
+const NearestKernels& nearest_kernels();
+
+}  // namespace littoral

@@ -16,6 +16,7 @@
 #include "littoral/space.h"
 #include "space_helpers.h"
 #include "spatial/closest_on_triangle.h"
+#include "spatial/grid_values.h"
 #include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 
@@ -100,15 +101,12 @@ TEST(Completed, SamplesOnGridsAreTheAnswersAtTheirNodes) {
   Grid grid = test::cube_grid(27, 1.31);
   grid.n[1] = 19;
   grid.spacing[1] *= 1.4;
-  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
-  for (int k = 0; k < grid.n[2]; ++k)
-    for (int j = 0; j < grid.n[1]; ++j)
-      for (int i = 0; i < grid.n[0]; ++i)
-        nodes.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
-  for (const PolygonSoup& shape : {test::off_centre_torus(), hemisphere(4, false)}) {
-    const Sdf distance = signed_distance(shape);
-    EXPECT_LT((distance.sample(grid).values - distance.at(nodes)).cwiseAbs().maxCoeff(), 1e-14);
-  }
+  for (const PolygonSoup& shape : {test::off_centre_torus(), hemisphere(4, false)})
+    for (const AnyMethod& method : {AnyMethod(), AnyMethod(WindingSign{})}) {
+      const Sdf distance = signed_distance(shape, method);
+      const VecX sampled = distance.sample(grid).values;
+      EXPECT_LT((sampled - distance.at(grid_points(grid))).cwiseAbs().maxCoeff(), 1e-14);
+    }
 }
 
 TEST(Completed, EnclosedSpaceIsInsideWhicheverWayAllNormalsPoint) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
 #include "base/parallel.h"
+#include "methods/implicit/grid_signs.h"
 #include "spatial/point_tree.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/winding_number.h"
@@ -120,6 +122,16 @@ class ToTriangles : public PointwiseDistance {
     const NearestPoint foot = bvh_->closest_point(x, last);
     last = foot.face;
     return is_inside(x, foot) ? -foot.distance : foot.distance;
+  }
+  VecX on_grid(const Grid& grid, const Task& task) const override {
+    if (!winding_) return PointwiseDistance::on_grid(grid, task);
+    Task stages = task;
+    VecX values = bvh_->distances(grid, stages.stage(0.7, "distance"));
+    set_signs(
+        grid, std::numeric_limits<double>::infinity(),
+        [&](const Vec3& x) { return (*winding_)(x, sign_accuracy) > 0.5; },
+        stages.stage(0.3, "sign"), values);
+    return values;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "methods/implicit/grid_signs.h"
 
 namespace littoral {
 
@@ -88,22 +89,11 @@ double CompletedSurface::value_after(const Vec3& x, int& last) const {
 VecX CompletedSurface::on_grid(const Grid& grid, const Task& task) const {
   Task stages = task;
   VecX values = bvh_->distances(grid, stages.stage(0.9, "distance"));
-  const Task rest = stages.stage(0.1, "sign");
-  const std::size_t rows = std::size_t(grid.n[1]) * grid.n[2];
+  // The ball up to the nearest point is on one side of the surface and its patches, which end up to
+  // a cell before the surface.
   const double reach = (closed_ ? 1 + 1e-9 : 1.5) * grid.spacing[0] + 1.5 * patch_.finest;
-  parallel_for(rows, 1, [&](std::size_t row, std::size_t) {
-    rest.checkpoint(static_cast<double>(row) / static_cast<double>(rows));
-    const int j = static_cast<int>(row % grid.n[1]), k = static_cast<int>(row / grid.n[1]);
-    double before = 0;  // the value at the node before
-    for (int i = 0; i < grid.n[0]; ++i) {
-      double& value = values[index(grid.node(i, j, k))];
-      // The ball up to the nearest point is on one side of the surface and its patches, which end
-      // up to a cell before the surface.
-      const bool same = std::abs(before) > reach;
-      const bool inside = same ? before < 0 : is_inside(grid.point(i, j, k));
-      before = value = inside ? -value : value;
-    }
-  });
+  set_signs(
+      grid, reach, [&](const Vec3& x) { return is_inside(x); }, stages.stage(0.1, "sign"), values);
   return values;
 }
 

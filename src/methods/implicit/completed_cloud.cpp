@@ -213,8 +213,7 @@ DistanceSample CompletedCloud::at(const Vec3& x) const {
 }
 
 VecX CompletedCloud::at_nodes(const Grid& grid, const Task& task, Report&) const {
-  if (!same(grid, grid_))
-    return on_grid(grid, task);
+  if (!same(grid, grid_)) return on_grid(grid, task);
   VecX values(values_.size());
   const std::size_t rows = std::size_t(grid.n[1]) * grid.n[2];
   parallel_for(rows, 1, [&](std::size_t row, std::size_t) {

@@ -298,6 +298,23 @@ TEST(QuadraticSolver, NeedlesAreMollifiedAndHaveABoundedEffect) {
   EXPECT_FALSE(report.warnings.empty());
 }
 
+TEST(QuadraticSolver, ACurveThatEndsOnASideIsKnownInAllTrianglesThere) {
+  // Three pages; the curve runs in the first, up to the spine.
+  PolygonSoup book;
+  book.points.resize(5, 3);
+  book.points << 0, 0, 0, 0, 0, 1, 1, 0, 0.5, -1, 0, 0.5, 0, 1, 0.5;
+  for (const int v : {2, 3, 4}) test::add_triangle(book, 0, 1, v);
+  const SurfaceMesh mesh(book);
+  Sources sources;
+  sources.curves.emplace_back();
+  sources.curves[0].is_signed = false;
+  sources.curves[0].nodes = {SurfacePoint::in_face(0, 0.5, 0.1, 0.4),
+                             SurfacePoint::in_face(0, 0.7, 0.3, 0)};
+  Report report;
+  const VecX d = quadratic(mesh, sources, {}, report).at_vertices();
+  for (const int v : {3, 4}) EXPECT_LE(d[v], 1.001 * std::hypot(1, 0.2)) << v;
+}
+
 TEST(QuadraticSolver, CancelsAndReportsWhenIterationsRunOut) {
   const SurfaceMesh mesh(test::octasphere_soup(3));
   Report report;

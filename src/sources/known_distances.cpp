@@ -33,6 +33,36 @@ bool from_corner_to_corner(const TriangleSources::Segment& s) {
   return barycentrics(s.a).maxCoeff() == 1 && barycentrics(s.b).maxCoeff() == 1;
 }
 
+/// Where segments end within a side, in the triangles at that side that hold none themselves: the
+/// tips of curves, and pages at an edge of three and more faces.
+std::vector<TriangleSources::Segment> touching(const IntrinsicTriangulation& T,
+                                               std::span<const TriangleSources::Segment> segments) {
+  std::vector<char> holds(T.n_faces(), 0);
+  std::multimap<int, double> ends;  // edge -> share of the way to its head
+  for (const TriangleSources::Segment& s : segments) {
+    if (s.triangle < 0) continue;
+    holds[s.triangle] = 1;
+    for (const auto& b : {s.a, s.b})
+      for (int k = 0; k < 3; ++k) {
+        const double here = b[k], next = b[(k + 1) % 3];
+        if (b[(k + 2) % 3] <= at_node && std::min(here, next) > at_node)
+          ends.emplace(T.side_edge(s.triangle, k), T.along(s.triangle, k) > 0 ? next : here);
+      }
+  }
+  std::vector<TriangleSources::Segment> out;
+  for (int f = 0; f < T.n_faces() && !ends.empty(); ++f)
+    for (int k = 0; k < 3 && !holds[f]; ++k) {
+      const auto [first, last] = ends.equal_range(T.side_edge(f, k));
+      for (auto at = first; at != last; ++at) {
+        std::array<double, 3> b{};
+        b[(k + 1) % 3] = T.along(f, k) > 0 ? at->second : 1 - at->second;
+        b[k] = 1 - b[(k + 1) % 3];
+        out.push_back({f, b, b});
+      }
+    }
+  return out;
+}
+
 /// Points inside triangles as segments without length.
 std::vector<TriangleSources::Segment> with_points(const TriangleSources& sources) {
   std::vector<TriangleSources::Segment> all = sources.segments;
@@ -46,9 +76,9 @@ std::vector<NodeDistance> distances_around(const IntrinsicTriangulation& T,
                                            std::span<const TriangleSources::Segment> segments,
                                            TriangleNodes nodes) {
   std::map<int, NodeDistance> at;
-  for (const TriangleSources::Segment& segment : segments) {
+  const auto know_around = [&](const TriangleSources::Segment& segment) {
     const int f = segment.triangle;
-    if (f < 0) continue;
+    if (f < 0) return;
     const TriangleShape shape = T.shape(f);
     const Vec2 start = on(shape, barycentrics(segment.a)), end = on(shape, barycentrics(segment.b));
     for (int i = 0; i < (nodes == TriangleNodes::corners ? 3 : 6); ++i) {
@@ -59,7 +89,9 @@ std::vector<NodeDistance> distances_around(const IntrinsicTriangulation& T,
       const auto [known, fresh] = at.try_emplace(node, found);
       if (!fresh && found.distance < known->second.distance) known->second = found;
     }
-  }
+  };
+  for (const TriangleSources::Segment& segment : segments) know_around(segment);
+  for (const TriangleSources::Segment& segment : touching(T, segments)) know_around(segment);
   std::vector<NodeDistance> out;
   for (const auto& [node, found] : at) out.push_back(found);
   return out;

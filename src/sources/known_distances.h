@@ -25,8 +25,9 @@ struct NodeDistance {
 /// Corners, or corners and middles of sides: node n_vertices + e of edge e.
 enum class TriangleNodes { corners, corners_and_middles };
 
-/// The nodes of the triangles that hold segments, ascending, with the distance to the nearest
-/// segment in a triangle that they share with it: the distance itself for straight curves.
+/// The nodes of the triangles that hold segments, or an end of one on a side, ascending, with the
+/// distance to the nearest segment in a triangle that they share with it: the distance itself for
+/// straight curves.
 std::vector<NodeDistance> distances_around(const IntrinsicTriangulation& T,
                                            std::span<const TriangleSources::Segment> segments,
                                            TriangleNodes nodes);

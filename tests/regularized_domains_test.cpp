@@ -280,6 +280,20 @@ TEST(BoundaryCurves, LoopsAreClosedAndDistanceGrowsInward) {
   EXPECT_EQ(boundary_curves(test::ring(12, 2, 0.1)).size(), 2U);
 }
 
+TEST(RegularizedDomains, TrianglesWithoutAreaLeaveTheHessianDefinite) {
+  PolygonSoup soup = test::grid_soup(5, 5);
+  for (int v = 0; v < soup.n_vertices(); ++v)
+    soup.points(v, 2) = 0.25 + 0.2 * std::sin(7.0 * v + 0.1 * v * v);
+  soup.points.row(15) = soup.points.row(14);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const VecX u = test::surface_distance(
+      mesh, test::vertex_points({0}),
+      AnyMethod::named("regularized", {{"regularizer", "hessian"}, {"alpha", "0.001"}}), report);
+  const VecX d = test::exact(mesh, test::vertex_points({0}));
+  EXPECT_LT((u - d).cwiseAbs().mean(), 0.05 * d.maxCoeff());
+}
+
 TEST(BoundaryCurves, LoopsThatTouchAndFacesThatRepeatAVertex) {
   PolygonSoup soup = test::grid_soup(2, 1);
   soup.points.conservativeResize(soup.points.rows() + 2, 3);

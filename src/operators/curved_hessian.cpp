@@ -7,6 +7,8 @@ namespace littoral {
 
 namespace {
 
+constexpr double without_area = 2e-6;  // a + b - c over the longest side
+
 /// The connection Laplacian as real 2 x 2 blocks, both triangles.
 SpMat real_laplacian(const VectorDiffusion& V) {
   if (!V.complex_linear()) return V.L_real.selfadjointView<Eigen::Lower>();
@@ -32,7 +34,7 @@ SpMat real_laplacian(const VectorDiffusion& V) {
 
 /// Integral of kappa |X|^2: each interior vertex's angle defect is shared out to its corners by
 /// angle; there X is the value of the Crouzeix-Raviart field, the sum over its edges with signs
-/// +, +, - (opposite).
+/// +, +, - (opposite). Vertices of triangles without area are left out.
 SpMat curvature(const IntrinsicTriangulation& T) {
   VecX defect = VecX::Constant(T.n_vertices, 2 * std::numbers::pi),
        total = VecX::Zero(defect.size());
@@ -40,6 +42,13 @@ SpMat curvature(const IntrinsicTriangulation& T) {
     if (T.edge_use[e] != 2) defect[T.edges(e, 0)] = defect[T.edges(e, 1)] = 0;
   std::vector<char> inside(T.n_vertices, 1);
   for (int v = 0; v < T.n_vertices; ++v) inside[v] = defect[v] > 0;
+  // A triangle without area has angles of no meaning, and may end the definiteness.
+  for (int f = 0; f < T.n_faces(); ++f) {
+    const auto sides = T.length.row(f);
+    const double slack = sides.sum() - 2 * sides.maxCoeff();
+    for (int k = 0; k < 3 && slack < without_area * sides.maxCoeff(); ++k)
+      inside[T.faces(f, k)] = 0;
+  }
   auto angle = [](const TriangleShape& t, int k) { return std::atan2(1.0, t.cot[k]); };
   for (int f = 0; f < T.n_faces(); ++f) {
     const TriangleShape t = T.shape(f);

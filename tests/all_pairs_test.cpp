@@ -143,6 +143,28 @@ TEST(AllPairs, SameWhateverUnitThreadsAndPrecision) {
   EXPECT_GT((single - U).cwiseAbs().maxCoeff(), 0);
 }
 
+TEST(AllPairs, StopsWhereRoundOffIsAboveTheTolerance) {
+  // Pages of a book beside a needle a million times as long.
+  PolygonSoup soup;
+  soup.points.resize(15, 3);
+  soup.points << 1, 0, 0, 1, 0, 1e-6, 1.00001, 0, 0, 1.00001, 0, 1e-6, 1.000005, 8.66e-6, 0,
+      1.000005, 8.66e-6, 1e-6, 0.999995, 8.66e-6, 0, 0.999995, 8.66e-6, 1e-6, 0.99999, 0, 0,
+      0.99999, 0, 1e-6, 0.999995, -8.66e-6, 0, 0.999995, -8.66e-6, 1e-6, 1.000005, -8.66e-6, 0,
+      1.000005, -8.66e-6, 1e-6, 0, -0.15, -0.07;
+  for (int page = 1; page < 7; ++page) {
+    test::add_triangle(soup, 0, 2 * page, 1);
+    test::add_triangle(soup, 1, 2 * page, 2 * page + 1);
+  }
+  test::add_triangle(soup, 0, 4, 14);
+  Report report;
+  test::pair_distances(
+      SurfaceMesh(soup), {},
+      AnyMethod::named("symmetric", {{"tolerance", "1e-9"}, {"max-iterations", "300000"}}), report);
+  EXPECT_EQ(report.status, "not converged");
+  ASSERT_FALSE(report.iterations.empty());
+  EXPECT_LT(report.iterations[0].second, 200000);
+}
+
 TEST(AllPairs, AgreesWithTheAuthors) {
   LITTORAL_NEEDS_SHARED("reference/rgd/allpairs_octa2");
   const auto folder = test::shared() / "reference/rgd/allpairs_octa2";

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "api/surface/beside_marching.h"
 #include "heat_helpers.h"
 #include "methods/geodesic/exact_polyhedral.h"
+#include "methods/geodesic/fast_marching.h"
 #include "methods/heat/time_scale.h"
 #include "one_call.h"
 #include "sources/triangle_sources.h"
@@ -169,6 +171,89 @@ TEST(HeatTimeScale, WarnsWhereTheGradientIsNoUnitVector) {
     test::surface_distance(even, sources, AnyMethod::named(method), good);
     EXPECT_FALSE(warned(good));
   }
+}
+
+double beside_marching(const Report& report) {
+  for (const auto& [name, value] : report.residuals)
+    if (name == mean_beside_marching) return value;
+  return -1;
+}
+
+TEST(HeatTimeScale, SaysHowFarItIsFromFastMarching) {
+  const SurfaceMesh mesh(test::octasphere_soup(2));
+  const Sources sources = test::vertex_points({5});
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const VecX d =
+      fast_marching(T, triangle_sources(mesh, T, place_sources(mesh, sources, report)), {}, report);
+  for (const char* method : {"signed-heat", "unsigned-heat"}) {
+    Report one;
+    const VecX u = test::surface_distance(mesh, sources, AnyMethod::named(method), one);
+    EXPECT_NEAR(beside_marching(one), (u - d).cwiseAbs().mean() / d.maxCoeff(), 1e-12) << method;
+    // Solves that share what they prepare leave it out.
+    Report many;
+    const auto solver =
+        prepare(AnyMethod::named(method), domain_of(mesh), SolveHint::many_rhs, {}, many);
+    solver->solve(sources, {}, many);
+    EXPECT_EQ(beside_marching(many), -1) << method;
+  }
+}
+
+TEST(HeatTimeScale, TheWorstComponentSpeaksWhateverItsSize) {
+  // A coarse sphere beside a finer one a thousand times as large.
+  const PolygonSoup coarse = test::octasphere_soup(1), fine = test::octasphere_soup(4);
+  PolygonSoup both = fine;
+  const int n = both.n_vertices();
+  both.points *= 1000;
+  both.points.conservativeResize(n + coarse.n_vertices(), 3);
+  both.points.bottomRows(coarse.n_vertices()) =
+      coarse.points.rowwise() + Vec3(5000, 0, 0).transpose();
+  for (int f = 0; f < coarse.n_faces(); ++f)
+    test::add_triangle(both, n + coarse.face(f)[0], n + coarse.face(f)[1], n + coarse.face(f)[2]);
+  const AnyMethod march = AnyMethod::named("fast-marching");
+  const auto marched = [&](const PolygonSoup& soup, const Sources& from) {
+    Report report;
+    return test::surface_distance(SurfaceMesh(soup), from, march, report);
+  };
+  // A tenth of the distance too much on the coarse one alone.
+  VecX values = marched(both, test::vertex_points({0, n}));
+  values.tail(coarse.n_vertices()) *= 1.1;
+  const SurfaceMesh mesh(both);
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const VecX d = marched(coarse, test::vertex_points({0}));
+  EXPECT_NEAR(
+      report_beside_marching(mesh, T, place_sources(mesh, test::vertex_points({0, n}), report),
+                             values, {}, report),
+      0.1 * d.mean() / d.maxCoeff(), 1e-6);
+}
+
+TEST(HeatTimeScale, WarnsWhereFastMarchingDisagrees) {
+  for (const auto& [share, warns] : {std::pair(0.019, false), std::pair(0.021, true)}) {
+    Report report;
+    warn_beside_marching(share, report);
+    EXPECT_EQ(!report.warnings.empty(), warns);
+  }
+  // Broken curves are completed: nearer than the source is no mistake.
+  PolygonSoup soup = test::octasphere_soup(3);
+  const SurfaceMesh mesh(soup);
+  const IntrinsicTriangulation T = [&] {
+    Report quiet;
+    return intrinsic_triangulation(mesh, quiet);
+  }();
+  PlacedSources placed;
+  {
+    Sources sources;
+    sources.curves.emplace_back();
+    sources.curves[0].nodes = {SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(1)};
+    Report quiet;
+    placed = place_sources(mesh, sources, quiet);
+  }
+  Report signed_one, unsigned_one;
+  const VecX zero = VecX::Zero(mesh.n_vertices());
+  EXPECT_EQ(report_beside_marching(mesh, T, placed, zero, {}, signed_one), 0);
+  for (CurvePiece& piece : placed.pieces) piece.is_signed = false;
+  EXPECT_GT(report_beside_marching(mesh, T, placed, zero, {}, unsigned_one), 0.2);
 }
 
 TEST(TimeScale, OfCurvesIsLargerOnFinerMeshesUpToFourTimes) {

@@ -11,6 +11,7 @@
 # FUZZ_SECONDS: time for each fuzz target (10; 300 in the long tier).   JOBS: processes at once (all cores).
 # SOAK_SECONDS: how long batches run in the long tier (3600).
 # FUZZ_CASES: random cases of all methods, by seeds, in the long tier (1000000).
+# MUTATIONS, MUTATE_SEED: how many changes to the sources, and which, in the long tier (100, 1).
 set -uo pipefail
 cd "$(dirname "$0")/.."
 export LITTORAL_SHARED="${LITTORAL_SHARED:-$(dirname "$PWD")/shared}"
@@ -19,7 +20,7 @@ venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
 test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
-long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long studies single aarch64)
+long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
@@ -174,6 +175,12 @@ many_cases() {
       share=$(($1 / $2))
       LITTORAL_CASES=$(({} * share)):$share exec build/release/tests/littoral_tests --gtest_brief=1 \
         --gtest_filter=MethodCases.KeepWhatIsPromised' _ "$1" "$jobs"
+}
+
+# Would the tests notice random changes to the sources?
+stage_mutate() {
+  build_release --target littoral_tests &&
+    "$venv/python" scripts/mutate.py --count "${MUTATIONS:-100}" --seed "${MUTATE_SEED:-1}"
 }
 
 stage_studies() { build bench; }  # benchmarks and studies compile

@@ -49,10 +49,12 @@ double report_beside_marching(const SurfaceMesh& mesh, const IntrinsicTriangulat
 
 void warn_beside_marching(double mean, Report& report) {
   if (mean <= remarkable) return;
-  report.warn("the distance is " + number_text(std::round(1000 * mean) / 10) +
-              " % of the largest away from that of fast marching in the mean: it is not right. "
-              "Method auto measures exactly; otherwise finer or more even triangles help, as by "
-              "option intrinsic-delaunay");
+  report.warn(
+      "far-from-marching",
+      "the distance is " + number_text(std::round(1000 * mean) / 10) +
+          " % of the largest away from that of fast marching in the mean: it is not right. "
+          "Method auto measures exactly; otherwise finer or more even triangles help, as by "
+          "option intrinsic-delaunay");
 }
 
 }  // namespace littoral

@@ -108,10 +108,9 @@ class AllPairs {
     report.residuals.emplace_back("largest gradient over 1", std::max(0.0, longest_ - 1));
     if (worst > 1) {
       report.status = "not converged";
-      report.warn("not-converged",
-                  "all pairs stopped after " + std::to_string(k) +
-                      " iterations above the tolerance" +
-                      (k < last ? ", as these no longer come nearer to it" : ""));
+      report.warn("not-converged", "all pairs stopped after " + std::to_string(k) +
+                                       " iterations above the tolerance" +
+                                       (k < last ? ", as these no longer come nearer to it" : ""));
     }
     T_.resize(0, 0), X_.resize(0, 0), response_.resize(0, 0), S_.clear();
     return U_.template cast<double>();

@@ -41,8 +41,8 @@ struct Outcome {
 /// their ranges, seldom outside.
 MethodCase random_case(Choices& choose);
 
-/// Calls, and checks. No call may take longer than `seconds`, or more checkpoints than any finite
-/// loop over so small a domain needs.
+/// Calls, and checks. No call may take more than `seconds` of processor time, or more checkpoints
+/// than any finite loop over so small a domain needs.
 Outcome run_case(const MethodCase& given, Choices& choose, double seconds);
 
 /// The case in words and numbers, enough to repeat it by hand.

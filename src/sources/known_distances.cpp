@@ -35,8 +35,8 @@ bool from_corner_to_corner(const TriangleSources::Segment& s) {
 
 /// Where segments end within a side, in the triangles at that side that hold none themselves: the
 /// tips of curves, and pages at an edge of three and more faces.
-std::vector<TriangleSources::Segment> touching(const IntrinsicTriangulation& T,
-                                               std::span<const TriangleSources::Segment> segments) {
+std::vector<TriangleSources::Segment> ends_on_sides(
+    const IntrinsicTriangulation& T, std::span<const TriangleSources::Segment> segments) {
   std::vector<char> holds(T.n_faces(), 0);
   std::multimap<int, double> ends;  // edge -> share of the way to its head
   for (const TriangleSources::Segment& s : segments) {
@@ -91,7 +91,7 @@ std::vector<NodeDistance> distances_around(const IntrinsicTriangulation& T,
     }
   };
   for (const TriangleSources::Segment& segment : segments) know_around(segment);
-  for (const TriangleSources::Segment& segment : touching(T, segments)) know_around(segment);
+  for (const TriangleSources::Segment& segment : ends_on_sides(T, segments)) know_around(segment);
   std::vector<NodeDistance> out;
   for (const auto& [node, found] : at) out.push_back(found);
   return out;

@@ -1,4 +1,4 @@
-# OpenVDB (MPL 2), for writing .vdb: a module that the library loads when it is asked for one. Its own
+# OpenVDB (MPL 2), for .vdb: a module that the library loads when it is asked for one. Its own
 # find module wants a dozen packages that this does not; what its headers need (boost, Imath) shows
 # when they are compiled.
 include(CheckCXXSourceCompiles)
@@ -30,7 +30,7 @@ if(NOT OpenVDB_LINKS)
   message(STATUS "OpenVDB not found: littoral is built without .vdb")
   return()
 endif()
-add_library(littoral_vdb MODULE src/vdb/write_vdb.cpp)
+add_library(littoral_vdb MODULE src/vdb/vdb_module.cpp)
 # Symbols stay visible: OpenVDB's templates keep state that the library and its user must share.
 set_target_properties(littoral_vdb PROPERTIES PREFIX "" SUFFIX ".so")
 target_include_directories(littoral_vdb PRIVATE src include)

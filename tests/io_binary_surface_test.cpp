@@ -244,5 +244,49 @@ TEST(IoRead, NamesFilesThatCannotBeRead) {
   EXPECT_THROW(read_bytes("."), IoError);
 }
 
+// A square of two triangles and a quad over it, with everything that a vertex may have.
+std::string binary_off(const std::string& magic, bool normals, int others) {
+  std::string bytes = magic + " BINARY\n";
+  for (const std::int32_t n : {4, 2, 0}) put(bytes, n, true);
+  for (int v = 0; v < 4; ++v) {
+    for (const float x : {0.5F * static_cast<float>(v), 2.0F, -1.0F}) put(bytes, x, true);
+    for (int k = 0; k < 3 && normals; ++k) put(bytes, static_cast<float>(k), true);
+    for (int k = 0; k < others; ++k) put(bytes, 99.0F, true);
+  }
+  for (const std::int32_t n : {3, 0, 1, 2, 0}) put(bytes, n, true);
+  for (const std::int32_t n : {4, 0, 1, 2, 3, 1}) put(bytes, n, true);
+  put(bytes, 0.25F, true);
+  return bytes;
+}
+
+TEST(IoOff, BinaryFiles) {
+  for (const auto& [magic, normals, others] :
+       {std::tuple("OFF", false, 0), {"NOFF", true, 0}, {"STCNOFF", true, 6}, {"COFF", false, 4}}) {
+    const PolygonSoup soup = read(binary_off(magic, normals, others), ".off");
+    EXPECT_EQ(soup.corners, (std::vector<int>{0, 1, 2, 0, 1, 2, 3})) << magic;
+    EXPECT_EQ(soup.points.row(3), Eigen::RowVector3d(1.5, 2, -1)) << magic;
+    EXPECT_EQ(soup.normals.rows(), normals ? 4 : 0);
+    if (normals) {
+      EXPECT_EQ(soup.normals.row(2), Eigen::RowVector3d(0, 1, 2));
+    }
+  }
+  const std::string whole = binary_off("OFF", false, 0);
+  for (std::size_t cut = 0; cut < whole.size(); ++cut)
+    EXPECT_NE(error_of(whole.substr(0, cut), ".off"), "no error") << cut;
+  const auto changed = [&](std::size_t at, std::int32_t number) {
+    std::string bytes = whole.substr(0, at);
+    put(bytes, number, true);
+    return error_of(bytes + whole.substr(at + 4), ".off");
+  };
+  const std::size_t counts = 11, faces = counts + 12 + 48;
+  EXPECT_THAT(changed(counts, -4), HasSubstr("negative number of vertices"));
+  EXPECT_THAT(changed(counts, 0), HasSubstr("no vertices"));
+  EXPECT_THAT(changed(counts, 2000000000), HasSubstr("promises 2000000000 vertices"));
+  EXPECT_THAT(changed(counts + 4, 2000000000), HasSubstr("promises 2000000000 faces"));
+  EXPECT_THAT(changed(faces, 2), HasSubstr("face 0 has 2 corners"));
+  EXPECT_THAT(changed(faces + 8, 4), HasSubstr("face 0 refers to vertex 4, the file has 4"));
+  EXPECT_THAT(changed(faces + 16, 2000000000), HasSubstr("face 0 has a colour of 2000000000"));
+}
+
 }  // namespace
 }  // namespace littoral::io

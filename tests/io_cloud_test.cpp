@@ -4,7 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
+#include "io/binary.h"
+#include "io/formats.h"
+#include "io/write_table.h"
+#include "io/zip_archive.h"
 #include "shared_data.h"
 #include "surface_bytes.h"
 
@@ -83,6 +90,62 @@ TEST(IoClouds, ReadsSharedFiles) {
   EXPECT_EQ(read_surface(clouds / "bunny.pcd").points.rows(), 397);
   EXPECT_GT(read_surface(clouds / "points_cloudcompare.xyz").points.rows(), 10);
   EXPECT_EQ(read_surface(clouds / "snail.ply").normals.rows(), 4096);
+}
+
+std::string npy_bytes(const std::string& shape, const std::vector<double>& numbers) {
+  std::ostringstream out;
+  write_npy_header(out, shape, false);
+  for (const double x : numbers) store_little(out, x);
+  return out.str();
+}
+
+std::string npz_bytes(const std::vector<std::pair<std::string, std::string>>& members) {
+  std::ostringstream out;
+  write_zip(out, members);
+  return out.str();
+}
+
+TEST(IoNpyCloud, PointsAloneOrWithNormals) {
+  const PolygonSoup plain = read(npy_bytes("2, 3", {1, 2, 3, 4, 5, 6}), ".npy");
+  EXPECT_EQ(plain.points, (MatX3(2, 3) << 1, 2, 3, 4, 5, 6).finished());
+  EXPECT_EQ(plain.normals.rows(), 0);
+  const PolygonSoup both = read(npy_bytes("2, 6", {1, 2, 3, 0, 0, 1, 4, 5, 6, 0, 1, 0}), ".npy");
+  EXPECT_EQ(both.points, plain.points);
+  EXPECT_EQ(both.normals, (MatX3(2, 3) << 0, 0, 1, 0, 1, 0).finished());
+  const PolygonSoup archive =
+      read(npz_bytes({{"points.npy", npy_bytes("2, 3", {1, 2, 3, 4, 5, 6})},
+                      {"normals.npy", npy_bytes("2, 3", {0, 0, 1, 0, 1, 0})},
+                      {"mass.npy", npy_bytes("2,", {7, 8})},
+                      {"other.npy", npy_bytes("3,", {7, 8, 9})}}),
+           ".npz");
+  EXPECT_EQ(archive.points, plain.points);
+  EXPECT_EQ(archive.normals, both.normals);
+  ASSERT_EQ(archive.scalars.size(), 1u);
+  EXPECT_EQ(archive.scalars.at("mass"), Eigen::Vector2d(7, 8));
+}
+
+TEST(IoNpyCloud, WhatAFileHoldsDecides) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "littoral_held.npy";
+  const auto is_cloud = [&](const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    return holds(path, Kind::cloud) && !holds(path, Kind::volume);
+  };
+  EXPECT_TRUE(is_cloud(npy_bytes("2, 3", {1, 2, 3, 4, 5, 6})));
+  EXPECT_FALSE(is_cloud(npy_bytes("1, 2, 3", {1, 2, 3, 4, 5, 6})));
+  std::filesystem::remove(path);
+}
+
+TEST(IoNpyCloud, SaysWhatIsWrong) {
+  EXPECT_EQ(error_of(npy_bytes("2, 4", {1, 2, 3, 4, 5, 6, 7, 8}), ".npy"),
+            "a.npy: points are an array of N x 3, or N x 6 with normals, this one is 2 x 4");
+  EXPECT_EQ(error_of(npy_bytes("0, 3", {}), ".npy"), "a.npy: no points");
+  EXPECT_THAT(error_of(npy_bytes("900000000000, 3", {1}), ".npy"), HasSubstr("more numbers than"));
+  EXPECT_THAT(error_of(npz_bytes({{"points.npy", npy_bytes("2, 3", {1, 2, 3, 4, 5, 6})},
+                                  {"normals.npy", npy_bytes("1, 3", {0, 0, 1})}}),
+                       ".npz"),
+              HasSubstr("1 normals for 2 points"));
+  EXPECT_THAT(error_of(npz_bytes({{"x.npy", npy_bytes("2,", {1, 2})}}), ".npz"),
+              HasSubstr("no array is points, N x 3; there are: x"));
 }
 
 }  // namespace

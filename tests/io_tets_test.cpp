@@ -122,7 +122,8 @@ TEST(TetFiles, ErrorsNameFileLineAndElement) {
   expect(replaced(medit, "Vertices\n4", "Vertices\n-4"), ".mesh", "negative number");
   expect(replaced(medit, "Dimension\n3", "Dimension 2"), ".mesh", "the dimension must be 3");
   expect(replaced(medit, "Edges", "Wedges"), ".mesh", "unknown section 'Wedges'");
-  expect(replaced(medit, "Edges 1 1 2 0", "Hexahedra 1 1 2 3 4 1 2 3 4 0"), ".mesh", "only tetra");
+  expect(replaced(medit, "Edges 1 1 2 0", "Hexahedra 1 1 2 3 4 1 2 3 9 0"), ".mesh",
+         "hexahedron 1 refers to vertex 9");
   expect(medit.substr(0, medit.find("End") - 4), ".mesh", "found the end of the file");
   expect("", ".mesh", "expected MeshVersionFormatted");
   expect(replaced(medit, "Tetrahedra\n1\n1 2 3 4 5", ""), ".mesh", "the file has no tets");
@@ -136,13 +137,15 @@ TEST(TetFiles, ErrorsNameFileLineAndElement) {
   expect(replaced(vtk, "0 1 0 0 0 1", "0 1 0 0 zero 1"), ".vtk",
          "file.vtk:7: expected number 10 of POINTS, found 'zero'");
   expect(replaced(vtk, "POINTS 4", "POINTS 4444444"), ".vtk", "file.vtk:5: the file promises");
-  expect(replaced(vtk, "10\n5", "12\n5"), ".vtk", "cell 0 is of type 12");
+  expect(replaced(vtk, "10\n5", "12\n5"), ".vtk",
+         "cell 0 of type 12 must have 8 corners, it has 4");
+  expect(replaced(vtk, "10\n5", "24\n5"), ".vtk", "cell 0 is of type 24";
   expect(replaced(vtk, "CELL_TYPES 2\n10\n5", "CELL_TYPES 1\n10"), ".vtk", "2 cells and 1 cell");
   expect(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA"), ".vtk", "only UNSTRUCTURED_GRID");
   expect(replaced(vtk, "SCALARS depth float", "SCALARS depth bit"), ".vtk", "of type 'bit'");
   expect(replaced(modern, "0 4 7", "0 9 7"), ".vtk", "offset of cell 1 is out of order");
-  expect(medit, ".meshb", "possible: .mesh .tet .vtk");
-  expect(medit, ".msh", "as tets: the extension is '.msh'");
+  expect(medit, ".meshb", "possible: .mesh .tet .vtk .msh .vtu");
+  expect(medit, ".obj", "as tets: the extension is '.obj'");
 }
 
 TEST(TetFiles, RealOnesAreRead) {

@@ -237,5 +237,32 @@ TEST(WriteVolume, VdbIsALevelSet) {
   fs::remove(path);
 }
 
+TEST(ReadVdb, TheBoxOfActiveVoxels) {
+  const fs::path path = fs::path(testing::TempDir()) / "littoral_read.vdb";
+  const Grid grid{{20, 21, 22}, Vec3(-1, -2, -3), Vec3(0.125, 0.25, 0.5)};
+  const Volume plane = test::sampled(grid, [](const Vec3& p) { return p[0]; });
+  if (!io::has_openvdb()) {
+    EXPECT_THROW(io::read_volume_bytes("", ".vdb", "a.vdb"), UnsupportedError);
+    GTEST_SKIP() << "built without OpenVDB";
+  }
+  io::write_volume(path, plane);
+  const Volume back = io::read_volume(path);
+  EXPECT_EQ(back.name, "distance");
+  EXPECT_EQ(back.grid.n, grid.n);
+  EXPECT_LT((back.grid.origin - grid.origin).norm() + (back.grid.spacing - grid.spacing).norm(),
+            1e-12);
+  EXPECT_EQ(back.values, plane.values.cast<float>().cast<double>());
+  // A band of one spacing of 0.5 about x = 0: nodes at -0.375 to 0.375.
+  io::write_volume(path, plane, {.band = 1});
+  const Volume band = io::read_volume(path);
+  EXPECT_EQ(band.grid.n, (std::array<int, 3>{7, 21, 22}));
+  EXPECT_NEAR(band.grid.origin[0], -0.375, 1e-12);
+  EXPECT_THROW(io::read_volume(path, "density"), InputError);
+  const std::string bytes = io::read_bytes(path);
+  for (const std::size_t cut : {std::size_t{0}, std::size_t{10}, bytes.size() / 2})
+    EXPECT_THROW(io::read_volume_bytes(bytes.substr(0, cut), ".vdb", "a.vdb"), InputError) << cut;
+  fs::remove(path);
+}
+
 }  // namespace
 }  // namespace littoral

@@ -12,6 +12,7 @@
 #include "io/read.h"
 #include "io/write.h"
 #include "littoral/error.h"
+#include "space_helpers.h"
 
 namespace littoral::io {
 namespace {
@@ -154,6 +155,63 @@ PolygonSoup small_field() {
   soup.lines = {{2, 1}};
   soup.scalars["a,b"] = Vec3(1 / 3.0, infinity, -2);
   return soup;
+}
+
+// Two isolines of a square, and the square itself.
+PolygonSoup lines_in_a_plane(int flat) {
+  PolygonSoup soup;
+  soup.points = MatX3::Constant(8, 3, 2);
+  const int right = flat == 0 ? 1 : 0, up = flat == 2 ? 1 : 2;
+  const double x[] = {0, 1, 1, 0, 0.25, 0.25, 0.75, 0.75}, y[] = {0, 0, 1, 1, 0, 1, 0, 1};
+  for (int v = 0; v < 8; ++v) {
+    soup.points(v, right) = x[v];
+    soup.points(v, up) = y[v];
+  }
+  soup.lines = {{4, 5}, {6, 7}};
+  soup.scalars["level"] = VecX::Constant(8, 0.5);
+  soup.scalars["level"].tail(2).setConstant(1.5);
+  return soup;
+}
+
+TEST_F(IoWrite, ObjGroupsIsolinesByLevel) {
+  write_surface(folder_ / "a.obj", lines_in_a_plane(2), "none");
+  const std::string text = read_bytes(folder_ / "a.obj");
+  EXPECT_THAT(text, HasSubstr("g level_0.5\nl 5 6\ng level_1.5\nl 7 8\n"));
+  EXPECT_EQ(read_surface(folder_ / "a.obj").lines, lines_in_a_plane(2).lines);
+}
+
+TEST_F(IoWrite, SvgOfLinesAndOutlines) {
+  for (int flat = 0; flat < 3; ++flat) {
+    PolygonSoup soup = lines_in_a_plane(flat);
+    soup.add_face(std::array{0, 1, 2});
+    soup.add_face(std::array{0, 2, 3});
+    write_surface(folder_ / "a.svg", soup);
+    const std::string text = read_bytes(folder_ / "a.svg");
+    EXPECT_THAT(text, HasSubstr("viewBox=\"-0.02 -0.02 1.04 1.04\"")) << flat;
+    // y counts downwards; the diagonal is no outline.
+    EXPECT_THAT(text, HasSubstr("d=\"M0 1 L1 1 L1 0 L0 0 Z\"")) << flat;
+    EXPECT_THAT(text, HasSubstr("data-level=\"0.5\" stroke=\"#")) << flat;
+    EXPECT_THAT(text, HasSubstr("d=\"M0.25 1 L0.25 0\"")) << flat;
+  }
+  PolygonSoup solid = lines_in_a_plane(2);
+  solid.points(3, 2) = 2.5;
+  EXPECT_THAT(test::message_of([&] { write_surface(folder_ / "b.svg", solid); }),
+              HasSubstr("the points fill 1 x 1 x 0.5; SVG is for lines and regions in a plane"));
+  EXPECT_FALSE(fs::exists(folder_ / "b.svg"));
+}
+
+TEST_F(IoWrite, PlyHasTheFieldAsColoursToo) {
+  PolygonSoup soup = lines_in_a_plane(2);
+  soup.scalars = {{"distance", VecX::LinSpaced(8, 0, 7)}};
+  soup.scalars["distance"](3) = infinity;
+  write_surface(folder_ / "a.ply", soup);
+  const std::string bytes = read_bytes(folder_ / "a.ply");
+  EXPECT_THAT(bytes, HasSubstr("property double distance\nproperty uchar red\nproperty uchar "
+                               "green\nproperty uchar blue\n"));
+  const std::size_t row = 4 * 8 + 3, body = bytes.find("end_header\n") + 11;
+  EXPECT_NE(bytes.substr(body + 32, 3), bytes.substr(body + 7 * row + 32, 3));
+  EXPECT_EQ(bytes.substr(body + 3 * row + 32, 3), std::string(3, static_cast<char>(150)));
+  EXPECT_EQ(read_surface(folder_ / "a.ply").scalars, soup.scalars);
 }
 
 TEST_F(IoWrite, FieldsAsText) {

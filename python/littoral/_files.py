@@ -25,7 +25,7 @@ def read(path: str | os.PathLike[str]) -> Surface:
     """A mesh or cloud from a file.
 
     Formats that littoral does not know are read by meshio or trimesh where these are installed
-    (glTF, 3MF, Gmsh, ...). Raises InputError naming file and line, IoError.
+    (Abaqus, Nastran, ...). Raises InputError naming file and line, IoError.
 
     >>> import tempfile, littoral
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -79,7 +79,7 @@ def read_volume(path: str | os.PathLike[str]) -> Volume:
 
 
 def read_tets(path: str | os.PathLike[str]) -> TetMesh:
-    """A tet mesh from a file (.mesh .vtk .tet ...). Raises InputError and IoError as `read`.
+    """A tet mesh from a file (.mesh .vtk .vtu .msh ...). Raises InputError and IoError as `read`.
 
     >>> import pathlib, tempfile, littoral
     >>> text = "4 vertices\\n1 tets\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n4 0 1 2 3\\n"

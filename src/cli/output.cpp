@@ -37,7 +37,8 @@ std::string title_of(const std::string& input) {
 }
 
 void keep_upright(io::Scene& scene, const std::string& input) {
-  if (scene.up || scene.towards_eye || !io::has_extension(input, ".stl")) return;
+  const bool printed = io::has_extension(input, ".stl") || io::has_extension(input, ".3mf");
+  if (scene.up || scene.towards_eye || !printed) return;
   const Vec3 size = (scene.points.colwise().maxCoeff() - scene.points.colwise().minCoeff());
   if (size[2] > 0.01 * size.maxCoeff()) scene.up = Vec3::UnitZ();  // flat ones are seen face-on
 }

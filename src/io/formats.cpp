@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/any_formats.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
 #include "io/surface/surface_formats.h"
@@ -17,27 +18,32 @@ namespace littoral::io {
 const std::vector<Format>& formats() {
   // clang-format off
   static const std::vector<Format> all = {
-      {.extension = ".obj", .about = "Wavefront OBJ, text: points, polygons, lines, normals, a field as texture u", .lines = true, .read_surface = read_obj, .read_cloud = read_obj, .write_surface = write_obj, .write_field = write_obj},
-      {.extension = ".ply", .about = "Stanford PLY, text or binary (written: binary): points, polygons, lines, normals, any fields", .lines = true, .read_surface = read_ply, .read_cloud = read_ply, .write_surface = write_ply, .write_cloud = write_ply, .write_field = write_ply},
-      {.extension = ".off", .about = "Geomview OFF, text: points, polygons, normals", .read_surface = read_off, .read_cloud = read_off, .write_surface = write_off},
+      {.extension = ".obj", .about = "Wavefront OBJ, text: points, polygons, lines, normals, a field as texture u; isolines in groups by their level", .lines = true, .read_surface = read_obj, .read_cloud = read_obj, .write_surface = write_obj, .write_field = write_obj},
+      {.extension = ".ply", .about = "Stanford PLY, text or binary (written: binary): points, polygons, lines, normals, any fields, one of them also as colours", .lines = true, .read_surface = read_ply, .read_cloud = read_ply, .write_surface = write_ply, .write_cloud = write_ply, .write_field = write_ply},
+      {.extension = ".off", .about = "Geomview OFF, text or binary (written: text): points, polygons, normals", .read_surface = read_off, .read_cloud = read_off, .write_surface = write_off},
       {.extension = ".stl", .about = "STL, text or binary (written: binary): triangles in single precision", .read_surface = read_stl, .write_surface = write_stl},
+      {.extension = ".glb", .about = "binary glTF 2.0, in single precision: triangles, lines, points of a scene, normals, any fields as attributes _NAME, one of them also as colours; no Draco", .lines = true, .read_surface = read_gltf, .read_cloud = read_gltf, .write_surface = write_glb, .write_cloud = write_glb, .write_field = write_glb},
+      {.extension = ".gltf", .about = "glTF 2.0 as text, with data inside or in files beside it", .lines = true, .read_surface = read_gltf, .read_cloud = read_gltf, .read_beside = read_gltf_beside},
+      {.extension = ".3mf", .about = "3MF, packed or plain (written: plain): triangles of all items on the plate, in millimetres", .read_surface = read_3mf, .write_surface = write_3mf},
       {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc},
       {.extension = ".xyz", .about = "rows x y z, or x y z and a normal", .read_cloud = read_xyz},
       {.extension = ".pcd", .about = "Point Cloud Library, text or uncompressed binary: points, normals", .read_cloud = read_pcd},
       {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti},
       {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd},
-      {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3", .no_box = true, .read_volume = read_npy_volume, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy},
-      {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3", .read_volume = read_npz_volume, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz},
+      {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3, or N x 6 with normals", .no_box = true, .read_cloud = read_npy_cloud, .read_volume = read_npy_volume, .read_any = read_npy, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy},
+      {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3, with normals and values at points as arrays of their own", .read_cloud = read_npz_cloud, .read_volume = read_npz_volume, .read_any = read_npz, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz},
       {.extension = ".vol", .about = "voxels of one byte, plain or packed", .read_volume = read_vol, .read_voxels = read_vol_bytes},
-      {.extension = ".vdb", .about = "OpenVDB level set in single precision, where the program has that module", .write_volume = write_vdb, .available = has_openvdb, .unless = "the module littoral_vdb.so, which needs OpenVDB to be built, is not installed with the program"},
-      {.extension = ".mesh", .about = "Medit, text: tets, and triangles among them", .read_tets = read_medit},
+      {.extension = ".vdb", .about = "OpenVDB level set in single precision, where the program has that module (as read: the box of the active voxels)", .read_volume = read_vdb, .write_volume = write_vdb, .available = has_openvdb, .unless = "the module littoral_vdb.so, which needs OpenVDB to be built, is not installed with the program"},
+      {.extension = ".mesh", .about = "Medit, text: tets, hexahedra, prisms and pyramids (cut into tets), triangles among them", .read_tets = read_medit},
       {.extension = ".tet", .about = "counts, points and tets as text", .read_tets = read_tet},
-      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): unstructured grid of tets, values at points", .read_tets = read_vtk, .write_tets = write_vtk},
-      {.extension = ".vtu", .about = "VTK unstructured grid of tets, values at points", .write_tets = write_vtu},
+      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): unstructured grid of tets, hexahedra, prisms and pyramids (cut into tets), values at points", .read_tets = read_vtk, .write_tets = write_vtk},
+      {.extension = ".msh", .about = "Gmsh 2 and 4, text or binary: as .vtu, of first order", .read_surface = read_msh_surface, .read_tets = read_msh_tets, .read_any = read_msh},
+      {.extension = ".vtu", .about = "VTK unstructured grid as XML, text, base64 or appended, packed or plain (written: appended, plain): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons; values at points", .read_surface = read_vtu_surface, .read_tets = read_vtu_tets, .read_any = read_vtu, .write_tets = write_vtu},
       {.extension = ".vtp", .about = "VTK polygon data: points, polygons, lines and a field", .write_field = write_vtp},
       {.extension = ".csv", .about = "rows below names; points in columns x, y, z", .read_table = read_points_text, .write_table = write_csv},
       {.extension = ".txt", .about = "rows of numbers; as sources, nodes by their place on a surface", .read_sources = read_sources_txt, .read_table = read_points_text, .write_table = write_txt},
       {.extension = ".json", .about = "curves and points on a surface or in space", .read_sources = read_sources_json},
+      {.extension = ".svg", .about = "drawing of lines (isolines with their level) and outlines of regions in a plane x, y or z = constant", .lines = true, .write_surface = write_svg},
       {.extension = ".html", .about = "one page that shows a result in a browser, offline", .write_page = write_page, .available = has_viewer, .unless = "this build has no viewer page (npm was missing when it was built)"},
       {.extension = ".png", .about = "picture of a result", .write_picture = write_picture},
   };
@@ -150,7 +156,12 @@ std::string kinds_text(const Kinds& kinds) {
 const Format& format_to_read(const std::string& extension, const std::string& name,
                              const Kinds& kinds) {
   const Format* format = find(extension);
-  if (format && holds_any(*format, kinds, reads)) return *format;
+  if (format && holds_any(*format, kinds, reads)) {
+    if (format->available && !format->available())
+      throw UnsupportedError(name + ": cannot be read: " + std::string(format->unless),
+                             "unsupported-file");
+    return *format;
+  }
   const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);
   if (format) throw UnsupportedError(text, "unknown-format");
   throw InputError(text, "unknown-format");
@@ -185,9 +196,29 @@ bool has_extension(const std::filesystem::path& path, std::string_view extension
 Content read_content(const std::filesystem::path& path, const std::string& field) {
   const Format& format = format_to_read(path.extension().string(), path.string(),
                                         {Kind::surface, Kind::cloud, Kind::volume, Kind::tets});
+  if (format.read_any) return format.read_any(read_bytes(path), path.string(), field);
   if (format.read_volume) return read_volume(path, field);
   if (format.read_tets) return read_tets(path);
   return read_surface(path);
+}
+
+bool holds(const std::filesystem::path& path, Kind kind) {
+  const Format* format = find(path.extension().string());
+  if (!format || !reads(*format, kind)) return false;
+  if (!format->read_any) return true;
+  const Content content = read_content(path);
+  switch (kind) {
+    case Kind::surface:
+    case Kind::cloud:
+      return std::holds_alternative<PolygonSoup>(content);
+    case Kind::volume:
+    case Kind::voxels:
+      return std::holds_alternative<Volume>(content);
+    case Kind::tets:
+      return std::holds_alternative<TetFile>(content);
+    default:
+      return true;
+  }
 }
 
 void write_scene(const std::filesystem::path& path, const Scene& scene) {
@@ -206,6 +237,30 @@ std::string formats_text() {
   return out;
 }
 
+namespace {
+
+constexpr const char* format_notes = R"(
+## Files of other programs
+
+- Where a format holds several kinds, the file decides: an array of three axes is a volume, one of
+  two a cloud; a mesh with solid cells is tets, one without a surface.
+- Hexahedra, prisms and pyramids become 6, 3 and 2 tets. Every face of four corners is cut through
+  its vertex with the smallest number, so that the tets of neighbours fit together. Curved cells (of
+  second order) are refused.
+- glTF: the scene's meshes are placed by its nodes. Vertices of one mesh at one place, which
+  exporters double for normals and textures, are one, unless a field differs there. Infinite values
+  are written as the largest number. A required extension that is not read (Draco, meshopt), a skin
+  or a morph in use is an error that names it.
+- 3MF: items and components are placed by their transforms, and every unit becomes millimetres.
+- Colours of `.ply` and `.glb` are those of pictures: two hues where values are negative somewhere,
+  grey where they are infinite.
+- SVG is drawn from the positive side of the axis that is flat; without one it is an error.
+- The package for JavaScript has all of these but `.vdb`, `.html` and `.png`; of a `.gltf` it reads
+  the data inside.
+)";
+
+}  // namespace
+
 std::string formats_markdown() {
   std::string out =
       "# File formats\n\nThe extension of a file, in any case, says its format. Clouds are written "
@@ -214,7 +269,7 @@ std::string formats_markdown() {
   for (const Format& format : formats())
     out += "| `" + std::string(format.extension) + "` | " + names_held(format, reads) + " | " +
            names_held(format, writes) + " | " + std::string(format.about) + " |\n";
-  return out;
+  return out + format_notes;
 }
 
 }  // namespace littoral::io

@@ -26,6 +26,9 @@ namespace littoral::io {
 enum class Kind { surface, cloud, volume, voxels, tets, sources, field, table, page, picture };
 using Kinds = std::vector<Kind>;
 
+/// What a file holds, whichever it is; clouds are soups without faces.
+using Content = std::variant<PolygonSoup, Volume, TetFile>;
+
 /// A format; what it has no reader or writer for, it is not read or written as.
 struct Format {
   std::string_view extension;  // ".obj"
@@ -40,6 +43,11 @@ struct Format {
                         const std::string& field) = nullptr;
   VoxelMask (*read_voxels)(std::string_view bytes, const std::string& name) = nullptr;
   TetFile (*read_tets)(std::string_view bytes, const std::string& name) = nullptr;
+  /// Where files of the format are of several of these kinds: this one as what it is.
+  Content (*read_any)(std::string_view bytes, const std::string& name,
+                      const std::string& field) = nullptr;
+  /// Where surfaces may name further files: with those beside `path`.
+  PolygonSoup (*read_beside)(std::string_view bytes, const std::filesystem::path& path) = nullptr;
   Sources (*read_sources)(std::string_view bytes, const std::string& name, const SurfaceMesh& mesh,
                           std::optional<int> index_base) = nullptr;
   PointTable (*read_table)(std::string_view bytes, const std::string& name) = nullptr;
@@ -89,10 +97,12 @@ bool is_written_as(const std::filesystem::path& path, const Kinds& kinds);
 /// True if a file has this extension, in any case.
 bool has_extension(const std::filesystem::path& path, std::string_view extension);
 
-/// What a file holds, whichever it is; clouds are soups without faces.
-using Content = std::variant<PolygonSoup, Volume, TetFile>;
 /// Reads a surface, cloud, volume or tets. `field` is that of a volume. Throws as the readers do.
 Content read_content(const std::filesystem::path& path, const std::string& field = "");
+
+/// Is a file read as this kind, by its extension or, where that leaves a choice, by what it holds?
+/// Throws as the readers do.
+bool holds(const std::filesystem::path& path, Kind kind);
 
 /// A page or a picture of a scene, by extension. Throws as write_page and write_picture do.
 void write_scene(const std::filesystem::path& path, const Scene& scene);

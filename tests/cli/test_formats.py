@@ -31,16 +31,19 @@ def test_rows_of_the_table(run: Run) -> None:
         {"surface", "cloud", "sources"},
         {"surface", "cloud", "sources", "field"},
     )
-    assert kinds(run, ".npy") == ({"volume", "voxels", "table"}, {"volume", "field", "table"})
+    assert kinds(run, ".npy") == (
+        {"cloud", "volume", "voxels", "table"},
+        {"volume", "field", "table"},
+    )
     assert kinds(run, ".html") == ({""}, {"page"})
     assert ".nrrd" in run("formats").stdout
 
 
 def test_messages_say_what_is_possible(run: Run, mesh: Path, tmp_path: Path) -> None:
-    (tmp_path / "a.vdb").write_text("")
+    (tmp_path / "a.vtp").write_text("")
     for arguments, said in (
         (("info", "a.what"), "a.what: cannot be read as a surface, cloud, volume or tets"),
-        (("info", "a.vdb"), "a.vdb: cannot be read as a surface, cloud, volume or tets"),
+        (("info", "a.vtp"), "a.vtp: cannot be read as a surface, cloud, volume or tets"),
         (("distance", "square.obj", "-o", "a.tet"), "cannot write a.tet as a field, page"),
         (("sdf", "square.obj", "-o", "a.pcd"), "cannot write a.pcd as a volume, tets"),
         (("query", "square.obj", "--points", "square.obj", "-o", "a.vti"), "as a table or cloud"),

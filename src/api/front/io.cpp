@@ -48,10 +48,9 @@ std::string mesh_extensions() {
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  if (io::is_read_as(path, {io::Kind::surface, io::Kind::cloud}))
-    return Mesh(io::read_surface(path));
   io::format_to_read(path.extension().string(), path.string(),
                      {io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
+  if (!io::holds(path, io::Kind::voxels)) return Mesh(io::read_surface(path));
   const io::VoxelMask mask = io::read_voxels(path);
   return Mesh::voxels(mask.grid, mask.inside);
 }

@@ -2,6 +2,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/volume_meaning.h"
+#include "api/tet/tet_boundary.h"
 #include "base/option_table.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -148,7 +149,8 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
         file + " is no volume: option redistance is for " + io::read_extensions({io::Kind::volume}),
         "option-value");
   Shape shape;
-  shape.surface = std::get<PolygonSoup>(std::move(content));
+  const auto* tets = std::get_if<io::TetFile>(&content);
+  shape.surface = tets ? boundary_of(*tets) : std::get<PolygonSoup>(std::move(content));
   return shape;
 }
 

@@ -13,10 +13,9 @@ SurfaceMesh read_mesh(const std::filesystem::path& path) {
 }
 
 SurfaceInput read_domain(const std::filesystem::path& path) {
-  const io::Format& format =
-      io::format_to_read(path.extension().string(), path.string(),
-                         {io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
-  if (!io::reads(format, io::Kind::voxels)) return {read_mesh(path)};
+  io::format_to_read(path.extension().string(), path.string(),
+                     {io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
+  if (!io::holds(path, io::Kind::voxels)) return {read_mesh(path)};
   const io::VoxelMask mask = io::read_voxels(path);
   VoxelSurface surface = boundary_of_voxels(mask.grid, mask.inside);
   return {std::move(surface.mesh), std::move(surface.face_normals)};

@@ -158,7 +158,7 @@ void add_distance(CLI::App& program, Session& session) {
   CLI::App& verb = add_verb(program, session, arguments, "distance",
                             "distance on a surface from curves and points on it, or through tets",
                             [](DistanceArguments& given, Session& s) {
-                              const bool tets = io::is_read_as(given.domain, {Kind::tets});
+                              const bool tets = io::holds(given.domain, Kind::tets);
                               (tets ? measure_through_tets : measure_on_surface)(given, s);
                             });
   add_input_option(verb, "DOMAIN", arguments->domain,

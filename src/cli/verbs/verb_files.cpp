@@ -128,10 +128,13 @@ void contour(FileArguments& arguments, Session& session) {
   if (!arguments.range.empty() && arguments.count == 0)
     throw InputError("option range goes with option count", "option-value");
   const std::size_t count = levels_for(arguments, Eigen::Vector2d(0, 1)).size();
-  const bool lines = io::is_read_as(arguments.in, {Kind::surface, Kind::cloud});
-  check_level_outputs(arguments.outs, count, {lines ? Kind::sources : Kind::surface});
+  io::Kinds outputs;
+  if (io::is_read_as(arguments.in, {Kind::surface, Kind::cloud})) outputs.push_back(Kind::sources);
+  if (io::is_read_as(arguments.in, {Kind::volume, Kind::tets})) outputs.push_back(Kind::surface);
+  if (!outputs.empty()) check_level_outputs(arguments.outs, count, outputs);
   const Overloaded job{
       [&](const Volume& volume) {
+        check_outputs(arguments.outs, {Kind::surface});
         warn_without_box(arguments.in, session);
         session.reading = false;
         write_isosurfaces(arguments.outs,
@@ -139,6 +142,7 @@ void contour(FileArguments& arguments, Session& session) {
                                       session.report, session.task()));
       },
       [&](const io::TetFile& file) {
+        check_outputs(arguments.outs, {Kind::surface});
         std::string name;
         const VecX& values = field_of(file, arguments, name);
         session.reading = false;
@@ -149,6 +153,7 @@ void contour(FileArguments& arguments, Session& session) {
         write_isosurfaces(arguments.outs, surfaces);
       },
       [&](const PolygonSoup& soup) {
+        check_outputs(arguments.outs, {Kind::sources});
         const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
         const SurfaceMesh mesh = mesh_of(soup, arguments.in);
         session.reading = false;

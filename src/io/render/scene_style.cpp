@@ -111,23 +111,30 @@ Rgb value_colour(const FieldStyle& style, double value) {
 
 namespace {
 
-// Which values a field takes on the triangles.
-FieldStyle range_of_field(const Scene& scene, const VecX& values) {
+void widen(FieldStyle& style, double value) {
+  if (!std::isfinite(value)) {
+    style.infinite = true;
+    return;
+  }
+  style.low = std::min(style.low, value);
+  style.high = std::max(style.high, value);
+  style.discrete = style.discrete && value == std::rint(value) && std::abs(value) < 1e6;
+}
+
+FieldStyle empty_style() {
   FieldStyle style;
   style.low = std::numeric_limits<double>::infinity();
   style.high = -style.low;
-  if (values.size() == 0) return style;
   style.discrete = true;
-  for (Eigen::Index i = 0; i < scene.triangles.size(); ++i) {
-    const double value = values[scene.triangles.data()[i]];
-    if (!std::isfinite(value)) {
-      style.infinite = true;
-      continue;
-    }
-    style.low = std::min(style.low, value);
-    style.high = std::max(style.high, value);
-    style.discrete = style.discrete && value == std::rint(value) && std::abs(value) < 1e6;
-  }
+  return style;
+}
+
+// Which values a field takes on the triangles.
+FieldStyle range_of_field(const Scene& scene, const VecX& values) {
+  FieldStyle style = empty_style();
+  if (values.size() == 0) return style;
+  for (Eigen::Index i = 0; i < scene.triangles.size(); ++i)
+    widen(style, values[scene.triangles.data()[i]]);
   return style;
 }
 
@@ -179,23 +186,44 @@ FieldStyle field_style(const Scene& scene) {
   return style;
 }
 
-FieldStyle field_style(const Scene& scene, const SceneField& field) {
-  FieldStyle style = range_of_field(scene, field.values);
+namespace {
+
+FieldStyle style_of_range(FieldStyle style, const std::string& name, double isolines) {
   if (style.low > style.high) {
     FieldStyle none;
     none.infinite = style.infinite;
     return none;
   }
   style.present = true;
-  style.discrete = are_regions(style, field.name);
+  style.discrete = are_regions(style, name);
   choose_colours(style, ColourMap::automatic);
-  if (field.name == "confidence") {
+  if (name == "confidence") {
     style.colour_low = 0;
     style.colour_high = 1;
   }
-  if (!style.discrete && field.name != "confidence")
-    style.spacing = nice_spacing(style.low, style.high, scene.isolines);
+  if (!style.discrete && name != "confidence")
+    style.spacing = nice_spacing(style.low, style.high, isolines);
   return style;
+}
+
+}  // namespace
+
+FieldStyle field_style(const Scene& scene, const SceneField& field) {
+  return style_of_range(range_of_field(scene, field.values), field.name, scene.isolines);
+}
+
+FieldStyle field_style(const VecX& values, const std::string& name) {
+  FieldStyle style = empty_style();
+  for (const double value : values) widen(style, value);
+  return style_of_range(style, name, 0);
+}
+
+std::vector<Rgb> value_colours(const VecX& values, const std::string& name) {
+  const FieldStyle style = field_style(values, name);
+  std::vector<Rgb> out;
+  for (const double value : values)
+    out.push_back(std::isfinite(value) ? value_colour(style, value) : infinite_colour);
+  return out;
 }
 
 double colour_position(const FieldStyle& style, double value) {

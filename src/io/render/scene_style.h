@@ -48,6 +48,12 @@ FieldStyle field_style(const Scene& scene);
 /// The style of another field of the same surface.
 FieldStyle field_style(const Scene& scene, const SceneField& field);
 
+/// The style of values at points, whatever joins these.
+FieldStyle field_style(const VecX& values, const std::string& name);
+
+/// One colour for each value; grey where it is not finite.
+std::vector<Rgb> value_colours(const VecX& values, const std::string& name);
+
 /// The colours (256) of a map, from low to high, as in colour_maps.inc; not of automatic.
 const std::array<Rgb, 256>& colour_map(ColourMap map);
 

@@ -1,7 +1,8 @@
-// Geomview OFF, text form.
+// Geomview OFF, text or binary.
 
 #include <limits>
 
+#include "io/binary.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -10,7 +11,7 @@ namespace littoral::io {
 namespace {
 
 struct OffHeader {
-  bool normals = false;
+  bool normals = false, colours = false, texture = false, binary = false;
   std::int64_t vertices = 0, faces = 0;
 };
 
@@ -24,8 +25,8 @@ bool parse_magic(const LineScanner& scan, std::string_view word, OffHeader& head
     if (found) word.remove_prefix(prefix.size());
     return found;
   };
-  skip("ST");
-  skip("C");
+  header.texture = skip("ST");
+  header.colours = skip("C");
   header.normals = skip("N");
   const bool homogeneous = skip("4"), any_dimension = skip("n");
   if (!skip("OFF") && !skip("off")) return false;
@@ -42,7 +43,10 @@ OffHeader read_header(LineScanner& scan, std::size_t size) {
   std::string_view word = scan.word();
   if (parse_magic(scan, word, header, glued)) {
     word = glued.empty() ? scan.word() : glued;
-    if (word == "BINARY") scan.fail("binary OFF is not supported, only its text form");
+    if (word == "BINARY") {
+      header.binary = true;
+      return header;
+    }
     if (word.empty()) {
       if (!scan.next()) scan.fail("the file ends before the counts of vertices and faces");
       word = scan.word();
@@ -93,11 +97,91 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
   }
 }
 
+// After the first line: counts of vertices, faces and edges; a vertex's coordinates, normal, colour
+// (four numbers) and texture (two); a face's corners and colour after the counts of both. All take
+// four bytes, the highest first.
+class BinaryOff {
+ public:
+  BinaryOff(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
+    const std::size_t line = bytes.find('\n');
+    at_ = line == std::string_view::npos ? bytes.size() : line + 1;
+  }
+
+  PolygonSoup read(OffHeader header) {
+    header.vertices = count("vertices", 12);
+    header.faces = count("faces", 8);
+    next<std::int32_t>("the number of edges");
+    if (header.vertices == 0) throw InputError(name_ + ": no vertices", "bad-file");
+    PolygonSoup soup;
+    soup.points.resize(header.vertices, 3);
+    if (header.normals) soup.normals.resize(header.vertices, 3);
+    const int more = (header.colours ? 4 : 0) + (header.texture ? 2 : 0);
+    for (std::int64_t v = 0; v < header.vertices; ++v) {
+      const auto number = [&] { return next<float>("vertex ", v); };
+      for (int k = 0; k < 3; ++k) soup.points(v, k) = number();
+      for (int k = 0; k < 3 && header.normals; ++k) soup.normals(v, k) = number();
+      for (int k = 0; k < more; ++k) number();
+    }
+    for (std::int64_t f = 0; f < header.faces; ++f) read_face(f, header.vertices, soup);
+    return soup;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& text) const {
+    throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text, "bad-file");
+  }
+
+  template <class T>
+  T next(const char* what, std::int64_t number = -1) {
+    if (bytes_.size() - at_ < sizeof(T))
+      fail("the file ends within " + std::string(what) +
+           (number < 0 ? "" : std::to_string(number)));
+    at_ += sizeof(T);
+    return load<T>(bytes_.data() + at_ - sizeof(T), std::endian::big);
+  }
+
+  /// A count of things of which each takes `least` bytes.
+  std::int64_t count(const std::string& what, std::size_t least) {
+    const auto n = next<std::int32_t>("the header");
+    if (n < 0) fail("negative number of " + what);
+    if (static_cast<std::size_t>(n) > (bytes_.size() - at_) / least)
+      fail("the header promises " + std::to_string(n) + " " + what + ", the file has " +
+           std::to_string(bytes_.size()) + " bytes");
+    return n;
+  }
+
+  void read_face(std::int64_t f, std::int64_t vertices, PolygonSoup& soup) {
+    const std::string face = "face " + std::to_string(f);
+    const auto degree = next<std::int32_t>("face ", f);
+    if (degree < 3)
+      fail(face + " has " + std::to_string(degree) + " corners, at least 3 are needed");
+    for (std::int32_t k = 0; k < degree; ++k) {
+      const auto v = next<std::int32_t>("face ", f);
+      if (v < 0 || v >= vertices)
+        fail(face + " refers to vertex " + std::to_string(v) + ", the file has " +
+             std::to_string(vertices) + " (counted from 0)");
+      soup.corners.push_back(v);
+    }
+    if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      fail("more than 2147483647 corners");
+    soup.face_offsets.push_back(static_cast<int>(soup.corners.size()));
+    const auto colours = next<std::int32_t>("face ", f);
+    if (colours < 0 || static_cast<std::size_t>(colours) > (bytes_.size() - at_) / 4)
+      fail(face + " has a colour of " + std::to_string(colours) + " numbers");
+    at_ += 4 * static_cast<std::size_t>(colours);
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+};
+
 }  // namespace
 
 PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   LineScanner scan(without_byte_order_mark(bytes, name), name, '#');
   const OffHeader header = read_header(scan, bytes.size());
+  if (header.binary) return BinaryOff(bytes, name).read(header);
   if (header.vertices == 0) throw InputError(name + ": no vertices", "bad-file");
   PolygonSoup soup;
   soup.points.resize(header.vertices, 3);

@@ -1,12 +1,11 @@
 // STL, text and binary.
 
 #include <array>
-#include <bit>
 #include <cstring>
 #include <limits>
-#include <unordered_map>
 
 #include "io/binary.h"
+#include "io/surface/point_merger.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -16,37 +15,6 @@ namespace {
 
 constexpr std::size_t header_size = 84;    // 80 bytes of text and the count
 constexpr std::size_t triangle_size = 50;  // normal, three corners, two bytes of attributes
-
-// Numbers points by position; the first corner at a position decides its vertex number.
-class Merger {
- public:
-  int vertex(double x, double y, double z) {
-    // -0 and 0 are the same place.
-    const std::array<std::uint64_t, 3> key{bits(x), bits(y), bits(z)};
-    const auto [entry, is_new] = numbers_.try_emplace(key, static_cast<int>(numbers_.size()));
-    if (is_new) coordinates_.insert(coordinates_.end(), {x, y, z});
-    return entry->second;
-  }
-  MatX3 points() const {
-    return Eigen::Map<const MatX3>(coordinates_.data(),
-                                   static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
-  }
-
- private:
-  static std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); }
-  struct Hash {
-    std::size_t operator()(const std::array<std::uint64_t, 3>& key) const {
-      std::uint64_t h = 0;
-      for (std::uint64_t k : key) {
-        h = (h ^ k) * 0x9E3779B97F4A7C15u;
-        h ^= h >> 32;
-      }
-      return static_cast<std::size_t>(h);
-    }
-  };
-  std::unordered_map<std::array<std::uint64_t, 3>, int, Hash> numbers_;
-  std::vector<double> coordinates_;
-};
 
 bool same_word(std::string_view word, std::string_view expected) {
   return word.size() == expected.size() && lower_case(std::string(word)) == expected;
@@ -86,7 +54,7 @@ class StlWords {
 };
 
 // facet normal x y z / outer loop / vertex x y z (three times) / endloop / endfacet, after "facet".
-void read_facet(StlWords& words, Merger& merger, PolygonSoup& soup) {
+void read_facet(StlWords& words, PointMerger& merger, PolygonSoup& soup) {
   words.expect("normal");
   // The normal is not used, and some programs write words in it that are no numbers.
   for (int k = 0; k < 3; ++k) words.next();
@@ -105,7 +73,7 @@ void read_facet(StlWords& words, Merger& merger, PolygonSoup& soup) {
 
 PolygonSoup read_text(std::string_view bytes, const std::string& name) {
   StlWords words(without_byte_order_mark(bytes, name), name);
-  Merger merger;
+  PointMerger merger;
   PolygonSoup soup;
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (same_word(word, "solid") || same_word(word, "endsolid")) {
@@ -134,7 +102,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
                          " triangles, the data hold " + std::to_string(fit),
                      "bad-file");
   }
-  Merger merger;
+  PointMerger merger;
   PolygonSoup soup;
   for (std::uint64_t f = 0; f < count; ++f) {
     const char* corner = bytes.data() + header_size + f * triangle_size + 12;

@@ -37,7 +37,10 @@ PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extens
 }
 
 PolygonSoup read_surface(const std::filesystem::path& path) {
-  return read_surface_bytes(read_bytes(path), path.extension().string(), path.string());
+  const std::string extension = path.extension().string();
+  const Format& format = format_to_read(extension, path.string(), {Kind::surface, Kind::cloud});
+  if (format.read_beside) return format.read_beside(read_bytes(path), path);
+  return read_surface_bytes(read_bytes(path), extension, path.string());
 }
 
 }  // namespace littoral::io

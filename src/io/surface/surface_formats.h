@@ -3,6 +3,7 @@
 // answers any bytes with what they say or an InputError. Points are kept even where they are not
 // finite.
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -14,13 +15,26 @@ namespace littoral::io {
 /// and the texture's u (as scalar "u") are kept where each vertex has exactly one.
 PolygonSoup read_obj(std::string_view bytes, const std::string& name);
 
-/// Geomview OFF with any of the prefixes ST, C, N; normals are kept, colours are not.
+/// Geomview OFF, text or binary, with any of the prefixes ST, C, N; normals are kept, colours are
+/// not.
 PolygonSoup read_off(std::string_view bytes, const std::string& name);
 
 /// Stanford PLY, ascii or binary of either byte order. Normals and the vertices' floating-point
 /// properties are kept; edges become lines, joined while one begins where the last one ended (or by
 /// the property "line" of our own files).
 PolygonSoup read_ply(std::string_view bytes, const std::string& name);
+
+/// The surfaces, lines and points of a glTF scene (.gltf, .glb), placed by its nodes. Vertices of a
+/// mesh at one place are one; normals are kept where each has exactly one, attributes "_NAME" as
+/// scalars "name". Skins, morphs and compressed meshes are UnsupportedErrors.
+PolygonSoup read_gltf(std::string_view bytes, const std::string& name);
+/// The same with buffers in files beside it.
+PolygonSoup read_gltf_beside(std::string_view bytes, const std::filesystem::path& path);
+
+/// 3MF: the triangles of all items to be built, placed by their transforms and those of components,
+/// in millimetres. Items in other parts of the file (production extension) are read; other required
+/// extensions than that and materials are UnsupportedErrors.
+PolygonSoup read_3mf(std::string_view bytes, const std::string& name);
 
 /// STL, ascii or binary: told apart by the size that the triangle count asks for, not by the first
 /// word. Corners at the same position are merged; facet normals are ignored.

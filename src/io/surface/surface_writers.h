@@ -12,14 +12,27 @@ namespace littoral::io {
 /// The shortest text that reads back as the same double; "inf", "-inf" and "nan" where it is none.
 std::string exact_text(double value);
 
-/// The field, where the soup has it, becomes the texture coordinate u.
+/// The field, where the soup has it, becomes the texture coordinate u. Lines with a scalar "level"
+/// are groups by it.
 void write_obj(std::ostream& out, const PolygonSoup& soup, const std::string& field);
-/// All fields are written. Throws UnsupportedError for names that no property can have.
+/// All fields are written; `field`, where the soup has it, also as colours. Throws UnsupportedError
+/// for names that no property can have.
 void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 void write_off(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// glTF in one file. The field is also the vertices' colours; all scalars are attributes "_NAME",
+/// infinite ones as the largest number. Throws UnsupportedError unless faces are triangles, for
+/// coordinates beyond single precision and for normals without a direction.
+void write_glb(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// Throws UnsupportedError unless faces are triangles with coordinates in the range of single
 /// precision.
 void write_stl(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// Lengths are millimetres. Throws UnsupportedError unless faces are triangles with three different
+/// vertices, all of them finite.
+void write_3mf(std::ostream& out, const PolygonSoup& soup, const std::string& field);
+/// The outline of the faces and the lines, coloured by a scalar "level", seen from the positive
+/// side of the axis along which they are flat. Throws UnsupportedError where they are flat along
+/// none.
+void write_svg(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// VTK's XML polygon data with one scalar per point (appended raw data).
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// Text as it stands between quotes in XML.

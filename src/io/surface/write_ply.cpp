@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/binary.h"
+#include "io/render/scene_style.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -22,7 +23,8 @@ std::size_t largest_face(const PolygonSoup& soup) {
 void check_names(const PolygonSoup& soup) {
   for (const auto& [field, values] : soup.scalars) {
     const bool word = std::ranges::all_of(field, [](char c) { return c > ' ' && c <= '~'; });
-    const std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
+    const std::array<std::string_view, 9> taken{"x",  "y",   "z",     "nx",  "ny",
+                                                "nz", "red", "green", "blue"};
     if (word && !field.empty() && std::ranges::find(taken, field) == taken.end()) continue;
     throw UnsupportedError(
         "the scalar " + in_quotes(field) + " cannot be the name of a PLY property; rename it",
@@ -30,7 +32,7 @@ void check_names(const PolygonSoup& soup) {
   }
 }
 
-void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) {
+void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces, bool colours) {
   out << "ply\nformat binary_little_endian 1.0\ncomment written by littoral\n";
   out << "element vertex " << soup.n_vertices() << '\n';
   for (const char* name : {"x", "y", "z"}) out << "property double " << name << '\n';
@@ -38,6 +40,8 @@ void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) 
     if (soup.normals.rows() > 0) out << "property double " << name << '\n';
   }
   for (const auto& [name, values] : soup.scalars) out << "property double " << name << '\n';
+  for (const char* name : {"red", "green", "blue"})
+    if (colours) out << "property uchar " << name << '\n';
   out << "element face " << soup.n_faces() << '\n';
   out << "property list " << (small_faces ? "uchar" : "int") << " int vertex_indices\n";
   if (!soup.lines.empty()) {
@@ -51,14 +55,19 @@ void write_header(std::ostream& out, const PolygonSoup& soup, bool small_faces) 
 
 }  // namespace
 
-void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string&) {
+void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& field) {
   check_names(soup);
+  const auto shown = soup.scalars.find(field);
+  std::vector<Rgb> colours;
+  if (shown != soup.scalars.end()) colours = value_colours(shown->second, field);
   const bool small_faces = largest_face(soup) <= 255;
-  write_header(out, soup, small_faces);
+  write_header(out, soup, small_faces, !colours.empty());
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v) {
     for (int k = 0; k < 3; ++k) store_little(out, soup.points(v, k));
     for (int k = 0; k < 3 && soup.normals.rows() > 0; ++k) store_little(out, soup.normals(v, k));
     for (const auto& [name, values] : soup.scalars) store_little(out, values(v));
+    if (colours.empty()) continue;
+    for (const unsigned char byte : colours[static_cast<std::size_t>(v)]) store_little(out, byte);
   }
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto face = soup.face(f);

@@ -84,7 +84,15 @@ void write_obj(std::ostream& out, const PolygonSoup& soup, const std::string& fi
     }
     out << '\n';
   }
-  for (const auto& line : soup.lines) {
+  // Isolines are groups by their level.
+  const auto levels = soup.scalars.find("level");
+  for (std::size_t i = 0; i < soup.lines.size(); ++i) {
+    const auto& line = soup.lines[i];
+    if (levels != soup.scalars.end()) {
+      const double level = levels->second(line.front());
+      if (i == 0 || level != levels->second(soup.lines[i - 1].front()))
+        out << "g level_" << exact_text(level) << '\n';
+    }
     out << 'l';
     for (int v : line) out << ' ' << v + 1;
     out << '\n';

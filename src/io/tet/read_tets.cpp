@@ -1,10 +1,12 @@
 // Tets as words: Medit and .tet.
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "io/formats.h"
 #include "io/read.h"
+#include "io/tet/cell_mesh.h"
 #include "io/tet/tet_formats.h"
 #include "littoral/error.h"
 
@@ -43,39 +45,48 @@ void read_points(WordScanner& scan, int n, int base, bool reference, MatX3& poin
 struct Section {
   const char* name;
   int numbers;  // per element, its reference among them
-  bool solid;   // a cell in space that is no tetrahedron
 };
 constexpr Section sections[] = {
-    {"Edges", 3, false},
-    {"Corners", 1, false},
-    {"Ridges", 1, false},
-    {"RequiredVertices", 1, false},
-    {"RequiredEdges", 1, false},
-    {"RequiredTriangles", 1, false},
-    {"Quadrilaterals", 5, false},
-    {"RequiredQuadrilaterals", 1, false},
-    {"Hexahedra", 9, true},
-    {"Hexaedra", 9, true},
-    {"Prisms", 7, true},
-    {"Pyramids", 6, true},
-    {"Normals", 3, false},
-    {"Tangents", 3, false},
-    {"NormalAtVertices", 2, false},
-    {"TangentAtVertices", 2, false},
-    {"TangentAtEdges", 3, false},
-    {"NormalAtTriangleVertices", 3, false},
+    {"Edges", 3},
+    {"Corners", 1},
+    {"Ridges", 1},
+    {"RequiredVertices", 1},
+    {"RequiredEdges", 1},
+    {"RequiredTriangles", 1},
+    {"RequiredQuadrilaterals", 1},
+    {"Normals", 3},
+    {"Tangents", 3},
+    {"NormalAtVertices", 2},
+    {"TangentAtVertices", 2},
+    {"TangentAtEdges", 3},
+    {"NormalAtTriangleVertices", 3},
+};
+
+struct CellSection {
+  const char *name, *element;
+  int corners, kind;
+};
+constexpr CellSection cell_sections[] = {
+    {"Triangles", "triangle", 3, CellMesh::triangle},
+    {"Quadrilaterals", "quad", 4, CellMesh::quad},
+    {"Tetrahedra", "tet", 4, CellMesh::tet},
+    {"Hexahedra", "hexahedron", 8, CellMesh::hexahedron},
+    {"Hexaedra", "hexahedron", 8, CellMesh::hexahedron},
+    {"Prisms", "prism", 6, CellMesh::prism},
+    {"Pyramids", "pyramid", 5, CellMesh::pyramid},
 };
 
 /// Elements of a section, with a reference each.
-template <int corners>
-void read_elements(WordScanner& scan, const char* what, const char* element, int n_vertices,
-                   Rows<int, corners>& out) {
-  const int n = scan.count(what, 2 * (corners + 1));
-  out.resize(n, corners);
+void read_elements(WordScanner& scan, const CellSection& section, CellMesh& cells) {
+  const int n = scan.count(section.name, 2 * static_cast<std::size_t>(section.corners + 1));
+  const int n_vertices = static_cast<int>(cells.points.rows());
+  std::vector<int> corners(static_cast<std::size_t>(section.corners));
   for (int e = 0; e < n; ++e) {
-    for (int k = 0; k < corners; ++k) out(e, k) = scan.vertex(element, e + 1, 1, n_vertices);
-    scan.number(
-        [&] { return "the reference of " + std::string(element) + " " + std::to_string(e + 1); });
+    for (int& corner : corners) corner = scan.vertex(section.element, e + 1, 1, n_vertices);
+    cells.add(static_cast<std::size_t>(e + 1), section.kind, corners);
+    scan.number([&] {
+      return "the reference of " + std::string(section.element) + " " + std::to_string(e + 1);
+    });
   }
 }
 
@@ -83,9 +94,6 @@ void skip_section(WordScanner& scan, const std::string& keyword) {
   for (const Section& s : sections) {
     if (keyword != s.name) continue;
     const int n = scan.count(s.name, 2);
-    if (s.solid && n > 0)
-      throw UnsupportedError("section " + keyword + ": only tetrahedra fill space here",
-                             "unsupported-file");
     for (std::int64_t i = 0; i < std::int64_t{n} * s.numbers; ++i)
       scan.number([&] { return "a number of section " + keyword; });
     return;
@@ -99,30 +107,27 @@ TetFile read_medit(std::string_view bytes, const std::string& name) {
   WordScanner scan(bytes, name);
   if (scan.word() != "MeshVersionFormatted") scan.fail("expected MeshVersionFormatted");
   scan.integer([] { return std::string("the version"); });
-  TetFile file;
+  CellMesh cells;
+  cells.name = name;
   bool vertices = false;
   for (std::string keyword(scan.word()); !keyword.empty() && keyword != "End";
        keyword = scan.word()) {
+    const auto section = std::ranges::find_if(
+        cell_sections, [&](const CellSection& known) { return keyword == known.name; });
     if (keyword == "Dimension") {
       if (scan.integer([] { return std::string("the dimension"); }) != 3)
         scan.fail("the dimension must be 3");
     } else if (keyword == "Vertices") {
       if (vertices) scan.fail("a second section Vertices");
       vertices = true;
-      read_points(scan, scan.count("vertices", 8), 1, true, file.mesh.points);
-    } else if (keyword == "Tetrahedra") {
-      read_elements<4>(scan, "tetrahedra", "tet", file.mesh.n_vertices(), file.mesh.tets);
-    } else if (keyword == "Triangles") {
-      read_elements<3>(scan, "triangles", "triangle", file.mesh.n_vertices(), file.triangles);
+      read_points(scan, scan.count("vertices", 8), 1, true, cells.points);
+    } else if (section != std::end(cell_sections)) {
+      read_elements(scan, *section, cells);
     } else {
-      try {
-        skip_section(scan, keyword);
-      } catch (const UnsupportedError& e) {
-        throw UnsupportedError(name + ": " + e.what(), e.code());
-      }
+      skip_section(scan, keyword);
     }
   }
-  return file;
+  return cells.as_tets();
 }
 
 TetFile read_tet(std::string_view bytes, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/tet/cell_mesh.h"
 #include "io/tet/tet_formats.h"
 #include "io/volume/volume_formats.h"
 #include "littoral/error.h"
@@ -129,14 +130,16 @@ class VtkScanner {
 
 class VtkReader {
  public:
-  VtkReader(std::string_view bytes, const std::string& name) : scan_(bytes, name) {}
+  VtkReader(std::string_view bytes, const std::string& name) : scan_(bytes, name) {
+    cells_.name = name;
+  }
 
   TetFile read() {
     header();
     for (std::string_view word = scan_.word(); !word.empty(); word = scan_.word())
       section(lower_case(std::string(word)));
     build();
-    return std::move(file_);
+    return cells_.as_tets();
   }
 
  private:
@@ -161,7 +164,7 @@ class VtkReader {
       const std::int64_t n = scan_.count("points");
       const std::string type(scan_.word_of_line());
       const VecX x = scan_.numbers(3 * n, type, "POINTS");
-      file_.mesh.points = Eigen::Map<const MatX3>(x.data(), n, 3);
+      cells_.points = Eigen::Map<const MatX3>(x.data(), n, 3);
     } else if (keyword == "cells") {
       cells();
     } else if (keyword == "cell_types") {
@@ -214,8 +217,8 @@ class VtkReader {
   /// Values at points or cells: one component each is kept.
   void keep(const std::string& name, int components, std::int64_t tuples, const std::string& type) {
     VecX values = scan_.numbers(components * tuples, type, name.c_str());
-    if (at_points_ && components == 1 && tuples == file_.mesh.n_vertices())
-      file_.scalars[name] = std::move(values);
+    if (at_points_ && components == 1 && tuples == cells_.points.rows())
+      cells_.scalars[name] = std::move(values);
   }
 
   int components() {
@@ -274,48 +277,24 @@ class VtkReader {
     }
   }
 
-  /// Corners of the cells of one type, all of them with as many.
-  template <int degree>
-  void gather(int type, Rows<int, degree>& out) const {
-    std::vector<int> found;
-    for (Eigen::Index c = 0; c < types_.size(); ++c) {
-      if (types_[c] != type) continue;
-      const auto at = static_cast<std::size_t>(c);
-      const std::string cell = "cell " + std::to_string(c);
-      if (starts_[at + 1] - starts_[at] != degree)
-        scan_.fail(cell + " of type " + std::to_string(type) + " must have " +
-                   std::to_string(degree) + " corners");
-      for (int k = 0; k < degree; ++k) {
-        const double v = corners_[static_cast<Eigen::Index>(starts_[at]) + k];
-        if (!(v >= 0 && v < file_.mesh.n_vertices()))
-          scan_.fail(cell + " refers to vertex " + exact(v) + ", the file has " +
-                     std::to_string(file_.mesh.n_vertices()) + " (counted from 0)");
-        found.push_back(static_cast<int>(v));
-      }
-    }
-    out = Eigen::Map<const Rows<int, degree>>(
-        found.data(), static_cast<Eigen::Index>(found.size()) / degree, degree);
-  }
-  static std::string exact(double v) {
-    return std::abs(v) < 1e15 ? std::to_string(static_cast<std::int64_t>(v)) : "out of range";
-  }
-
   void build() {
     const std::size_t n = starts_.empty() ? 0 : starts_.size() - 1;
     if (static_cast<std::size_t>(types_.size()) != n)
       scan_.fail("there are " + std::to_string(n) + " cells and " + std::to_string(types_.size()) +
                  " cell types");
-    constexpr int triangle = 5, tet = 10, last_flat = 9;
-    for (Eigen::Index c = 0; c < types_.size(); ++c)
-      if (types_[c] != tet && !(types_[c] >= 0 && types_[c] <= last_flat))
-        scan_.unsupported("cell " + std::to_string(c) + " is of type " + exact(types_[c]) +
-                          "; tetrahedra have 10, and only these fill space here");
-    gather<4>(tet, file_.mesh.tets);
-    gather<3>(triangle, file_.triangles);
+    std::vector<int> corners;
+    for (std::size_t c = 0; c < n; ++c) {
+      corners.clear();
+      for (auto k = static_cast<Eigen::Index>(starts_[c]);
+           k < static_cast<Eigen::Index>(starts_[c + 1]); ++k)
+        corners.push_back(cells_.corner(c, corners_[k]));
+      const double type = types_[static_cast<Eigen::Index>(c)];
+      cells_.add(c, std::abs(type) < 1e9 ? static_cast<int>(type) : -1, corners);
+    }
   }
 
   VtkScanner scan_;
-  TetFile file_;
+  CellMesh cells_;
   bool modern_ = false, at_points_ = true;
   std::int64_t values_ = 0;     // points or cells that attributes have values at
   std::vector<double> starts_;  // per cell, and the end, into corners_

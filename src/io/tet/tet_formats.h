@@ -15,6 +15,11 @@ namespace littoral::io {
 TetFile read_medit(std::string_view bytes, const std::string& name);
 TetFile read_tet(std::string_view bytes, const std::string& name);
 TetFile read_vtk(std::string_view bytes, const std::string& name);
+TetFile read_vtu_tets(std::string_view bytes, const std::string& name);
+TetFile read_msh_tets(std::string_view bytes, const std::string& name);
+/// The polygons among the cells.
+PolygonSoup read_vtu_surface(std::string_view bytes, const std::string& name);
+PolygonSoup read_msh_surface(std::string_view bytes, const std::string& name);
 
 void write_vtk(std::ostream& out, const TetMesh& mesh, const VecX& values,
                const std::string& field);

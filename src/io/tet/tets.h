@@ -18,13 +18,16 @@ struct TetFile {
 };
 
 /// Reads tets by extension (any case):
-///   .mesh  Medit, text: Vertices, Tetrahedra and Triangles; other sections are skipped, but those
-///          of other cells in space are refused
-///   .vtk   VTK legacy, text or binary, versions 1 to 5: an unstructured grid of tetrahedra, of
-///          which triangles are kept and lower cells skipped; scalars at points
+///   .mesh  Medit, text: Vertices, Tetrahedra, Hexahedra, Prisms, Pyramids, Triangles and
+///          Quadrilaterals; other sections are skipped
+///   .vtk   VTK legacy, text or binary, versions 1 to 5: an unstructured grid; scalars at points
+///   .vtu   the same as XML: text, base64 or appended, plain or packed by zlib
+///   .msh   Gmsh 2 and 4, text or binary
 ///   .tet   counts of vertices and tets, x y z, then 4 a b c d (from 0)
-/// Errors: InputError "name:line: ..." for text, "name: byte N: ..." for binary files, with the
-/// number of the element; UnsupportedError for cells that are not tetrahedra; IoError.
+/// Hexahedra, prisms and pyramids are cut into tets that fit together (io/tet/cell_mesh.h),
+/// polygons among the cells into triangles. Errors: InputError "name:line: ..." for text, "name:
+/// byte N: ..." for binary files, with the number of the element; UnsupportedError for cells of
+/// other kinds; IoError.
 TetFile read_tets(const std::filesystem::path& path);
 
 /// The same from memory. Never allocates more than a small multiple of bytes.size().

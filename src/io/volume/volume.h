@@ -44,8 +44,8 @@ struct VolumeWriteOptions {
 void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeWriteOptions& options = {});
 
-/// True if .vdb can be written: the module littoral_vdb is there (io/volume/vdb_module.h). Loads
-/// it.
+/// True if .vdb can be read and written: the module littoral_vdb is there (io/volume/vdb_module.h).
+/// Loads it.
 bool has_openvdb();
 
 }  // namespace littoral::io

@@ -24,6 +24,10 @@ void write_nrrd(std::ostream& out, const Volume& volume, const VolumeWriteOption
 void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 
+/// The box of a grid's active voxels; beyond a level set's band there is its background. Needs
+/// has_openvdb().
+Volume read_vdb(std::string_view bytes, const std::string& name, const std::string& field);
+
 /// The header of a NumPy file: shape, type and order; nothing if it is none.
 struct NpyHeader {
   std::string type;  // "<f8"
@@ -44,6 +48,8 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name);
 /// array[i, j, k] at x_i, y_j, z_k; spacing 1, origin 0. Throws InputError unless it has three
 /// axes.
 Volume npy_volume(const NpyArray& array, const std::string& name);
+/// Points N x 3, or N x 6 with normals. Throws InputError for other shapes.
+PolygonSoup npy_cloud(const NpyArray& array, const std::string& name);
 /// Throws InputError unless the array is N x 3.
 MatX3 npy_points(const NpyArray& array, const std::string& name);
 
@@ -51,6 +57,11 @@ MatX3 npy_points(const NpyArray& array, const std::string& name);
 /// "spacing" (three numbers each, or one), points are "points" or the only array of N x 3.
 Volume read_npz_volume(std::string_view bytes, const std::string& name, const std::string& field);
 void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
+
+/// Clouds: normals are "normals" (N x 3) or the last three columns of the points, any other array
+/// of one axis and N numbers is a scalar.
+PolygonSoup read_npy_cloud(std::string_view bytes, const std::string& name);
+PolygonSoup read_npz_cloud(std::string_view bytes, const std::string& name);
 
 /// How numbers are stored.
 struct NumberKind {

@@ -1,7 +1,10 @@
 // NumPy arrays of three dimensions.
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
+#include "io/any_formats.h"
 #include "io/binary.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
@@ -116,23 +119,54 @@ Volume npy_volume(const NpyArray& array, const std::string& name) {
   return volume;
 }
 
-MatX3 npy_points(const NpyArray& array, const std::string& name) {
-  if (array.shape.size() != 2 || array.shape[1] != 3) {
+namespace {
+
+/// The numbers of an array of N rows.
+Eigen::MatrixXd npy_rows(const NpyArray& array, const std::string& expected,
+                         std::initializer_list<std::int64_t> columns, const std::string& name) {
+  if (array.shape.size() != 2 || std::ranges::find(columns, array.shape[1]) == columns.end()) {
     std::string shape;
     for (const std::int64_t n : array.shape)
       shape += (shape.empty() ? "" : " x ") + std::to_string(n);
-    throw InputError(name + ": points are an array of N x 3, this one is " +
-                         (shape.empty() ? "a number" : shape),
-                     "bad-file");
+    throw InputError(
+        name + ": " + expected + ", this one is " + (shape.empty() ? "a number" : shape),
+        "bad-file");
   }
-  if (array.shape[0] == 0) throw InputError(name + ": no points", "bad-file");
-  const Eigen::Index rows = array.numbers.size() / 3;
-  if (array.fortran) return Eigen::Map<const Eigen::MatrixX3d>(array.numbers.data(), rows, 3);
-  return Eigen::Map<const MatX3>(array.numbers.data(), rows, 3);
+  const Eigen::Index rows = array.shape[0], n = array.shape[1];
+  if (rows == 0) throw InputError(name + ": no points", "bad-file");
+  if (rows > std::numeric_limits<int>::max())
+    throw InputError(name + ": more than 2147483647 points", "bad-file");
+  if (array.fortran) return Eigen::Map<const Eigen::MatrixXd>(array.numbers.data(), rows, n);
+  return Eigen::Map<const Rows<double, Eigen::Dynamic>>(array.numbers.data(), rows, n);
+}
+
+}  // namespace
+
+PolygonSoup npy_cloud(const NpyArray& array, const std::string& name) {
+  const Eigen::MatrixXd rows =
+      npy_rows(array, "points are an array of N x 3, or N x 6 with normals", {3, 6}, name);
+  PolygonSoup cloud;
+  cloud.points = rows.leftCols(3);
+  if (rows.cols() == 6) cloud.normals = rows.rightCols(3);
+  return cloud;
+}
+
+MatX3 npy_points(const NpyArray& array, const std::string& name) {
+  return npy_rows(array, "points are an array of N x 3", {3}, name);
 }
 
 Volume read_npy_volume(std::string_view bytes, const std::string& name, const std::string&) {
   return npy_volume(read_npy_array(bytes, name), name);
+}
+
+PolygonSoup read_npy_cloud(std::string_view bytes, const std::string& name) {
+  return npy_cloud(read_npy_array(bytes, name), name);
+}
+
+Content read_npy(std::string_view bytes, const std::string& name, const std::string&) {
+  const NpyArray array = read_npy_array(bytes, name);
+  if (array.shape.size() == 2) return npy_cloud(array, name);
+  return npy_volume(array, name);
 }
 
 PointTable read_npy_points(std::string_view bytes, const std::string& name) {

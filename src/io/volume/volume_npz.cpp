@@ -4,7 +4,7 @@
 #include <map>
 #include <sstream>
 
-#include "base/option_table.h"
+#include "io/any_formats.h"
 #include "io/volume/volume_formats.h"
 #include "io/write_table.h"
 #include "io/zip_archive.h"
@@ -30,7 +30,9 @@ NpyArrays read_arrays(std::string_view bytes, const std::string& name) {
 }
 
 std::string names_of(const NpyArrays& arrays) {
-  return arrays.empty() ? "none" : listed_names(arrays);
+  std::string names;
+  for (const auto& [key, array] : arrays) names += (names.empty() ? "" : ", ") + key;
+  return names.empty() ? "none" : names;
 }
 
 /// The array wanted by name or, where there is none of these names, the only one that will do.
@@ -85,10 +87,7 @@ std::string npy_bytes(Write write) {
   return out.str();
 }
 
-}  // namespace
-
-Volume read_npz_volume(std::string_view bytes, const std::string& name, const std::string& field) {
-  const NpyArrays arrays = read_arrays(bytes, name);
+Volume volume_in(const NpyArrays& arrays, const std::string& name, const std::string& field) {
   std::string chosen;
   const auto wanted = field.empty() ? std::vector<std::string>{"distance", "values"}
                                     : std::vector<std::string>{field};
@@ -104,6 +103,52 @@ Volume read_npz_volume(std::string_view bytes, const std::string& name, const st
   read_triple(arrays, "spacing", name, volume.grid.spacing);
   check_box(volume.grid, name);
   return volume;
+}
+
+PolygonSoup cloud_in(const NpyArrays& arrays, const std::string& name) {
+  std::string chosen;
+  const NpyArray& points = choose_array(
+      arrays, {"points"}, "points, N x 3", name,
+      [&](const NpyArray& array) {
+        const auto normals = arrays.find("normals");
+        return array.shape.size() == 2 && (array.shape[1] == 3 || array.shape[1] == 6) &&
+               (normals == arrays.end() || &array != &normals->second);
+      },
+      chosen);
+  PolygonSoup cloud = npy_cloud(points, name + ": " + chosen);
+  const auto same_count = [&](const std::string& key, Eigen::Index count) {
+    if (count != cloud.points.rows())
+      throw InputError(name + ": " + std::to_string(count) + " " + key + " for " +
+                           std::to_string(cloud.points.rows()) + " points",
+                       "bad-file");
+  };
+  for (const auto& [key, array] : arrays) {
+    if (key == "normals") {
+      cloud.normals = npy_points(array, name + ": normals");
+      same_count(key, cloud.normals.rows());
+    } else if (array.shape.size() == 1 && array.shape[0] == cloud.points.rows()) {
+      cloud.scalars[key] = array.numbers;
+    }
+  }
+  return cloud;
+}
+
+}  // namespace
+
+Volume read_npz_volume(std::string_view bytes, const std::string& name, const std::string& field) {
+  return volume_in(read_arrays(bytes, name), name, field);
+}
+
+PolygonSoup read_npz_cloud(std::string_view bytes, const std::string& name) {
+  return cloud_in(read_arrays(bytes, name), name);
+}
+
+Content read_npz(std::string_view bytes, const std::string& name, const std::string& field) {
+  const NpyArrays arrays = read_arrays(bytes, name);
+  const auto is_volume = [](const auto& entry) { return entry.second.shape.size() == 3; };
+  if (std::ranges::none_of(arrays, is_volume) && arrays.contains("points"))
+    return cloud_in(arrays, name);
+  return volume_in(arrays, name, field);
 }
 
 void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {

@@ -1,6 +1,8 @@
-// Finding the module that writes .vdb.
+// Finding the module that reads and writes .vdb.
 
+#include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include "base/platform/shared_library.h"
@@ -43,6 +45,18 @@ const VdbModule* module() {
 }  // namespace
 
 bool has_openvdb() { return module() != nullptr; }
+
+Volume read_vdb(std::string_view bytes, const std::string& name, const std::string& field) {
+  // A sparse grid may stand for many more nodes than it holds.
+  constexpr double each = 1000, always = 1e8;
+  std::istringstream in{std::string(bytes)};
+  Volume volume;
+  const std::string error =
+      module()->read(in, field, std::max(always, each * static_cast<double>(bytes.size())), volume);
+  if (!error.empty()) throw InputError(name + ": " + error, "bad-file");
+  check_box(volume.grid, name);
+  return volume;
+}
 
 void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options) {
   if (module() == nullptr)

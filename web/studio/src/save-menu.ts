@@ -5,7 +5,7 @@ import type { Engine } from "./engine";
 import { linesAsSvg, picture } from "./saving";
 import type { Stage } from "./stage";
 
-const fieldFormats = [".ply", ".csv", ".npy", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
+const fieldFormats = [".ply", ".glb", ".csv", ".npy", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
 
 export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   const menu = element<HTMLDetailsElement>("save-menu");

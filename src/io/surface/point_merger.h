@@ -1,0 +1,46 @@
+#pragma once
+// One vertex for corners at one place, where a format gives every corner its own.
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "littoral/types.h"
+
+namespace littoral::io {
+
+/// Numbers points by position; the first corner at a position decides its vertex number.
+class PointMerger {
+ public:
+  /// Points of different `tag` stay apart.
+  int vertex(double x, double y, double z, std::uint64_t tag = 0) {
+    // -0 and 0 are the same place.
+    const std::array<std::uint64_t, 4> key{bits(x), bits(y), bits(z), tag};
+    const auto [entry, is_new] = numbers_.try_emplace(key, static_cast<int>(numbers_.size()));
+    if (is_new) coordinates_.insert(coordinates_.end(), {x, y, z});
+    return entry->second;
+  }
+  MatX3 points() const {
+    return Eigen::Map<const MatX3>(coordinates_.data(),
+                                   static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
+  }
+
+ private:
+  static std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); }
+  struct Hash {
+    std::size_t operator()(const std::array<std::uint64_t, 4>& key) const {
+      std::uint64_t h = 0;
+      for (std::uint64_t k : key) {
+        h = (h ^ k) * 0x9E3779B97F4A7C15u;
+        h ^= h >> 32;
+      }
+      return static_cast<std::size_t>(h);
+    }
+  };
+  std::unordered_map<std::array<std::uint64_t, 4>, int, Hash> numbers_;
+  std::vector<double> coordinates_;
+};
+
+}  // namespace littoral::io

@@ -159,7 +159,7 @@ const Format& format_to_read(const std::string& extension, const std::string& na
   if (format && holds_any(*format, kinds, reads)) {
     if (format->available && !format->available())
       throw UnsupportedError(name + ": cannot be read: " + std::string(format->unless),
-                             "unsupported-file");
+                             "unknown-format");
     return *format;
   }
   const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);

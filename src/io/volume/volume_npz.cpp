@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/option_table.h"
 #include "io/any_formats.h"
 #include "io/volume/volume_formats.h"
 #include "io/write_table.h"
@@ -30,9 +31,7 @@ NpyArrays read_arrays(std::string_view bytes, const std::string& name) {
 }
 
 std::string names_of(const NpyArrays& arrays) {
-  std::string names;
-  for (const auto& [key, array] : arrays) names += (names.empty() ? "" : ", ") + key;
-  return names.empty() ? "none" : names;
+  return arrays.empty() ? "none" : listed_names(arrays);
 }
 
 /// The array wanted by name or, where there is none of these names, the only one that will do.

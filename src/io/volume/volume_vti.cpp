@@ -1,5 +1,6 @@
 // VTK's XML image data, one piece.
 
+#include "base/option_table.h"
 #include "io/binary.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
@@ -98,11 +99,9 @@ class VtiReader {
   }
 
   const Array& chosen() const {
-    std::string known;
-    for (const Array& array : arrays_) {
+    for (const Array& array : arrays_)
       if (!wanted_.empty() && array.name == wanted_) return array;
-      known += (known.empty() ? "" : ", ") + array.name;
-    }
+    const std::string known = listed(arrays_, &Array::name);
     if (!wanted_.empty())
       fail("there is no field " + in_quotes(wanted_) +
            "; it has: " + (known.empty() ? "none" : known));

@@ -118,7 +118,7 @@ void write_svg(std::ostream& out, const PolygonSoup& soup, const std::string&) {
   }
   const auto levels = soup.scalars.find("level");
   std::vector<Rgb> colours;
-  if (levels != soup.scalars.end()) colours = value_colours(levels->second, "level");
+  if (levels != soup.scalars.end()) colours = value_colours(levels->second, "distance");
   for (const auto& line : soup.lines) {
     out << "<path ";
     if (!colours.empty())

@@ -139,7 +139,7 @@ TEST(TetFiles, ErrorsNameFileLineAndElement) {
   expect(replaced(vtk, "POINTS 4", "POINTS 4444444"), ".vtk", "file.vtk:5: the file promises");
   expect(replaced(vtk, "10\n5", "12\n5"), ".vtk",
          "cell 0 of type 12 must have 8 corners, it has 4");
-  expect(replaced(vtk, "10\n5", "24\n5"), ".vtk", "cell 0 is of type 24";
+  expect(replaced(vtk, "10\n5", "24\n5"), ".vtk", "cell 0 is of type 24");
   expect(replaced(vtk, "CELL_TYPES 2\n10\n5", "CELL_TYPES 1\n10"), ".vtk", "2 cells and 1 cell");
   expect(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA"), ".vtk", "only UNSTRUCTURED_GRID");
   expect(replaced(vtk, "SCALARS depth float", "SCALARS depth bit"), ".vtk", "of type 'bit'");

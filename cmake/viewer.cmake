@@ -1,5 +1,8 @@
 # The viewer page: installed dependencies (npm ci) and esbuild make one HTML file of viewer/src, which
-# becomes a C++ source of the library. Everything is made in the build folder.
+# becomes a C++ source of the library. Everything is made in the build folder. littoral_studio_page()
+# does the same with the page that the program serves for drawing.
+function(littoral_studio_page target)
+endfunction()
 if(NOT LITTORAL_VIEWER)
   return()
 endif()
@@ -30,6 +33,7 @@ add_custom_command(
   OUTPUT ${viewer_to}/page_template.cpp
   COMMAND ${LITTORAL_NODE} ${viewer_from}/build.mjs ${viewer_to} ${viewer_to}/node_modules
   DEPENDS ${viewer_to}/installed.stamp ${viewer_from}/build.mjs ${viewer_from}/bundle.mjs
+          ${viewer_from}/literals.mjs
           ${CMAKE_CURRENT_SOURCE_DIR}/src/io/render/colour_maps.inc ${viewer_sources}
   COMMENT "Bundling the viewer page"
   VERBATIM)
@@ -37,3 +41,21 @@ target_sources(littoral PRIVATE ${viewer_to}/page_template.cpp)
 set_source_files_properties(${viewer_to}/page_template.cpp PROPERTIES
   SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
 set_property(SOURCE src/io/page/page.cpp APPEND PROPERTY COMPILE_DEFINITIONS LITTORAL_HAS_VIEWER=1)
+
+file(GLOB studio_sources CONFIGURE_DEPENDS web/studio/src/* web/src/*)
+function(littoral_studio_page target)
+  set(from ${CMAKE_SOURCE_DIR}/web/studio)
+  set(to ${CMAKE_BINARY_DIR}/studio)
+  add_custom_command(
+    OUTPUT ${to}/studio_page.cpp
+    COMMAND ${LITTORAL_NODE} ${from}/build.mjs ${to} native ${viewer_to}/node_modules
+    DEPENDS ${viewer_to}/installed.stamp ${from}/build.mjs ${viewer_from}/bundle.mjs
+            ${viewer_from}/literals.mjs ${studio_sources} ${viewer_sources}
+            ${CMAKE_SOURCE_DIR}/src/io/render/colour_maps.inc
+    COMMENT "Bundling the studio"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${to}/studio_page.cpp)
+  set_source_files_properties(${to}/studio_page.cpp PROPERTIES
+    SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
+  set_property(SOURCE src/cli/studio.cpp APPEND PROPERTY COMPILE_DEFINITIONS LITTORAL_HAS_STUDIO=1)
+endfunction()

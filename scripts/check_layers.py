@@ -5,7 +5,7 @@ against operators, not meshes: they may not include domain, except for the few i
 algorithms walk the mesh itself.
 
 Public headers are include/littoral/*.h. Those in PLAIN hold types that every layer may include; the
-others, only api and cli. They include each other, the standard library and Eigen, nothing else.
+others, only api, desk and cli. They include each other, the standard library and Eigen, nothing else.
 
 What belongs to one system (ONE_SYSTEM) is included in src/base/platform alone.
 
@@ -27,7 +27,8 @@ BELOW: dict[str, set[str]] = {
     "methods": {"sources"},
     "io": {"sources"},
     "api": {"methods", "io"},
-    "cli": {"api"},
+    "desk": {"api"},
+    "cli": {"desk"},
     "vdb": {"io"},  # a module that io loads, not linked with it
 }
 WITHOUT_DOMAIN = "methods"
@@ -45,7 +46,7 @@ PLAIN = {
     "types",
     "volume",
 }
-ABOVE_PUBLIC = ("api", "cli")
+ABOVE_PUBLIC = ("api", "cli", "desk")
 PLATFORM = "src/base/platform/"
 ONE_SYSTEM = re.compile(
     r"^\s*#\s*include\s*<((?:sys|arpa|netinet)/.*|unistd\.h|dlfcn\.h|signal\.h|csignal|poll\.h"

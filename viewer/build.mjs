@@ -5,6 +5,7 @@ import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { bundleOptions } from "./bundle.mjs";
+import { asSource } from "./literals.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = resolve(process.argv[2] ?? "dist");
@@ -24,35 +25,7 @@ let page = readFileSync(join(here, "src/page.html"), "utf8");
 page = put(page, "/*STYLE*/", style);
 page = put(page, "/*SCRIPT*/", script);
 
-// Literals of at most 8 kB, which every compiler joins; bytes beyond ASCII as octal escapes.
-const bytes = Buffer.from(page, "utf8");
-const pieces = [];
-for (let at = 0; at < bytes.length; at += 8000) {
-  let text = "";
-  for (const byte of bytes.subarray(at, at + 8000)) {
-    const c = String.fromCharCode(byte);
-    if (c === "\n") text += "\\n";
-    else if (c === "\\" || c === '"') text += "\\" + c;
-    else if (c === "?" || byte < 32 || byte > 126) text += "\\" + byte.toString(8).padStart(3, "0");
-    else text += c;
-  }
-  pieces.push(`    "${text}"`);
-}
 mkdirSync(out, { recursive: true });
 writeFileSync(join(out, "page.html"), page);
-writeFileSync(
-  join(out, "page_template.cpp"),
-  `#include "io/page/page_template.h"
-
-namespace littoral::io {
-
-namespace {
-constexpr char text[] =
-${pieces.join("\n")};
-}  // namespace
-
-std::string_view page_template() { return {text, sizeof text - 1}; }
-
-}  // namespace littoral::io
-`,
-);
+writeFileSync(join(out, "page_template.cpp"),
+              asSource(page, { header: "io/page/page_template.h", namespace: "littoral::io", name: "page_template" }));

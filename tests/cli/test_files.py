@@ -1,7 +1,9 @@
 """littoral info, convert, contour, methods, view and render."""
 
 import json
+import re
 import subprocess
+import urllib.error
 import urllib.request
 from pathlib import Path
 from typing import Any
@@ -173,12 +175,23 @@ def test_view_serves_the_page(mesh: Path) -> None:
     ) as server:
         assert server.stdout is not None
         address = server.stdout.readline().strip()
-        assert address.startswith("http://127.0.0.1:")
+        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[0-9a-f]{32}", address)
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(address.split("?")[0], timeout=10)
         with urllib.request.urlopen(address, timeout=10) as answer:
             assert answer.status == 200
             assert b"<html" in answer.read().lower()
         server.terminate()
         assert server.wait(timeout=5) == 130
+
+
+def test_view_edit_says_what_it_cannot_do(run: Run, mesh: Path, tmp_path: Path) -> None:
+    (tmp_path / "wrong.txt").write_text("signed_curve\nv 0\nv 99999\n")
+    assert "99999" in run("view", mesh, "--edit", "-s", "wrong.txt", status=2).stderr
+    assert "missing.obj" in run("view", "missing.obj", "--edit", status=2).stderr
+    for option in (("-o", "a.html"), ("--isolines", 3), ("--axis", "x"), (mesh,)):
+        error = run("view", mesh, "--edit", *option, status=2).stderr
+        assert "does not go with --edit" in error
 
 
 def test_support_table_in_the_docs_is_the_registry(run: Run) -> None:

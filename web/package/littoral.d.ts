@@ -174,6 +174,15 @@ export interface DrawnSurface {
   readonly scalars: Readonly<Record<string, Float64Array>>;
 }
 
+/** A ball about what there is to see, and from where it is seen. */
+export interface FirstView {
+  readonly centre: readonly [number, number, number];
+  readonly radius: number;
+  /** Directions of length 1, at a right angle. */
+  readonly towardsEye: readonly [number, number, number];
+  readonly up: readonly [number, number, number];
+}
+
 /** A surface in the worker, immutable. */
 export interface Surface {
   readonly name: string;
@@ -196,6 +205,8 @@ export interface Surface {
   readonly normals: Float64Array;
   /** Which axis points up: no format says; z where the surface stands on z = 0 and not on y = 0. */
   readonly up: "y" | "z";
+  /** A view from the front above, as pages and pictures of results begin with. */
+  readonly view: FirstView;
   /** What is unusual about the input and may matter: boundaries, nonmanifold edges, ... */
   readonly warnings: readonly string[];
 

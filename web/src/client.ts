@@ -1,7 +1,7 @@
 // The interface of the package, on one worker.
 import type * as api from "../package/littoral";
 import { request } from "./handles";
-import { type Assets, type Call, Process } from "./process";
+import { type Call, Process, type RunningWorker } from "./process";
 import { VolumeInWorker } from "./space";
 import { bytesOf, numbers, SurfaceInWorker } from "./surface";
 
@@ -39,10 +39,10 @@ function familiesOf(json: string): api.MethodFamily[] {
   return [...byTitle].map(([title, methods]) => ({ title, methods }));
 }
 
-class Client implements api.Littoral {
+export class Client implements api.Littoral {
   readonly version; readonly families; readonly extensions;
 
-  constructor(private readonly process: Process, about: About) {
+  constructor(protected readonly process: Process, about: About) {
     const words = (text: string) => text.split(" ").filter((word) => word !== "");
     this.version = about.version;
     this.families = familiesOf(about.methods);
@@ -75,7 +75,9 @@ class Client implements api.Littoral {
   }
 }
 
-export async function openWith(assets: Assets): Promise<api.Littoral> {
-  const process = new Process(assets);
-  return new Client(process, await request(process, "about", [], [], {}) as About);
+type Made = new (process: Process, about: About) => Client;
+
+export async function openWith<C extends Made>(start: () => Promise<RunningWorker>, made: C): Promise<InstanceType<C>> {
+  const process = new Process(start);
+  return new made(process, await request(process, "about", [], [], {}) as About) as InstanceType<C>;
 }

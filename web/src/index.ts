@@ -1,7 +1,7 @@
 // The package with its parts in files beside it.
 import type * as api from "../package/littoral";
-import { openWith } from "./client";
-import { browserWorker, inNode, nodeWorker } from "./start";
+import { Client, openWith } from "./client";
+import { browserWorker, inNode, nodeWorker, withLibrary } from "./start";
 
 export * from "./errors";
 
@@ -19,8 +19,7 @@ async function bytesAt(address: string | URL): Promise<BufferSource> {
 export function open(options: api.OpenOptions = {}): Promise<api.Littoral> {
   const wasm = options.wasm ?? new URL("./littoral.wasm", import.meta.url);
   const worker = options.worker ?? new URL("./worker.js", import.meta.url);
-  return openWith({
-    wasm: async () => WebAssembly.compile(await bytesAt(wasm)),
-    worker: async () => inNode ? nodeWorker(new URL(worker, import.meta.url), false) : browserWorker(worker),
-  });
+  return openWith(withLibrary(
+    async () => WebAssembly.compile(await bytesAt(wasm)),
+    async () => inNode ? nodeWorker(new URL(worker, import.meta.url), false) : browserWorker(worker)), Client);
 }

@@ -2,8 +2,8 @@
 import wasm from "littoral:wasm";
 import worker from "littoral:worker";
 import type * as api from "../package/littoral";
-import { openWith } from "./client";
-import { browserWorker, inNode, nodeWorker } from "./start";
+import { Client, openWith } from "./client";
+import { browserWorker, inNode, nodeWorker, withLibrary } from "./start";
 
 export * from "./errors";
 
@@ -17,12 +17,9 @@ async function unpacked(base64: string): Promise<ArrayBuffer> {
 let address: string | undefined;
 
 export function open(): Promise<api.Littoral> {
-  return openWith({
-    wasm: async () => WebAssembly.compile(await unpacked(wasm)),
-    worker: async () => {
-      if (inNode) return nodeWorker(worker, true);
-      address ??= URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
-      return browserWorker(address);
-    },
-  });
+  return openWith(withLibrary(async () => WebAssembly.compile(await unpacked(wasm)), async () => {
+    if (inNode) return nodeWorker(worker, true);
+    address ??= URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
+    return browserWorker(address);
+  }), Client);
 }

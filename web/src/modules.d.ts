@@ -2,7 +2,10 @@
 declare module "littoral:library" {
   export default function createLibrary(options: {
     instantiateWasm(imports: WebAssembly.Imports, use: (instance: WebAssembly.Instance) => void): object;
-  }): Promise<import("./operations").Library>;
+  }): Promise<{
+    HEAPU8: Uint8Array;
+    answer(request: Uint8Array, watch: ((fraction: number, stage: string) => boolean) | undefined): Uint8Array;
+  }>;
 }
 /** The worker's code. */
 declare module "littoral:worker" {

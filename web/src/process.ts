@@ -1,19 +1,15 @@
 // A worker that is started when it is needed, does one call after the other, and is replaced where it
 // had to be ended.
 import { Cancelled, errorOf, InternalError, LittoralError } from "./errors";
-import type { Reply, Request, Start } from "./protocol";
+import type { Reply, Request } from "./protocol";
 
-/** What a worker is made of. */
-export interface Assets {
-  wasm(): Promise<WebAssembly.Module>;
-  worker(): Promise<RunningWorker>;
-}
-
-/** A worker of a browser or of Node. */
+/** Who does the work: a worker of a browser or of Node, or a program on this machine. */
 export interface RunningWorker {
-  post(message: Start | Request): void;
+  post(message: Request): void;
   onMessage(hear: (reply: Reply) => void): void;
   onError(hear: (what: string) => void): void;
+  /** Stops the call under way, which answers all the same. Without it the worker is ended. */
+  cancel?(): void;
   end(): void;
 }
 
@@ -30,12 +26,11 @@ export class Process {
   generation = 0;
   private worker: RunningWorker | null = null;
   private closed = false;
-  private wasm: Promise<WebAssembly.Module> | null = null;
   private last: Promise<unknown> = Promise.resolve();
   private freed: number[] = [];
   private ended: ((error: Error) => void) | null = null; // of the request under way
 
-  constructor(private readonly assets: Assets) {}
+  constructor(private readonly start: () => Promise<RunningWorker>) {}
 
   /** Runs `body` when all calls before it are through. */
   inTurn<T>(call: Call, body: () => Promise<T>): Promise<T> {
@@ -56,7 +51,7 @@ export class Process {
   async ask(op: string, args: unknown[], as: number[], call: Call): Promise<unknown> {
     const worker = await this.running();
     const { signal, onProgress } = call;
-    const shared = typeof SharedArrayBuffer === "function" && signal;
+    const shared = !worker.cancel && typeof SharedArrayBuffer === "function" && signal;
     const flag = shared ? new Int32Array(new SharedArrayBuffer(4)) : null;
     const free = this.freed.splice(0);
     return new Promise((resolve, reject) => {
@@ -72,6 +67,7 @@ export class Process {
         reject(new Cancelled());
       };
       const stop = () => {
+        if (worker.cancel) return worker.cancel();
         if (!flag) return giveUp();
         Atomics.store(flag, 0, 1);
         timer = setTimeout(giveUp, patience);
@@ -121,13 +117,7 @@ export class Process {
     if (this.closed) throw new InternalError("littoral was closed");
     if (this.worker) return this.worker;
     try {
-      this.wasm ??= this.assets.wasm();
-      const [module, worker] = await Promise.all([this.wasm, this.assets.worker()]);
-      await new Promise<void>((resolve, reject) => {
-        worker.onError((what) => reject(new InternalError(`the worker does not start: ${what}`)));
-        worker.onMessage((reply) => ("error" in reply ? reject(errorOf(reply)) : resolve()));
-        worker.post({ start: module });
-      });
+      const worker = await this.start();
       worker.onError((what) => {
         if (this.worker !== worker) return;
         this.drop();
@@ -136,7 +126,6 @@ export class Process {
       this.worker = worker;
       return worker;
     } catch (error) {
-      this.wasm = null;
       throw error instanceof LittoralError ? error : new InternalError(String(error));
     }
   }

@@ -10,7 +10,7 @@ export interface Start {
   start: WebAssembly.Module;
 }
 export interface Request {
-  /** A function of operations.ts, or nothing: only to free. */
+  /** An operation of src/desk, or nothing: only to free. */
   op: string;
   args: unknown[];
   /** Numbers for the objects that come of it. */

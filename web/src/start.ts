@@ -1,9 +1,36 @@
 // Workers of browsers and of Node.
+import { errorOf, InternalError } from "./errors";
 import type { RunningWorker } from "./process";
+import type { Start } from "./protocol";
+
+/** A worker before it has the library. */
+export interface BareWorker extends Omit<RunningWorker, "post"> {
+  post(message: Start | Parameters<RunningWorker["post"]>[0]): void;
+}
+
+/** Starts workers with the library in them; its module is compiled once. */
+export function withLibrary(wasm: () => Promise<WebAssembly.Module>, bare: () => Promise<BareWorker>): () => Promise<RunningWorker> {
+  let compiled: Promise<WebAssembly.Module> | null = null;
+  return async () => {
+    try {
+      compiled ??= wasm();
+      const [module, worker] = await Promise.all([compiled, bare()]);
+      await new Promise<void>((resolve, reject) => {
+        worker.onError((what) => reject(new InternalError(`the worker does not start: ${what}`)));
+        worker.onMessage((reply) => ("error" in reply ? reject(errorOf(reply)) : resolve()));
+        worker.post({ start: module });
+      });
+      return worker;
+    } catch (error) {
+      compiled = null;
+      throw error;
+    }
+  };
+}
 
 export const inNode = typeof process === "object" && typeof process.versions?.node === "string";
 
-export function browserWorker(address: string | URL): RunningWorker {
+export function browserWorker(address: string | URL): BareWorker {
   const worker = new Worker(address);
   return {
     post: (message) => worker.postMessage(message),
@@ -14,7 +41,7 @@ export function browserWorker(address: string | URL): RunningWorker {
 }
 
 /** From a file, or from code itself. */
-export async function nodeWorker(code: string | URL, isCode: boolean): Promise<RunningWorker> {
+export async function nodeWorker(code: string | URL, isCode: boolean): Promise<BareWorker> {
   const { Worker } = await import("node:worker_threads");
   const worker = new Worker(code, { eval: isCode });
   worker.unref(); // a program may end while a worker waits; a call under way keeps it

@@ -39,12 +39,13 @@ export interface SurfaceDescription {
   offsets: Uint32Array;
   normals: Float64Array;
   up: "y" | "z";
+  view: api.FirstView;
   warnings: string[];
 }
 
 export class SurfaceInWorker implements api.Surface {
   readonly kind; readonly counts; readonly positions; readonly triangles; readonly triangleFaces;
-  readonly corners; readonly offsets; readonly normals; readonly up; readonly warnings;
+  readonly corners; readonly offsets; readonly normals; readonly up; readonly view; readonly warnings;
 
   constructor(private readonly process: Process, private readonly remote: Remote,
               readonly name: string, described: SurfaceDescription) {
@@ -52,7 +53,7 @@ export class SurfaceInWorker implements api.Surface {
     this.counts = { vertices, faces, edges, components };
     ({ kind: this.kind, positions: this.positions, triangles: this.triangles,
        triangleFaces: this.triangleFaces, corners: this.corners, offsets: this.offsets,
-       normals: this.normals, up: this.up, warnings: this.warnings } = described);
+       normals: this.normals, up: this.up, view: this.view, warnings: this.warnings } = described);
     forgotten.register(this, remote, this);
   }
 

@@ -1,7 +1,7 @@
-// The worker: starts the library, does what it is asked, hands arrays over without copying them.
+// The worker: starts the library, hands it what it is asked, and arrays over without copying them.
 import createLibrary from "littoral:library";
-import { Failed, type Library, type Native, operationsOn, type Watch } from "./operations";
-import type { Handle, Reply, Request, Start } from "./protocol";
+import { decode, encode } from "./message";
+import type { Reply, Request, Start } from "./protocol";
 
 interface Port {
   post(message: Reply, transfer: ArrayBuffer[]): void;
@@ -32,67 +32,41 @@ function buffersIn(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuf
   return found;
 }
 
-const isHandle = (arg: unknown): arg is Handle =>
-  typeof arg === "object" && arg !== null && "handle" in arg;
+type Library = Awaited<ReturnType<typeof createLibrary>>;
 
-class Desk {
-  private readonly objects = new Map<number, Native>();
-  private readonly operations;
-
-  constructor(library: Library, private readonly port: Port) {
-    this.operations = operationsOn(library);
-  }
-
-  answer(request: Request): void {
-    for (const number of request.free) {
-      this.objects.get(number)?.delete();
-      this.objects.delete(number);
-    }
-    if (request.op === "") return;
-    let reply: Reply;
-    try {
-      reply = { value: this.done(request) };
-    } catch (error) {
-      // What is no answer of the library is a trap of WebAssembly, after which nothing is certain.
-      reply = error instanceof Failed ? error.failure
-        : { error: "InternalError", message: `the library failed: ${String(error)}`, fatal: true };
-    }
-    this.port.post(reply, "value" in reply ? [...buffersIn(reply.value)] : []);
-  }
-
-  private done({ op, args, as, progress, flag }: Request): unknown {
-    const stop = () => flag !== null && Atomics.load(flag, 0) !== 0;
-    if (stop()) throw new Failed({ error: "Cancelled", message: "cancelled" });
-    const watch: Watch = !progress && !flag ? undefined : (fraction, stage) => {
-      if (progress) this.port.post({ progress: fraction, stage }, []);
-      return stop();
-    };
-    const operation = this.operations[op as keyof typeof this.operations] as
-      (watch: Watch, ...args: unknown[]) => { made: Native[]; value: unknown };
-    const { made, value } = operation(watch, ...args.map((arg) => (isHandle(arg) ? this.object(arg) : arg)));
-    made.forEach((object, k) => this.objects.set(as[k], object));
-    return value;
-  }
-
-  private object({ handle }: Handle): Native {
-    const object = this.objects.get(handle);
-    if (!object) throw new Error(`there is no object ${handle}`);
-    return object;
+function replyTo(library: Library, { op, args, as, free, progress, flag }: Request, port: Port): Reply {
+  const stop = () => flag !== null && Atomics.load(flag, 0) !== 0;
+  if (op === "memory") return { value: library.HEAPU8.length / 2 ** 20 };
+  if (stop()) return { error: "Cancelled", message: "cancelled" };
+  const watch = !progress && !flag ? undefined : (fraction: number, stage: string) => {
+    if (progress) port.post({ progress: fraction, stage }, []);
+    return stop();
+  };
+  try {
+    return decode(library.answer(encode({ op, args, as, free }), watch)) as Reply;
+  } catch (error) {
+    // What is no answer of the library is a trap of WebAssembly, after which nothing is certain.
+    return { error: "InternalError", message: `the library failed: ${String(error)}`, fatal: true };
   }
 }
 
 async function serve(): Promise<void> {
   const port = await openPort();
-  let desk: Desk | undefined;
+  let library: Library | undefined;
   port.listen(async (message) => {
-    if (!("start" in message)) return desk?.answer(message);
+    if (!("start" in message)) {
+      if (!library) return;
+      const reply = replyTo(library, message, port);
+      if (message.op !== "") port.post(reply, "value" in reply ? [...buffersIn(reply.value)] : []);
+      return;
+    }
     try {
-      desk = new Desk(await createLibrary({
+      library = await createLibrary({
         instantiateWasm: (imports, use) => {
           void WebAssembly.instantiate(message.start, imports).then((instance) => use(instance));
           return {};
         },
-      }), port);
+      });
       port.post({ value: null }, []);
     } catch (error) {
       port.post({ error: "InternalError", message: `the library does not start: ${String(error)}`, fatal: true }, []);

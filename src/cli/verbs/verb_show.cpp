@@ -12,6 +12,7 @@
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
 #include "cli/serve.h"
+#include "cli/studio.h"
 #include "cli/verbs/verbs.h"
 #include "domain/cloud/cloud_surface.h"
 #include "io/read.h"
@@ -54,6 +55,7 @@ struct ShowArguments {
   VolumeViewArguments volume;
   TraceArguments trace;
   const CLI::App* verb = nullptr;
+  bool edit = false;
   int isolines = 20;
   std::string up, view, colour_map = "auto", colour_range;
 };
@@ -247,6 +249,8 @@ std::string page_text(const io::Scene& scene) {
 }
 
 void view(ShowArguments& arguments, Session& session) {
+  if (arguments.edit)
+    return serve_studio(*arguments.verb, arguments.in, arguments.sources, session);
   if (arguments.out.empty())
     io::format_to_write("page.html", {io::Kind::page});  // is there a viewer?
   else
@@ -254,7 +258,7 @@ void view(ShowArguments& arguments, Session& session) {
   const io::Scene scene = read_scene(arguments, true, session);
   session.print_warnings();
   if (arguments.out.empty())
-    serve_page(page_text(scene), session.task());
+    serve_page(page_text(scene), std::nullopt, session.threads, session.task());
   else
     io::write_page(arguments.out, scene);
 }
@@ -305,6 +309,10 @@ void add_view(CLI::App& program, Session& session) {
                   "the page: " + io::written_extensions({io::Kind::page}) +
                       "; without it the page is served on 127.0.0.1 until Ctrl-C")
       ->type_name("OUT");
+  verb.add_flag(
+      "--edit", arguments->edit,
+      "draw sources on FILE in a browser; the distance follows, computed by this program, "
+      "which serves the page on 127.0.0.1 until Ctrl-C");
 }
 
 void add_render(CLI::App& program, Session& session) {

@@ -12,7 +12,7 @@ namespace littoral::io {
 namespace {
 
 // Sums over the triangles: second moments of the corners, weighted by area so that the sampling of
-// the surface does not matter, in units of the frame's radius.
+// the surface does not matter, in units of the frame's radius. Without triangles, over the points.
 Eigen::Matrix3d moments(const Scene& scene, const SceneFrame& frame) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Vec3 first = Vec3::Zero();
@@ -28,6 +28,14 @@ Eigen::Matrix3d moments(const Scene& scene, const SceneFrame& frame) {
       first += area / 3 * q;
     }
     weight += area;
+  }
+  if (!(weight > 0)) {
+    for (const auto& point : scene.source_points.rowwise()) {
+      const Vec3 q = (Vec3(point) - frame.centre) / frame.radius;
+      sum += q * q.transpose();
+      first += q;
+    }
+    weight = static_cast<double>(scene.source_points.rows());
   }
   if (!(weight > 0)) return Eigen::Matrix3d::Identity();
   return sum / weight - first * first.transpose() / (weight * weight);

@@ -1,8 +1,9 @@
 // The library in its worker, behind what the page needs: one surface, one prepared method, and an
 // answer to the newest sources only.
 import * as littoral from "littoral/inline";
+import type { Backend, GivenFiles } from "./backend";
 import type {
-  Call, Curve, Field, Littoral, Method, MethodInfo, Regions, Report, Solver, Sources, Surface,
+  Call, Curve, Field, Method, MethodInfo, Regions, Report, Solver, Sources, Surface,
 } from "littoral/inline";
 
 import { isEmpty } from "./drawing";
@@ -67,7 +68,7 @@ export class Engine {
   private active: Promise<void> = Promise.resolve(); // ends with what is running
   private paths = new WeakMap<Curve["nodes"], Kept>();
 
-  private constructor(readonly library: Littoral, private readonly listener: Listener) {}
+  private constructor(readonly library: Backend, private readonly listener: Listener) {}
 
   static async start(listener: Listener): Promise<Engine> {
     return new Engine(await littoral.open(), listener);
@@ -81,12 +82,21 @@ export class Engine {
   }
 
   /** Takes the place of the surface there was, unless it cannot be read. */
-  async load(bytes: Uint8Array, name: string): Promise<Surface> {
+  load(bytes: Uint8Array, name: string): Promise<Surface> {
+    return this.replace(name, (call) => this.read(bytes, name, call));
+  }
+
+  /** The file that the program was started with. */
+  loadGiven(given: GivenFiles): Promise<Surface> {
+    return this.replace(given.name, (call) => this.library.loadGiven!(given, call));
+  }
+
+  private async replace(name: string, read: (call: Call) => Promise<Surface>): Promise<Surface> {
     this.cancel();
     await this.active;
     const call = this.begin(`reading ${name}`);
     try {
-      const next = await this.read(bytes, name, call);
+      const next = await read(call);
       this.forgetSolvers();
       this.surface?.dispose();
       this.lastWhole = Infinity;

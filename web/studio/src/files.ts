@@ -1,7 +1,9 @@
 // What is opened: files, examples, links; and the source file and the link of what is drawn.
+import type { Surface } from "littoral/inline";
 import type { App } from "./app";
 import { element } from "./dom";
-import { fromSources, isEmpty, toSources } from "./drawing";
+import type { GivenFiles } from "./backend";
+import { fromSources, isEmpty, toSources, type Drawing } from "./drawing";
 import type { Task } from "./engine";
 import { examples, type Example } from "./examples";
 import type { Chosen } from "./forms";
@@ -23,6 +25,9 @@ interface Linked {
 
 const largest = 1.5e9; // bytes of a file that are tried
 
+const joined = <K extends string, T>(key: K, a: readonly T[] = [], b: readonly T[] = []) =>
+  a.length + b.length ? { [key]: [...a, ...b] } as Record<K, T[]> : {};
+
 function isLinked(value: unknown): value is Linked {
   const linked = value as Partial<Linked> | null, { options } = linked ?? {};
   return linked?.v === 1 && typeof options === "object" && options !== null &&
@@ -39,7 +44,27 @@ export class Files {
 
   /** What the address asks for, or an example. */
   async begin(): Promise<void> {
-    if (!await this.followAddress()) await this.openExample(examples[0]);
+    const given = await this.app.engine.library.given?.();
+    if (given) {
+      element<HTMLSelectElement>("examples").value = "";
+      await this.show(given.name, given.hash, null, () => this.app.engine.loadGiven(given));
+      await this.readGiven(given.sources);
+    }
+    if (!await this.followAddress() && !given) await this.openExample(examples[0]);
+  }
+
+  /** All of them together. */
+  private async readGiven(files: GivenFiles["sources"]): Promise<void> {
+    const { surface } = this.app.engine;
+    if (!surface || !files.length) return;
+    const drawings = await Promise.all(files.map(async ({ name, bytes }) => fromSources(await surface.readSources(bytes, name))));
+    this.app.history.reset({
+      strokes: drawings.flatMap(({ strokes }) => strokes), points: drawings.flatMap(({ points }) => points),
+      beside: drawings.reduce((sum, { beside }) => ({
+        ...joined("spaceCurves", sum.spaceCurves, beside.spaceCurves), ...joined("chains", sum.chains, beside.chains),
+      }), {} as Drawing["beside"]),
+    });
+    this.app.changed();
   }
 
   /** False where the address carries no link. */
@@ -82,11 +107,15 @@ export class Files {
     else if (await this.load(bytes, file.name, null)) element<HTMLSelectElement>("examples").value = "";
   }
 
-  private async load(bytes: Uint8Array, name: string, example: string | null): Promise<boolean> {
+  private load(bytes: Uint8Array, name: string, example: string | null): Promise<boolean> {
+    // The library may take the bytes along to its worker.
+    return this.show(name, contentHash(bytes), example, () => this.app.engine.load(bytes.slice(), name));
+  }
+
+  private async show(name: string, hash: string, example: string | null, read: () => Promise<Surface>): Promise<boolean> {
     this.app.message(null);
     try {
-      // The library may take the bytes along to its worker.
-      const hash = contentHash(bytes), surface = await this.app.engine.load(bytes.slice(), name);
+      const surface = await read();
       this.example = example;
       this.hash = hash;
       this.app.begin(surface);

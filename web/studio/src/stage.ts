@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { DrawnSurface, Surface } from "littoral/inline";
 import { OrbitView, type Framing } from "../../../viewer/src/camera";
 import type { Field } from "../../../viewer/src/scene";
-import { frameOf, toPage, type Frame } from "./frame";
+import { toPage, type Frame } from "./frame";
 import { Picker, type Hit } from "./pick";
 import { Skin } from "./skin";
 
@@ -107,15 +107,15 @@ export class Stage {
     this.hideFiner();
     this.drop(this.base);
     this.surface = surface;
-    this.frame = frameOf(surface.positions, surface.triangles, surface.up);
+    this.frame = surface.view;
     const positions = toPage(surface.positions, this.frame);
     const { triangles } = surface;
     // Everything that is to be in the picture, as the camera takes it.
     this.framing.positions = positions;
     if (triangles.length) this.framing.used = triangles;
     else delete this.framing.used;
-    this.framing.towardsEye = this.frame.towardsEye;
-    this.framing.up = this.frame.up;
+    this.framing.towardsEye = [...this.frame.towardsEye];
+    this.framing.up = [...this.frame.up];
     this.picker = new Picker(positions, triangles);
     this.base = this.skinOf(positions, triangles, surface.triangleFaces, this.picker);
     this.reset();

@@ -10,11 +10,10 @@ import { openPage } from "../../../viewer/test/browser.mjs";
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
 export const folder = mkdtempSync(join(tmpdir(), "littoral-studio-"));
 const file = process.env.STUDIO ?? join(root, "dist/studio.html");
-const program = process.env.LITTORAL ?? join(root, "build/release/littoral");
+export const program = process.env.LITTORAL ?? join(root, "build/release/littoral");
 
 /** The page, with an example or a link, once it has computed all it was asked for. */
-export async function openStudio({ hash = "", example, ...options } = {}) {
-  const url = pathToFileURL(file).href;
+export async function openStudio({ url = pathToFileURL(file).href, hash = "", example, ...options } = {}) {
   const shown = await openPage(url + hash, { colorScheme: "light", viewport: { width: 800, height: 560 }, ...options });
   await shown.page.waitForFunction(() => window.studio, null, { timeout: 60000 });
   await settled(shown.page);

@@ -5,7 +5,8 @@ against operators, not meshes: they may not include domain, except for the few i
 algorithms walk the mesh itself.
 
 Public headers are include/littoral/*.h. Those in PLAIN hold types that every layer may include; the
-others, only api, desk and cli. They include each other, the standard library and Eigen, nothing else.
+others, only api, desk and cli. They include each other, the standard library and Eigen, nothing
+else.
 
 What belongs to one system (ONE_SYSTEM) is included in src/base/platform alone.
 

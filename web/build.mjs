@@ -61,7 +61,7 @@ put("worker.js", worker);
 put("littoral.wasm", bytes);
 put("littoral.js", await bundled("index.ts", "esm"));
 put("inline.js", await bundled("inline.ts", "esm", texts));
-for (const name of ["littoral.d.ts", "errors.d.ts", "inline.d.ts", "README.md"]) copyFileSync(join(here, "package", name), join(dist, name));
+for (const name of ["littoral.d.ts", "errors.d.ts", "space.d.ts", "inline.d.ts", "README.md"]) copyFileSync(join(here, "package", name), join(dist, name));
 copyFileSync(join(here, "../LICENSE"), join(dist, "LICENSE"));
 const { version } = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
 const manifest = JSON.parse(readFileSync(join(here, "package/package.json"), "utf8"));

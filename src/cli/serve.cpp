@@ -231,7 +231,7 @@ void serve_page(const std::string& page, const std::optional<desk::Given>& given
   try {
     acceptor.emplace(io, tcp::endpoint(asio::ip::address_v4::loopback(), 0));
   } catch (const boost::system::system_error& e) {
-    throw IoError(std::string("cannot open a port of 127.0.0.1: ") + e.what());
+    throw IoError(std::string("cannot open a port of 127.0.0.1: ") + e.what(), "system");
   }
   Site site;
   site.page = page;

@@ -17,11 +17,13 @@ void serve_studio(const CLI::App& verb, const std::string& surface,
         option->get_name() != "FILE" && !option->check_name("--sources") &&
         !option->check_name("--edit"))
       throw InputError("option " + option->get_single_name() +
-                       " does not go with --edit: it is chosen in the page");
+                           " does not go with --edit: it is chosen in the page",
+                       "options-conflict");
   if (studio_page().empty())
     throw UnsupportedError(
         "option --edit: this build lacks the studio (configure with LITTORAL_VIEWER=ON and npm "
-        "installed); the studio that `make web` builds needs no program");
+        "installed); the studio that `make web` builds needs no program",
+        "cannot-write");
   desk::Given given{surface, {sources.begin(), sources.end()}};
   {  // What cannot be read is said here, not in the page.
     Context context;

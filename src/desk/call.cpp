@@ -132,11 +132,11 @@ void in_a_file(const std::string& name,
   try {
     use(folder.path() / file_name(name));
   } catch (const InputError& error) {
-    throw InputError(without(error.what(), place));
+    throw InputError(without(error.what(), place), error.code());
   } catch (const UnsupportedError& error) {
-    throw UnsupportedError(without(error.what(), place));
+    throw UnsupportedError(without(error.what(), place), error.code());
   } catch (const IoError& error) {
-    throw IoError(without(error.what(), place));
+    throw IoError(without(error.what(), place), error.code());
   }
 }
 
@@ -145,7 +145,7 @@ void with_file(const Call& call, const std::function<void(const std::filesystem:
   in_a_file(call.text(1), [&](const std::filesystem::path& path) {
     std::ofstream out(path, std::ios::binary);
     if (!out.write(bytes.data(), std::ssize(bytes)) || (out.close(), !out))
-      throw IoError(path.string() + ": there is no room for a copy of it");
+      throw IoError(path.string() + ": there is no room for a copy of it", "cannot-write");
     read(path);
   });
 }

@@ -16,9 +16,10 @@ struct ObjectGone : std::runtime_error {
       : std::runtime_error("there is no object " + std::to_string(handle)) {}
 };
 
-Message failed(const char* kind, const std::exception& error) {
-  return {{{"error", kind}, {"message", error.what()}}, {}};
+Message failed(const char* kind, const std::exception& error, const std::string& code) {
+  return {{{"error", kind}, {"message", error.what()}, {"code", code}}, {}};
 }
+Message failed(const char* kind, const Error& error) { return failed(kind, error, error.code()); }
 
 json about(Call&) {
   return {{"version", LITTORAL_VERSION},
@@ -65,11 +66,11 @@ Message message_of_exception() {
   } catch (const Error& error) {
     return failed("LittoralError", error);
   } catch (const std::bad_alloc& error) {
-    return failed("MemoryError", error);
+    return failed("MemoryError", error, "too-large");
   } catch (const json::exception& error) {
-    return failed("InputError", error);
+    return failed("InputError", error, "bad-input");
   } catch (const std::exception& error) {
-    return failed("InternalError", error);
+    return failed("InternalError", error, "internal");
   }
 }
 

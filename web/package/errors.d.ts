@@ -1,5 +1,8 @@
 /** Root of all errors. The message is the library's. */
-export class LittoralError extends Error {}
+export class LittoralError extends Error {
+  /** Which kind of error it is; stays the same when the wording changes (docs/guides/messages.md). */
+  readonly code: string;
+}
 /** Bad input; the message names file, line or element. */
 export class InputError extends LittoralError {}
 /** A combination that is not supported; the message says what would work. */

@@ -1,17 +1,24 @@
 // The errors of the package: one class for each of the library's, and two of JavaScript's own world.
 
 export class LittoralError extends Error {
-  constructor(message: string) {
+  /** Stays the same when the wording changes. */
+  readonly code: string;
+  constructor(message: string, code = "internal") {
     super(message);
+    this.code = code;
     this.name = new.target.name;
   }
 }
-export class InputError extends LittoralError {}
+export class InputError extends LittoralError {
+  constructor(message: string, code = "bad-input") {
+    super(message, code);
+  }
+}
 export class UnsupportedError extends LittoralError {}
 export class SolveError extends LittoralError {
   readonly residual: number;
-  constructor(message: string, residual = -1) {
-    super(message);
+  constructor(message: string, code = "solve-failed", residual = -1) {
+    super(message, code);
     this.residual = residual;
   }
 }
@@ -19,7 +26,7 @@ export class IoError extends LittoralError {}
 export class MemoryError extends LittoralError {}
 export class Cancelled extends LittoralError {
   constructor(message = "cancelled") {
-    super(message);
+    super(message, "cancelled");
   }
 }
 export class InternalError extends LittoralError {}
@@ -28,18 +35,19 @@ export class InternalError extends LittoralError {}
 export interface Failure {
   error: string;
   message: string;
+  code?: string;
   residual?: number;
 }
 
-export function errorOf({ error, message, residual }: Failure): LittoralError {
+export function errorOf({ error, message, code, residual }: Failure): LittoralError {
   switch (error) {
-    case "InputError": return new InputError(message);
-    case "UnsupportedError": return new UnsupportedError(message);
-    case "SolveError": return new SolveError(message, residual);
-    case "IoError": return new IoError(message);
-    case "MemoryError": return new MemoryError(message);
+    case "InputError": return new InputError(message, code);
+    case "UnsupportedError": return new UnsupportedError(message, code);
+    case "SolveError": return new SolveError(message, code, residual);
+    case "IoError": return new IoError(message, code);
+    case "MemoryError": return new MemoryError(message, code);
     case "Cancelled": return new Cancelled();
-    case "LittoralError": return new LittoralError(message);
+    case "LittoralError": return new LittoralError(message, code);
     default: return new InternalError(message);
   }
 }

@@ -1,7 +1,7 @@
 // The page: what is drawn goes to the library, and what comes back is shown.
 import * as THREE from "three";
-import { Cancelled, type Surface, type SurfacePoint } from "littoral/inline";
-import { histogram } from "../../../viewer/src/field";
+import { Cancelled, type Lines, type Surface, type SurfacePoint } from "littoral/inline";
+import { gradientField, histogram, makeField } from "../../../viewer/src/field";
 import { Legend } from "../../../viewer/src/legend";
 import { numberText } from "../../../viewer/src/numbers";
 import { connectControls } from "./controls";
@@ -103,6 +103,13 @@ export class App {
     this.failure = null;
     this.showAnswer();
     if (!this.engine.busy) this.idle();
+  }
+
+  /** Lines at these distances from what is drawn. */
+  offsets(distances: readonly number[]): Promise<Lines> {
+    const sources = toSources(this.history.drawing);
+    if (isEmpty(sources)) throw new Error("nothing is drawn yet");
+    return this.engine.offsets(sources, this.chosen, distances);
   }
 
   private get chosen(): Settings {
@@ -238,10 +245,23 @@ export class App {
     this.showAnswer();
   }
 
-  private showAnswer(): void {
-    const { answer } = this;
-    const field = answer ? fieldOf(answer.name, answer.values, answer.weights) : null;
-    this.stage.showField(field && field.high >= field.low ? field : null, answer?.refined ?? null);
+  /** What the picture shows of an answer: the field, or what it says about itself. */
+  get shown(): string {
+    const { answer } = this, select = element<HTMLSelectElement>("shown"), whole = answer?.field ?? null;
+    const has: Record<string, boolean> = { field: true, confidence: whole?.confidence != null, slope: whole !== null && this.engine.surface!.triangles.length > 0 };
+    for (const option of select.options) option.disabled = answer !== null && !has[option.value];
+    return has[select.value] ? select.value : "field";
+  }
+
+  showAnswer(): void {
+    const { answer, stage, shown } = this, confidence = answer?.field?.confidence;
+    if (answer && shown === "confidence" && confidence) {
+      stage.showField({ ...makeField({ name: "confidence", values: confidence }), colourLow: 0, colourHigh: 1 }, null);
+    } else {
+      const field = answer ? fieldOf(answer.name, answer.values, answer.weights) : null, refined = answer?.refined ?? null;
+      stage.showField(field && field.high >= field.low ? field : null, refined);
+      if (field && shown === "slope" && stage.skin?.field) stage.showField(gradientField(field, stage.skin.asSurface(), stage.frame.radius), refined);
+    }
     this.histogram = null;
     this.drawLegend();
     this.fillSpacing();

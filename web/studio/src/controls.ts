@@ -41,6 +41,7 @@ export function connectControls(app: App): void {
   on("method", "change", () => {
     app.use({ ...app.settings, method: element<HTMLSelectElement>("method").value, options: {} });
   });
+  on("shown", "change", () => app.showAnswer());
   for (const id of ["lines", "wires", "marks"]) on(id, "change", () => app.usePicture());
   on("spacing", "input", () => {
     const step = stage.skin?.steps[Number(element<HTMLInputElement>("spacing").value)] ?? 0;

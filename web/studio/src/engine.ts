@@ -3,7 +3,7 @@
 import * as littoral from "littoral/inline";
 import type { Backend, GivenFiles } from "./backend";
 import type {
-  Call, Curve, Field, Method, MethodInfo, Regions, Report, Solver, Sources, Surface,
+  Call, Curve, Field, Lines, Method, MethodInfo, Regions, Report, Solver, Sources, Surface,
 } from "littoral/inline";
 
 import { isEmpty } from "./drawing";
@@ -227,19 +227,28 @@ export class Engine {
   }
 
   private async distance(surface: Surface, { sources, settings }: Request, call: Call) {
-    const key = JSON.stringify(settings.method);
-    let solver = this.solvers.get(key);
-    if (!solver) {
-      if (this.solvers.size > 1) this.forgetSolvers();
-      solver = await surface.prepare(settings.method, call);
-      this.solvers.set(key, solver);
-    }
+    const solver = await this.solverOf(surface, settings.method, call);
     const field = await solver.solve(sources, call);
     const finer = field.refined?.scalars["distance"];
     return {
       name: "distance", values: finer ?? field.values, refined: finer ? field.refined : null,
       weights: null, field, regions: null, report: field.report,
     };
+  }
+
+  private async solverOf(surface: Surface, method: Method, call: Call): Promise<Solver> {
+    const key = JSON.stringify(method), known = this.solvers.get(key);
+    if (known) return known;
+    if (this.solvers.size > 1) this.forgetSolvers();
+    const made = await surface.prepare(method, call);
+    this.solvers.set(key, made);
+    return made;
+  }
+
+  /** Lines at distances from the region on the negative side of curves. */
+  async offsets(sources: Sources, { task, method }: Settings, distances: readonly number[]): Promise<Lines> {
+    if (!this.surface || task !== "distance") throw new Error("offsets are those of a distance");
+    return (await this.solverOf(this.surface, method, {})).offsets(sources, distances);
   }
 
   private forgetSolvers(): void {

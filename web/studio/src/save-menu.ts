@@ -5,7 +5,7 @@ import type { Engine } from "./engine";
 import { linesAsSvg, picture } from "./saving";
 import type { Stage } from "./stage";
 
-const fieldFormats = [".ply", ".glb", ".csv", ".npy", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
+const fieldFormats = [".ply", ".glb", ".csv", ".npy", ".npz", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
 
 export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   const menu = element<HTMLDetailsElement>("save-menu");
@@ -14,6 +14,8 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   const fieldFormat = element<HTMLSelectElement>("field-format"), lineFormat = element<HTMLSelectElement>("lines-format");
   fillSelect(fieldFormat, choices(fieldFormats), fieldFormats[0]);
   fillSelect(lineFormat, choices(lineFormats), lineFormats[0]);
+  const offsetFormat = element<HTMLSelectElement>("offsets-format"), spaceFormats = lineFormats.slice(1);
+  fillSelect(offsetFormat, choices(spaceFormats), spaceFormats[0]);
 
   const connect = (id: string, save: () => Promise<string>) => element(id).addEventListener("click", () => {
     menu.open = false;
@@ -39,11 +41,20 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   });
   connect("save-lines", async () => {
     const { values, surface } = field(), { spacing } = app;
+    if (app.shown !== "field") throw new Error("the isolines in the picture are not those of the distance; show that");
     if (!(spacing > 0)) throw new Error("there are no isolines in the picture");
     const lines = await surface.isolines(values, { spacing }), name = `${stem()}-isolines${lineFormat.value}`;
     if (lineFormat.value === ".svg")
       download(name, new Blob([linesAsSvg(stage, lines, app.history.drawing, app.layout, name)], { type: "image/svg+xml" }));
     else download(name, new Blob([await surface.writeLines(lines, name) as BlobPart]));
+    return `${name} saved`;
+  });
+  connect("save-offsets", async () => {
+    const words = element<HTMLInputElement>("offsets").value.split(/[\s,;]+/).filter(Boolean), distances = words.map(Number);
+    if (!distances.length) throw new Error("which distances? Write them beside the button");
+    if (!distances.every(Number.isFinite)) throw new Error(`${words.find((word) => !Number.isFinite(Number(word)))} is not a number`);
+    const lines = await app.offsets(distances), name = `${stem()}-offsets${offsetFormat.value}`;
+    download(name, new Blob([await engine.surface!.writeLines(lines, name) as BlobPart]));
     return `${name} saved`;
   });
   connect("save-picture", async () => {

@@ -1,6 +1,9 @@
-"""Signed distance samples near a shape, as those who train networks on them want them.
+"""Signed distance samples of a shape for training a network, and what to leave out.
 
 usage: samples.py SHAPE COUNT OUTPUT.npz
+
+The shape may have holes. Samples whose side is in doubt are left out: a network that learns wrong
+signs learns wrong surfaces.
 """
 
 import sys
@@ -12,18 +15,17 @@ import littoral
 
 def main() -> None:
     shape = littoral.read(sys.argv[1])
-    count = int(sys.argv[2])
-    sdf = littoral.SDF(shape)
-    low, high = sdf.bounds
-    rng = np.random.default_rng(0)
-    near = shape.points[rng.integers(shape.n_vertices, size=count // 2)]
-    near = near + rng.normal(scale=0.01 * np.linalg.norm(high - low), size=near.shape)
-    anywhere = rng.uniform(low, high, (count - len(near), 3))
-    x = np.concatenate([near, anywhere]).astype(np.float32)
-    values, sure = sdf(x), sdf.confidence(x)
-    np.savez(sys.argv[3], points=x, sdf=values, confidence=sure)
-    inside = 100 * (values < 0).mean()
-    print(f"{count} samples, {inside:.0f} % inside, sure of {100 * sure.mean():.0f} %")
+    made = littoral.samples(shape, surface=0, space=int(sys.argv[2]), seed=0)
+    sure = made.confidence > 0.5
+    np.savez(
+        sys.argv[3],
+        points=made.points[sure],  # in the cube from -1 to 1
+        sdf=made.distances[sure],
+        centre=made.centre,
+        half_side=made.half_side,
+    )
+    inside = 100 * (made.distances[sure] < 0).mean()
+    print(f"{sure.sum()} of {len(sure)} samples are sure, {inside:.0f} % of them inside")
 
 
 if __name__ == "__main__":

@@ -28,12 +28,20 @@ def test_curve_offsets():
     assert "at distance -0.1: " in said and "sure at" in said
 
 
-def test_samples(tmp_path):
-    out = tmp_path / "samples.npz"
-    run("samples.py", SPOT, "1000", out)
-    samples = np.load(out)
-    assert samples["sdf"].shape == (1000,) and samples["sdf"].dtype == np.float32
-    assert 0.2 < (samples["sdf"] < 0).mean() < 0.8
+def test_samples_are_sure_and_lie_where_they_say(tmp_path):
+    mesh = littoral.read(SPOT)
+    mesh.save(tmp_path / "whole.obj")
+    middle = mesh.points[mesh.faces].mean(axis=1)
+    holed = mesh.faces[np.linalg.norm(middle - [0, 0.3, 0.3], axis=1) > 0.25]
+    littoral.Mesh(mesh.points, holed).save(tmp_path / "holed.obj")
+    for name, count in ("whole", 1000), ("holed", 1000):
+        run("samples.py", tmp_path / f"{name}.obj", str(count), tmp_path / "samples.npz")
+        samples = np.load(tmp_path / "samples.npz")
+        assert 0.8 * count < len(samples["sdf"]) <= count
+        assert 0.2 < (samples["sdf"] < 0).mean() < 0.8
+        at = samples["centre"] + samples["half_side"] * samples["points"]
+        truth = littoral.SDF(mesh)(at) / samples["half_side"]
+        assert (samples["sdf"] * truth < 0).mean() < (0.01 if name == "holed" else 1e-9)
 
 
 def test_a_printable_shell_of_a_broken_scan(tmp_path):
@@ -74,6 +82,17 @@ def test_clearance(tmp_path):
     )
 
 
+def test_crossed_bars_overlap_though_no_vertex_is_inside(tmp_path):
+    cube = littoral.examples.cube()
+    middle = (cube.points.min(axis=0) + cube.points.max(axis=0)) / 2
+    for name, size in ("along.obj", (4.0, 1.0, 1.0)), ("across.obj", (1.0, 4.0, 1.0)):
+        littoral.Mesh((cube.points - middle) * size, cube.faces).save(tmp_path / name)
+    said = run("clearance.py", tmp_path / "along.obj", tmp_path / "across.obj")
+    side = float(np.ptp(cube.points, axis=0)[0])
+    assert said.startswith("overlap")
+    assert float(said.split()[1][:-1]) == pytest.approx(0.5 * side, abs=0.05 * side)
+
+
 def test_clusters(tmp_path):
     said = run("clusters.py", SPOT, "6", tmp_path / "labels.npy")
     labels = np.load(tmp_path / "labels.npy")
@@ -112,4 +131,7 @@ def test_thickness_of_a_plate(tmp_path):
     lines = [f"{len(at)} {len(rows)}", *(f"{x} {y} {0.25 * z}" for x, y, z in at), *rows]
     (tmp_path / "plate.tet").write_text("\n".join(lines) + "\n")
     run("thickness.py", tmp_path / "plate.tet", tmp_path / "thickness.npy")
-    assert np.load(tmp_path / "thickness.npy").max() == pytest.approx(1, abs=0.1)
+    thickness = np.load(tmp_path / "thickness.npy")
+    assert thickness.max() == pytest.approx(1, abs=0.1)
+    middle = (abs(at[:, :2] - size[:2] / 2) <= 1).all(axis=1)  # away from the rim, also outside
+    assert thickness[middle & (at[:, 2] > 0) & (at[:, 2] < size[2])] == pytest.approx(1, abs=0.1)

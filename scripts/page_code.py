@@ -2,7 +2,9 @@
 
 Blocks of `sh` and `python` run in the order of the page, in a folder that holds `examples` and
 `out`; names of Python live as long as the page. Blocks of `cpp` are excerpts of files that the
-tests or the examples compile. A comment `<!-- not run: why -->` before a block leaves it out.
+tests or the examples compile. A comment `<!-- not run: why -->` before a block leaves it out; one
+with `needs data` does so without the data collection, which is the folder `data` where there is
+one. As drawing takes long, only scripts/gallery.py runs the commands of those.
 """
 
 from __future__ import annotations
@@ -17,7 +19,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[1]
 NOT_RUN = {"text", "cmake", "bibtex", "js"}  # JavaScript: the stage `web` does
 BLOCK = re.compile(
-    r"(?P<skip><!-- not run: [^>]+ -->\s*)?^(?P<indent> *)```(?P<language>\w*)[^\n]*\n"
+    r"(?:<!-- (?P<mark>not run: [^>]+|needs data) -->\s*)?"
+    r"^(?P<indent> *)```(?P<language>\w*)[^\n]*\n"
     r"(?P<code>.*?)^(?P=indent)```$",
     re.M | re.S,
 )
@@ -28,6 +31,7 @@ class Block(NamedTuple):
     code: str
     line: int
     skipped: bool
+    needs_data: bool = False
 
 
 def blocks(text: str) -> list[Block]:
@@ -37,7 +41,8 @@ def blocks(text: str) -> list[Block]:
             match["language"],
             re.sub(f"^{match['indent']}", "", match["code"], flags=re.M),
             text.count("\n", 0, match.start("language")) + 1,
-            bool(match["skip"]),
+            (match["mark"] or "").startswith("not run"),
+            match["mark"] == "needs data",
         )
         for match in BLOCK.finditer(text)
     ]
@@ -64,14 +69,27 @@ def is_compiled(code: str) -> bool:
     return any(code in source.read_text(encoding="utf-8") for source in sources)
 
 
-def run_page(page: Path, folder: Path, program: str) -> None:
+def data_collection() -> Path | None:
+    """The folder of the larger data collection, if there is one."""
+    shared = os.environ.get("LITTORAL_SHARED") or ROOT.parent / "shared"
+    data = Path(shared) / "data"
+    return data if data.is_dir() else None
+
+
+def run_page(
+    page: Path, folder: Path, program: str, data: Path | None = None, draw: bool = False
+) -> None:
     """Runs the code of a page in a folder, which must be the working directory."""
     (folder / "out").mkdir(exist_ok=True)
     (folder / "examples").symlink_to(ROOT / "examples")
+    if data:
+        (folder / "data").symlink_to(data)
     names: dict[str, object] = {}
     for block in blocks(page.read_text(encoding="utf-8")):
         where = f"{page.name}:{block.line}"
-        if block.skipped:
+        if block.skipped or (block.needs_data and not data):
+            continue
+        if block.needs_data and block.language == "sh" and not draw:
             continue
         if block.language == "sh":
             try:

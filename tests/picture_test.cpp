@@ -119,6 +119,17 @@ TEST(Picture, LinesKeepTheirWidthWhateverTheScale) {
 }
 
 // On a plane with uneven triangles the slope at vertices is that of the field, also where it turns.
+TEST(Picture, WhatIsLevelAtZeroIsNotFilledWithTheLine) {
+  io::Scene scene = square_scene();
+  scene.isolines = 10;
+  const int line = dark_pixels(io::draw_picture(scene, small()));
+  for (double& x : scene.values)
+    if (std::abs(x) < 0.2) x = 0;  // a band of zeros, two cells wide
+  const io::Image image = io::draw_picture(scene, small());
+  EXPECT_GT(pixel(image, 0.5, 0.45)[0], 200);
+  EXPECT_LT(dark_pixels(image), 3 * line);
+}
+
 TEST(Picture, SlopesAtVerticesAreTheFieldsOwn) {
   PolygonSoup soup = test::grid_soup(6, 6);
   for (Eigen::Index v = 0; v < soup.points.rows(); ++v)

@@ -26,17 +26,34 @@ def test_the_code_of_a_page_runs(
     monkeypatch.setattr("webbrowser.open", lambda address: True)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     monkeypatch.setattr(sys, "argv", ["page"])
-    page_code.run_page(ROOT / page, tmp_path, os.environ["LITTORAL"])
+    data = page_code.data_collection()
+    page_code.run_page(ROOT / page, tmp_path, os.environ["LITTORAL"], data)
 
 
 def test_blocks_are_found_with_their_language_and_reason() -> None:
     text = "a\n```sh\nls\n```\n<!-- not run: slow -->\n```python\nx\n```\n"
-    text += "=== A\n\n    ```cpp\n    y\n    ```\n"
+    text += "=== A\n\n    <!-- needs data -->\n    ```cpp\n    y\n    ```\n"
     assert page_code.blocks(text) == [
         page_code.Block("sh", "ls\n", 2, False),
         page_code.Block("python", "x\n", 6, True),
-        page_code.Block("cpp", "y\n", 11, False),
+        page_code.Block("cpp", "y\n", 12, False, True),
     ]
+
+
+def test_what_needs_data_waits_for_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    page = "# Page\n\n<!-- needs data -->\n```python\nopen('out/here', 'w').close()\n```\n"
+    (tmp_path / "page.md").write_text(page + "<!-- needs data -->\n```sh\ntouch out/drawn\n```\n")
+    (tmp_path / "data").mkdir()
+    for folder, data, draw, left in (
+        ("none", None, False, set()),
+        ("some", tmp_path / "data", False, {"here"}),
+        ("all", tmp_path / "data", True, {"here", "drawn"}),
+    ):
+        (tmp_path / folder).mkdir()
+        monkeypatch.chdir(tmp_path / folder)
+        program = os.environ["LITTORAL"]
+        page_code.run_page(tmp_path / "page.md", tmp_path / folder, program, data, draw)
+        assert {found.name for found in Path("out").iterdir()} == left
 
 
 @pytest.mark.parametrize(

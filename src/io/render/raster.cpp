@@ -273,7 +273,11 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
     known += part[k] * normals_.row(v[k]).squaredNorm();
     if (counts[k] < 0.999) known = -1e9;
   }
-  if (known > 0) slope += known * known * (mean_slope(t, part, smooth.normalized(), x, y) - slope);
+  if (known > 0) {
+    const double mean = mean_slope(t, part, smooth.normalized(), x, y);
+    // Where the field has a kink, or is level, the triangle knows better.
+    slope += known * known * (std::clamp(mean, 0.6 * slope, 1.7 * slope) - slope);
+  }
   bool zero = false;
   const auto ink = static_cast<float>(line_strength(value, slope, zero));
   const float luminance = colour.dot(Eigen::Vector3f(0.30f, 0.59f, 0.11f));

@@ -1,5 +1,6 @@
 #include "io/render/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/option_table.h"
@@ -84,8 +85,11 @@ void describe(Scene& scene, const std::string& title, const Report& report) {
   if (report.method.empty()) return;
   std::vector<std::pair<std::string, std::string>> facts = {{"method", report.method},
                                                             {"domain", report.domain}};
-  for (const auto& [name, size] : report.sizes)
-    if (size == std::floor(size)) facts.emplace_back(name, number_text(size));  // counts
+  for (const auto& [name, size] : report.sizes) {
+    const std::pair fact(name, number_text(size));
+    const bool known = std::find(facts.begin(), facts.end(), fact) != facts.end();
+    if (size == std::floor(size) && !known) facts.push_back(fact);  // counts, once each
+  }
   facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
   double seconds = 0;
   for (const auto& [stage, time] : report.timings) seconds += time;

@@ -63,6 +63,20 @@ struct PageTest : testing::Test {
   }
 };
 
+TEST(Scene, FactsAreListedOnce) {
+  io::Scene scene = sphere_scene();
+  Report report;
+  report.method = "tori";
+  for (int times = 0; times < 2; ++times) {  // a cloud is read for its tori and for its grid
+    report.sizes.emplace_back("points", 66);
+    report.sizes.emplace_back("samples", 66);
+  }
+  io::describe(scene, "sphere", report);
+  std::set<std::string> names;
+  for (const auto& [name, text] : scene.facts) EXPECT_TRUE(names.insert(name).second) << name;
+  EXPECT_TRUE(names.contains("samples"));
+}
+
 TEST(Scene, PolygonsBecomeFansThatRememberTheirSides) {
   PolygonSoup soup;
   soup.points = MatX3::Random(5, 3);

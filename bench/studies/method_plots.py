@@ -120,7 +120,8 @@ def plot(tables: list[Path], folder: Path) -> None:
                 at = np.exp(np.log(x).mean()), np.exp(np.log(y).mean())
                 axes.annotate(
                     method, at, fontsize=9 if mine else 7, ha="center", zorder=3,
-                    color="#00564d" if mine else "#7a828c", xytext=(0, 6), textcoords="offset points",
+                    color="#00564d" if mine else "#7a828c", xytext=(0, 6),
+                    textcoords="offset points",
                 )  # fmt: skip
             axes.set_xlabel(xlabel)
             axes.set_ylabel("mean error [%]" + (", 1e-4 or less" if kind == "surface" else ""))

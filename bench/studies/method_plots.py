@@ -2,13 +2,14 @@
 
 usage: method_plots.py surface MESH... > FILE.csv    needs littoral and pygeodesic
        method_plots.py space > FILE.csv              needs littoral
-       method_plots.py plot SURFACE.csv SPACE.csv FOLDER    needs matplotlib
+       method_plots.py plot SURFACE.csv SPACE.csv ACCURACY.md FOLDER    needs matplotlib
        method_plots.py table SURFACE.csv SPACE.csv   prints Markdown
 
 Surface: from vertex 0 of each mesh, against exact polyhedral distance by pygeodesic; mean error in
 % of the largest distance. Space: clouds of 2,048 points with exact normals on five shapes in
 [-1, 1]^3 (bench/studies/tori_accuracy.py), on 32^3 nodes; mean error in % of the longest side.
-Seconds are processor time of one thread for preparing and solving.
+Seconds are processor time of one thread for preparing and solving. Regions and all pairs are drawn
+from their tables in docs/measurements/accuracy.md.
 """
 
 import csv
@@ -31,7 +32,7 @@ SURFACE = {
     "quadratic": {},
 }
 SPACE = ("auto", "winding", "tori", "signed-heat", "hopf-cole", "planar", "log-sum-exp")
-FLOOR = 1e-4  # smaller errors are drawn here [%]
+FLOOR = 0.01  # smaller errors on surfaces are drawn here [%]
 
 
 def row(where: str, size: int, method: str, error: float, seconds: float) -> None:
@@ -106,12 +107,13 @@ def plot(tables: list[Path], folder: Path) -> None:
     per = "µs of processor time per triangle", "processor seconds"
     for kind, path, xlabel in zip(("surface", "space"), tables, per, strict=True):
         found = read(path)
-        for shown in found:
+        shared = {"planar", "log-sum-exp", "belyaev-fayolle"}  # on a page with another
+        for shown in found.keys() - shared:
             figure, axes = plt.subplots(figsize=(5.6, 3.2), dpi=110)
             for method, rows in found.items():
                 scale = [1e6 / r[1] if kind == "surface" else 1 for r in rows]
                 x = [r[3] * s for r, s in zip(rows, scale, strict=True)]
-                y = [max(r[2], FLOOR) for r in rows]
+                y = [max(r[2], FLOOR if kind == "surface" else 0) for r in rows]
                 mine = method == shown
                 axes.loglog(
                     x, y, "o", color="#00796b" if mine else "#c4c9d0",
@@ -124,11 +126,43 @@ def plot(tables: list[Path], folder: Path) -> None:
                     textcoords="offset points",
                 )  # fmt: skip
             axes.set_xlabel(xlabel)
-            axes.set_ylabel("mean error [%]" + (", 1e-4 or less" if kind == "surface" else ""))
+            axes.set_ylabel("mean error [%]" + (", 0.01 or less" if kind == "surface" else ""))
+            axes.margins(0.14)
             axes.grid(alpha=0.3)
             figure.tight_layout()
             figure.savefig(folder / f"method-{kind}-{shown}.png")
             plt.close(figure)
+
+
+def rows_of(page: Path, first: str) -> list[list[str]]:
+    """The rows of the table of a page whose head starts with `first`."""
+    text = page.read_text()
+    body = text[text.index(first) :].split("\n\n")[0].splitlines()[2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in body]
+
+
+def plot_tables(page: Path, folder: Path) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    regions = rows_of(page, "| genus | faces | cases |")
+    pairs = [r for r in rows_of(page, "| method | parameter | against") if r[0] == "symmetric"]
+    for name, x, y, xlabel, ylabel in (
+        ("surface-winding", [r[0] for r in regions], [float(r[3].split("/")[0]) for r in regions],
+         "genus of the surface", "mislabelled area, mean [%]"),
+        ("symmetric", [r[1] for r in pairs], [float(r[2].split()[0]) for r in pairs],
+         "alpha", "triplets against the\ntriangle inequality [%]"),
+    ):  # fmt: skip
+        figure, axes = plt.subplots(figsize=(5.6, 3.2), dpi=110)
+        axes.bar(x, y, color="#00796b", width=0.6)
+        axes.set_xlabel(xlabel)
+        axes.set_ylabel(ylabel)
+        axes.grid(alpha=0.3, axis="y")
+        figure.tight_layout()
+        figure.savefig(folder / f"method-{name}.png")
+        plt.close(figure)
 
 
 def table(paths: list[Path]) -> None:
@@ -138,7 +172,7 @@ def table(paths: list[Path]) -> None:
         print("| method | " + " | ".join(columns) + " |")
         print("|---" * (1 + len(columns)) + "|")
         for method, rows in found.items():
-            cells = [f"{e:.2g}, {s:.2g}" if e >= FLOOR else f"0, {s:.2g}" for _, _, e, s in rows]
+            cells = [f"{e:.2g}, {s:.2g}" if e > 1e-9 else f"0, {s:.2g}" for _, _, e, s in rows]
             print(f"| {method} | " + " | ".join(cells) + " |")
         print()
 
@@ -150,6 +184,7 @@ if __name__ == "__main__":
     elif what == "space":
         space()
     elif what == "plot":
-        plot([Path(f) for f in files[:2]], Path(files[2]))
+        plot([Path(f) for f in files[:2]], Path(files[3]))
+        plot_tables(Path(files[2]), Path(files[3]))
     else:
         table([Path(f) for f in files])

@@ -5,7 +5,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 LAYERS = "base|spatial|solve|domain|operators|sources|contour|methods|io|api|cli"
-FILE = re.compile(rf"`((?:{LAYERS}|src|tests|bench|include|examples|scripts)/[\w/.-]+\.\w+)`")
+FILE = re.compile(
+    rf"`((?:{LAYERS}|src|tests|bench|include|examples|scripts|viewer|web|python)/[\w/.-]+\.\w+)`"
+)
 FUNCTION = re.compile(r"`(\w+(?:::\w+)+)`")
 
 
@@ -34,6 +36,14 @@ def test_functions_that_the_docs_name_exist() -> None:
         if any(word not in words for word in name.split("::"))
     ]
     assert missing == []
+
+
+def test_methods_that_the_citation_names_exist() -> None:
+    notes = re.findall(r"notes: methods? (.+)", (ROOT / "CITATION.cff").read_text())
+    options = (ROOT / "include/littoral/options.h").read_text()
+    known = set(re.findall(r'method = "([\w-]+)"', options))
+    assert len(notes) > 10
+    assert {name for note in notes for name in note.split(", ")} == known
 
 
 def literals() -> str:

@@ -16,6 +16,7 @@
 #include "methods/heat/sharpen.h"
 #include "methods/heat/time_scale.h"
 #include "operators/triangles.h"
+#include "sources/conform.h"
 #include "sources/retriangulate_sources.h"
 #include "sources/source_values.h"
 #include "sources/triangle_source_system.h"
@@ -63,12 +64,11 @@ void check_values(const Sources& sources, const SignedHeat& options) {
   if (options.constraint == Constraint::level_sets)
     throw InputError("option constraint: level-sets finds the values of curves and" + different,
                      "options-conflict");
-  if (options.sharpen != Sharpening::off)
-    throw UnsupportedError("option sharpen" + different, "options-conflict");
-  if (options.discontinuous)
-    throw UnsupportedError("option discontinuous" + different, "options-conflict");
-  if (options.bounding_only)
-    throw UnsupportedError("option bounding-only" + different, "options-conflict");
+  const std::string option = options.sharpen != Sharpening::off ? "sharpen"
+                             : options.discontinuous            ? "discontinuous"
+                             : options.bounding_only            ? "bounding-only"
+                                                                : "";
+  if (!option.empty()) throw UnsupportedError("option " + option + different, "options-conflict");
   const auto is_signed = [](const auto& curve) { return curve.is_signed; };
   const bool all_signed =
       sources.points.empty() &&
@@ -185,9 +185,10 @@ class HeatSurface {
     const std::size_t before = report.warnings.size();
     warn_off_unit(domain_.kind(), report);
     const auto& T = plain_ ? plain_->triangulation() : fine_->given();
-    if (!T || hint != SolveHint::single_rhs) return;
+    if (!T || hint != SolveHint::single_rhs || domain_.kind() != "triangle mesh") return;
     Report quiet;  // they have been placed before
     const PlacedSources placed = place_sources(domain_, sources, task, quiet);
+    if (!value_range(sources).same() && !pieces_with_sides(placed).empty()) return;
     const double mean =
         report_beside_marching(*domain_.mesh, *T, placed, at_input(phi).values, task, report);
     if (report.warnings.size() == before) warn_beside_marching(mean, report);

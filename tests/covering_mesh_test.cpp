@@ -50,7 +50,7 @@ PolygonSoup book(int n) {
   return soup;
 }
 
-double size_named(const Report& report, const std::string& name) {
+double covering_size(const Report& report, const std::string& name) {
   for (const auto& [key, value] : report.sizes)
     if (key == name) return value;
   return -1;
@@ -118,7 +118,7 @@ TEST(CoveringMesh, MakesDistanceInABookBetter) {
       const VecX phi = distance(mesh, sources, "unsigned-heat", intrinsic, sizes);
       error[intrinsic] = (phi - exact).cwiseAbs().mean() / exact.maxCoeff();
       if (intrinsic) {
-        EXPECT_LE(size_named(sizes, "intrinsic_edges_not_delaunay"), 5);  // at folded corners
+        EXPECT_LE(covering_size(sizes, "intrinsic_edges_not_delaunay"), 5);  // at folded corners
       }
     }
     EXPECT_LT(error[1], 0.5 * error[0]);
@@ -161,8 +161,8 @@ TEST(FixedEdges, AreSplitUntilTheyAreDelaunay) {
     for (int v : {2, 3, 4}) curve.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
     Report report;
     distance(mesh, curve, "signed-heat", true, report);
-    EXPECT_LE(size_named(report, "intrinsic_edges_not_delaunay"), 5);  // at sharp corners
-    EXPECT_GT(size_named(report, "intrinsic_vertices_added"), 0);
+    EXPECT_LE(covering_size(report, "intrinsic_edges_not_delaunay"), 5);  // at sharp corners
+    EXPECT_GT(covering_size(report, "intrinsic_vertices_added"), 0);
   }
 }
 
@@ -216,7 +216,7 @@ void expect_all_end(const std::string& folder, int most) {
       const VecX phi = distance(mesh, source, "unsigned-heat", true, report);
       EXPECT_EQ(phi.size(), mesh.n_vertices());
       EXPECT_FALSE(phi.hasNaN());
-      EXPECT_LE(size_named(report, "intrinsic_vertices_added"), 3 * mesh.n_vertices() + 1001);
+      EXPECT_LE(covering_size(report, "intrinsic_vertices_added"), 3 * mesh.n_vertices() + 1001);
       ++done;
     } catch (const Error&) {
       // files that are no meshes, and meshes without extent

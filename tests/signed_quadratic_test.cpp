@@ -19,10 +19,11 @@ SurfaceAnswer solve(const SurfaceMesh& mesh, const Sources& sources, Report& rep
   return test::surface_answer(mesh, sources, method, report);
 }
 
-using Exact = std::function<double(const Vec3&)>;
+using TrueDistance = std::function<double(const Vec3&)>;
 
 /// Root mean square and largest error at the vertices.
-std::pair<double, double> errors(const SurfaceMesh& mesh, const VecX& d, const Exact& exact) {
+std::pair<double, double> errors(const SurfaceMesh& mesh, const VecX& d,
+                                 const TrueDistance& exact) {
   double sum = 0, largest = 0;
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const double e = std::abs(d[v] - exact(mesh.point(v)));
@@ -61,7 +62,9 @@ TEST(SignedQuadratic, ABrokenLineIsCompletedAndExactBesideItsParts) {
 
 TEST(SignedQuadratic, CirclesConverge) {
   const auto sources = test::space_curve(test::circle(0.5, 0.5, 0, 0.27, 200));
-  const Exact exact = [](const Vec3& p) { return 0.27 - std::hypot(p[0] - 0.5, p[1] - 0.5); };
+  const TrueDistance exact = [](const Vec3& p) {
+    return 0.27 - std::hypot(p[0] - 0.5, p[1] - 0.5);
+  };
   double last = 0;
   for (int n : {6, 12}) {
     const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.2, 2));
@@ -85,7 +88,9 @@ TEST(SignedQuadratic, BrokenCirclesKeepInsideAndOutside) {
   const MatX3 circle = test::circle(0.5, 0.5, 0, 0.27, 100);
   Report report;
   const VecX d = solve(mesh, test::space_curve(circle.topRows(88)), report).values;
-  const Exact exact = [](const Vec3& p) { return 0.27 - std::hypot(p[0] - 0.5, p[1] - 0.5); };
+  const TrueDistance exact = [](const Vec3& p) {
+    return 0.27 - std::hypot(p[0] - 0.5, p[1] - 0.5);
+  };
   EXPECT_LT(errors(mesh, d, exact).first, 1.6e-2);
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (std::abs(exact(mesh.point(v))) > 0.04) {
@@ -98,7 +103,7 @@ TEST(SignedQuadratic, ACapOfTheSphere) {
   const auto sources = test::space_curve(test::circle(0, 0, 0.6, 0.8, 100));
   Report report;
   const VecX d = solve(mesh, sources, report).values;
-  const Exact exact = [](const Vec3& p) {  // colatitudes
+  const TrueDistance exact = [](const Vec3& p) {  // colatitudes
     return std::acos(0.6) - std::acos(std::clamp(p[2] / p.norm(), -1.0, 1.0));
   };
   EXPECT_LT(errors(mesh, d, exact).first, 0.015);

@@ -92,7 +92,9 @@ def test_printing_formats_go_round(run: Run, tmp_path: Path) -> None:
     ],
 )
 def test_cells_of_meshio(run: Run, tmp_path: Path, name: str, options: dict[str, object]) -> None:
-    values = {} if name == "a.mesh" else {"depth": CUBE @ [1.0, 2.0, 4.0]}
+    # Medit has no values here, and meshio writes those of Gmsh as text wrongly.
+    without = name == "a.mesh" or (name == "a.msh" and not options["binary"])
+    values = {} if without else {"depth": CUBE @ [1.0, 2.0, 4.0]}
     meshio.write(
         tmp_path / name, meshio.Mesh(CUBE, [("hexahedron", HEXAHEDRON)], values), **options
     )

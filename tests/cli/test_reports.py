@@ -15,6 +15,7 @@ TYPES: dict[str, Any] = {
     "string": str,
     "integer": int,
     "number": (int, float),
+    "boolean": bool,
 }
 
 
@@ -30,7 +31,7 @@ def check(value: Any, schema: dict[str, Any], at: str = "report") -> None:
     types = tuple(TYPES[name] for name in ([names] if isinstance(names, str) else names))
     if types:
         assert any(isinstance(value, t) for t in types), at
-        assert not isinstance(value, bool), at
+        assert isinstance(value, bool) == (types == (bool,)), at
     if isinstance(value, list) and "items" in schema:
         for i, item in enumerate(value):
             check(item, schema["items"], f"{at}[{i}]")

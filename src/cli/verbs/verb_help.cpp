@@ -65,6 +65,8 @@ struct HelpArguments {
 };
 
 void write_manual(const CLI::App& program, const std::filesystem::path& folder) {
+  std::error_code failed;  // said by the first page that cannot be written
+  std::filesystem::create_directories(folder, failed);
   const auto write = [&](const std::string& name, const std::string& text) {
     io::write_atomically(folder / (name + ".1"), [&](std::ostream& out) { out << text; });
   };

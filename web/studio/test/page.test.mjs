@@ -21,6 +21,14 @@ test("the page opens on a field; each control changes what it should", async () 
   await page.click("#wires");
   assert.ok(await changedPixels(page, () => page.click("#marks")) > 30, "curves");
   await page.click("#marks");
+  assert.equal(await page.evaluate(() => document.querySelector("#shown [value=confidence]").disabled), true, "nobody asked for it");
+  assert.ok(await changedPixels(page, () => page.selectOption("#shown", "slope")) > 500, "the slope");
+  const middle = await page.evaluate(() => {
+    const { values, low, high } = studio.stage.skin.field;
+    return low + (high - low) * Array.from(values).sort((a, b) => a - b)[values.length >> 1];
+  });
+  assert.ok(Math.abs(middle) < 0.02, `exact distance has slope 1, not ${1 + middle}`);
+  await page.selectOption("#shown", "field");
   await page.focus("#view");
   assert.ok(await changedPixels(page, () => page.keyboard.press("ArrowLeft")) > 500, "arrows turn");
   assert.ok(await changedPixels(page, () => page.keyboard.press("h")) > 500, "first view");
@@ -37,6 +45,11 @@ test("the page opens on a field; each control changes what it should", async () 
   await settled(page);
   assert.notDeepEqual((await state(page)).values, heat.values);
   assert.equal(await page.evaluate(() => studio.answer.report.options["time-scale"] == 30), true);
+  await page.click("#option-confidence");
+  await settled(page);
+  assert.ok(await changedPixels(page, () => page.selectOption("#shown", "confidence")) > 500, "how sure the sign is");
+  assert.deepEqual(await page.evaluate(() => [studio.stage.skin.field.name, studio.stage.skin.field.colourHigh]), ["confidence", 1]);
+  await page.selectOption("#shown", "field");
   await page.fill("#option-time-scale", "-3"); // out of range: nothing happens
   await page.locator("#option-time-scale").blur();
   await settled(page);
@@ -66,6 +79,12 @@ test("isolines, pictures and fields are saved", async () => {
   assert.equal(png.bytes.subarray(1, 4).toString(), "PNG");
   assert.ok(png.bytes.length > 20000);
   assert.match((await saved(page, "save-field", ".csv")).bytes.toString(), /^vertex,distance\n0,/);
+  const npz = (await saved(page, "save-field", ".npz")).bytes;
+  assert.ok(npz.subarray(0, 2).toString() === "PK" && npz.includes("distance.npy"));
+  await page.evaluate(() => { document.getElementById("save-menu").open = true; });
+  await page.fill("#offsets", "0.05, -0.03");
+  const offsets = (await saved(page, "save-offsets", ".obj")).bytes.toString();
+  assert.ok(offsets.match(/^l /gm).length >= 2, "a line at each distance");
   await closeQuietly(shown);
 });
 

@@ -45,11 +45,6 @@ test("the page opens on a field; each control changes what it should", async () 
   await settled(page);
   assert.notDeepEqual((await state(page)).values, heat.values);
   assert.equal(await page.evaluate(() => studio.answer.report.options["time-scale"] == 30), true);
-  await page.click("#option-confidence");
-  await settled(page);
-  assert.ok(await changedPixels(page, () => page.selectOption("#shown", "confidence")) > 500, "how sure the sign is");
-  assert.deepEqual(await page.evaluate(() => [studio.stage.skin.field.name, studio.stage.skin.field.colourHigh]), ["confidence", 1]);
-  await page.selectOption("#shown", "field");
   await page.fill("#option-time-scale", "-3"); // out of range: nothing happens
   await page.locator("#option-time-scale").blur();
   await settled(page);

@@ -52,9 +52,9 @@ def repair(
 
     V, F and method as for `SDF`. Where orientation, doubled faces and parts within others are all
     that is wrong, the input's triangles are kept where they are, unless remesh is True. Otherwise
-    the surface is taken from a grid (resolution: nodes along the longest side, 128 without, or up to
-    256 where parts are thin; or spacing [length]) and fitted to the input with its creases, unless
-    fit is False.
+    the surface is taken from a grid (resolution: nodes along the longest side, 128 without, or up
+    to 256 where parts are thin; or spacing [length]) and fitted to the input with its creases,
+    unless fit is False.
     error: refine the grid, up to 512 nodes, until no point of the result is farther than that from
     the input or what closes it. thicken: sheets become walls that thick. smallest_part: parts whose
     boxes have shorter diagonals go [all lengths]. cavities: keep holes inside of parts. The

@@ -11,22 +11,24 @@ SurfaceParts parts_of(const PolygonSoup& surface) {
   DisjointSets sets(surface.n_vertices());
   for (int f = 0; f < surface.n_faces(); ++f)
     for (const int v : surface.face(f)) sets.join(surface.face(f)[0], v);
-  int count = 0;
-  const std::vector<int> number = sets.numbered(count);
   SurfaceParts parts;
-  parts.boxes.resize(static_cast<std::size_t>(count));
-  parts.volumes.resize(static_cast<std::size_t>(count), 0);
-  std::vector<int> first(static_cast<std::size_t>(count), -1);  // a vertex of each
+  std::vector<int> number(static_cast<std::size_t>(surface.n_vertices()), -1);  // by root
+  std::vector<int> first;                                                       // a vertex of each
   for (int f = 0; f < surface.n_faces(); ++f) {
     const auto face = surface.face(f);
-    const int part = number[face[0]];
+    int& part = number[sets.find(face[0])];
+    if (part < 0) {
+      part = static_cast<int>(first.size());
+      first.push_back(face[0]);
+      parts.boxes.emplace_back();
+      parts.volumes.push_back(0);
+    }
     parts.of_face.push_back(part);
     std::array<Vec3, 3> x;
     for (std::size_t k = 0; k < 3; ++k) {
       x[k] = surface.points.row(face[k]);
       parts.boxes[part].add(x[k]);
     }
-    if (first[part] < 0) first[part] = face[0];
     const Vec3 origin = surface.points.row(first[part]);  // near the part: little cancels
     parts.volumes[part] += (x[0] - origin).dot((x[1] - origin).cross(x[2] - origin)) / 6;
   }

@@ -8,7 +8,7 @@
 
 namespace littoral {
 
-/// Parts of a surface of triangles, joined by shared vertices.
+/// Parts of a surface of triangles, joined by shared vertices; vertices without a face are in none.
 struct SurfaceParts {
   std::vector<int> of_face;
   std::vector<Box> boxes;

@@ -133,7 +133,9 @@ def silent(names: dict[str, Any], of_module: str) -> list[str]:
 
 
 def takes_something(value: Any) -> bool:
-    if isinstance(value, property) or (inspect.isclass(value) and issubclass(value, Exception)):
+    if isinstance(value, property):
+        return False
+    if inspect.isclass(value) and issubclass(value, (Exception, str)):
         return False
     return bool(set(inspect.signature(value).parameters) - {"self", "cls", "threads"})
 

@@ -30,7 +30,8 @@ PlannedRun estimated(const RunPlan& plan, const std::string& verb, const MethodI
   PlannedRun out;
   out.reason = (plan.method.empty() ? "the default: " : "asked for: ") + method.summary;
   out.available_memory_mb = std::round(std::min(available_memory(), 1e18) / (1 << 20));
-  const std::optional<RunCost> cost = run_cost(verb, method.name, plan.elements);
+  const std::optional<RunCost> cost =
+      run_cost(plan.like.empty() ? verb : plan.like, method.name, plan.elements);
   if (!cost) return out;
   const double seconds = plan.share * cost->seconds;
   out.processor_seconds = rough(seconds);

@@ -18,6 +18,7 @@ struct RunPlan {
   std::vector<std::pair<std::string, double>> sizes;
   double elements = 0;  // that the cost depends on
   double share = 1;     // of the work on all of them
+  std::string like{};   // the verb that costs as much; empty: the one that runs
 };
 
 /// Of methods on a surface or tet mesh.

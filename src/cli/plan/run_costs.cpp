@@ -19,7 +19,7 @@ struct Row {
   double seconds, power, bytes;
 };
 
-// Printed by bench/studies/run_costs.py.
+// Of two runs each by bench/studies/run_costs.py.
 constexpr std::array rows = std::to_array<Row>({
     {"distance", "auto", 0.0922, 1.51, 1378},
     {"distance", "signed-heat", 0.118, 1.23, 5137},
@@ -54,9 +54,8 @@ constexpr std::array rows = std::to_array<Row>({
 
 std::optional<RunCost> run_cost(const std::string& verb, const std::string& method,
                                 double elements) {
-  const std::string_view like = verb == "offset" ? "sdf" : std::string_view(verb);
   for (const Row& row : rows) {
-    if (row.verb != like || (!row.method.empty() && row.method != method)) continue;
+    if (row.verb != verb || (!row.method.empty() && row.method != method)) continue;
     const double held = verb == "pairs" ? elements * elements : elements;
     return RunCost{start + row.seconds * std::pow(elements / unit, row.power),
                    program + row.bytes * held};

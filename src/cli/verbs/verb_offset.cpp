@@ -82,7 +82,9 @@ void offset_curves(OffsetArguments& arguments, std::size_t count, Session& sessi
   if (session.flip) sources = sources.reversed();
   session.reading = false;
   const SurfaceDomain domain = domain_of(mesh);
-  if (planned(plan_on(method, domain), session)) return;
+  RunPlan plan = plan_on(method, domain);
+  plan.like = "distance";
+  if (planned(plan, session)) return;
   Task task = session.task();
   const auto solver =
       prepare(method, domain, lengths.plain() ? SolveHint::single_rhs : SolveHint::many_rhs,
@@ -101,6 +103,12 @@ struct DistanceAround {
   OffsetLengths lengths;
 };
 
+bool planned_as_sdf(const CsgShapes& shapes, const Grid& grid, Session& session) {
+  RunPlan plan = plan_in_space(shapes, grid);
+  plan.like = "sdf";
+  return planned(plan, session);
+}
+
 /// Around a shape or several, on a grid that holds all offsets of it; that of a volume alone is
 /// there already.
 /// None where only the plan was asked for.
@@ -113,7 +121,7 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   const InputSize size = [&] { return longest_side(shapes); };
   const OffsetLengths lengths = lengths_of(arguments, size);
   if (shapes.all.size() == 1 && shapes.all.front().field)
-    return planned(plan_in_space(shapes, shapes.all.front().field->grid), session)
+    return planned_as_sdf(shapes, shapes.all.front().field->grid, session)
                ? std::nullopt
                : std::optional(DistanceAround{*shapes.all.front().field, {}, {}, lengths});
   double farthest = 0;
@@ -126,7 +134,7 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   around.lengths = lengths;
   around.distance.grid = choose_grid(shapes, grid);
   session.reading = false;
-  if (planned(plan_in_space(shapes, around.distance.grid), session)) return {};
+  if (planned_as_sdf(shapes, around.distance.grid, session)) return {};
   SpaceAnswer answer = grid_answer(shapes, around.distance.grid, session.task(), session.report);
   around.distance.values = std::move(answer.at_nodes);
   around.completion = std::move(answer.completion);

@@ -39,7 +39,9 @@ void run_repair(RepairArguments& arguments, Session& session) {
     throw InputError("option error chooses the grid: give it, or resolution or spacing",
                      "option-value");
   session.reading = false;
-  if (planned(plan_in_space(shapes, choose_grid(shapes, options.grid)), session)) return;
+  GridOptions likely = options.grid;
+  if (!likely.resolution && !likely.spacing) likely.resolution = repair_nodes;
+  if (planned(plan_in_space(shapes, choose_grid(shapes, likely)), session)) return;
   const PolygonSoup result =
       repair_surface(shape.surface, options, shape.request, session.task(), session.report);
   session.record.values = {range_of("distance", result.scalars.at("distance"))};

@@ -160,8 +160,8 @@ TEST(IoSources, SaysWhatIsWrongInText) {
             "a.txt:3: segment refers to point 3, the file has 2 (counted from 1)");
   EXPECT_EQ(error_of_sources("v 1\nl 1\n"), "a.txt:2: expected 'l POINT POINT'");
   EXPECT_EQ(error_of_sources("#offset 2\nv 1\n"), "a.txt:1: expected 0 or 1 after #offset");
-  EXPECT_EQ(error_of_sources("v 1\n", ".svg"),
-            "a.svg: cannot be read as sources: the extension is '.svg'; possible: .obj .ply "
+  EXPECT_EQ(error_of_sources("v 1\n", ".abc"),
+            "a.abc: cannot be read as sources: the extension is '.abc'; possible: .obj .ply "
             ".glb .gltf .txt .json");
 }
 

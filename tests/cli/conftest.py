@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 import subprocess
 import time
 from collections.abc import Callable
@@ -11,6 +12,8 @@ import pytest
 
 PROGRAM = os.environ.get("LITTORAL", "littoral")
 Run = Callable[..., subprocess.CompletedProcess[str]]
+# A shell may start the tests in the background, where Ctrl-C is ignored, also by what they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def square(n: int) -> str:

@@ -102,7 +102,9 @@ class VtuReader {
       held.clear();
       for (; at < static_cast<Eigen::Index>(ends[static_cast<Eigen::Index>(c)]); ++at)
         held.push_back(cells_.corner(c, corners[at]));
-      cells_.add(c, static_cast<int>(types[static_cast<Eigen::Index>(c)]), held);
+      const double type = types[static_cast<Eigen::Index>(c)];
+      if (!(type >= 0 && type < 256)) fail("the type of cell " + std::to_string(c) + " is no byte");
+      cells_.add(c, static_cast<int>(type), held);
     }
   }
 

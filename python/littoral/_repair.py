@@ -18,7 +18,7 @@ class Repaired(Reported):
 
     >>> import littoral
     >>> littoral.repair(littoral.examples.cube())
-    <littoral.Repaired: <littoral.Mesh: 8 vertices, 12 triangles>, converged>
+    <littoral.Repaired: <littoral.Mesh: 8 vertices, 12 faces>, converged>
     """
 
     def __init__(self, surface: Surface, report: Report) -> None:

@@ -12,7 +12,7 @@ class ReportWarning(str):
     The page of messages explains the codes.
 
     >>> import littoral
-    >>> mesh = littoral.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]], [[0, 1, 2]])
+    >>> mesh = littoral.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]], [[0, 1, 2]])
     >>> [warning.code for warning in littoral.distance(mesh, points=0).warnings]
     ['isolated-vertices']
     """

@@ -65,6 +65,10 @@ template <class R>
 constexpr auto max_element(R&& range) {
   return std::max_element(std::begin(range), std::end(range));
 }
+template <class R>
+constexpr auto min_element(R&& range) {
+  return std::min_element(std::begin(range), std::end(range));
+}
 
 }  // namespace ranges
 }  // namespace std

@@ -281,16 +281,24 @@ TEST(Msh, FlatElementsAreASurface) {
               HasSubstr("the file has no tets"));
 }
 
+/// The text with the first `from` replaced.
+std::string replaced_in(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// What a reader says of a file in which `from` stands as `to`.
+template <class Read>
+std::string said_with(const Read& read, const std::string& text, const std::string& name,
+                      const std::string& from, const std::string& to) {
+  return test::message_of([&] { read(replaced_in(text, from, to), name); });
+}
+
 TEST(Msh, ErrorsNameTheElement) {
   const std::string text = MshSample{22, false, false, ""}.bytes(msh_points, msh_elements);
   const auto expect = [&](const std::string& from, const std::string& to, const char* said) {
-    std::string bytes = text;
-    const std::size_t at = bytes.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    EXPECT_THAT(
-        test::message_of([&] { io::read_msh_tets(bytes.replace(at, from.size(), to), "a.msh"); }),
-        HasSubstr(said))
-        << from;
+    EXPECT_THAT(said_with(io::read_msh_tets, text, "a.msh", from, to), HasSubstr(said)) << from;
   };
   expect("2.2 0 8", "1.0 0 8", "version 1; 2 and 4 are read");
   expect("2.2 0 8", "2.2 1 4", "numbers of 4 bytes");
@@ -318,13 +326,6 @@ const std::string vtu =
     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">14 5</DataArray>\n"
     "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
 
-std::string changed_vtu(const std::string& from, const std::string& to) {
-  std::string text = vtu;
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(Vtu, TextAndWhatIsWritten) {
   const io::TetFile file = io::read_vtu_tets(vtu, "a.vtu");
   EXPECT_EQ(file.mesh.n_tets(), 2);
@@ -347,15 +348,14 @@ TEST(Vtu, TextAndWhatIsWritten) {
   std::filesystem::remove(path);
 
   const PolygonSoup flat = test::read(
-      changed_vtu("\"types\" format=\"ascii\">14 5", "\"types\" format=\"ascii\">7 5"), ".vtu");
+      replaced_in(vtu, "\"types\" format=\"ascii\">14 5", "\"types\" format=\"ascii\">7 5"),
+      ".vtu");
   EXPECT_EQ(flat.face_offsets, (std::vector<int>{0, 5, 8}));
 }
 
 TEST(Vtu, ErrorsNameTheElement) {
   const auto expect = [&](const std::string& from, const std::string& to, const char* said) {
-    EXPECT_THAT(test::message_of([&] { io::read_vtu_tets(changed_vtu(from, to), "a.vtu"); }),
-                HasSubstr(said))
-        << from;
+    EXPECT_THAT(said_with(io::read_vtu_tets, vtu, "a.vtu", from, to), HasSubstr(said)) << from;
   };
   expect("0 1 2 3 4 0 1 4", "0 1 2 3 4 0 1 5", "cell 1 refers to vertex 5, the file has 5");
   expect("0 1 2 3 4 0 1 4", "0 1 2 3 -4 0 1 4", "cell 0 refers to vertex -4");

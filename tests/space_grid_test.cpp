@@ -133,17 +133,24 @@ TEST(GridOperators, RowsReproduceLinearFunctionsAndSkipPointsOutside) {
   EXPECT_EQ(rows.weight[0], 4);
 }
 
-TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
-  const Grid grid = odd_grid();
-  const auto n = static_cast<Eigen::Index>(grid.n_nodes());
-  const GridRows rows = grid_rows(
+/// A Poisson equation on a grid, with samples that its solution is held at.
+struct HeldGrid {
+  Grid grid = odd_grid();
+  Eigen::Index n = static_cast<Eigen::Index>(grid.n_nodes());
+  GridRows rows = grid_rows(
       grid, (test::random_points(9, 0.5).rowwise() + Eigen::RowVector3d(1.8, 3, 3.5)).eval(),
       VecX::Ones(9));
-  const Eigen::Index m = rows.A.rows();
-  VecX b = VecX::Random(n);
-  b.array() -= b.mean();
-  const GridPoisson poisson(grid.n, grid.spacing);
-  const auto solve = [&](VecX& v) { poisson.solve(v, Task()); };
+  Eigen::Index m = rows.A.rows();
+  VecX b = balanced(VecX::Random(n));
+  GridPoisson<> poisson{grid.n, grid.spacing};
+
+  static VecX balanced(const VecX& b) { return b.array() - b.mean(); }
+};
+
+TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
+  const HeldGrid held{};
+  const auto& [grid, n, rows, m, b, poisson] = held;
+  const auto solve = [&held](VecX& v) { held.poisson.solve(v, Task()); };
   for (const double soft : {0.0, 0.01}) {
     VecX x0 = b;
     solve(x0);
@@ -165,19 +172,12 @@ TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
 
 TEST(HeldPoisson, OneValueAlongEachGroupAgreesWithTheSaddlePointSystem) {
   // Unknowns x, multipliers and a constant for each group: A x - B c = 0.
-  const Grid grid = odd_grid();
-  const auto n = static_cast<Eigen::Index>(grid.n_nodes());
-  const GridRows rows = grid_rows(
-      grid, (test::random_points(9, 0.5).rowwise() + Eigen::RowVector3d(1.8, 3, 3.5)).eval(),
-      VecX::Ones(9));
-  const Eigen::Index m = rows.A.rows();
+  const HeldGrid held{};
+  const auto& [grid, n, rows, m, b, poisson] = held;
   ASSERT_GE(m, 4);
   std::vector<int> group(static_cast<std::size_t>(m));
   for (Eigen::Index r = 0; r < m; ++r) group[static_cast<std::size_t>(r)] = r % 2;
-  VecX b = VecX::Random(n);
-  b.array() -= b.mean();
-  const GridPoisson poisson(grid.n, grid.spacing);
-  const auto solve = [&](VecX& v) { poisson.solve(v, Task()); };
+  const auto solve = [&held](VecX& v) { held.poisson.solve(v, Task()); };
   VecX x = b;
   solve(x);
   Report report;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -13,11 +12,10 @@
 #include "api/space/frame.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
-#include "base/index.h"
 #include "domain/mesh/face_orientation.h"
 #include "domain/mesh/surface_mesh.h"
 #include "methods/implicit/settled_sides.h"
-#include "spatial/self_intersections.h"
+#include "spatial/boundary_edges.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -30,16 +28,8 @@ constexpr double flattest = 1e-12;  // height over the longest side
 
 using Corners = std::array<int, 3>;
 
-/// For each point the first one at the same place.
-std::vector<int> first_at(const MatX3& points) {
-  std::vector<int> order(static_cast<std::size_t>(points.rows())), first(order.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int v) { return std::array{points(v, 0), points(v, 1), points(v, 2)}; };
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(key(a), a) < std::pair(key(b), b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
-  return first;
+Corners corners_of(const MatX3i& faces, Eigen::Index f) {
+  return {faces(f, 0), faces(f, 1), faces(f, 2)};
 }
 
 struct Shape {
@@ -61,27 +51,21 @@ Shape shape_of(const MatX3& points, const Corners& v) {
 }
 
 /// The input's triangles on merged corners, each once; none if one of them has no area.
-std::vector<Corners> cleaned(const PolygonSoup& input) {
-  const MatX3i triangles = triangles_of(triangulate(input));
-  const std::vector<int> first = first_at(input.points);
-  std::vector<Corners> out;
+MatX3i cleaned(const PolygonSoup& input) {
+  MatX3i triangles = triangles_of(triangulate(input));
+  const std::vector<int> first = same_positions(input.points);
   std::set<Corners> seen;
+  Eigen::Index n = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     const Corners v{first[triangles(f, 0)], first[triangles(f, 1)], first[triangles(f, 2)]};
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    if (shape_of(input.points, v).flat) return {};
+    if (shape_of(input.points, v).flat) return MatX3i(0, 3);
     Corners sorted = v;
     std::sort(sorted.begin(), sorted.end());
-    if (seen.insert(sorted).second) out.push_back(v);
+    if (seen.insert(sorted).second) triangles.row(n++) << v[0], v[1], v[2];
   }
-  return out;
-}
-
-PolygonSoup assembled(const MatX3& points, const std::vector<Corners>& faces) {
-  PolygonSoup soup;
-  soup.points = points;
-  for (const Corners& face : faces) soup.add_face(face);
-  return soup;
+  triangles.conservativeResize(n, 3);
+  return triangles;
 }
 
 bool two_at_each_edge(const SurfaceMesh& mesh) {
@@ -115,32 +99,29 @@ std::optional<int> turn_of(const MatX3& points, const Corners& widest, const Set
 
 std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Report& report) {
   if (input.n_faces() == 0 || !input.points.allFinite()) return std::nullopt;
-  std::vector<Corners> faces = cleaned(input);
-  if (faces.empty()) return std::nullopt;
+  MatX3i faces = cleaned(input);
+  if (faces.rows() == 0) return std::nullopt;
   Box box;
-  for (const Corners& face : faces)
-    for (const int v : face) box.add(input.points.row(v).transpose());
+  for (const int v : faces.reshaped()) box.add(input.points.row(v).transpose());
   const MatX3 points = Frame(box).local(input.points);
-  const SurfaceMesh mesh(assembled(points, faces));
+  const SurfaceMesh mesh(soup_of(points, faces));
   if (!two_at_each_edge(mesh)) return std::nullopt;
   const FaceOrientation agreed = face_orientation(mesh);
   if (!agreed.orientable) return std::nullopt;
 
   task.checkpoint(0.2);
   Report said = report;
-  MatX3i given(index(faces.size()), 3);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    given.row(index(f)) << faces[f][0], faces[f][1], faces[f][2];
-  const SettledSides sides = settled_sides(points, given, false, task.stage(0.5, "sides"), said);
+  const SettledSides sides = settled_sides(points, faces, false, task.stage(0.5, "sides"), said);
   if (said.status != report.status) return std::nullopt;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    if (agreed.sign[f] < 0) std::swap(faces[f][1], faces[f][2]);
-  const SurfaceParts parts = parts_of(assembled(points, faces));
+  const auto turn_over = [&](Eigen::Index f) { std::swap(faces(f, 1), faces(f, 2)); };
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    if (agreed.sign[f] < 0) turn_over(f);
+  const SurfaceParts parts = parts_of(soup_of(points, faces));
   const std::size_t n = parts.boxes.size();
   std::vector<int> widest(n, -1);
-  std::vector<double> areas(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    areas[f] = shape_of(points, faces[f]).area;
+  VecX areas(faces.rows());
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    areas[f] = shape_of(points, corners_of(faces, f)).area;
     int& best = widest[parts.of_face[f]];
     if (best < 0 || areas[f] > areas[best]) best = static_cast<int>(f);
   }
@@ -148,23 +129,21 @@ std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Rep
   std::vector<int> turn(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     task.checkpoint(0.5 + 0.2 * static_cast<double>(i) / static_cast<double>(n));
-    const auto found = turn_of(points, faces[widest[i]], sides);
+    const auto found = turn_of(points, corners_of(faces, widest[i]), sides);
     if (!found) return std::nullopt;
     turn[i] = *found;
     stays[i] = turn[i] != 0;
   }
   KeptSurface out;
-  double area = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const int part = parts.of_face[f];
-    if (turn[part] < 0) std::swap(faces[f][1], faces[f][2]);
+    if (turn[part] < 0) turn_over(f);
     out.turned += (agreed.sign[f] < 0) != (turn[part] < 0) && stays[part];
     out.dropped += stays[part] ? 0 : areas[f];
-    area += areas[f];
   }
-  out.turned /= static_cast<double>(faces.size());
-  out.dropped /= area;
-  out.surface = with_parts(assembled(input.points, faces), parts, stays);
+  out.turned /= static_cast<double>(faces.rows());
+  out.dropped /= areas.sum();
+  out.surface = with_parts(soup_of(input.points, faces), parts, stays);
   task.checkpoint(0.7);
   if (out.surface.n_faces() == 0 || !is_sound(out.surface)) return std::nullopt;
   report = std::move(said);

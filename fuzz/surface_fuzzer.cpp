@@ -6,6 +6,7 @@
 #include "domain/mesh/surface_mesh.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "program_format.h"
 
 namespace {
 
@@ -32,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
     const littoral::PolygonSoup soup =
-        littoral::io::read_surface_bytes(bytes, LITTORAL_FUZZ_EXTENSION, "input");
+        littoral::io::read_surface_bytes(bytes, program_format(), "input");
     check(soup);
     const littoral::SurfaceMesh mesh(soup);
     require(mesh.n_edges() <= static_cast<int>(soup.corners.size()));

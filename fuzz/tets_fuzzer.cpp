@@ -5,6 +5,7 @@
 
 #include "io/tet/tets.h"
 #include "littoral/error.h"
+#include "program_format.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
     const littoral::io::TetFile file =
-        littoral::io::read_tets_bytes(bytes, LITTORAL_FUZZ_EXTENSION, "input");
+        littoral::io::read_tets_bytes(bytes, program_format(), "input");
     const int n = file.mesh.n_vertices();
     require(file.mesh.n_tets() > 0);
     for (const int v : file.mesh.tets.reshaped()) require(v >= 0 && v < n);

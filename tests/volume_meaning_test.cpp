@@ -4,7 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "base/option_table.h"
 #include "littoral/error.h"
 #include "littoral/littoral.h"
 
@@ -22,6 +25,19 @@ Volume sampled(const F& value) {
         volume.values[static_cast<Eigen::Index>(volume.grid.node(i, j, k))] =
             value(volume.grid.point(i, j, k));
   return volume;
+}
+
+TEST(VolumeMeaning, MessagesHaveFourDigitsOfAMeasuredValue) {
+  for (const auto& [value, text] : std::initializer_list<std::pair<double, const char*>>{
+           {0.25018308123652166, "0.2502"},
+           {-123456, "-123500"},
+           {2e-7 / 3, "6.667e-08"},
+           {0.1, "0.1"},
+           {0, "0"},
+           {1e300, "1e+300"},
+           {-1e-300, "-1e-300"},
+           {std::numeric_limits<double>::infinity(), "inf"}})
+    EXPECT_EQ(rounded_text(value), text);
 }
 
 const Vec3 outside(0.9, 0.1, 0);

@@ -93,10 +93,17 @@ def test_crossed_bars_overlap_though_no_vertex_is_inside(tmp_path):
     assert float(said.split()[1][:-1]) == pytest.approx(0.5 * side, abs=0.05 * side)
 
 
-def test_clusters(tmp_path):
-    said = run("clusters.py", SPOT, "6", tmp_path / "labels.npy")
+def test_clusters_of_a_figure_are_its_limbs(tmp_path):
+    run("figure.py", tmp_path / "figure.ply")
+    figure = littoral.read(tmp_path / "figure.ply")
+    said = run("clusters.py", tmp_path / "figure.ply", "6", tmp_path / "labels.npy")
     labels = np.load(tmp_path / "labels.npy")
     assert set(labels) == set(range(6)) and "farthest" in said
+    x, _, z = figure.points.T
+    hands = [int(x.argmin()), int(x.argmax())]
+    feet = [int(np.where(side * x > 0, z, np.inf).argmin()) for side in (-1, 1)]
+    ends = [*hands, *feet, int(z.argmax())]
+    assert len({int(labels[v]) for v in ends}) == 5
 
 
 def test_the_cut_locus_of_a_torus_lies_across_from_the_source(tmp_path):

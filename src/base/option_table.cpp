@@ -16,6 +16,13 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
+std::string rounded_text(double value) {
+  if (!std::isfinite(value) || std::abs(value) < 1e-290) return number_text(value);
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  return number_text(unit >= 1 ? std::round(value / unit) * unit
+                               : std::round(value / unit) / std::round(1 / unit));
+}
+
 std::string OptionInfo::range() const {
   switch (kind) {
     case Kind::toggle:

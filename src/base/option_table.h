@@ -20,6 +20,8 @@ int parse_option_integer(const OptionInfo& info, const std::string& text);
 int parse_option_choice(const OptionInfo& info, const std::string& text);
 bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
+/// A measured value in a sentence: four digits.
+std::string rounded_text(double value);
 /// Throws InputError unless the number is in [low, high].
 void check_option_range(const OptionInfo& info, double value);
 /// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.

@@ -175,13 +175,43 @@ void add_index_option(CLI::App& verb, Session& session) {
       ->type_name("0|1");
 }
 
+namespace {
+
+constexpr std::string_view words_mark = "words";  // begins the names of validators that know some
+
+std::string name_with(const std::vector<std::string>& words) {
+  std::string name(words_mark);
+  for (const std::string& word : words) name += " " + word;
+  return name;
+}
+
+}  // namespace
+
 CLI::Validator one_of(const std::vector<std::string>& words) {
   return CLI::Validator(
-      [words](const std::string& word) {
-        if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
-        return "'" + word + "' is none of " + listed(words) + meant(word, words);
-      },
-      "");
+             [words](const std::string& word) {
+               if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
+               return "'" + word + "' is none of " + listed(words) + meant(word, words);
+             },
+             "")
+      .name(name_with(words));
+}
+
+CLI::Validator among(const std::vector<std::string>& words) {
+  return CLI::Validator([](const std::string&) { return std::string(); }, "")
+      .name(name_with(words));
+}
+
+std::string words_to_complete(CLI::Option& option) {
+  for (int i = 0;; ++i) {
+    try {
+      const std::string name = option.get_validator(i)->get_name();
+      if (name.starts_with(words_mark))
+        return name.substr(std::min(name.size(), words_mark.size() + 1));
+    } catch (const CLI::OptionNotFound&) {
+      return "";  // there are no more
+    }
+  }
 }
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {

@@ -89,6 +89,10 @@ CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::
 }
 /// Accepts one of these words; the message for another one names the nearest.
 CLI::Validator one_of(const std::vector<std::string>& words);
+/// Accepts any word, so that another check may say more; shells complete these.
+CLI::Validator among(const std::vector<std::string>& words);
+/// The words that `one_of` or `among` gave to an option, separated by spaces; empty if neither did.
+std::string words_to_complete(CLI::Option& option);
 /// Text without line breaks and other control characters, which readers of lines stumble over.
 std::string one_line(std::string text);
 /// Adds --json.

@@ -162,6 +162,8 @@ const Format& format_to_read(const std::string& extension, const std::string& na
                              "unknown-format");
     return *format;
   }
+  if (std::error_code none; std::filesystem::is_directory(name, none))
+    throw InputError(name + ": cannot be read: it is a folder", "cannot-read");
   const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);
   if (format) throw UnsupportedError(text, "unknown-format");
   throw InputError(text, "unknown-format");

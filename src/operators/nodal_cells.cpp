@@ -9,7 +9,7 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t grain = 4096;  // patches
+constexpr std::size_t patch_grain = 4096;  // patches
 
 VecXc as_complex(const VecX& x) {
   return Eigen::Map<const VecXc>(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
@@ -50,7 +50,7 @@ LinearMap NodalCells::gradient(std::shared_ptr<const NodalCells> cells) {
   G.apply = [cells](const VecX& u) {
     const VecX v = cells->P_ * u;
     VecX g(2 * cells->n_cells());
-    parallel_for(cells->n_cells(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(cells->n_cells(), patch_grain, [&](std::size_t begin, std::size_t end) {
       for (Eigen::Index c = begin; c < Eigen::Index(end); ++c) {
         const auto corner = cells->corner_.row(c);
         const auto s = cells->slope_.row(c);
@@ -141,7 +141,7 @@ LinearMap NodalCells::mean(std::shared_ptr<const NodalCells> cells) {
   Q.apply = [cells](const VecX& x) {
     const VecXc X = as_complex(x);
     VecXc Y(cells->n_cells());
-    parallel_for(cells->n_patches(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_for(cells->n_patches(), patch_grain, [&](std::size_t begin, std::size_t end) {
       std::vector<Complex> in_patch;
       for (std::size_t p = begin; p < end; ++p) cells->mean_in_patch(p, X, in_patch, Y);
     });

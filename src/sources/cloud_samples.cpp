@@ -19,11 +19,11 @@ namespace {
 
 constexpr int neighbours = 16;  // enough for the Voronoi cell
 
-using Polygon = std::vector<Vec2>;
+using Cell = std::vector<Vec2>;
 
 /// The part of a polygon nearer to the origin than to q.
-void clip_to_nearer(Polygon& polygon, const Vec2& q) {
-  Polygon kept;
+void clip_to_nearer(Cell& polygon, const Vec2& q) {
+  Cell kept;
   const double limit = q.squaredNorm() / 2;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -34,7 +34,7 @@ void clip_to_nearer(Polygon& polygon, const Vec2& q) {
   polygon = std::move(kept);
 }
 
-double polygon_area(const Polygon& polygon) {
+double polygon_area(const Cell& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -57,7 +57,7 @@ double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, con
     if (n - same < std::min<Eigen::Index>(6, tree.size() - same) && n < tree.size()) continue;
     const int rim = same + (std::min(n - same, 6) + 1) / 2 - 1;
     const double radius = std::sqrt(near[rim].squared_distance);
-    Polygon cell;
+    Cell cell;
     for (int c = 0; c < 12; ++c) {
       const double angle = 2 * M_PI * c / 12;
       cell.emplace_back(radius * std::cos(angle), radius * std::sin(angle));

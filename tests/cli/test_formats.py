@@ -54,6 +54,8 @@ def test_messages_say_what_is_possible(run: Run, mesh: Path, tmp_path: Path) -> 
         error = run(*arguments, status=2).stderr
         assert said in error
         assert "possible: ." in error
+    folder = run("info", str(tmp_path), status=2).stderr
+    assert "it is a folder" in folder
 
 
 @pytest.mark.parametrize("verb", VERBS)

@@ -38,6 +38,10 @@ def test_completion(run: Run, mesh: Path) -> None:
     assert completed(mesh.parent, script, "littoral di") == ["distance"]
     assert completed(mesh.parent, script, "littoral query --poi") == ["--points"]
     assert completed(mesh.parent, script, "littoral info squ") == ["square.obj"]
+    assert completed(mesh.parent, script, "littoral distance squ") == ["square.obj"]
+    assert completed(mesh.parent, script, "littoral distance --method exa") == ["exact"]
+    assert completed(mesh.parent, script, "littoral distance m --constraint lev") == ["level-sets"]
+    assert completed(mesh.parent, script, "littoral completion z") == ["zsh"]
     for shell in ("zsh", "fish"):
         assert "curve-vertices" in run("completion", shell).stdout
     assert "bash" in run("completion", "bas", status=2).stderr

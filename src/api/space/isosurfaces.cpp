@@ -46,8 +46,9 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
                    task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
     if (surface.n_faces() == 0)
       report.warn("level-missed", "there is no surface at level " + number_text(level) +
-                                      "; values run from " + number_text(volume.values.minCoeff()) +
-                                      " to " + number_text(volume.values.maxCoeff()));
+                                      "; values run from " +
+                                      rounded_text(volume.values.minCoeff()) + " to " +
+                                      rounded_text(volume.values.maxCoeff()));
     any = any || surface.n_faces() != 0;
     report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
     surfaces.push_back({level, std::move(surface)});
@@ -87,7 +88,7 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
   if (thickness < spacing)
     report.warn("wall-thin", "a wall of thickness " + number_text(thickness) +
                                  " is thinner than the spacing of the grid, " +
-                                 number_text(spacing) + ": use a larger option resolution");
+                                 rounded_text(spacing) + ": use a larger option resolution");
   std::vector<double> levels;
   for (const double d : offsets)
     for (const double side : {0.5, -0.5}) levels.push_back(d + side * thickness);

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "littoral/options.h"
 #include "spatial/boundary_edges.h"
@@ -20,12 +20,6 @@ namespace {
 
 constexpr double median_allowed = 0.02;               // of what was asked for
 constexpr double far_off = 0.1, far_off_share = 0.1;  // of it, of the area
-
-std::string short_text(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
 
 /// A third of the triangles around each vertex.
 VecX vertex_areas(const MatX3& points, const MatX3i& faces) {
@@ -79,7 +73,7 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
     if (over_hole[v] != 0) holes += areas[v];
     if (std::abs(distance[v] - asked) > far_off * asked) off += areas[v];
   }
-  const std::string name = "offset " + short_text(offset.level) + ": ";
+  const std::string name = "offset " + rounded_text(offset.level) + ": ";
   const auto edges = boundary_edges(surface.points, faces).size();
   report.sizes.emplace_back(name + "least distance", distance.minCoeff());
   report.sizes.emplace_back(name + "median distance", median);
@@ -92,8 +86,8 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
     report.status = "uncertain";
     report.warn(
         "accuracy-missed",
-        name + "half of the surface is nearer than " + short_text(median) + ", and " +
-            short_text(100 * off / total) +
+        name + "half of the surface is nearer than " + rounded_text(median) + ", and " +
+            rounded_text(100 * off / total) +
             " % of it is more than a tenth off what was asked; use a larger resolution" +
             (report.method == SpaceAutomatic::method
                  ? ""

@@ -104,7 +104,7 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     if (options.thicken < 2 * h)
       report.warn("wall-thin", "walls of thickness " + number_text(options.thicken) +
                                    " are thinner than two cells of the grid (" +
-                                   number_text(2 * h) +
+                                   rounded_text(2 * h) +
                                    "): they may have holes; use a larger resolution");
     const VecX to_input = redistance(made.distance.grid, values, 0, triangulate(input),
                                      options.thicken + 2 * h, task.stage(0.1, "walls"));
@@ -297,7 +297,7 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
     if (largest_error(report) <= options.error) return surface;
   }
   report.status = "uncertain";
-  report.warn("accuracy-missed", "the largest error is " + number_text(largest_error(report)) +
+  report.warn("accuracy-missed", "the largest error is " + rounded_text(largest_error(report)) +
                                      " with " + std::to_string(resolutions.back()) +
                                      " nodes, not " + number_text(options.error));
   return surface;

@@ -87,8 +87,8 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
   const Volume volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
     throw InputError("the distance does not pass level " + number_text(view.level) +
-                         " in the box: it is from " + number_text(volume.values.minCoeff()) +
-                         " to " + number_text(volume.values.maxCoeff()),
+                         " in the box: it is from " + rounded_text(volume.values.minCoeff()) +
+                         " to " + rounded_text(volume.values.maxCoeff()),
                      "nothing-there");
 
   io::VolumeView shown;

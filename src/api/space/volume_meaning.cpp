@@ -81,20 +81,13 @@ void look_at_slopes(const Volume& volume, ValueTraits& seen) {
   seen.zero_slope = *middle;
 }
 
-/// Three digits will do.
-std::string about(double value) {
-  if (value == 0) return "0";
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  return number_text(unit >= 1 ? std::round(value / unit) * unit
-                               : std::round(value / unit) / std::round(1 / unit));
-}
-
 [[noreturn]] void throw_unclear(const ValueTraits& seen) {
   const bool both = seen.low < 0 && seen.high > 0;
-  std::string text = "the values, from " + about(seen.low) + " to " + about(seen.high);
+  std::string text =
+      "the values, from " + rounded_text(seen.low) + " to " + rounded_text(seen.high);
   if (both)
-    text += ", have a slope of about " + about(seen.zero_slope) +
-            " where they are 0, and near 1 in " + about(std::round(100 * seen.near_one)) +
+    text += ", have a slope of about " + rounded_text(seen.zero_slope) +
+            " where they are 0, and near 1 in " + rounded_text(std::round(100 * seen.near_one)) +
             " % of the cells";
   throw InputError(
       text +
@@ -138,8 +131,9 @@ Shape shape_of_density(Volume density, std::optional<double> threshold) {
   if (!(seen.low < seen.high)) throw InputError("a density needs values that differ");
   const double level = threshold.value_or((seen.low + seen.high) / 2);
   if (!(level >= seen.low && level < seen.high))
-    throw InputError("option threshold: no surface at " + about(level) + "; values run from " +
-                         about(seen.low) + " to " + about(seen.high),
+    throw InputError("option threshold: no surface at " + rounded_text(level) +
+                         "; values run from " + rounded_text(seen.low) + " to " +
+                         rounded_text(seen.high),
                      "nothing-there");
   density.values = -density.values;
   return shape_at_level(density, -level);

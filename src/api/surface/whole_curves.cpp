@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "api/surface/edge_chains.h"
+#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/winding/shortest_completion.h"
@@ -267,8 +268,8 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
       length += piece.length;
   if (added > length)
     report.warn("completion-guessed",
-                "more of the zero set completes the curves (" + number_text(added) +
-                    ") than they make up themselves (" + number_text(length) +
+                "more of the zero set completes the curves (" + rounded_text(added) +
+                    ") than they make up themselves (" + rounded_text(length) +
                     "): which side is which is a guess there; option confidence shows where");
 }
 

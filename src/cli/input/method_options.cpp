@@ -19,12 +19,16 @@ std::string option_help(const OptionInfo& info) {
 void add_method_options(CLI::App& verb, GivenOptions& given,
                         const std::vector<MethodInfo>& methods) {
   std::map<std::string, std::string> help;
+  std::map<std::string, std::vector<std::string>> choices;
   std::vector<OptionInfo> all;
   for (const MethodInfo& method : methods) {
     for (const OptionInfo& info : method.options) {
       if (help.count(info.name) == 0) all.push_back(info);
       std::string& text = help[info.name];
       text += (text.empty() ? "" : "\n") + method.name + ": " + option_help(info);
+      std::vector<std::string>& words = choices[info.name];
+      for (const std::string& word : info.choices)
+        if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
     }
   }
   for (const OptionInfo& info : all) {
@@ -40,15 +44,19 @@ void add_method_options(CLI::App& verb, GivenOptions& given,
       option->type_name(info.kind == Kind::text     ? "TEXT"
                         : info.kind == Kind::choice ? "WORD"
                                                     : "X");
+    if (!choices[info.name].empty()) option->check(among(choices[info.name]));
     option->group(method_options_group);
   }
 }
 
 void add_methods(CLI::App& verb, MethodArguments& arguments, const std::vector<MethodInfo>& methods,
                  const std::string& fallback) {
-  const std::string names = listed(methods, &MethodInfo::name);
-  verb.add_option("--method", arguments.name,
-                  names + " [default " + (fallback.empty() ? methods.front().name : fallback) + "]")
+  std::vector<std::string> names;
+  for (const MethodInfo& method : methods) names.push_back(method.name);
+  verb.add_option(
+          "--method", arguments.name,
+          listed(names) + " [default " + (fallback.empty() ? methods.front().name : fallback) + "]")
+      ->check(among(names))
       ->type_name("NAME");
   add_method_options(verb, arguments.options, methods);
 }

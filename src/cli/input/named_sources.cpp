@@ -63,7 +63,7 @@ SurfacePoint nearest_to(const std::string& text, const SurfaceMesh& mesh,
   const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
   if (found.distances[0] > 0.01 * size)
     session.report.warn("source-moved", "option at: " + text + " is " +
-                                            number_text(found.distances[0]) +
+                                            rounded_text(found.distances[0]) +
                                             " from the surface; its nearest point there is taken");
   const int face = found.elements[0];
   const auto b = found.barycentric.row(0);

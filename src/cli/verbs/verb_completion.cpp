@@ -34,9 +34,23 @@ std::string option_cases(const CLI::App& program, const std::string& before,
   return text;
 }
 
-std::string bash_script(const CLI::App& program) {
+/// A case for each option with words to choose from, "VERB --OPTION"; "VERB" for what it is run on.
+std::string word_cases(CLI::App& program, const std::string& before, const std::string& after) {
+  std::string text;
+  for (CLI::App* verb : verbs_of(program))
+    for (CLI::Option* option : verb->get_options()) {
+      const std::string words = words_to_complete(*option);
+      if (words.empty()) continue;
+      const std::vector<std::string>& names = option->get_lnames();
+      text += "    \"" + verb->get_name() + (names.empty() ? "" : " --" + names.front()) + "\") " +
+              before + words + after + " ;;\n";
+    }
+  return text;
+}
+
+std::string bash_script(CLI::App& program) {
   return "_littoral() {\n"
-         "  local word=\"${COMP_WORDS[COMP_CWORD]}\" options=\n"
+         "  local word=\"${COMP_WORDS[COMP_CWORD]}\" options= words=\n"
          "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
          "    COMPREPLY=($(compgen -W \"" +
          verb_names(program) +
@@ -44,19 +58,30 @@ std::string bash_script(const CLI::App& program) {
          "  case \"${COMP_WORDS[1]}\" in\n" +
          option_cases(program, "options=\"", "\"") +
          "  esac\n"
+         "  local place=\"${COMP_WORDS[1]}\"\n"
+         "  [ \"$COMP_CWORD\" -eq 2 ] || place=\"$place ${COMP_WORDS[COMP_CWORD-1]}\"\n"
+         "  case \"$place\" in\n" +
+         word_cases(program, "words=\"", "\"") +
+         "  esac\n"
          "  case \"$word\" in\n"
          "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-         "    *) COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+         "    *) if [ -n \"$words\" ]; then COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
+         "       else COMPREPLY=($(compgen -f -- \"$word\")); fi ;;\n"
          "  esac\n}\n"
          "complete -o filenames -F _littoral littoral\n";
 }
 
-std::string zsh_script(const CLI::App& program) {
+std::string zsh_script(CLI::App& program) {
   return "#compdef littoral\n_littoral() {\n"
          "  if (( CURRENT == 2 )); then\n    compadd -- " +
          verb_names(program) +
          "\n    return\n  fi\n"
-         "  if [[ $words[CURRENT] != -* ]]; then\n    _files\n    return\n  fi\n"
+         "  if [[ $words[CURRENT] != -* ]]; then\n"
+         "    local place=$words[2]\n"
+         "    (( CURRENT == 3 )) || place+=\" $words[CURRENT-1]\"\n"
+         "    case \"$place\" in\n" +
+         word_cases(program, "compadd -- ", "") +
+         "    *) _files ;;\n    esac\n    return\n  fi\n"
          "  case $words[2] in\n" +
          option_cases(program, "compadd -- ", "") + "  esac\n}\ncompdef _littoral littoral\n";
 }
@@ -71,16 +96,21 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string fish_script(const CLI::App& program) {
+std::string fish_script(CLI::App& program) {
   std::string text;
-  for (const CLI::App* verb : verbs_of(program)) {
+  for (CLI::App* verb : verbs_of(program)) {
     text += "complete -c littoral -n __fish_use_subcommand -a " + verb->get_name() + " -d " +
             quoted(verb->get_description()) + "\n";
-    for (const CLI::Option* option : verb->get_options())
+    const std::string chosen =
+        "complete -c littoral -n '__fish_seen_subcommand_from " + verb->get_name() + "' ";
+    for (CLI::Option* option : verb->get_options()) {
+      const std::string words = words_to_complete(*option);
+      const std::string choice = words.empty() ? "" : " -f -a " + quoted(words);
+      if (option->get_lnames().empty() && !words.empty()) text += chosen + choice + "\n";
       for (const std::string& name : option->get_lnames())
-        text += "complete -c littoral -n '__fish_seen_subcommand_from " + verb->get_name() +
-                "' -l " + name + (option->get_items_expected_max() > 0 ? " -r" : "") + " -d " +
-                quoted(option->get_description()) + "\n";
+        text += chosen + "-l " + name + (option->get_items_expected_max() > 0 ? " -r" : "") +
+                choice + " -d " + quoted(option->get_description()) + "\n";
+    }
   }
   return text;
 }

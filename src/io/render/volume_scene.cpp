@@ -74,7 +74,7 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
   const double position = view.position.value_or(low + step * std::floor(0.5 * steps));
   if (!(position >= low && position <= low + step * steps))
     throw InputError("volume: the slice at " + number_text(position) + " is outside the box, " +
-                         number_text(low) + " to " + number_text(low + step * steps),
+                         rounded_text(low) + " to " + rounded_text(low + step * steps),
                      "option-value");
   known->slice = static_cast<int>(std::lround((position - low) / step));
   known->position = known->slice / steps;

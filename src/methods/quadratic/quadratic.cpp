@@ -7,6 +7,7 @@
 
 #include "base/component_values.h"
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "methods/quadratic/quadratic_program.h"
 
@@ -164,11 +165,11 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
     report.status = "not converged";
     if (missing > 0)
       report.warn("not-converged", "between samples the constraint is still violated at " +
-                                       number_text(missing) +
+                                       rounded_text(missing) +
                                        " points, after the last round of insertion");
     report.warn("not-converged", "the solver stopped at a relative duality gap of " +
-                                     number_text(gap.worst()) + " and residuals of " +
-                                     number_text(std::max(residual.worst(), dual.worst())));
+                                     rounded_text(gap.worst()) + " and residuals of " +
+                                     rounded_text(std::max(residual.worst(), dual.worst())));
   }
   return field;
 }

@@ -243,7 +243,7 @@ TEST(TetMeshDistance, SaysWhatIsWrong) {
                 Report report;
                 test::tet_mesh_distance(mesh, {square, {}}, WindingSign{}, report);
               }),
-              testing::HasSubstr("unknown method 'winding'; known: signed-heat"));
+              testing::HasSubstr("unknown method 'winding'; known: auto, signed-heat"));
   TetMesh flat = mesh;
   flat.points.col(2).setZero();
   EXPECT_THAT(test::message_of([&] {

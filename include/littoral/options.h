@@ -183,6 +183,13 @@ struct SurfaceWinding {
 
 // ---------------------------------------------------------------------------- through tets
 
+/// The default: straight lines to the nearest point of the source, negative behind a surface, and
+/// ways round the boundary where these leave the tets. Surfaces that leave sides open are completed
+/// by the zero set of the signed heat method.
+struct TetAutomatic {
+  static constexpr const char* method = "auto";
+};
+
 /// Distance of quadratic order from vertices, or from a surface without sign.
 /// Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes.
 struct TetQuadratic {

@@ -21,7 +21,7 @@ struct TetField {
 };
 
 /// A method prepared for one tet mesh; copies share it, `solve` may be called from several threads.
-/// The default is SpaceSignedHeat{}: signed from surfaces, unsigned from vertices.
+/// The default is TetAutomatic{}: signed from surfaces, unsigned from vertices.
 class TetDistanceSolver {
  public:
   explicit TetDistanceSolver(TetMesh mesh, const AnyMethod& method = {},

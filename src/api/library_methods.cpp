@@ -39,7 +39,8 @@ std::vector<Method<SurfaceDomain>> library_methods() {
 
 template <>
 std::vector<Method<TetDomain>> library_methods() {
-  return all_of<TetDomain>({heat_tet_methods, regularized_tet_methods, quadratic_tet_methods});
+  return all_of<TetDomain>(
+      {automatic_tet_methods, heat_tet_methods, regularized_tet_methods, quadratic_tet_methods});
 }
 
 template <>

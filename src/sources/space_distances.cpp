@@ -10,6 +10,7 @@
 
 #include "operators/grid.h"
 #include "solve/direct/definite.h"
+#include "sources/surface_in_tets.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -18,36 +19,10 @@ namespace {
 
 constexpr int discs_tried = 8;
 
-using Polygon = std::vector<Vec3>;
-
 Vec3 nearest_on_disc(const Vec3& x, const Vec3& centre, const Vec3& normal, double area) {
   const Vec3 along = x - centre - normal.dot(x - centre) * normal;
   const double radius = std::sqrt(area / std::numbers::pi), length = along.norm();
   return centre + (length > radius ? Vec3(radius / length * along) : along);
-}
-
-/// The part of a polygon where a linear function, by its values at the corners, is not negative.
-Polygon clipped(const Polygon& polygon, const std::function<double(const Vec3&)>& height) {
-  Polygon out;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    const double ha = height(a), hb = height(b);
-    if (ha >= 0) out.push_back(a);
-    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) out.push_back(a + ha / (ha - hb) * (b - a));
-  }
-  return out;
-}
-
-/// What of a triangle lies in a tet.
-Polygon inside(const TetMesh& mesh, int t, const std::array<Vec3, 3>& triangle) {
-  Polygon polygon(triangle.begin(), triangle.end());
-  for (int k = 0; k < 4 && !polygon.empty(); ++k) {
-    const auto corner = [&](int i) { return Vec3(mesh.points.row(mesh.tets(t, (k + i) % 4))); };
-    const Vec3 at = corner(1), normal = (corner(2) - at).cross(corner(3) - at);
-    const double side = normal.dot(corner(0) - at) < 0 ? -1 : 1;
-    polygon = clipped(polygon, [&](const Vec3& x) { return side * normal.dot(x - at); });
-  }
-  return polygon;
 }
 
 /// What of the triangles that hold samples lies in the tets: in those with samples and in those
@@ -65,7 +40,7 @@ PolygonSoup inside(const TetMesh& mesh, const NearestSource& nearest, const Orie
       if (const auto at = triangles_at.find(mesh.tets(t, k)); at != triangles_at.end())
         here.insert(at->second.begin(), at->second.end());
     for (const int f : here) {
-      const Polygon p = inside(mesh, t, nearest.corners(f));
+      const std::vector<Vec3> p = part_in_tet(mesh, t, nearest.corners(f));
       for (std::size_t k = 1; k + 1 < p.size(); ++k)
         corners.insert(corners.end(), {p[0], p[k], p[k + 1]});
     }

@@ -127,7 +127,7 @@ def test_errors_are_clear(run: Run, cube: str, tmp_path: Path) -> None:
     assert "there is no vertex 125" in error("--vertex", 125, "-o", "d.vtk")
     assert "not both" in error("--vertex", 0, "--sources", "half.obj", "-o", "d.vtk")
     unknown = error("--vertex", 0, "--method", "winding", "-o", "d.vtk")
-    assert "known: signed-heat, regularized, belyaev-fayolle, quadratic" in unknown
+    assert "known: auto, signed-heat, regularized, belyaev-fayolle, quadratic" in unknown
     assert ".vtk" in error("--vertex", 0, "-o", "d.vti")
     (tmp_path / "bad.mesh").write_text(cube_mesh(2).replace("\n1 2 5 14 0", "\n1 2 5 99 0"))
     message = run("distance", "bad.mesh", "--vertex", 0, "-o", "d.vtk", status=2).stderr

@@ -44,6 +44,15 @@ std::vector<int> TetProblem::tets_with_sources() const {
   return tets;
 }
 
+std::vector<char> TetProblem::reached() const {
+  std::vector<char> out(static_cast<std::size_t>(ops->n_components), 0);
+  for (const int t : tets_with_sources())
+    out[static_cast<std::size_t>(ops->component[static_cast<std::size_t>(mesh->tets(t, 0))])] = 1;
+  if (std::count(out.begin(), out.end(), 1) == 0)
+    throw InputError("no source vertex belongs to a tet", "nothing-there");
+  return out;
+}
+
 TetSourceSystem TetProblem::terms() const {
   if (!vertices.empty()) return vertex_source_system(*ops, vertices);
   std::vector<int> nearest;
@@ -127,8 +136,7 @@ void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Tas
   bounding_box(sources.surface);  // complains about what cannot be placed
   const SpaceInput input = make_input({sources.surface, sources.flip, sources.estimate_normals},
                                       frame_, max_side, task, report);
-  placed.surface = sources.surface;
-  placed.surface.points = frame_.local(placed.surface.points);
+  placed.surface = input.surface;
   placed.h = sample_spacing(input.samples);
   Report again;
   placed.samples = input.is_cloud()

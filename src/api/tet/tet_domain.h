@@ -39,6 +39,7 @@ struct TetDomain {
 template <>
 std::vector<Method<TetDomain>> library_methods();
 // Its families:
+std::vector<Method<TetDomain>> automatic_tet_methods();
 std::vector<Method<TetDomain>> heat_tet_methods();
 std::vector<Method<TetDomain>> regularized_tet_methods();
 std::vector<Method<TetDomain>> quadratic_tet_methods();
@@ -49,7 +50,7 @@ struct TetProblem {
   std::shared_ptr<const TetMesh> mesh;
   std::shared_ptr<const TetOperators> ops;
   std::vector<int> vertices;
-  PolygonSoup surface;
+  PolygonSoup surface;                        // triangles, or points with normals; as flipped
   OrientedPoints samples;                     // of the surface
   std::vector<TetPoint> places;               // of the samples
   std::vector<int> part;                      // of the samples, where parts are told apart
@@ -58,6 +59,8 @@ struct TetProblem {
 
   /// The tets of some volume that hold sources, each once.
   std::vector<int> tets_with_sources() const;
+  /// Components with sources. Throws InputError if there is none.
+  std::vector<char> reached() const;
   /// A row for each vertex of the source or, of a surface, for each vertex next to it, of the
   /// samples nearest to that.
   TetSourceSystem terms() const;

@@ -96,12 +96,7 @@ class HeatThroughTets {
              Report& report) const {
     const TetMesh& mesh = *problem.mesh;
     const TetOperators& ops = *problem.ops;
-    std::vector<char> reached(static_cast<std::size_t>(ops.n_components), 0);
-    for (const int t : problem.tets_with_sources())
-      reached[static_cast<std::size_t>(ops.component[static_cast<std::size_t>(mesh.tets(t, 0))])] =
-          1;
-    if (std::count(reached.begin(), reached.end(), 1) == 0)
-      throw InputError("no source vertex belongs to a tet", "nothing-there");
+    const std::vector<char> reached = problem.reached();
     Task solving = task.stage(options.sharpen ? 0.4 : 0.9, "distance");
     VecX phi = VecX::Constant(mesh.n_vertices(), std::numeric_limits<double>::infinity());
     for (int c = 0; c < ops.n_components; ++c) {

@@ -2,15 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <vector>
 
 #include "base/parallel.h"
 #include "methods/implicit/grid_signs.h"
 #include "spatial/point_tree.h"
+#include "spatial/pseudonormals.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/winding_number.h"
 
@@ -31,76 +30,6 @@ DistanceSample signed_sample(const Vec3& x, const Vec3& nearest, double distance
   return out;
 }
 
-/// Of unit length, zero where a face has no area.
-MatX3 face_normals(const MatX3& points, const MatX3i& faces) {
-  MatX3 normals = MatX3::Zero(faces.rows(), 3);
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Vec3 a = points.row(faces(f, 0)), b = points.row(faces(f, 1)),
-               c = points.row(faces(f, 2));
-    const Vec3 n = (b - a).cross(c - a).stableNormalized();
-    if (n.allFinite()) normals.row(f) = n;
-  }
-  return normals;
-}
-
-/// Angle-weighted normals at corners, and sums of normals across edges. Vertices at one position
-/// count as one, so that soups whose faces share nothing but positions work as well.
-class Pseudonormals {
- public:
-  Pseudonormals(const MatX3& points, const MatX3i& faces, const MatX3& normals)
-      : faces_(faces), normals_(normals) {
-    std::map<std::array<double, 3>, int> place;
-    for (Eigen::Index v = 0; v < points.rows(); ++v)
-      vertex_.push_back(place.try_emplace({points(v, 0), points(v, 1), points(v, 2)}, place.size())
-                            .first->second);
-    at_vertex_ = MatX3::Zero(place.size(), 3);
-    for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-      std::array<Vec3, 3> p;
-      for (int k = 0; k < 3; ++k) p[k] = points.row(faces(f, k));
-      const Vec3 n = normals.row(f);
-      if (n.isZero(0)) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
-        const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-        at_vertex_.row(vertex(f, k)) += angle * n;
-        const auto [edge, is_new] = at_edge_.try_emplace(edge_key(f, k), n);
-        if (!is_new) edge->second += n;
-      }
-    }
-  }
-
-  /// Where the foot lies on a corner or side to within rounding, that one's normal.
-  Vec3 at(const NearestPoint& foot) const {
-    constexpr double rounding = 1e-10;
-    int zeros = 0, zero = 0, one = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (foot.barycentric[k] <= rounding) {
-        ++zeros;
-        zero = k;
-      } else {
-        one = k;
-      }
-    }
-    if (zeros == 2) return at_vertex_.row(vertex(foot.face, one));
-    if (zeros == 1) {
-      const auto edge = at_edge_.find(edge_key(foot.face, (zero + 1) % 3));
-      if (edge != at_edge_.end()) return edge->second;
-    }
-    return normals_.row(foot.face);
-  }
-
- private:
-  int vertex(Eigen::Index f, int k) const { return vertex_[faces_(f, k)]; }
-  std::pair<int, int> edge_key(Eigen::Index f, int k) const {
-    return std::minmax({vertex(f, k), vertex(f, (k + 1) % 3)});
-  }
-
-  MatX3i faces_;
-  std::vector<int> vertex_;  // vertex -> position
-  MatX3 normals_, at_vertex_;
-  std::map<std::pair<int, int>, Vec3> at_edge_;
-};
-
 class ToTriangles : public PointwiseDistance {
  public:
   ToTriangles(const MatX3& points, const MatX3i& faces, SignRule rule)
@@ -111,7 +40,7 @@ class ToTriangles : public PointwiseDistance {
       else if (rule == SignRule::winding)
         winding_ = std::make_unique<WindingNumber>(points, faces);
       else
-        pseudonormals_ = std::make_unique<Pseudonormals>(points, faces, normals_);
+        pseudonormals_ = std::make_unique<Pseudonormals>(points, faces);
     });
   }
   DistanceSample at(const Vec3& x) const override {

@@ -1,0 +1,39 @@
+#pragma once
+// Shortest ways through tets: straight where these allow, bent at their boundary otherwise.
+
+#include <functional>
+#include <vector>
+
+#include "base/task.h"
+#include "domain/tet/tet_sight.h"
+
+namespace littoral {
+
+/// What distance is measured from: triangles, each in a connected component of the mesh. A point is
+/// a triangle whose corners are one.
+struct TetPathSources {
+  MatX3 points{0, 3};
+  MatX3i faces{0, 3};
+  std::vector<int> component{};  // of the faces
+};
+
+struct TetPathResult {
+  VecX distance;  // vertices, +inf where no source reaches
+  VecX side;      // vertices: what `side` said of the source's end of the way
+  int bent = 0;   // vertices whose way is not straight
+};
+
+/// The side of a source's face on which x lies, straight from its point q: 1, -1, or 0 for unknown.
+using SideOf = std::function<double(int face, const Vec3& q, const Vec3& x)>;
+
+/// Exact at vertices that see the nearest point of the sources of their component; elsewhere the
+/// length of a way that stays in the tets, which may be too long by what lies between the points
+/// that were tried. Such ways bend at edges where the boundary is reentrant, each at the point of
+/// the edge that is best for it; those of neighbours are tried in the order of their lengths. Each
+/// boundary point sees the nearest one of the boundary, so that `all_seen` spares the test.
+/// component: vertices, -1 in no tet.
+TetPathResult tet_paths(const TetMesh& mesh, const TetSight& sight,
+                        const std::vector<int>& component, const TetPathSources& sources,
+                        bool all_seen, const SideOf& side, Task task);
+
+}  // namespace littoral

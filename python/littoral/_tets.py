@@ -88,7 +88,7 @@ class TetField(Reported):
     >>> import littoral
     >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     >>> littoral.tet_distance(tets, vertices=0)
-    <littoral.TetField: 4 vertices, by signed-heat, converged>
+    <littoral.TetField: 4 vertices, by auto, converged>
     """
 
     def __init__(self, core: _core.TetField, mesh: TetMesh) -> None:
@@ -124,10 +124,9 @@ def _tet_field_from(mesh: TetMesh, values: Floats, report: dict[str, Any]) -> Te
 class TetDistanceSolver:
     """A method prepared for one tet mesh; may be used from several threads.
 
-    method: a name of `littoral.methods()["Distance through tets"]`; without one signed heat: signed
-    from surfaces, unsigned from vertices. Raises TypeError for another mesh, InputError for an
+    method: a name of `littoral.methods()["Distance through tets"]`; without one "auto": signed from
+    surfaces, unsigned from vertices, exact where the source is in sight. Raises TypeError for another mesh, InputError for an
     unknown method or option.
-    Source: Feng, Crane, A Heat Method for Generalized Signed Distance (2024), section 8.1.
 
     >>> import littoral
     >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])

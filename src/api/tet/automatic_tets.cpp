@@ -142,11 +142,11 @@ class AutomaticThroughTets {
   /// Surfaces that are closed, or whose faces disagree in orientation, as in space; none of others.
   static std::optional<SettledSides> settled_by_winding(const MatX3& points, const MatX3i& faces,
                                                         bool flip, Task& task, Report& report) {
-    if (!boundary_edges(points, faces).empty() && Pseudonormals(points, faces).oriented())
-      return {};
-    Report found;
+    const bool closed = boundary_edges(points, faces).empty();
+    if (!closed && Pseudonormals(points, faces).oriented()) return {};
+    Report found;  // inside is behind the normals, where these agree
     SettledSides settled =
-        settled_sides(points, faces, flip, task.stage(0.1, "orientation"), found);
+        settled_sides(points, faces, closed || flip, task.stage(0.1, "orientation"), found);
     if (settled.boundary.empty()) report.merge(found);
     return settled;
   }

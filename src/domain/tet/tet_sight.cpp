@@ -13,7 +13,7 @@ namespace littoral {
 
 namespace {
 
-constexpr double slack = 1e-6;  // barycentric: how far outside a line may pass
+constexpr double slack = 1e-6;     // barycentric: how far outside a line may pass
 constexpr double touching = 1e-9;  // of a line: how far apart parts in neighbours may be
 constexpr double straight = 1e-6;  // of half a turn: edges that turn less are flat
 

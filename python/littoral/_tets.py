@@ -125,8 +125,8 @@ class TetDistanceSolver:
     """A method prepared for one tet mesh; may be used from several threads.
 
     method: a name of `littoral.methods()["Distance through tets"]`; without one "auto": signed from
-    surfaces, unsigned from vertices, exact where the source is in sight. Raises TypeError for another mesh, InputError for an
-    unknown method or option.
+    surfaces, unsigned from vertices, exact where the source is in sight. Raises TypeError for
+    another mesh, InputError for an unknown method or option.
 
     >>> import littoral
     >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])

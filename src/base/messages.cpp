@@ -90,8 +90,9 @@ constexpr std::array message_table = std::to_array<Message>({
 
     // Curves and surfaces.
     {a_warning, "completion-guessed",
-     "more of the zero set completes the curves than they make up themselves",
-     "much of the curves is missing; which side is which is a guess there",
+     "more of the zero set completes the curves, or the surface in tets, than they make up "
+     "themselves",
+     "much of them is missing; which side is which is a guess there",
      "`--confidence` shows where; draw more"},
     {a_warning, "curve-leaps", "segments join nodes that share no face and are far apart",
      "shortest paths were taken; the order of nodes may be wrong",

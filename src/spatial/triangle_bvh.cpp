@@ -40,6 +40,18 @@ double half_area(const Vec3& low, const Vec3& high) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
+/// Is a triangle (corners seen from the query) farther than the root of `best`, surely, by how far
+/// it reaches towards the query along the way to its middle? Says so only where the rounding of a
+/// computed foot cannot say otherwise.
+bool surely_farther(const Vec3& a, const Vec3& b, const Vec3& c, double best) {
+  constexpr double rounding = 1e-12;
+  const Vec3 way = a + b + c;
+  const double least = std::min({way.dot(a), way.dot(b), way.dot(c)});
+  const double sum = a.cwiseAbs().sum() + b.cwiseAbs().sum() + c.cwiseAbs().sum();
+  const double sure = least - rounding * sum * sum;
+  return sure > 0 && sure * sure > best * way.squaredNorm();
+}
+
 }  // namespace
 
 TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
@@ -257,8 +269,10 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   TriangleFoot best_foot;
   int best_at = -1;
   const auto look_at = [&](int i) {
-    const auto& c = corners_[i];
-    const TriangleFoot foot = closest_on_triangle(c[0] - q, c[1] - q, c[2] - q);
+    const auto& corner = corners_[i];
+    const Vec3 a = corner[0] - q, b = corner[1] - q, c = corner[2] - q;
+    if (surely_farther(a, b, c, best)) return;
+    const TriangleFoot foot = closest_on_triangle(a, b, c);
     if (best_at < 0 || foot.squared < best ||
         (foot.squared == best && faces_[i] < faces_[best_at])) {
       best = foot.squared;

@@ -64,7 +64,7 @@ class Transport {
   }
 
   const SurfaceMesh& mesh_;
-  FaceOrientation orientation_;
+  const FaceOrientation& orientation_;
 };
 
 /// A signed curve's pieces, all those with one number.

@@ -131,10 +131,7 @@ Tracer::Tracer(const SurfaceMesh& mesh) : mesh_(mesh) {
         "tracing curves needs a triangle mesh; this mesh has faces with more corners (triangulate "
         "it "
         "first)");
-  double largest = 0;
-  for (int v : mesh.soup().corners)
-    largest = std::max(largest, mesh.points().row(v).cwiseAbs().maxCoeff());
-  if (largest > 0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+  scale_ = std::clamp(1 / mesh.scale(), std::ldexp(1.0, -1000), std::ldexp(1.0, 1000));
 }
 
 int Tracer::component(const SurfacePoint& p) const {

@@ -106,7 +106,7 @@ std::optional<KeptSurface> kept_surface(const PolygonSoup& input, Task task, Rep
   const MatX3 points = Frame(box).local(input.points);
   const SurfaceMesh mesh(soup_of(points, faces));
   if (!two_at_each_edge(mesh)) return std::nullopt;
-  const FaceOrientation agreed = face_orientation(mesh);
+  const FaceOrientation& agreed = face_orientation(mesh);
   if (!agreed.orientable) return std::nullopt;
 
   task.checkpoint(0.2);

@@ -145,7 +145,7 @@ IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& 
   take_faces(mesh, T, report);
   measure(mesh, T, report);
   const EdgeSides sides = edge_sides(T);
-  const FaceOrientation oriented = face_orientation(mesh);
+  const FaceOrientation& oriented = face_orientation(mesh);
   T.orientation.resize(T.n_faces());
   for (int f = 0; f < mesh.n_faces(); ++f)
     if (const int t = T.triangle_of_face[f]; t >= 0) T.orientation[t] = oriented.sign[f];

@@ -3,19 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace littoral {
 
 namespace {
-
-/// A power of two near the largest coordinate of a face.
-double size_of(const SurfaceMesh& mesh) {
-  double largest = 0;
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    for (int v : mesh.face(f)) largest = std::max(largest, mesh.point(v).cwiseAbs().maxCoeff());
-  return largest > 0 ? std::exp2(std::floor(std::log2(largest))) : 1;
-}
 
 struct Side {
   int face = -1, k = 0;
@@ -44,10 +35,8 @@ struct Gluing {
   }
 };
 
-}  // namespace
-
-FaceOrientation face_orientation(const SurfaceMesh& mesh) {
-  const double size = size_of(mesh);
+FaceOrientation find_orientation(const SurfaceMesh& mesh) {
+  const double size = mesh.scale();
   const Gluing glued(mesh);
   FaceOrientation out;
   out.sign.assign(mesh.n_faces(), 0);
@@ -88,6 +77,12 @@ FaceOrientation face_orientation(const SurfaceMesh& mesh) {
     }
   }
   return out;
+}
+
+}  // namespace
+
+const FaceOrientation& face_orientation(const SurfaceMesh& mesh) {
+  return *mesh.kept_orientation().get([&] { return find_orientation(mesh); });
 }
 
 }  // namespace littoral

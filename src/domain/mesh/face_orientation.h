@@ -16,6 +16,7 @@ struct FaceOrientation {
 
 /// Within every patch of faces joined by edges of two, the majority of area keeps its own
 /// orientation and the others follow. Faces that repeat a vertex join nothing and keep theirs.
-FaceOrientation face_orientation(const SurfaceMesh& mesh);
+/// Found by the first call for a mesh and kept as long as the mesh.
+const FaceOrientation& face_orientation(const SurfaceMesh& mesh);
 
 }  // namespace littoral

@@ -1,10 +1,12 @@
 #include "domain/mesh/surface_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -23,7 +25,9 @@ void bucket(const std::vector<int>& key_of_item, const std::vector<int>& value_o
     values[next[key_of_item[i]]++] = value_of_item[i];
 }
 
-void check_faces(const PolygonSoup& soup) {
+/// Returns the largest coordinate of a face.
+double check_faces(const PolygonSoup& soup) {
+  double largest = 0;
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto corners = soup.face(f);
     if (corners.size() < 3)
@@ -38,8 +42,10 @@ void check_faces(const PolygonSoup& soup) {
         throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
                              ", has a coordinate that is not finite",
                          "not-finite");
+      largest = std::max(largest, soup.points.row(v).cwiseAbs().maxCoeff());
     }
   }
+  return largest;
 }
 
 /// For each side (by its first corner) the first one with the same two ends.
@@ -78,7 +84,9 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
 void SurfaceMesh::check() {
   if (soup_.corners.size() > std::numeric_limits<int>::max() / 2)
     throw InputError("the mesh has too many face corners for 32-bit numbering", "too-large");
-  check_faces(soup_);
+  const double largest = check_faces(soup_);
+  if (largest > 0) scale_ = std::ldexp(1.0, std::ilogb(largest));
+  orientation_ = std::make_shared<const Kept<FaceOrientation>>();
 }
 
 SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {

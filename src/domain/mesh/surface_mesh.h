@@ -1,15 +1,19 @@
 #pragma once
 // A surface mesh with its connectivity: polygons over points, any topology, immutable.
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/lazy.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/surface_point.h"
 #include "littoral/types.h"
 
 namespace littoral {
+
+struct FaceOrientation;  // face_orientation.h
 
 /// Faces, edges and their incidences. Nonmanifold edges and vertices, boundary, several components,
 /// inconsistent orientation, isolated vertices and degenerate faces are all allowed.
@@ -55,6 +59,10 @@ class SurfaceMesh {
   /// Component of each vertex, by shared faces; -1 for vertices without a face.
   const std::vector<int>& vertex_component() const { return vertex_component_; }
   int n_components() const { return n_components_; }
+  /// A power of two near the largest coordinate of a face; 1 without one.
+  double scale() const { return scale_; }
+  /// Kept by `face_orientation`; copies share it.
+  const Kept<FaceOrientation>& kept_orientation() const { return *orientation_; }
 
  private:
   void check();
@@ -69,6 +77,8 @@ class SurfaceMesh {
   std::vector<int> vertex_offsets_, vertex_faces_;
   std::vector<int> vertex_component_;
   int n_components_ = 0;
+  double scale_ = 1;
+  std::shared_ptr<const Kept<FaceOrientation>> orientation_;
 };
 
 }  // namespace littoral

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "base/parallel.h"
 #include "heat_helpers.h"
@@ -114,6 +115,89 @@ TEST(HeatSolve, LevelSetsWithDependentRows) {
         Poisson(lower_of(L), std::vector<int>(n, 0), 1, {}).solve_levels(b, rows, {}, report);
     EXPECT_LE((x - dense_levels(L, b, A, B)).cwiseAbs().maxCoeff(), 1e-7);
   }
+}
+
+TEST(HeatSolve, OneRowAComponentFixesTheConstantAlone) {
+  std::mt19937 random(5);
+  const int n = 30, half = 18;  // two components
+  Dense L = Dense::Zero(n, n);
+  L.topLeftCorner(half, half) = random_laplacian(half, random);
+  L.bottomRightCorner(n - half, n - half) = random_laplacian(n - half, random);
+  std::vector<int> component(n, 0);
+  std::fill(component.begin() + half, component.end(), 1);
+  const Poisson poisson(lower_of(L), component, 2, {});
+  for (const bool balanced : {true, false}) {
+    VecX b(n);
+    b << random_balanced(half, random), random_balanced(n - half, random);
+    if (!balanced) b.array() += 0.1;
+    Dense row = Dense::Zero(2, n);  // of the second component, the first; their sums are not 1
+    row(0, half) = 2;
+    row(0, n - 1) = 1;
+    row(1, 3) = 0.25;
+    const Dense twice = (Dense(4, n) << row, row).finished();  // dependent: the general way
+    const VecX value = Eigen::Vector2d(0.7, -3), values = (VecX(4) << value, value).finished();
+    Report report, slow_report;
+    const VecX x = poisson.solve_levels(b, {row.sparseView(), {0, 0}, {1}, value}, {}, report);
+    const VecX slow =
+        poisson.solve_levels(b, {twice.sparseView(), {0, 0, 0, 0}, {1}, values}, {}, slow_report);
+    EXPECT_LE((row * x - value).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_LE((x - slow).cwiseAbs().maxCoeff(), 1e-8);
+    const VecX force = L * x - b;  // a combination of the rows
+    EXPECT_LE((force + row.transpose() *
+                           Eigen::Vector2d(b.tail(n - half).sum() / 3, b.head(half).sum() / 0.25))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+    const auto steps = [](const Report& r) {
+      return std::count_if(r.iterations.begin(), r.iterations.end(),
+                           [](const auto& loop) { return loop.first == "constraint steps"; });
+    };
+    EXPECT_EQ(steps(report), 0);  // the factor is used as it is
+    EXPECT_EQ(steps(slow_report), 1);
+  }
+}
+
+/// A chain of unknowns, one spring to its neighbours each, in two pieces.
+TEST(HeatSolve, LongChainsDecayAsTheyMustOnAnyNumberOfThreads) {
+  const int n = 70'000, cut = 40'000;
+  const double t = 9;
+  Triplets entries;
+  for (int i = 0; i < n; ++i) {
+    const bool first = i == 0 || i == cut, last = i == cut - 1 || i == n - 1;
+    entries.emplace_back(i, i, 1 + t * (2 - first - last));
+    if (!last) entries.emplace_back(i + 1, i, -t);
+  }
+  SpMat A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  std::vector<int> piece(n, 0);
+  std::fill(piece.begin() + cut, piece.end(), 1);
+  const HeatSystem<double> system(A, 1, VecX::Constant(n, 1 / 3.0), SolveHint::many_rhs, {});
+  VecX b = VecX::Zero(n);
+  b[0] = 5;
+  b[n - 1] = 1e-3;
+  std::vector<ScaledField<double>> fields;
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    Report report;
+    fields.push_back(system.solve(b, piece, {}, report));
+  }
+  set_thread_count(0);
+  EXPECT_EQ(fields[0].x, fields[1].x);
+  EXPECT_EQ(fields[0].layer, fields[1].layer);
+  EXPECT_EQ(fields[0].scale, fields[1].scale);
+  const double ratio = 1 + 1 / (2 * t) - std::sqrt(1 / t + 1 / (4 * t * t));
+  std::vector<double> sum(1, 0);
+  for (const double s : fields[0].scale) sum.push_back(sum.back() + std::log(s));
+  const auto log_at = [&](int i) {
+    return std::log(fields[0].x[i]) + sum[static_cast<std::size_t>(fields[0].layer[i]) + 1];
+  };
+  EXPECT_GT(fields[0].scale.size(), 10);
+  for (const int i : {1, 500, 12345, 30000})
+    EXPECT_NEAR(log_at(i) - log_at(0), i * std::log(ratio), 1e-9 * i);
+  for (const int i : {1, 500, 12345, 25000})
+    EXPECT_NEAR(log_at(n - 1 - i) - log_at(n - 1), i * std::log(ratio), 1e-9 * i);
+  const std::vector<double> largest = largest_of_pieces(b, piece);
+  EXPECT_EQ(largest, (std::vector<double>{5, 1e-3}));
 }
 
 TEST(HeatSolve, SoftConstraints) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 #include "base/parallel.h"
 #include "operators/sum_over_triangles.h"
 
@@ -294,8 +295,10 @@ void add_radial_measure(const IntrinsicTriangulation& T, std::span<const PointIn
 VecX Calculus::divergence(const VecX& Y) const {
   VecX AY(Y.size());
   const Eigen::Index dim = A.size() > 0 ? Y.size() / A.size() : 0;  // 2, or 3 in tets
-  for (Eigen::Index c = 0; c < A.size(); ++c)
-    AY.segment(dim * c, dim) = A[c] * Y.segment(dim * c, dim);
+  parallel_for(A.size(), face_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
+      for (Eigen::Index k = dim * index(c); k < dim * index(c + 1); ++k) AY[k] = A[index(c)] * Y[k];
+  });
   return G.adjoint(AY);
 }
 

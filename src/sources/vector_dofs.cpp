@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/index.h"
 #include "littoral/error.h"
@@ -20,7 +21,7 @@ namespace {
 /// Adds vectors to X0 and forgets what cancels: a curve and its reverse leave exactly nothing.
 class Measure {
  public:
-  explicit Measure(int n) : X0_(VecX::Zero(2 * n)), total_(VecX::Zero(n)) {}
+  explicit Measure(int n) : X0_(VecX::Zero(2 * n)) {}
   void add(int dof, Complex z) {
     X0_[2 * dof] += z.real();
     X0_[2 * dof + 1] += z.imag();
@@ -31,13 +32,14 @@ class Measure {
     vectors.clear();
   }
   VecX take() {
-    for (Eigen::Index e = 0; e < total_.size(); ++e)
-      if (X0_.segment<2>(2 * e).norm() <= 1e-13 * total_[e]) X0_.segment<2>(2 * e).setZero();
+    for (const auto& [dof, total] : total_)
+      if (X0_.segment<2>(2 * dof).norm() <= 1e-13 * total) X0_.segment<2>(2 * dof).setZero();
     return std::move(X0_);
   }
 
  private:
-  VecX X0_, total_;
+  VecX X0_;
+  std::unordered_map<int, double> total_;  // of the few dofs that have any
 };
 
 /// Adds a stretch of an unsigned curve with both of its sides equally strong: where crossed edges

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/parallel.h"
 
 namespace littoral {
 
@@ -17,6 +18,7 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
   // A cell has dofs in one layer or in two that follow each other: what it has in the first
   // and, in its units, in the second.
   constexpr double negligible = 1e-290;
+  constexpr std::size_t cell_grain = 8192;
   CellField out = no_field(map.rows / 2);
   const int n_layers = field.scale.size();
   double log_scale = 0;
@@ -25,31 +27,28 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
     log_scale += std::log(field.scale[p]);
     const bool last = p + 1 == n_layers;
     if (!last) next = map.apply(field.in_layer(p + 1));
-    for (Eigen::Index c = 0; c < out.log_length.size(); ++c) {
-      if (std::isfinite(out.log_length[c])) continue;
-      Eigen::Vector2d v = y.segment<2>(2 * c);
-      if (!(v.cwiseAbs().maxCoeff() > negligible)) continue;
-      if (!last) v += field.scale[p + 1] * next.segment<2>(2 * c);
-      const double m = v.cwiseAbs().maxCoeff();
-      if (!(m > negligible)) continue;
-      v /= m;
-      const double length = v.norm();
-      out.Y.segment<2>(2 * c) = v / length;
-      out.log_length[c] = log_scale + std::log(m * length);
-    }
+    parallel_for(out.log_length.size(), cell_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const auto c = index(s);
+        if (std::isfinite(out.log_length[c])) continue;
+        Eigen::Vector2d v = y.segment<2>(2 * c);
+        if (!(v.cwiseAbs().maxCoeff() > negligible)) continue;
+        if (!last) v += field.scale[p + 1] * next.segment<2>(2 * c);
+        const double m = v.cwiseAbs().maxCoeff();
+        if (!(m > negligible)) continue;
+        v /= m;
+        const double length = v.norm();
+        out.Y.segment<2>(2 * c) = v / length;
+        out.log_length[c] = log_scale + std::log(m * length);
+      }
+    });
   }
   return out;
 }
 
 void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece) {
   const Eigen::Index block = b.size() / index(piece.size());
-  std::vector<double> largest;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    if (piece[i] < 0) continue;
-    if (piece[i] >= int_size(largest)) largest.resize(piece[i] + 1, 0.0);
-    const double m = b.segment(index(i) * block, block).cwiseAbs().maxCoeff();
-    largest[piece[i]] = std::max(largest[piece[i]], m);
-  }
+  const std::vector<double> largest = largest_of_pieces(b, piece);
   const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
   if (!(top > 0)) return;
   field.scale[0] *= top;

@@ -165,10 +165,11 @@ std::vector<char> SignedHeatSolver::reached_pieces(const SourceSystem& system,
   const VectorDiffusion& V = ops_->vector;
   const bool vectors = needed_diffusions(system, options).vectors;
   std::vector<char> reached(V.n_pieces, vectors ? 0 : 1);  // scalar heat reaches all
-  for (int i = 0; i < V.n; ++i)
-    if (V.piece[i] >= 0 &&
-        !(system.X0.segment<2>(2 * i).isZero(0) && system.X0_points.segment<2>(2 * i).isZero(0)))
-      reached[V.piece[i]] = 1;
+  for (const VecX* X0 : {&system.X0, &system.X0_points}) {
+    const std::vector<double> largest = largest_of_pieces(*X0, V.piece);
+    for (std::size_t p = 0; p < largest.size(); ++p)
+      if (largest[p] > 0) reached[p] = 1;
+  }
   return reached;
 }
 

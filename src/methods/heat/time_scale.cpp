@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
+#include "base/index.h"
+#include "base/parallel.h"
 #include "methods/heat/signed_heat.h"
 
 namespace littoral {
@@ -39,15 +42,24 @@ struct Shares {
 
 Shares gradient_shares(const Calculus& C, const VecX& phi, const VecX& Y) {
   const VecX g = C.G.apply(phi);
-  double against = 0, off_unit = 0, all = 0;
-  for (Eigen::Index c = 0; c < C.A.size(); ++c) {
-    const auto y = Y.segment<2>(2 * c);
-    if (y.isZero(0)) continue;  // no source reaches it
-    all += C.A[c];
-    const auto gradient = g.segment<2>(2 * c);
-    if (!(y.dot(gradient) > 0)) against += C.A[c];
-    if (!(std::abs(gradient.norm() - 1) <= off_unit_by)) off_unit += C.A[c];
-  }
+  constexpr std::size_t grain = 1 << 14;
+  const std::size_t n = C.A.size();
+  std::vector<Eigen::Array3d> parts((n + grain - 1) / grain);  // against, off_unit, all
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    double against = 0, off_unit = 0, all = 0;
+    for (std::size_t s = begin; s < end; ++s) {
+      const auto c = index(s);
+      const Eigen::Vector2d y = Y.segment<2>(2 * c), gradient = g.segment<2>(2 * c);
+      if (y[0] == 0 && y[1] == 0) continue;  // no source reaches it
+      all += C.A[c];
+      if (!(y.dot(gradient) > 0)) against += C.A[c];
+      if (!(std::abs(gradient.norm() - 1) <= off_unit_by)) off_unit += C.A[c];
+    }
+    parts[begin / grain] = {against, off_unit, all};
+  });
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (const Eigen::Array3d& part : parts) sum += part;
+  const double against = sum[0], off_unit = sum[1], all = sum[2];
   if (!(all > 0)) return {};
   return {against / all, off_unit / all};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace littoral {
 
@@ -29,18 +30,13 @@ Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, co
 }
 
 VecXc to_complex(const VecX& X) {
-  VecXc z(X.size() / 2);
-  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = {X[2 * i], X[2 * i + 1]};
-  return z;
+  return Eigen::Map<const VecXc>(reinterpret_cast<const Complex*>(X.data()), X.size() / 2);
 }
 
-ScaledField<double> as_pairs(const ScaledField<Complex>& field) {
-  ScaledField<double> pairs{VecX(2 * field.x.size()), field.layer, field.scale};
-  for (Eigen::Index i = 0; i < field.x.size(); ++i) {
-    pairs.x[2 * i] = field.x[i].real();
-    pairs.x[2 * i + 1] = field.x[i].imag();
-  }
-  return pairs;
+ScaledField<double> as_pairs(ScaledField<Complex> field) {
+  const auto* pairs = reinterpret_cast<const double*>(field.x.data());  // as C++ lays them out
+  return {Eigen::Map<const VecX>(pairs, 2 * field.x.size()), std::move(field.layer),
+          std::move(field.scale)};
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int small_supernode =
     24;  // columns of a supernode up to which calls cost more than loops
+constexpr std::size_t super_grain = 4096;  // supernodes, for loops that only move numbers
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
@@ -150,15 +151,17 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
     for (; s >= 0 && !marked[s]; s = E.parent[s]) marked[s] = 1;
   };
   Dense x(b.rows(), b.cols());
-  for (Eigen::Index k = 0; k < b.cols(); ++k)
-    for (int s = 0; s < E.n_super; ++s) {
-      bool any = false;
-      for (int i = E.first[s]; i < E.first[s + 1]; ++i) {
-        x(i, k) = b(E.old_of[i], k);
-        any = any || x(i, k) != Scalar(0);
-      }
-      if (any) mark_up(nonzero, s);
-    }
+  std::vector<char> given(E.n_super, 0);
+  parallel_for(given.size(), super_grain, [&](std::size_t first, std::size_t end) {
+    for (Eigen::Index k = 0; k < b.cols(); ++k)
+      for (std::size_t s = first; s < end; ++s)
+        for (int i = E.first[s]; i < E.first[s + 1]; ++i) {
+          x(i, k) = b(E.old_of[i], k);
+          if (x(i, k) != Scalar(0)) given[s] = 1;
+        }
+  });
+  for (int s = 0; s < E.n_super; ++s)
+    if (given[s]) mark_up(nonzero, s);
   if (wanted.empty()) {
     needed.assign(needed.size(), 1);
   } else {
@@ -171,8 +174,10 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
                   [&](int t) { forward(t, nonzero, x, passed_on); });
   parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, needed, x); });
   Dense out(b.rows(), b.cols());
-  for (Eigen::Index k = 0; k < b.cols(); ++k)
-    for (int i = 0; i < E.n; ++i) out(E.old_of[i], k) = x(i, k);
+  parallel_for(given.size(), super_grain, [&](std::size_t first, std::size_t end) {
+    for (Eigen::Index k = 0; k < b.cols(); ++k)
+      for (int i = E.first[first]; i < E.first[end]; ++i) out(E.old_of[i], k) = x(i, k);
+  });
   return out;
 }
 

@@ -34,13 +34,13 @@ void forward_top(int n, int height, const Scalar* block, Scalar* x) {
 }
 
 template <class Scalar>
-void backward_top(int n, int height, const Scalar* block, Scalar* x) {
+[[gnu::always_inline]] inline void backward_top(int n, int height, const Scalar* block, Scalar* x) {
   block += index(n) * height;
   for (int j = n; j-- > 0;) {
     block -= height;
     Scalar sum = x[j];
     for (int i = j + 1; i < n; ++i) sum -= product(Eigen::numext::conj(block[i]), x[i]);
-    x[j] = sum / std::real(block[j]);
+    x[j] = sum * (1 / std::real(block[j]));
   }
 }
 

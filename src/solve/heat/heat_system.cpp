@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
 
@@ -58,20 +60,17 @@ Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
 template <class Scalar>
 ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
                                               const Task& task, Report& report) const {
-  std::vector<double> largest;
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    if (piece[i] < 0) continue;
-    if (piece[i] >= int_size(largest)) largest.resize(piece[i] + 1, 0.0);
-    largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, i, block_));
-  }
-  Vector r = Vector::Zero(b.size());
+  const std::vector<double> largest = largest_of_pieces(b, piece);
+  Vector r(b.size());
   std::vector<int> reached(piece.size(), -1);
-  for (std::size_t i = 0; i < piece.size(); ++i) {
-    if (piece[i] < 0 || !(largest[piece[i]] > 0)) continue;
-    const auto at = index(i) * block_;
-    r.segment(at, block_) = b.segment(at, block_) / largest[piece[i]];
-    reached[i] = piece[i];
-  }
+  parallel_for(piece.size(), block_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool any = piece[i] >= 0 && largest[piece[i]] > 0;
+      if (any) reached[i] = piece[i];
+      for (Eigen::Index k = index(i) * block_; k < index(i + 1) * block_; ++k)
+        r[k] = any ? Scalar(b[k] / largest[piece[i]]) : Scalar(0);
+    }
+  });
   if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
   auto field = windows_.solve(r, reached, task, report);
   return_freed_memory();
@@ -101,19 +100,31 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
     task.checkpoint();
     const int p = passes++;  // side: all outside or older
     const Vector z = factor.solve(r, side);
-    double top = 0;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (field.layer[i] < 0 && piece[i] >= 0) top = std::max(top, block_magnitude(z, i, block_));
+    const std::size_t parts = (n + block_grain - 1) / block_grain;
+    std::vector<double> tops(parts, 0.0);
+    parallel_for(n, block_grain, [&](std::size_t begin, std::size_t end) {
+      double top_here = 0;
+      for (std::size_t i = begin; i < end; ++i)
+        if (field.layer[i] < 0 && piece[i] >= 0)
+          top_here = std::max(top_here, block_magnitude(z, index(i), block_));
+      tops[begin / block_grain] = top_here;
+    });
+    const double top = *std::max_element(tops.begin(), tops.end());
     if (!(top > 0) || !std::isfinite(top)) break;
-    Eigen::Index taken = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (field.layer[i] >= 0 || piece[i] < 0) continue;
-      field.x.segment(i * block_, block_) = z.segment(i * block_, block_);
-      if (block_magnitude(z, i, block_) < front * top) continue;
-      field.layer[i] = p;
-      std::fill_n(side.begin() + i * block_, block_, fresh);
-      ++taken;
-    }
+    std::vector<Eigen::Index> taken_in(parts, 0);
+    parallel_for(n, block_grain, [&](std::size_t begin, std::size_t end) {
+      Eigen::Index taken_here = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (field.layer[i] >= 0 || piece[i] < 0) continue;
+        for (Eigen::Index k = index(i) * block_; k < index(i + 1) * block_; ++k) field.x[k] = z[k];
+        if (block_magnitude(z, index(i), block_) < front * top) continue;
+        field.layer[i] = p;
+        std::fill_n(side.begin() + index(i) * block_, block_, fresh);
+        ++taken_here;
+      }
+      taken_in[begin / block_grain] = taken_here;
+    });
+    const Eigen::Index taken = std::accumulate(taken_in.begin(), taken_in.end(), Eigen::Index{0});
     left -= taken;
     if (left == 0 || taken == 0) break;
 

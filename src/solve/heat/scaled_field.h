@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "littoral/types.h"
 
 namespace littoral {
@@ -41,6 +43,29 @@ double block_magnitude(const Vector& x, Eigen::Index i, int block) {
   double m = 0;
   for (int k = 0; k < block; ++k) m = std::max(m, magnitude(x[i * block + k]));
   return m;
+}
+
+constexpr std::size_t block_grain = 1 << 15;  // blocks, for loops over all of a field
+
+/// Largest entry of b in each piece; `piece` names the piece of every block, -1: none.
+template <class Vector>
+std::vector<double> largest_of_pieces(const Vector& b, const std::vector<int>& piece) {
+  if (piece.empty()) return {};
+  const std::size_t n_pieces = *std::max_element(piece.begin(), piece.end()) + 1;
+  const int block = b.size() / index(piece.size());
+  const std::size_t grain =
+      std::max(block_grain, n_pieces);  // so that the parts take little memory
+  std::vector<std::vector<double>> parts((piece.size() + grain - 1) / grain);
+  parallel_for(piece.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::vector<double>& largest = parts[begin / grain];
+    largest.assign(n_pieces, 0.0);
+    for (std::size_t i = begin; i < end; ++i)
+      if (piece[i] >= 0)
+        largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, index(i), block));
+  });
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    for (std::size_t p = 0; p < n_pieces; ++p) parts[0][p] = std::max(parts[0][p], parts[k][p]);
+  return std::move(parts[0]);
 }
 
 }  // namespace littoral

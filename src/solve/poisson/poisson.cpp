@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/dense_decompositions.h"
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -38,6 +39,38 @@ std::shared_ptr<const Elimination> structure_of(const SpMat& L, const Ordering& 
                                                 const Task& task) {
   if (!order.empty()) return std::make_shared<const Elimination>(L, order, task);
   return std::make_shared<const Elimination>(L, dissection(L, task), task);
+}
+
+/// Rows that say no more than which constant to add: one a component at most, all of its unknowns
+/// in that component, its value given.
+struct ConstantRows {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> A;
+  std::vector<int> component;  // per row
+  VecX sum;                    // of each row
+};
+
+std::optional<ConstantRows> constant_rows(const LevelRows& rows, const std::vector<int>& component,
+                                          std::size_t n_components) {
+  if (rows.A.rows() > index(n_components)) return std::nullopt;
+  for (const int anchored : rows.anchor)
+    if (!anchored) return std::nullopt;
+  ConstantRows out{rows.A, {}, VecX::Zero(rows.A.rows())};
+  std::vector<char> taken(n_components, 0);
+  for (int r = 0; r < out.A.rows(); ++r) {
+    int of = -1;
+    double size = 0;
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(out.A, r); it; ++it) {
+      const int c = component[it.col()];
+      if (c < 0 || (of >= 0 && c != of)) return std::nullopt;
+      of = c;
+      out.sum[r] += it.value();
+      size += std::abs(it.value());
+    }
+    if (of < 0 || taken[of] || !(std::abs(out.sum[r]) > 0.5 * size)) return std::nullopt;
+    taken[of] = 1;
+    out.component.push_back(of);
+  }
+  return out;
 }
 
 // Beyond, the factor costs too much memory, or more time than the iterations of one solve.
@@ -127,6 +160,25 @@ VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, cons
 
 VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& task,
                            Report& report) const {
+  if (const auto constants = constant_rows(rows, component_, first_.size())) {
+    // What such a row exerts is what b sums to: L x = b - A^T y is solved up to the constant.
+    const auto n_rows = constants->A.rows();
+    VecX sum = VecX::Zero(index(first_.size())), y(n_rows);
+    for (Eigen::Index i = 0; i < b.size(); ++i)
+      if (component_[i] >= 0) sum[component_[i]] += b[i];
+    for (Eigen::Index r = 0; r < n_rows; ++r)
+      y[r] = sum[constants->component[r]] / constants->sum[r];
+    VecX x = solve(b - constants->A.transpose() * y, report, task);
+    const VecX at_rows = constants->A * x;
+    VecX shift = VecX::Zero(index(first_.size()));
+    for (Eigen::Index r = 0; r < n_rows; ++r)
+      shift[constants->component[r]] =
+          ((rows.value.size() > 0 ? rows.value[r] : 0) - at_rows[r]) / constants->sum[r];
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (component_[i] >= 0) x[i] += shift[component_[i]];
+    return x;
+  }
+
   // Unknowns (x, c): rows A x - B c = 0, the constants of anchored groups left out.
   std::vector<int> column(rows.anchor.size(), -1);
   int n_free = 0;

@@ -6,7 +6,7 @@ import { element, fillSelect, input, say, select } from "./elements";
 import { Legend } from "./legend";
 import { between, numberText, spacings } from "./numbers";
 import type { Insets } from "./camera";
-import type { Field } from "./scene";
+import { shadings, type Field, type Shading } from "./scene";
 import type { Pane } from "./pane";
 import type { ResultView } from "./view";
 
@@ -56,6 +56,15 @@ export class Controls {
       };
       this.useRange(read("range-low", this.merged?.low ?? 0), read("range-high", this.merged?.high ?? 0), true);
     });
+    const shading = select("shading"), asked = address.get("shading") ?? view.scene.shading;
+    const open = view.panes.some((pane) => pane.scene.surface.openness && !pane.volume);
+    fillSelect(shading, shadings.filter((name) => name !== "occluded" || open));
+    shading.value = Array.from(shading.options).some((option) => option.value === asked) ? asked : "smooth";
+    shading.addEventListener("change", () => {
+      address.set("shading", shading.value === view.scene.shading ? null : shading.value);
+      this.useShown();
+    });
+    element("discs-row").hidden = view.panes.every((pane) => !pane.scene.surface.discs);
     element("wireframe-row").hidden = view.panes.every((pane) => !pane.surface);
     element("sources-row").hidden = view.panes.every((pane) => pane.sources.children.length === 0);
     const theme = select("theme"), dark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -73,7 +82,8 @@ export class Controls {
     labels: () => this.useLines(),
     sources: () => this.useShown(),
     wireframe: () => this.useShown(),
-    flat: () => this.useShown(),
+    discs: () => this.useShown(),
+    path: () => this.view.ask(),
   };
 
   /** Turns a check box over, as a key does. */
@@ -82,6 +92,14 @@ export class Controls {
     if (box.closest("[hidden]") || box.disabled) return;
     box.click();
     say(`${box.parentElement?.textContent?.trim() ?? id} ${box.checked ? "shown" : "hidden"}`);
+  }
+
+  /** The next kind of shading, as a key does. */
+  nextShading(): void {
+    const shading = select("shading");
+    shading.selectedIndex = (shading.selectedIndex + 1) % shading.options.length;
+    shading.dispatchEvent(new Event("change"));
+    say(`Shading ${shading.value}`);
   }
 
   start(): void {
@@ -127,6 +145,7 @@ export class Controls {
     };
     const field = this.merged, varies = field !== null && field.high > field.low && !field.discrete;
     element("legend").hidden = field === null;
+    element("path-row").hidden = this.view.panes.every((pane) => !pane.hasWays);
     element("map-row").hidden = element("range-row").hidden = !varies;
     element("isolines-row").hidden = !varies || field.at === "face";
     element("labels-row").hidden = element("isolines-row").hidden;
@@ -190,7 +209,8 @@ export class Controls {
     for (const pane of this.view.panes) {
       pane.sources.visible = input("sources").checked;
       pane.showWires(input("wireframe").checked);
-      pane.look.uniforms.flatShading.value = input("flat").checked;
+      pane.setShading(select("shading").value as Shading);
+      pane.surface?.showDiscs(input("discs").checked);
     }
     this.view.ask();
   }

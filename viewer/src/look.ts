@@ -30,6 +30,7 @@ export class Look {
     zeroLine: { value: true },
     discrete: { value: false },
     flatShading: { value: false },
+    occluded: { value: false },
     regions: { value: 0 },
     colours: { value: dataTexture(new Uint8Array(4 * 256), 256, THREE.RGBAFormat, THREE.UnsignedByteType, THREE.LinearFilter) },
     colourMap: { value: new THREE.Vector2() },

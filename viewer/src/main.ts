@@ -132,7 +132,7 @@ function start(scene: SceneData): void {
     "+": moving(() => orbit.zoom(0.87)), "=": moving(() => orbit.zoom(0.87)), "-": moving(() => orbit.zoom(1.15)),
     r: reset, s: savePicture, p: fold,
     i: () => controls.toggle("isolines"), n: () => controls.toggle("labels"), o: () => controls.toggle("sources"),
-    w: () => controls.toggle("wireframe"), f: () => controls.toggle("flat"), c: () => { if (volume) controls.toggle("cut"); },
+    w: () => controls.toggle("wireframe"), f: () => controls.nextShading(), d: () => controls.toggle("discs"), g: () => controls.toggle("path"), c: () => { if (volume) controls.toggle("cut"); },
     v: () => {
       const picked = view.pick(...centre());
       say(picked ? `${readout.describe(picked)} at the centre` : "No surface at the centre");
@@ -177,7 +177,9 @@ function start(scene: SceneData): void {
       frames: () => view.frames,
       firstFrame: () => firstFrame,
       pick: (x: number, y: number) => view.pick(x, y),
+      readout,
       written: () => controls.written,
+      way: () => readout.way,
       project: (vertex: number) => view.project(scene.surface.positions.subarray(3 * vertex, 3 * vertex + 3)),
       pixels() {
         view.render();

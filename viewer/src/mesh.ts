@@ -48,6 +48,13 @@ export function vertexNormals(positions: Float32Array, triangles: Uint32Array): 
   return normals;
 }
 
+/** Numbers of the triangles at each vertex, one of them; -1: none. */
+export function someTriangle(triangles: Uint32Array, vertexCount: number): Int32Array {
+  const out = new Int32Array(vertexCount).fill(-1);
+  for (let c = 0; c < triangles.length; ++c) out[triangles[c]] = Math.floor(c / 3);
+  return out;
+}
+
 /** Vertex pairs of the sides of the faces, each once; sides inside polygons are left out. */
 export function wireEdges(triangles: Uint32Array, innerSides: Uint8Array | null, vertexCount: number): Uint32Array {
   const keys = new Float64Array(triangles.length);

@@ -1,11 +1,12 @@
 // One result: what is drawn of it, and its fields.
 import * as THREE from "three";
 import { cornerReader, differenceField, gradientField, histogram } from "./field";
+import { Descent, type Descended } from "./descent";
 import { isolines, type LevelSegments } from "./isolines";
 import { Look } from "./look";
 import { between, niceTicks } from "./numbers";
-import type { Field, SceneData, Surface } from "./scene";
-import { makeSources } from "./sources";
+import type { Field, SceneData, Shading, Surface, Triple } from "./scene";
+import { disposeMarks, makeLine, makeSources } from "./sources";
 import { SurfaceView } from "./surface";
 import { Tracer } from "./tracer";
 import { VolumeView } from "./volume";
@@ -33,6 +34,8 @@ export class Pane {
   readonly choices: FieldChoice[] = [];
   private readonly made = new Map<string, Field>();
   private wires: THREE.Object3D | null = null;
+  private descent: Descent | null = null;
+  private way: THREE.Group | null = null;
   field: Field | null = null;
 
   constructor(readonly scene: SceneData, renderer: THREE.WebGLRenderer, changed: () => void) {
@@ -89,13 +92,48 @@ export class Pane {
     if (this.wires) this.wires.visible = shown;
   }
 
+  valueAt(triangle: number, b: Triple): number | null {
+    return this.surface?.valueAt({ triangle, b, distance: 0 }) ?? null;
+  }
+
+  /** The way from a place down the field to the source; null where the field is no distance. */
+  wayFrom(triangle: number, b: Triple): Descended | null {
+    const { field, scene } = this;
+    if (!this.hasWays || !field) return null;
+    this.descent ??= new Descent(scene.surface);
+    return this.descent.path(field, scene.radius, scene.sources, { triangle, b });
+  }
+
+  /** Is what is shown a distance on a surface, as far as one can tell? */
+  get hasWays(): boolean {
+    const { field } = this;
+    return this.surface !== null && field !== null && field.values !== null && !field.discrete && field.at !== "face" && /^(signed |unsigned )?(dist|geodesic)/i.test(field.name);
+  }
+
+  /** Draws a line along some places; null: none. */
+  showWay(places: number[] | null): void {
+    if (this.way) {
+      this.world.remove(this.way);
+      disposeMarks(this.way);
+    }
+    this.way = places && places.length > 3 ? makeLine(places) : null;
+    if (this.way) this.world.add(this.way);
+  }
+
+  setShading(shading: Shading): void {
+    this.look.uniforms.flatShading.value = shading === "flat";
+    this.look.uniforms.occluded.value = shading === "occluded" && this.scene.surface.openness !== null;
+  }
+
   /** Runs something with only surfaces in sight. */
   bare(act: () => void): void {
-    const { sources, wires, tracer } = this, shown = [sources.visible, wires?.visible ?? false, tracer?.mesh.visible ?? false];
+    const { sources, wires, tracer, way } = this, shown = [sources.visible, wires?.visible ?? false, tracer?.mesh.visible ?? false];
     sources.visible = false;
     if (wires) wires.visible = false;
     if (tracer) tracer.mesh.visible = false;
+    if (way) this.world.remove(way);
     act();
+    if (way) this.world.add(way);
     sources.visible = shown[0];
     if (wires) wires.visible = shown[1];
     if (tracer) tracer.mesh.visible = shown[2];

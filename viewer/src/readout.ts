@@ -1,5 +1,6 @@
 // What is under the cursor, and what a click pins and copies.
-import { element, say } from "./elements";
+import type { Descended } from "./descent";
+import { element, input, say } from "./elements";
 import { numberText } from "./numbers";
 import type { Picked, ResultView } from "./view";
 
@@ -30,17 +31,20 @@ export class Readout {
       if (down && Math.hypot(at.x - down.x, at.y - down.y) < 4) this.pinAt(at.x, at.y);
       down = null;
     });
+    for (const id of ["path", "field"]) element(id).addEventListener("change", () => this.follow());
     element("pin-close").addEventListener("click", () => this.unpin());
   }
 
   /** In words: value, place, and the node. */
-  describe(picked: Picked): string {
+  describe(picked: Picked, way: Descended | null = null): string {
     const field = this.view.panes[picked.pane].field, lines: string[] = [];
     if (field && picked.value !== null) {
       const label = field.discrete ? field.labels.get(picked.value) : undefined;
       lines.push(`${field.name} ${label ?? (picked.value === Infinity ? "unreachable" : numberText(picked.value))}`);
     }
     lines.push(picked.place.map((x) => numberText(x)).join("  "));
+    if (way && way.places.length > 3)
+      lines.push(`way ${numberText(way.length * this.view.panes[picked.pane].scene.radius)}${way.reached ? "" : ", which ends at no source"}`);
     if (picked.node) lines.push(picked.node);
     return lines.join("\n");
   }
@@ -55,9 +59,9 @@ export class Readout {
       this.unpin();
       return;
     }
+    this.view.panes.forEach((pane) => pane.showWay(null));
     this.pinned = picked;
-    const text = this.describe(picked);
-    element("pin-text").textContent = text;
+    const text = this.follow();
     this.pin.hidden = false;
     this.place();
     const copied = picked.node ?? text;
@@ -70,7 +74,26 @@ export class Readout {
     );
   }
 
+  /** What the pin says, and the way from it to the source. */
+  private follow(): string {
+    const picked = this.pinned;
+    if (!picked) return "";
+    const pane = this.view.panes[picked.pane], wanted = input("path").checked && picked.triangle !== null && picked.b !== null;
+    const now = picked.triangle !== null && picked.b ? { ...picked, value: pane.valueAt(picked.triangle, picked.b) } : picked;
+    const way = wanted && picked.b && picked.triangle !== null ? pane.wayFrom(picked.triangle, picked.b) : null;
+    pane.showWay(way?.places ?? null);
+    this.way = way;
+    this.view.ask();
+    return (element("pin-text").textContent = this.describe(now, way));
+  }
+
+  /** From the pin, if it is shown. */
+  way: Descended | null = null;
+
   unpin(): void {
+    if (this.pinned) this.view.panes[this.pinned.pane].showWay(null);
+    this.way = null;
+    this.view.ask();
     this.pinned = null;
     this.pin.hidden = true;
   }

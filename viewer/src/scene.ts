@@ -58,6 +58,9 @@ export interface SourceMarks {
   unsignedColour: Triple;
 }
 
+export const shadings = ["smooth", "flat", "occluded"] as const;
+export type Shading = (typeof shadings)[number];
+
 /** How numbers of vertices and triangles name places of the input. */
 export type Nodes = "none" | "vertices" | "faces";
 
@@ -68,6 +71,10 @@ export interface Surface {
   /** The input's face of each triangle, where it is not the triangle's own number. */
   faces: Uint32Array | null;
   nodes: Nodes;
+  /** Four a vertex: how much of the sky is seen in a direction d, w / 255 + (1.5 xyz / 255 - .75) . d; or null. */
+  openness: Uint8Array | null;
+  /** Of a point cloud, four a vertex: the normal and the radius of the disc that is drawn there. */
+  discs: Float32Array | null;
 }
 
 export interface SceneData {
@@ -86,6 +93,7 @@ export interface SceneData {
   trace: Trace | null;
   plainColour: Triple;
   infiniteColour: Triple;
+  shading: Shading;
   /** Shown beside it with the same camera; in the same frame. */
   beside: SceneData | null;
 }
@@ -199,6 +207,8 @@ function readSurface(from: Json): Surface {
     innerSides: has(from, "innerSides") ? bytes(from, "innerSides", 1, count) : null,
     faces: has(from, "faces") ? new Uint32Array(bytes(from, "faces", 4, count).buffer) : null,
     nodes: has(from, "nodes") ? (text(from, "nodes") as Nodes) : "none",
+    openness: has(from, "openness") ? bytes(from, "openness", 4, vertices) : null,
+    discs: has(from, "discs") ? finite(new Float32Array(bytes(from, "discs", 16, vertices).buffer), "discs") : null,
   };
 }
 
@@ -242,6 +252,7 @@ function readPart(from: Json): SceneData {
     towardsEye: triple(frame, "towardsEye"), up: triple(frame, "up"),
     surface, fields, sources: readSources(object(from.sources, "sources")), volume, trace,
     plainColour: triple(from, "plainColour"), infiniteColour: triple(from, "infiniteColour"),
+    shading: shadings.find((name) => name === from.shading) ?? "smooth",
     beside: has(from, "beside") ? readPart(object(from.beside, "beside")) : null,
   };
 }

@@ -14,8 +14,12 @@ in float infinite;
 in float lightness;       // 1 - weight, so that geometry without the attribute has weight 1
 in vec3 slopeA, slopeB;   // xx, yy, zz and xy, xz, yz of the mean of g g^T; 0: not known
 in vec3 bulge, corner;    // of quadratic fields: sides above the mean of their ends; barycentric coordinates
+in vec4 openness;         // how much of the sky is seen, see open()
+in vec2 rim;              // of discs: place inside of a square about them
 out float vTimes, vWeight, vInfinite, vSmooth;
+out vec2 vRim;
 out vec3 vNormal, vPosition, vPlace, vSlopeA, vSlopeB, vBulge, vCorner;
+out vec4 vOpen;
 void main() {
   vPlace = position;
   vWeight = 1.0 - lightness;
@@ -27,6 +31,8 @@ void main() {
   vSlopeB = slopeB;
   vBulge = bulge;
   vCorner = corner;
+  vOpen = openness;
+  vRim = rim;
   vec4 p = modelViewMatrix * vec4(position, 1.0);
   vPosition = p.xyz;
   gl_Position = projectionMatrix * p;
@@ -36,11 +42,13 @@ export const surfaceFragment = `
 precision highp float;
 precision highp sampler2D;
 in float vTimes, vWeight, vInfinite, vSmooth;
+in vec2 vRim;
 in vec3 vNormal, vPosition, vPlace, vSlopeA, vSlopeB, vBulge, vCorner;
+in vec4 vOpen;
 out vec4 result;
 uniform vec4 cut;            // nothing is drawn where cut.xyz . place > cut.w
 uniform vec3 boxLow, boxHigh;  // nor outside this box
-uniform bool hasField, showLines, diverging, zeroLine, discrete, flatShading, trusted;
+uniform bool hasField, showLines, diverging, zeroLine, discrete, flatShading, occluded, trusted;
 uniform sampler2D colours;
 uniform float regions;       // colours of a discrete field, less 1
 uniform vec2 colourMap, lineMap;  // lines where lineMap.x + lineMap.y * t is whole; y = 0: none
@@ -52,6 +60,14 @@ uniform float pixel;         // side of a CSS pixel at distance 1
 uniform float pixelRatio;
 uniform vec3 plainColour, infiniteColour;
 ${lightFunction}
+
+// How much light reaches a side of the surface from everywhere: the sky that is seen in direction d is a + b . d, of
+// which the half above the normal counts by its cosine (io/render/openness.h).
+float open(vec3 n) {
+  vec3 b = 1.5 * vOpen.xyz - 0.75;
+  return clamp(vOpen.w + dot(b, transpose(mat3(viewMatrix)) * n) / 1.5, 0.0, 1.0);
+}
+
 float ink(float away, float width) { return clamp(0.5 * width + 0.5 - away, 0.0, 1.0); }
 
 // t per CSS pixel. Where gradients at vertices are known, the slope is interpolated from them: then it is the
@@ -72,7 +88,7 @@ float slopeOf(float vT, vec3 n, float known) {
 }
 
 void main() {
-  if (dot(cut.xyz, vPlace) > cut.w) discard;
+  if (dot(cut.xyz, vPlace) > cut.w || dot(vRim, vRim) > 1.0) discard;
   if (any(lessThan(vPlace, boxLow)) || any(greaterThan(vPlace, boxHigh))) discard;
   // Corners on creases have no normal of their own: the face's stands in. Where faces disagree in
   // orientation vertex normals may cancel; the face's is the fallback there too.
@@ -129,19 +145,21 @@ void main() {
     }
   }
   colour *= light(n);
+  if (occluded) colour *= 0.3 + 0.7 * open(n);
   result = vec4(mix(colour, dark ? vec3(0.92, 0.93, 0.96) : vec3(0.07, 0.08, 0.11), strength), 1.0);
 }`;
 
 /** Depth along the view direction in 24 bits, for what asks whether something is hidden. */
 export const depthFragment = `
 precision highp float;
+in vec2 vRim;
 in vec3 vPosition, vPlace;
 out vec4 result;
 uniform vec4 cut;
 uniform vec3 boxLow, boxHigh;
 uniform vec2 depthRange;
 void main() {
-  if (dot(cut.xyz, vPlace) > cut.w) discard;
+  if (dot(cut.xyz, vPlace) > cut.w || dot(vRim, vRim) > 1.0) discard;
   if (any(lessThan(vPlace, boxLow)) || any(greaterThan(vPlace, boxHigh))) discard;
   float x = floor(clamp((-vPosition.z - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 1.0) * 16777215.0 + 0.5);
   result = vec4(floor(x / 65536.0), mod(floor(x / 256.0), 256.0), mod(x, 256.0), 255.0) / 255.0;

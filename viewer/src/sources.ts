@@ -26,6 +26,28 @@ function between(a: THREE.Vector3, b: THREE.Vector3, radius: number, matrix: THR
   matrix.compose(middle, turn, new THREE.Vector3(radius, length, radius));
 }
 
+/** A line of some places (three numbers each), white with dark sides so that it is seen on any colour. */
+export function makeLine(places: ArrayLike<number>, radius = 0.006): THREE.Group {
+  const group = new THREE.Group(), count = places.length / 3, at = (i: number) => new THREE.Vector3(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+  const tube = new THREE.CylinderGeometry(1, 1, 1, 10, 1, true), ball = new THREE.SphereGeometry(1, 12, 8);
+  for (const [part, colour, side] of [[1, 0xffffff, THREE.FrontSide], [1.7, 0x10141c, THREE.BackSide]] as const) {
+    const paint = new THREE.MeshBasicMaterial({ color: colour, side });
+    if (count > 1) group.add(instances(tube, paint, count - 1, (i, m) => between(at(i), at(i + 1), part * radius, m)));
+    const joints = instances(ball, paint, count, (i, m) => m.makeScale(part * radius, part * radius, part * radius).setPosition(at(i)));
+    group.add(joints);
+  }
+  return group;
+}
+
+/** Frees what a group of marks holds on the graphics side. */
+export function disposeMarks(group: THREE.Group): void {
+  for (const child of group.children) if (child instanceof THREE.InstancedMesh) {
+    (child.geometry as THREE.BufferGeometry).dispose();
+    (child.material as THREE.Material).dispose();
+    child.dispose();
+  }
+}
+
 /** Tubes, arrow heads and spheres where sources are. */
 export function makeSources(sources: SourceMarks): THREE.Group {
   const group = new THREE.Group();

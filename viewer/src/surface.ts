@@ -1,5 +1,6 @@
 // A surface with one of its fields.
 import * as THREE from "three";
+import { Discs } from "./discs";
 import { bulges, cornerReader, valueAt } from "./field";
 import type { Look } from "./look";
 import { gradients, slopeTensors, vertexNormals, wireEdges } from "./mesh";
@@ -12,6 +13,8 @@ export class SurfaceView {
   private split: THREE.BufferGeometry | null = null; // every corner its own
   private readonly normals: Float32Array;
   private wires: THREE.LineSegments | null = null;
+  private discs: Discs | null = null;
+  private asDiscs: boolean;
   field: Field | null = null;
 
   constructor(readonly surface: Surface, readonly look: Look) {
@@ -20,6 +23,8 @@ export class SurfaceView {
     this.shared = new THREE.BufferGeometry();
     this.shared.setAttribute("position", new THREE.BufferAttribute(positions, 3));
     this.shared.setAttribute("normal", new THREE.BufferAttribute(this.normals, 3));
+    if (surface.openness) this.shared.setAttribute("openness", new THREE.BufferAttribute(surface.openness, 4, true));
+    this.asDiscs = surface.discs !== null;
     this.shared.setIndex(new THREE.BufferAttribute(triangles, 1));
     this.shared.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1);
     this.mesh = new THREE.Mesh(this.shared, look.material);
@@ -29,9 +34,20 @@ export class SurfaceView {
   setField(field: Field | null): void {
     this.field = field;
     this.look.setField(field);
-    if (!field?.values) return;
-    if (field.at === "vertex") this.fillShared(field);
+    if (this.asDiscs && this.surface.discs && (!field || field.at === "vertex")) {
+      this.discs ??= new Discs(this.surface, this.surface.discs);
+      if (field?.values) this.discs.setField(field);
+      this.mesh.geometry = this.discs.geometry;
+    } else if (!field?.values) this.mesh.geometry = this.shared;
+    else if (field.at === "vertex") this.fillShared(field);
     else this.fillSplit(field);
+  }
+
+  /** Of a cloud: as discs, or as the triangles that join its points. */
+  showDiscs(shown: boolean): void {
+    if (shown === this.asDiscs || !this.surface.discs) return;
+    this.asDiscs = shown;
+    this.setField(this.field);
   }
 
   private fillShared(field: Field): void {
@@ -64,6 +80,12 @@ export class SurfaceView {
       this.split.setAttribute("position", new THREE.BufferAttribute(p, 3));
       this.split.setAttribute("normal", new THREE.BufferAttribute(n, 3));
       this.split.boundingSphere = this.shared.boundingSphere;
+      const { openness } = this.surface;
+      if (openness) {
+        const open = new Uint8Array(4 * corners);
+        for (let c = 0; c < corners; ++c) open.set(openness.subarray(4 * triangles[c], 4 * triangles[c] + 4), 4 * c);
+        this.split.setAttribute("openness", new THREE.BufferAttribute(open, 4, true));
+      }
     }
     const read = cornerReader(field, this.surface), t = new Float32Array(corners), infinite = new Uint8Array(corners);
     for (let c = 0; c < corners; ++c) {
@@ -94,7 +116,9 @@ export class SurfaceView {
 
   /** Where a ray of the page's units meets what is drawn. */
   pick(ray: Ray): Hit | null {
-    return pickTriangle(this.surface.positions, this.surface.triangles, ray, (x, y, z) => this.look.keeps(x, y, z));
+    const kept = (x: number, y: number, z: number) => this.look.keeps(x, y, z);
+    if (this.discs && this.mesh.geometry === this.discs.geometry) return this.discs.pick(ray, kept);
+    return pickTriangle(this.surface.positions, this.surface.triangles, ray, kept);
   }
 
   valueAt(hit: Hit): number | null {
@@ -116,6 +140,7 @@ export class SurfaceView {
   dispose(): void {
     this.shared.dispose();
     this.split?.dispose();
+    this.discs?.geometry.dispose();
     this.wires?.geometry.dispose();
   }
 }

@@ -18,6 +18,8 @@ export interface Picked {
   /** A line of a source file, where the surface is the input's. */
   node: string | null;
   triangle: number | null;
+  /** Barycentric coordinates in it. */
+  b: Triple | null;
 }
 
 export class ViewError extends Error {}
@@ -157,12 +159,12 @@ export class ResultView {
       const hit = pane.volume.pick(ray, traced);
       if (!hit || !pane.field) return null;
       const value = Number.isFinite(hit.value) ? between(pane.field.low, pane.field.high, hit.value) : hit.value;
-      return { pane: index, value, place: real(hit.place), spot: hit.place, node: null, triangle: null };
+      return { pane: index, value, place: real(hit.place), spot: hit.place, node: null, triangle: null, b: null };
     }
     const hit = pane.surface?.pick(ray);
     if (!hit) return null;
     const spot = at(hit.distance);
-    return { pane: index, ...this.pickSurface(pane, hit), spot, place: real(spot), triangle: hit.triangle };
+    return { pane: index, ...this.pickSurface(pane, hit), spot, place: real(spot), triangle: hit.triangle, b: hit.b };
   }
 
   /** Where a place (page's unit) is in the picture. */

@@ -97,14 +97,14 @@ test("colour map, lines, numbers and range change the picture; the address remem
 });
 
 test("an address opens the page as it was", async () => {
-  const again = await show(scene(flat, kinds), { ...small, hash: "#field=quadratic&map=cividis&theme=dark&flat=1&camera=0,0.5,3,0,0,0&isolines=0&range=0.2,0.7" });
+  const again = await show(scene(flat, kinds), { ...small, hash: "#field=quadratic&map=cividis&theme=dark&shading=flat&camera=0,0.5,3,0,0,0&isolines=0&range=0.2,0.7" });
   try {
     const state = await again.page.evaluate(() => ({
-      field: document.getElementById("field").value, map: document.getElementById("map").value, flat: document.getElementById("flat").checked,
+      field: document.getElementById("field").value, map: document.getElementById("map").value, shading: document.getElementById("shading").value,
       lines: document.getElementById("isolines").checked, theme: document.documentElement.dataset.theme, camera: littoral.view.orbit.toText(),
       range: document.getElementById("range-low").value,
     }));
-    assert.deepEqual(state, { field: "quadratic", map: "cividis", flat: true, lines: false, theme: "dark", camera: "0,0.5,3,0,0,0", range: "0.2" });
+    assert.deepEqual(state, { field: "quadratic", map: "cividis", shading: "flat", lines: false, theme: "dark", camera: "0,0.5,3,0,0,0", range: "0.2" });
     assertAlone({ ...again, url: again.url });
   } finally {
     await again.close();

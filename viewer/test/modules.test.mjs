@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { base64, field, load, scene, square, torus } from "./scenes.mjs";
 
-const [numbers, colours, fields, mesh, pick, march, lines, scenes] = await Promise.all(
-  ["numbers.ts", "colours.ts", "field.ts", "mesh.ts", "pick.ts", "march.ts", "isolines.ts", "scene.ts"].map(load));
+const [numbers, colours, fields, mesh, pick, march, lines, scenes, descents] = await Promise.all(
+  ["numbers.ts", "colours.ts", "field.ts", "mesh.ts", "pick.ts", "march.ts", "isolines.ts", "scene.ts", "descent.ts"].map(load));
 
 const surfaceOf = ({ positions, triangles }) => ({
   positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles), innerSides: null, faces: null, nodes: "faces",
@@ -109,6 +109,60 @@ test("isolines lie where the field has their level", () => {
     assert.ok(ends.length > 60);
     for (let i = 0; i < ends.length; i += 3) assert.ok(Math.abs(ends[i] - level) < 1e-6);
   }
+});
+
+const noMarks = { signed: new Float32Array(0), unsigned: new Float32Array(0), points: new Float32Array(0) };
+const lengthOf = (places) => {
+  let sum = 0;
+  for (let i = 3; i < places.length; i += 3) sum += Math.hypot(...[0, 1, 2].map((k) => places[i + k] - places[i + k - 3]));
+  return sum;
+};
+/// The way down from inside of each of some triangles of a shape, with distances at its vertices: ends at `marks`, within `part` of the value.
+function descend(shape, values, marks, part, check = () => undefined) {
+  const surface = surfaceOf(shape), count = surface.triangles.length / 3, field = fields.makeField({ name: "distance", values });
+  const descent = new descents.Descent(surface), b = [0.5, 0.3, 0.2];
+  for (let i = 0; i < 40; ++i) {
+    const triangle = Math.floor(((i + 0.5) * count) / 40), { places, length, reached } = descent.path(field, 1, { ...noMarks, ...marks }, { triangle, b });
+    const value = Math.abs(fields.valueAt(field, surface, triangle, b));
+    assert.ok(reached, `from triangle ${triangle}`);
+    assert.ok(Math.abs(length - lengthOf(places)) < 1e-9);
+    assert.ok(Math.abs(length - value) < part * Math.max(value, 0.1), `from triangle ${triangle}: ${length} for ${value}`);
+    check(places.slice(-3), places);
+  }
+}
+
+test("the way down a distance ends at its source and is as long as the distance", () => {
+  // To a place inside of a face of a square: 1 %.
+  const flat = square(40), source = [0.213, -0.117, 0], to = (p) => Math.hypot(p[0] - source[0], p[1] - source[1]);
+  const each = ({ positions }, f) => Array.from({ length: positions.length / 3 }, (_, v) => f(positions.slice(3 * v, 3 * v + 3)));
+  const atSource = (end) => assert.ok(to(end) < 1e-6, `it ends at ${end}`);
+  descend(flat, each(flat, to), { points: Float32Array.from(source) }, 0.01, atSource);
+  // The same square in pieces that share no vertex.
+  const soup = { positions: Array.from(flat.triangles, (v) => flat.positions.slice(3 * v, 3 * v + 3)).flat(), triangles: flat.triangles.map((_, c) => c) };
+  descend(soup, each(soup, to), { points: Float32Array.from(source) }, 0.01, atSource);
+  // From both sides of a line between vertices: straight, and to where the field is 0.
+  descend(flat, each(flat, (p) => p[0] - 0.513), {}, 1e-4, (end) => assert.ok(Math.abs(end[0] - 0.513) < 1e-5));
+  // On a sphere, round the pole as well: 1 %.
+  const globe = { positions: [], triangles: [] }, m = 96, n = 48, at = (i, j) => (j <= 0 ? 0 : j >= n ? 1 : 2 + (j - 1) * m + (i % m));
+  globe.positions.push(0, 0, 1, 0, 0, -1);
+  for (let j = 1; j < n; ++j) for (let i = 0; i < m; ++i) {
+    const a = (2 * Math.PI * i) / m, z = (Math.PI * j) / n;
+    globe.positions.push(Math.sin(z) * Math.cos(a), Math.sin(z) * Math.sin(a), Math.cos(z));
+  }
+  for (let j = 0; j < n; ++j) for (let i = 0; i < m; ++i) {
+    if (j > 0) globe.triangles.push(at(i, j), at(i, j + 1), at(i + 1, j));
+    if (j < n - 1) globe.triangles.push(at(i + 1, j), at(i, j + 1), at(i + 1, j + 1));
+  }
+  const pole = globe.positions.slice(3 * at(7, 15), 3 * at(7, 15) + 3), round = (p) => Math.acos(Math.min(1, p[0] * pole[0] + p[1] * pole[1] + p[2] * pole[2]));
+  descend(globe, each(globe, round), {}, 0.01, (end) => assert.ok(round(end) < 1e-3));
+});
+
+test("where nothing leads to a source the way down says so", () => {
+  const surface = surfaceOf(square(10)), height = Array.from({ length: 121 }, (_, v) => (v % 11 > 6 ? Infinity : 0.5 + surface.positions[3 * v] ** 2));
+  const field = fields.makeField({ name: "distance", values: height }), descent = new descents.Descent(surface);
+  assert.equal(descent.path(field, 1, noMarks, { triangle: 0, b: [0.2, 0.3, 0.5] }).reached, false);
+  const unreachable = descent.path(field, 1, noMarks, { triangle: 18, b: [0.2, 0.3, 0.5] });
+  assert.deepEqual([unreachable.places.length, unreachable.length, unreachable.reached], [3, 0, false]);
 });
 
 test("scenes are read, and damaged ones refused in words", () => {

@@ -56,7 +56,7 @@ export class Skin {
     this.picker = picker ?? null;
     if (triangles.length) {
       this.view = new SurfaceView({
-        positions, triangles, innerSides: innerSides(triangles, faces), faces, nodes: "none",
+        positions, triangles, innerSides: innerSides(triangles, faces), faces, nodes: "none", openness: null, discs: null,
       }, this.look);
       this.group.add(this.view.mesh);
     } else {
@@ -105,7 +105,7 @@ export class Skin {
   }
 
   asSurface(): Surface {
-    return { positions: this.positions, triangles: this.triangles, innerSides: null, faces: null, nodes: "none" };
+    return { positions: this.positions, triangles: this.triangles, innerSides: null, faces: null, nodes: "none", openness: null, discs: null };
   }
 
   /** The stops of the slider for the spacing of lines. */

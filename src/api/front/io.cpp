@@ -3,6 +3,7 @@
 #include "api/surface/surface_domain.h"
 #include "io/formats.h"
 #include "io/read.h"
+#include "io/render/discs.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
 #include "io/surface/write_winding.h"
@@ -28,6 +29,7 @@ PolygonSoup surface_of(const Field& field) {
 io::Scene scene_of(const Field& field) {
   io::Scene scene = io::make_scene(surface_of(field));
   io::add_sources(scene, *field.mesh.domain().mesh, field.sources);
+  if (field.mesh.n_faces() == 0) io::show_as_discs(scene);
   io::describe(scene, field.report.method, field.report);
   return scene;
 }

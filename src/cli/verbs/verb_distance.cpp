@@ -12,6 +12,7 @@
 #include "cli/plan/plan.h"
 #include "cli/verbs/verbs.h"
 #include "io/read.h"
+#include "io/render/discs.h"
 #include "littoral/error.h"
 #include "sources/boundary_curves.h"
 
@@ -134,7 +135,10 @@ void measure_on_surface(const DistanceArguments& arguments, Session& session) {
         if (mesh.n_faces() == 0 && io::is_written_as(file, {Kind::field}))
           result = cloud_with(result, mesh);
         write_result(file, result, "distance", arguments.domain, session.report,
-                     [&](io::Scene& scene) { io::add_sources(scene, mesh, sources); });
+                     [&](io::Scene& scene) {
+                       io::add_sources(scene, mesh, sources);
+                       if (mesh.n_faces() == 0) io::show_as_discs(scene);
+                     });
       });
 }
 

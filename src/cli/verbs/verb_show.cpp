@@ -16,6 +16,7 @@
 #include "cli/verbs/verbs.h"
 #include "domain/cloud/cloud_surface.h"
 #include "io/read.h"
+#include "io/render/discs.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
 #include "io/render/volume_scene.h"
@@ -48,6 +49,11 @@ const std::vector<std::pair<std::string, io::ColourMap>> colour_maps = {
     {"heat", io::ColourMap::heat},           {"viridis", io::ColourMap::viridis},
     {"cividis", io::ColourMap::cividis}};
 
+const std::vector<std::pair<std::string, io::Shading>> shadings = {
+    {"smooth", io::Shading::smooth},
+    {"flat", io::Shading::flat},
+    {"occluded", io::Shading::occluded}};
+
 struct ShowArguments {
   std::string in, beside, out, field;
   std::vector<std::string> sources;
@@ -57,7 +63,7 @@ struct ShowArguments {
   const CLI::App* verb = nullptr;
   bool edit = false;
   int isolines = 20;
-  std::string up, view, colour_map = "auto", colour_range;
+  std::string up, view, colour_map = "auto", colour_range, shading = "smooth";
 };
 
 /// An axis, as x or -z, or three numbers.
@@ -77,6 +83,8 @@ void set_style(io::Scene& scene, const ShowArguments& arguments) {
     scene.colour_range = parse_range("colour-range", arguments.colour_range);
   for (const auto& [name, map] : colour_maps)
     if (name == arguments.colour_map) scene.colour_map = map;
+  for (const auto& [name, shading] : shadings)
+    if (name == arguments.shading) scene.shading = shading;
 }
 
 void add_style_options(CLI::App& verb, ShowArguments& arguments) {
@@ -96,6 +104,13 @@ void add_style_options(CLI::App& verb, ShowArguments& arguments) {
             "sequential, diverging, grey, heat, viridis, cividis, or auto: diverging where "
             "values are negative somewhere, regions in colours of their own "
             "[default auto]"))
+      ->check(one_of(names))
+      ->type_name("NAME");
+  names.clear();
+  for (const auto& [name, shading] : shadings) names.push_back(name);
+  style(verb.add_option("--shading", arguments.shading,
+                        "smooth, flat: every face as it lies, or occluded: darker where less of "
+                        "the sky is seen, so that corners and folds stand out [default smooth]"))
       ->check(one_of(names))
       ->type_name("NAME");
   style(verb.add_option("--colour-range", arguments.colour_range,
@@ -183,6 +198,7 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
   io::Scene scene =
       io::make_scene(cloud ? cloud_triangles(soup, session.report, session.task()) : soup, field);
   if (!field.empty()) scene.field_name = field;
+  if (cloud) io::show_as_discs(scene);
   scene.nodes = cloud ? io::SceneNodes::vertices : io::SceneNodes::faces;
   if (!arguments.sources.empty()) {
     const SurfaceMesh mesh = mesh_of(std::move(soup), arguments.in);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/page/page_template.h"
+#include "io/render/openness.h"
 #include "io/render/scene.h"
 #include "io/render/scene_style.h"
 #include "io/write.h"
@@ -201,6 +202,29 @@ json trace_json(const SceneTrace& trace, const SceneFrame& frame, const FieldSty
           {"range", style.high / frame.radius - style.low / frame.radius}};
 }
 
+// In bytes: b + 3/4 in units of 3/2, as |b| <= 3/4 on a wall, and a.
+std::string openness_text(const Scene& scene) {
+  std::vector<unsigned char> bytes;
+  const auto byte = [](float part) {
+    return static_cast<unsigned char>(std::lround(255 * std::clamp(part, 0.f, 1.f)));
+  };
+  const Openness open = openness(scene.points, scene.triangles);
+  for (Eigen::Index v = 0; v < open.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) bytes.push_back(byte((open(v, k) + 0.75f) / 1.5f));
+    bytes.push_back(byte(open(v, 3)));
+  }
+  return base64(bytes);
+}
+
+std::string discs_text(const Scene& scene, const SceneFrame& frame) {
+  std::vector<float> numbers;
+  for (Eigen::Index v = 0; v < scene.discs.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) numbers.push_back(static_cast<float>(scene.discs(v, k)));
+    numbers.push_back(static_cast<float>(scene.discs(v, 3) / frame.radius));
+  }
+  return base64(numbers);
+}
+
 json surface_json(const Scene& scene, const SceneFrame& frame, SceneNodes nodes) {
   static_assert(sizeof(int) == sizeof(std::uint32_t));
   Packer positions(frame);
@@ -211,6 +235,8 @@ json surface_json(const Scene& scene, const SceneFrame& frame, SceneNodes nodes)
                                 static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
   if (!scene.inner_sides.empty()) surface["innerSides"] = base64(scene.inner_sides);
   if (!scene.faces.empty()) surface["faces"] = base64(scene.faces);
+  if (!scene.volume) surface["openness"] = openness_text(scene);
+  if (scene.discs.rows() > 0) surface["discs"] = discs_text(scene, frame);
   surface["nodes"] = nodes == SceneNodes::faces      ? "faces"
                      : nodes == SceneNodes::vertices ? "vertices"
                                                      : "none";
@@ -263,6 +289,9 @@ json part_json(const Scene& all, const Scene& box, const SceneFrame& frame) {
     page["trace"] = trace_json(*all.trace, frame, style);
   page["plainColour"] = plain_colour;
   page["infiniteColour"] = infinite_colour;
+  page["shading"] = all.shading == Shading::flat       ? "flat"
+                    : all.shading == Shading::occluded ? "occluded"
+                                                       : "smooth";
   return page;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "io/render/camera.h"
+#include "io/render/discs.h"
 #include "io/render/raster.h"
 #include "io/render/stroke_text.h"
 #include "io/render/trace_raster.h"
@@ -98,6 +99,16 @@ void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
   }
 }
 
+// Of the vertices that are drawn, where the shading asks for it.
+Openness open_of(const Scene& scene) {
+  if (scene.shading != Shading::occluded) return {};
+  const Openness open = openness(scene.points, scene.triangles);
+  if (scene.discs.rows() == 0) return open;
+  Openness corners(disc_corners * open.rows(), 4);
+  for (Eigen::Index i = 0; i < corners.rows(); ++i) corners.row(i) = open.row(i / disc_corners);
+  return corners;
+}
+
 void resolve(const Band& band, int samples, Image& image) {
   const auto n = static_cast<float>(samples * samples);
   for (int y = band.y0 / samples; y < band.y1 / samples; ++y) {
@@ -137,7 +148,9 @@ Image draw_picture(const Scene& scene, const PictureOptions& options) {
                                options.height - margin);
   const Camera camera = fit_camera(scene, options, samples * window);
   const int rows = 16 * samples, height = options.height * samples;
-  const SurfaceRaster surface(scene, camera, style, samples, height, rows);
+  const Scene discs = scene.discs.rows() > 0 ? discs_as_triangles(scene) : Scene{};
+  const Scene& drawn = scene.discs.rows() > 0 ? discs : scene;
+  const SurfaceRaster surface(drawn, open_of(scene), camera, style, samples, height, rows);
   const TraceRaster trace(scene, camera, style, samples);
   const MarkRaster marks(scene, camera, samples);
 

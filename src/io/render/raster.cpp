@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -101,9 +102,14 @@ float brightness(const Camera& camera, const Vec3& normal, double x, double y) {
   return static_cast<float>(std::min(1.06, 0.5 + 0.5 * light));
 }
 
-SurfaceRaster::SurfaceRaster(const Scene& scene, const Camera& camera, const FieldStyle& style,
-                             double scale, int height, int rows)
-    : scene_(scene), camera_(camera), style_(style), levels_(scene.levels), scale_(scale) {
+SurfaceRaster::SurfaceRaster(const Scene& scene, Openness open, const Camera& camera,
+                             const FieldStyle& style, double scale, int height, int rows)
+    : scene_(scene),
+      open_(std::move(open)),
+      camera_(camera),
+      style_(style),
+      levels_(scene.levels),
+      scale_(scale) {
   std::sort(levels_.begin(), levels_.end());
   screen_ = MatX3::Zero(scene.points.rows(), 3);
   parallel_for(
@@ -228,8 +234,9 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
     const Vec3 n = normals_.row(v[k]);
     smooth += b[k] / weight * (n.isZero() ? flat : n.dot(flat) < 0 ? Vec3(-n) : n);
   }
-  const Vec3 normal = camera_.to_eye * smooth.normalized();
-  const float lit = brightness(camera_, normal, x, y);
+  const double part[3] = {b[0] / weight, b[1] / weight, b[2] / weight};
+  const Vec3 shown = scene_.shading == Shading::flat ? flat : smooth.normalized();
+  const float lit = brightness(camera_, camera_.to_eye * shown, x, y) * opening(t, part, shown);
 
   const auto unreachable = [&] {  // hatched, so that it is no colour of the map
     const double stripe = (x - y) / (9 * scale_);
@@ -267,7 +274,6 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   // Where gradients at vertices are known, the slope is interpolated from them: then it is the same
   // on both sides of an edge, and lines have no seam there. At creases and corners of weight, the
   // triangle's.
-  const double part[3] = {b[0] / weight, b[1] / weight, b[2] / weight};
   double known = 0;
   for (int k = 0; k < 3; ++k) {
     known += part[k] * normals_.row(v[k]).squaredNorm();
@@ -285,6 +291,19 @@ Eigen::Vector3f SurfaceRaster::shade(int t, double x, double y) const {
   const Eigen::Vector3f line =
       zero || luminance > 90 ? Eigen::Vector3f(18, 20, 28) : Eigen::Vector3f(235, 238, 245);
   return colour + ink * (line - colour);
+}
+
+float SurfaceRaster::opening(int t, const double* part, const Vec3& normal) const {
+  if (open_.rows() == 0) return 1;
+  Eigen::Vector4f open = Eigen::Vector4f::Zero();
+  Vec3 place = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int v = scene_.triangles(t, k);
+    open += static_cast<float>(part[k]) * open_.row(v).transpose();
+    place += part[k] * scene_.points.row(v).transpose();
+  }
+  const bool away = normal.dot(camera_.eye() - place) < 0;
+  return 0.3f + 0.7f * open_part(open, away ? Vec3(-normal) : normal);
 }
 
 double SurfaceRaster::mean_slope(int t, const double* part, const Vec3& normal, double x,

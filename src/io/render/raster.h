@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/render/camera.h"
+#include "io/render/openness.h"
 #include "io/render/scene.h"
 #include "io/render/scene_style.h"
 #include "littoral/types.h"
@@ -29,8 +30,9 @@ float brightness(const Camera& camera, const Vec3& normal, double x, double y);
 class SurfaceRaster {
  public:
   /// `scale`: samples along a pixel; `rows`: sample rows of a band (all but the last).
-  SurfaceRaster(const Scene& scene, const Camera& camera, const FieldStyle& style, double scale,
-                int height, int rows);
+  /// `open`: of the vertices, or empty.
+  SurfaceRaster(const Scene& scene, Openness open, const Camera& camera, const FieldStyle& style,
+                double scale, int height, int rows);
 
   /// Draws band number b (rows b*rows ...) wherever the surface is nearer than what is there.
   void draw(int b, Band& band) const;
@@ -38,16 +40,18 @@ class SurfaceRaster {
  private:
   void cover(int t, Band& band, std::vector<int>& owner) const;
   Eigen::Vector3f shade(int t, double x, double y) const;
+  float opening(int t, const double* part, const Vec3& normal) const;
   double mean_slope(int t, const double* part, const Vec3& normal, double x, double y) const;
   double line_strength(double value, double slope, bool& zero) const;
 
   const Scene& scene_;
+  Openness open_;
   const Camera& camera_;
   FieldStyle style_;
   std::vector<double> levels_;
   double scale_;
   MatX3 screen_;                                     // vertices x 3, see Camera::project
-  MatX3 normals_;                                    // vertices x 3, either sign
+  MatX3 normals_;                                    // vertices x 3, either sign; zero: the face's
   Eigen::Matrix<double, Eigen::Dynamic, 6> slopes_;  // slope_tensors, per radius
   std::vector<int> band_offsets_, band_triangles_;
 };

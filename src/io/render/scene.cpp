@@ -129,6 +129,8 @@ void check_scene(const Scene& scene) {
   if (scene.weights.size() != 0 && (scene.weights.size() != n || !(scene.weights.minCoeff() >= 0 &&
                                                                    scene.weights.maxCoeff() <= 1)))
     refuse("weights must be between 0 and 1, one a vertex");
+  if (scene.discs.rows() != 0 && (scene.discs.rows() != n || !scene.discs.allFinite()))
+    refuse("discs must be finite, one a vertex");
   for (const SceneCurve& curve : scene.curves) {
     if (!curve.points.allFinite()) refuse("a source curve has a node that is not finite");
   }

@@ -53,6 +53,10 @@ struct SceneTrace {
   double steepness = 1;  // of the field at most
 };
 
+/// How a surface is lit: with the normals of its vertices, of its faces, or as smooth and darker
+/// where less of the sky is seen (openness.h).
+enum class Shading { smooth, flat, occluded };
+
 /// The colours of values; automatic: sequential, or diverging where values are negative somewhere.
 enum class ColourMap { automatic, sequential, diverging, grey, heat, viridis, cividis };
 
@@ -76,7 +80,10 @@ struct Scene {
   VecX values;   // vertices, may be infinite, never NaN; or empty: no field
   VecX weights;  // vertices, 0..1: values are interpolated as sum b w v / sum b w; or empty: all 1
   std::string field_name = "distance";
-  std::vector<SceneField> more;  // further fields
+  std::vector<SceneField> more;                    // further fields
+  Eigen::Matrix<double, Eigen::Dynamic, 4> discs;  // vertices: normal and radius of the disc that
+                                                   // stands for it (show_as_discs); or empty
+  Shading shading = Shading::smooth;
   std::vector<SceneCurve> curves;
   MatX3 source_points{0, 3};   // isolated source points x 3
   std::vector<double> levels;  // isolines at these values; empty: evenly spaced ones

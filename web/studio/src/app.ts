@@ -208,7 +208,10 @@ export class App {
     else bar.removeAttribute("value");
   }
 
-  private previewText(): string { return `by metric ${this.answer?.report.options["metric"] ?? ""}`; }
+  private previewText(): string {
+    const metric = this.answer?.report.options["metric"];
+    return metric ? `by metric ${metric}` : "of the curves as drawn, not completed yet";
+  }
 
   idle(): void {
     element("progress").hidden = element("cancel").hidden = true;

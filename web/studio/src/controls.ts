@@ -51,8 +51,9 @@ export function connectControls(app: App): void {
   on("home", "click", () => stage.reset());
   on("cancel", "click", () => engine.cancel());
   on("link", "click", () => void files.linkText().then(async (text) => {
-    window.history.replaceState(null, "", text);
-    app.toast(await toClipboard(text) ? `Link copied (${text.length} characters)` : "The link is in the address bar");
+    window.history.replaceState(null, "", text.slice(text.indexOf("#"))); // the address keeps its token, for reloads
+    const limits = window.location.search ? ". It opens what was drawn behind the address of any page of this file" : "";
+    app.toast(await toClipboard(text) ? `Link copied (${text.length} characters)${limits}` : "The link is in the address bar");
   }));
   on("theme", "click", () => app.useTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   on("panel-toggle", "click", () => {

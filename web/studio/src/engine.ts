@@ -46,20 +46,24 @@ type Kept = { open?: Float64Array; closed?: Float64Array };
 
 const quick = 150, long = 2500, rest = 350; // milliseconds
 
-/** Exact distance takes long on large meshes: what stands in for it while one draws. */
-function previewOf({ task, method }: Settings, kind: string): Settings | null {
-  const metric = method.options?.["metric"] ?? "auto";
-  if (task !== "distance" || method.name !== "auto" || (metric !== "auto" && metric !== "exact")) return null;
-  if (kind !== "triangle mesh" && kind !== "polygon mesh") return null;
-  const instead = kind === "triangle mesh" ? "fast-marching" : "heat";
-  return { task, method: { ...method, options: { ...method.options, metric: instead } } };
+/** Completing curves and measuring exact distance take long on large meshes: what stands in for them while one draws,
+ * the quickest first. */
+function previewsOf({ task, method }: Settings, kind: string, { curves = [] }: Sources): Settings[] {
+  const metric = method.options?.["metric"] ?? "auto", triangles = kind === "triangle mesh";
+  if (task !== "distance" || method.name !== "auto" || (metric !== "auto" && metric !== "exact")) return [];
+  if (!triangles && kind !== "polygon mesh") return [];
+  const plain = triangles && curves.some(({ closed, signed }) => !closed && signed !== false);
+  return [
+    ...(plain ? [{ task, method: { name: "fast-marching", options: {} } }] : []),
+    { task, method: { ...method, options: { ...method.options, metric: triangles ? "fast-marching" : "heat" } } },
+  ];
 }
 
 const familyOf: Record<Task, RegExp> = { distance: /^distance on surfaces/i, regions: /^inside and outside on surfaces/i };
 
 export class Engine {
   surface: Surface | null = null;
-  private solvers = new Map<string, Solver>(); // two at most: of the method and of its preview
+  private solvers = new Map<string, Solver>(); // three at most: of the method and of its previews
   private lastWhole = Infinity; // milliseconds of the last answer that had a preview
   private whole = false; // such an answer is under way
   private wake: () => void = () => {}; // ends the rest before it
@@ -167,17 +171,21 @@ export class Engine {
     try {
       await this.join(surface, request, call);
       if (isEmpty(request.sources)) return;
-      const preview = this.lastWhole > quick ? previewOf(request.settings, surface.kind) : null;
-      if (preview) {
-        await this.solve(surface, { ...request, settings: preview }, call, true);
-        await this.rested();
+      const previews = this.lastWhole > quick ? previewsOf(request.settings, surface.kind, request.sources) : [];
+      for (const [i, settings] of previews.entries()) {
+        try {
+          await this.solve(surface, { ...request, settings }, call, true);
+        } catch (error) {
+          if (error instanceof littoral.Cancelled) throw error; // the method asked for has its own say
+        }
+        if (i === 0) await this.rested();
         if (this.waiting) return;
         call.signal?.throwIfAborted();
-        this.whole = true;
       }
+      this.whole = previews.length > 0;
       const start = performance.now();
       await this.solve(surface, request, call, false);
-      if (preview) this.lastWhole = performance.now() - start;
+      if (this.whole) this.lastWhole = performance.now() - start;
     } catch (error) {
       if (surface === this.surface && !(call.signal?.aborted && this.waiting))
         this.listener.failure(call.signal?.aborted ? new littoral.Cancelled("cancelled") : error as Error);
@@ -239,7 +247,7 @@ export class Engine {
   private async solverOf(surface: Surface, method: Method, call: Call): Promise<Solver> {
     const key = JSON.stringify(method), known = this.solvers.get(key);
     if (known) return known;
-    if (this.solvers.size > 1) this.forgetSolvers();
+    if (this.solvers.size > 2) this.forgetSolvers();
     const made = await surface.prepare(method, call);
     this.solvers.set(key, made);
     return made;

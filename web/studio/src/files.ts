@@ -152,7 +152,8 @@ export class Files {
       sources: text, sourcesName: name, task: this.app.settings.task, method: this.app.settings.method,
       options: this.app.settings.options, camera: this.app.stage.cameraText,
     };
-    return `${window.location.href.split("#")[0]}#${await pack(linked)}`;
+    // Never with what stands before the #: of `view --edit` that is the token.
+    return `${window.location.href.split(/[?#]/)[0]}#${await pack(linked)}`;
   }
 
   private async follow(linked: Linked): Promise<void> {

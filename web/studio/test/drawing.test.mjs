@@ -32,16 +32,23 @@ test("a curve of clicks gives the distance of the command line", async () => {
   assertClose(values, byProgram(spot, bytes), 1e-9);
 });
 
-test("a quick preview comes before the exact answer, and says so", async () => {
+test("quick previews come before the exact answer, and say so", async () => {
   await page.evaluate(() => {
     window.seen = [];
     const take = studio.take.bind(studio);
-    studio.take = (answer, stamp) => { seen.push([answer.preview, answer.report.options.metric]); take(answer, stamp); };
+    studio.take = (answer, stamp) => {
+      take(answer, stamp);
+      studio.idle();
+      seen.push([answer.preview, answer.report.options.metric ?? null, document.getElementById("status").textContent.split(":")[0]]);
+    };
     studio.engine.lastWhole = Infinity; // as if exact distance took long
     studio.changed();
   });
   await settled(page);
-  assert.deepEqual(await page.evaluate(() => seen), [[true, "fast-marching"], [false, "exact"]]);
+  assert.deepEqual(await page.evaluate(() => seen), [
+    [true, null, "fast-marching, preview of the curves as drawn, not completed yet"],
+    [true, "fast-marching", "auto, preview by metric fast-marching"], [false, "exact", "auto"],
+  ]);
   assert.doesNotMatch((await state(page)).status, /preview/);
 });
 

@@ -77,6 +77,23 @@ test("a curve of clicks gives the distance of the command line; no request goes 
   await shown.close();
 });
 
+test("a link that is copied carries no token, and the address keeps it", async () => {
+  const shown = await openStudio({ url: served.address }), { page } = shown;
+  await page.click("#mode-point");
+  await clickAll(page, (await ring(page, 5)).slice(0, 1));
+  await settled(page);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.click("#link");
+  await page.waitForSelector("#toast:not([hidden])");
+  const copied = await page.evaluate(() => navigator.clipboard.readText()), here = await page.evaluate(() => location.href);
+  assert.ok(!copied.includes(token()) && copied.startsWith(`${served.here.origin}/#`), copied);
+  assert.ok(here.startsWith(`${served.address}#`), here);
+  const hash = copied.slice(copied.indexOf("#")), again = await openStudio({ url: served.address, hash });
+  assert.equal((await state(again.page)).points, 1);
+  await again.close();
+  await shown.close();
+});
+
 test("a file that is dropped is computed by the program too", async () => {
   const shown = await openStudio({ url: served.address, example: "ring" }), { page } = shown;
   await page.click("#mode-point");

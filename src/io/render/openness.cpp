@@ -1,0 +1,144 @@
+#include "io/render/openness.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace littoral::io {
+
+namespace {
+
+constexpr int directions = 64, side = 512;
+constexpr float nothing = -std::numeric_limits<float>::infinity();
+
+// Evenly spread, along a spiral from pole to pole.
+Vec3 direction(int i) {
+  const double z = 1 - (2 * i + 1.0) / directions, r = std::sqrt(1 - z * z);
+  const double angle = i * 3.14159265358979323846 * (3 - std::sqrt(5.0));
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+// How far up, towards the sky, the highest surface is at each pixel; all in pixels.
+class HeightMap {
+ public:
+  HeightMap() : heights_(std::size_t{side} * side, nothing) {}
+
+  void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+    const float area = cross(a, b, c);
+    if (!(std::abs(area) > 1e-12f)) return;
+    const Eigen::Vector3f low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    for (int y = first(low[1]); y <= last(high[1]); ++y) {
+      for (int x = first(low[0]); x <= last(high[0]); ++x) {
+        const Eigen::Vector3f p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0);
+        const float u = cross(p, b, c) / area, v = cross(a, p, c) / area, w = 1 - u - v;
+        if (u < -1e-5f || v < -1e-5f || w < -1e-5f) continue;
+        float& height = at(x, y);
+        height = std::max(height, u * a[2] + v * b[2] + w * c[2]);
+      }
+    }
+  }
+
+  // Takes the lowest of each pixel and its neighbours: then nothing that is flat hides itself.
+  void lower() {
+    std::vector<float> row(side);
+    for (const bool across : {true, false}) {
+      for (int j = 0; j < side; ++j) {
+        const auto item = [&](int i) -> float& { return across ? at(i, j) : at(j, i); };
+        for (int i = 0; i < side; ++i) row[static_cast<std::size_t>(i)] = item(i);
+        for (int i = 0; i < side; ++i) {
+          const auto before = static_cast<std::size_t>(std::max(0, i - 1));
+          const auto after = static_cast<std::size_t>(std::min(side - 1, i + 1));
+          item(i) = std::min({row[before], row[static_cast<std::size_t>(i)], row[after]});
+        }
+      }
+    }
+  }
+
+  bool seen(const Eigen::Vector3f& p) const {
+    const int x = std::clamp(static_cast<int>(p[0]), 0, side - 1);
+    const int y = std::clamp(static_cast<int>(p[1]), 0, side - 1);
+    return p[2] >= heights_[index(x, y)] - 1;
+  }
+
+ private:
+  static float cross(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  static int first(float x) { return std::max(0, static_cast<int>(std::ceil(x - 0.5f))); }
+  static int last(float x) { return std::min(side - 1, static_cast<int>(std::floor(x - 0.5f))); }
+  static std::size_t index(int x, int y) {
+    return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
+  }
+  float& at(int x, int y) { return heights_[index(x, y)]; }
+
+  std::vector<float> heights_;
+};
+
+}  // namespace
+
+Openness openness(const MatX3& points, const MatX3i& triangles) {
+  const auto n = static_cast<std::size_t>(points.rows());
+  Openness out = Openness::Zero(points.rows(), 4);
+  out.col(3).setOnes();
+  std::vector<char> used(n, 0);
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = points.row(triangles(t, k));
+      used[static_cast<std::size_t>(triangles(t, k))] = 1;
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  const Vec3 centre = 0.5 * low + 0.5 * high;
+  double size = 0;  // of the ball about all
+  for (std::size_t v = 0; v < n; ++v)
+    if (used[v])
+      size = std::max(size, (points.row(static_cast<Eigen::Index>(v)).transpose() - centre).norm());
+  if (!(size > 0) || !std::isfinite(size)) return out;
+  const double scale = 0.5 * (side - 4) / size;
+
+  std::vector<std::vector<char>> seen(directions);
+  parallel_for(directions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 up = direction(static_cast<int>(i)), across = up.unitOrthogonal();
+      Eigen::Matrix3d to_map;
+      to_map << across.transpose(), up.cross(across).transpose(), up.transpose();
+      Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> p(points.rows(), 3);
+      for (Eigen::Index v = 0; v < p.rows(); ++v) {
+        const Vec3 q = to_map * (scale * (points.row(v).transpose() - centre));
+        p.row(v) = (q + Vec3(0.5 * side, 0.5 * side, 0)).cast<float>().transpose();
+      }
+      HeightMap map;
+      for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        map.add(p.row(triangles(t, 0)), p.row(triangles(t, 1)), p.row(triangles(t, 2)));
+      map.lower();
+      seen[i].resize(n);
+      for (std::size_t v = 0; v < n; ++v)
+        if (used[v]) seen[i][v] = map.seen(p.row(static_cast<Eigen::Index>(v)));
+    }
+  });
+
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!used[v]) continue;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();  // 3 (mean of d), mean of 1
+    for (int i = 0; i < directions; ++i) {
+      if (!seen[static_cast<std::size_t>(i)][v]) continue;
+      sum += Eigen::Vector4d(0, 0, 0, 1);
+      sum.head<3>() += 3 * direction(i);
+    }
+    out.row(static_cast<Eigen::Index>(v)) = (sum / directions).cast<float>().transpose();
+  }
+  return out;
+}
+
+float open_part(const Eigen::Vector4f& openness, const Vec3& normal) {
+  const float part = openness[3] + openness.head<3>().dot(normal.cast<float>()) * 2 / 3;
+  return std::clamp(part, 0.f, 1.f);
+}
+
+}  // namespace littoral::io

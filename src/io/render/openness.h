@@ -1,0 +1,23 @@
+#pragma once
+// How much of the sky is seen from a surface: what makes corners readable.
+
+#include "littoral/types.h"
+
+namespace littoral::io {
+
+/// Of each vertex four numbers b (3), a: the part of the sky that is seen in direction d is about
+/// a + b . d, the projection of what is seen to linear functions of d. Light from everywhere then
+/// reaches a side with normal n in the part open_part(): 1 where nothing stands above it. It needs
+/// no orientation: either side of either face may be asked, also where faces disagree.
+using Openness = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// Asks in 64 directions, each by a picture of depths with 512 pixels along the larger side, so
+/// what is closer together than a few hundredths of the surface's size is not told apart. Vertices
+/// of no triangle count as open. Every triangle's vertices must be finite. The same for any thread
+/// count.
+Openness openness(const MatX3& points, const MatX3i& triangles);
+
+/// The integral of (a + b . d) (n . d)+ / pi over the directions d, between 0 and 1.
+float open_part(const Eigen::Vector4f& openness, const Vec3& normal);
+
+}  // namespace littoral::io

@@ -7,6 +7,7 @@ if(PROJECT_IS_TOP_LEVEL)
   string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 endif()
 set(littoral_hot_sources
+  src/io/render/openness.cpp
   src/methods/geodesic/exact_polyhedral.cpp src/methods/geodesic/fast_marching.cpp
   src/methods/tori/torus_kernels.cpp
   src/solve/direct/dense_kernels.cpp src/solve/direct/small_supernode_kernels.cpp

@@ -12,6 +12,8 @@
 
 #include "constants.h"
 #include "io/render/camera.h"
+#include "io/render/discs.h"
+#include "io/render/openness.h"
 #include "io/render/picture.h"
 #include "io/render/scene_style.h"
 #include "littoral/error.h"
@@ -124,6 +126,85 @@ TEST(Scene, OtherScalarsAreFurtherFields) {
   const io::FieldStyle style = io::field_style(scene, scene.more[0]);
   EXPECT_EQ(style.colour_low, 0);
   EXPECT_EQ(style.colour_high, 1);
+}
+
+// How much of the sky a wall sees that nothing stands before, and the floor of a ditch between two.
+TEST(Openness, OfWallsRoomsAndSheets) {
+  const auto at = [](const io::Openness& open, int v, const Vec3& n) {
+    return io::open_part(open.row(v).transpose(), n);
+  };
+  const PolygonSoup ball = test::octasphere_soup(4);
+  const io::Scene sphere = io::make_scene(ball);
+  const io::Openness open = io::openness(sphere.points, sphere.triangles);
+  for (int v = 0; v < sphere.points.rows(); ++v) {
+    const Vec3 out = sphere.points.row(v);
+    EXPECT_GT(at(open, v, out), 0.9f) << v;
+    EXPECT_LT(at(open, v, Vec3(-out)), 0.1f) << v;
+  }
+  // A strip of floor, wide w, between walls as high: in the middle it sees the part 1 - 1 / sqrt(2)
+  // less, as the angle of the walls is 45 degrees, and the floor's lower side everything.
+  MatX3 points(0, 3);
+  MatX3i triangles(0, 3);
+  const auto add = [&](const Vec3& a, const Vec3& u, const Vec3& v) {
+    constexpr int n = 20;
+    const auto first = static_cast<int>(points.rows());
+    points.conservativeResize(first + (n + 1) * (n + 1), 3);
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        points.row(first + i + (n + 1) * j) = (a + i * u / n + j * v / n).transpose();
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const int p = first + i + (n + 1) * j;
+        const Eigen::Index t = triangles.rows();
+        triangles.conservativeResize(t + 2, 3);
+        triangles.row(t) << p, p + 1, p + n + 2;
+        triangles.row(t + 1) << p, p + n + 2, p + n + 1;
+      }
+    }
+  };
+  const Vec3 x = Vec3::UnitX(), y = 8 * Vec3::UnitY(), z = Vec3::UnitZ();
+  add(-0.5 * x - 0.5 * y, x, y);
+  add(-0.5 * x - 0.5 * y, 0.5 * z, y);
+  add(0.5 * x - 0.5 * y, 0.5 * z, y);
+  const io::Openness ditch = io::openness(points, triangles);
+  const int middle = 10 + 21 * 10;
+  EXPECT_NEAR(at(ditch, middle, z), std::sqrt(0.5), 0.08);
+  EXPECT_GT(at(ditch, middle, -z), 0.9f);
+  // Nothing but a sheet, whichever way its faces are turned.
+  for (Eigen::Index t = 0; t < triangles.rows(); t += 3)
+    std::swap(triangles(t, 0), triangles(t, 1));
+  const io::Openness sheet = io::openness(points, triangles.topRows(800));
+  EXPECT_GT(at(sheet, middle, z), 0.97f);
+  EXPECT_GT(at(sheet, middle, -z), 0.97f);
+  EXPECT_EQ(io::openness(points, triangles.topRows(800)).row(points.rows() - 1)[3], 1);  // unused
+}
+
+TEST(SceneDiscs, LieAlongTheSurfaceAndCoverIt) {
+  io::Scene scene = io::make_scene(test::octasphere_soup(4));
+  scene.values = scene.points.col(2);
+  scene.points.conservativeResize(scene.points.rows() + 1, 3);  // and a point of no triangle
+  scene.points.bottomRows(1) << 2, 0, 0;
+  scene.values.conservativeResize(scene.points.rows());
+  scene.values.tail(1) << infinity;
+  io::show_as_discs(scene);
+  const Eigen::Index n = scene.points.rows() - 1;
+  double least = infinity, most = 0;
+  for (Eigen::Index v = 0; v < n; ++v) {
+    EXPECT_GT(std::abs(scene.discs.row(v).head<3>().dot(scene.points.row(v))), 0.98) << v;
+    least = std::min(least, scene.discs(v, 3));
+    most = std::max(most, scene.discs(v, 3));
+  }
+  EXPECT_LT(most, 2 * least);
+  EXPECT_GT(scene.discs(n, 3), least);
+  EXPECT_LT(scene.discs(n, 3), most);
+  EXPECT_NO_THROW(io::check_scene(scene));
+  const io::Scene drawn = io::discs_as_triangles(scene);
+  ASSERT_EQ(drawn.points.rows(), 12 * (n + 1));
+  for (Eigen::Index i = 0; i < 12 * n; ++i)  // the field goes on as the height does
+    EXPECT_NEAR(drawn.values[i], drawn.points(i, 2), 0.03);
+  EXPECT_EQ(drawn.values[12 * n], infinity);
+  scene.discs(3, 1) = infinity;
+  EXPECT_THROW(io::check_scene(scene), InputError);
 }
 
 TEST(Scene, CheckNamesWhatIsWrong) {
@@ -360,6 +441,14 @@ nlohmann::json picture_colours(io::Scene scene) {
   return seen;
 }
 
+// With a dent in what is seen, which is dark where less of the sky is seen.
+io::Scene dented(io::Scene scene) {
+  const Vec3 eye = io::scene_frame(scene).towards_eye;
+  scene.towards_eye = eye;
+  for (auto p : scene.points.rowwise()) p *= 1 - 0.4 * std::exp(-8 * (1 - p.dot(eye)));
+  return scene;
+}
+
 // The page that viewer/test opens in a browser; see there.
 TEST_F(PageTest, WritesThePageForTheBrowserTest) {
   io::Scene scene = sphere_scene();
@@ -373,7 +462,21 @@ TEST_F(PageTest, WritesThePageForTheBrowserTest) {
   scene.warnings = {"a <b>warning</b>"};
   const char* out = std::getenv("LITTORAL_PAGE_OUT");
   io::write_page(out ? fs::path(out) : path, scene);
-  if (out) std::ofstream(std::string(out) + ".json") << picture_colours(scene);
+  if (out) {
+    // Also of other kinds of shading, and as discs.
+    nlohmann::json colours = {{"smooth", picture_colours(scene)}};
+    io::Scene other = dented(scene);
+    io::write_page(std::string(out) + ".dented.html", other);
+    for (const auto& [name, shading] :
+         {std::pair("flat", io::Shading::flat), std::pair("occluded", io::Shading::occluded)}) {
+      other.shading = shading;
+      colours[name] = picture_colours(other);
+    }
+    io::show_as_discs(scene);
+    io::write_page(std::string(out) + ".discs.html", scene);
+    colours["discs"] = picture_colours(scene);
+    std::ofstream(std::string(out) + ".json") << colours;
+  }
   EXPECT_GT(fs::file_size(out ? fs::path(out) : path), 100'000u);
 }
 

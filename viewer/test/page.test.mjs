@@ -59,8 +59,10 @@ test("a click pins the place and copies it as a line of a source file", async ()
   assert.ok(await page.isHidden("#pin"));
 });
 
-test("the page has the colours of the picture", async () => {
-  const seen = JSON.parse(readFileSync(`${process.env.PAGE}.json`, "utf8"));
+const pictured = JSON.parse(readFileSync(`${process.env.PAGE}.json`, "utf8"));
+
+async function assertPictured(page, kind) {
+  const seen = pictured[kind];
   await page.click("#sources");
   const { places, bytes, width, height } = await page.evaluate((vertices) => {
     const gl = littoral.view.renderer.getContext();
@@ -71,10 +73,25 @@ test("the page has the colours of the picture", async () => {
     const at = 4 * (Math.floor(places[i].x) + width * (height - 1 - Math.floor(places[i].y)));
     return Math.max(...rgb.map((c, k) => Math.abs(c - bytes[at + k])));
   }).sort((a, b) => a - b);
-  console.log(`${apart.length} vertices: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
+  console.log(`${kind}, ${apart.length} vertices: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
   assert.ok(apart.length > 60 && apart[apart.length >> 1] <= 4, `${apart[apart.length >> 1]}`);
   assert.ok(apart[Math.floor(0.7 * apart.length)] <= 12, "seven of ten are alike; lines fall on the others");
-});
+}
+
+test("the page has the colours of the picture", () => assertPictured(page, "smooth"));
+
+for (const [kind, file] of [["flat", "dented"], ["occluded", "dented"], ["discs", "discs"]])
+  test(`the page has the colours of the picture: ${kind}`, async () => {
+    process.env.OTHER_PAGE = `${process.env.PAGE}.${file}.html`;
+    const other = await openResult("OTHER_PAGE", { viewport: { width: 900, height: 640 } });
+    try {
+      if (kind !== "discs") await other.page.selectOption("#shading", kind);
+      await assertPictured(other.page, kind);
+      assertAlone(other);
+    } finally {
+      await other.close();
+    }
+  });
 
 test("toggles and slider change the picture and back", async () => {
   for (const id of ["isolines", "sources", "wireframe"]) {

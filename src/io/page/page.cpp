@@ -19,7 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int scene_version = 1;  // viewer/src/scene.ts refuses others
+constexpr int scene_version = 1;                       // viewer/src/scene.ts refuses others
+constexpr Eigen::Index most_for_openness = 1'000'000;  // triangles: it takes seconds from there on
 
 std::string base64(const void* data, std::size_t size) {
   static constexpr char digits[] =
@@ -235,7 +236,9 @@ json surface_json(const Scene& scene, const SceneFrame& frame, SceneNodes nodes)
                                 static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
   if (!scene.inner_sides.empty()) surface["innerSides"] = base64(scene.inner_sides);
   if (!scene.faces.empty()) surface["faces"] = base64(scene.faces);
-  if (!scene.volume) surface["openness"] = openness_text(scene);
+  const bool asked = scene.shading == Shading::occluded;
+  if (!scene.volume && (asked || scene.triangles.rows() <= most_for_openness))
+    surface["openness"] = openness_text(scene);
   if (scene.discs.rows() > 0) surface["discs"] = discs_text(scene, frame);
   surface["nodes"] = nodes == SceneNodes::faces      ? "faces"
                      : nodes == SceneNodes::vertices ? "vertices"

@@ -12,7 +12,7 @@ namespace littoral::io {
 
 namespace {
 
-constexpr int directions = 64, side = 512;
+constexpr int directions = 64;
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 // Evenly spread, along a spiral from pole to pole.
@@ -25,14 +25,19 @@ Vec3 direction(int i) {
 // How far up, towards the sky, the highest surface is at each pixel; all in pixels.
 class HeightMap {
  public:
-  HeightMap() : heights_(std::size_t{side} * side, nothing) {}
+  explicit HeightMap(int side)
+      : side(side),
+        heights_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), nothing) {}
 
   void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
+    const auto [left, right] = std::minmax({a[0], b[0], c[0]});
+    const auto [below, above] = std::minmax({a[1], b[1], c[1]});
+    const int x0 = first(left), x1 = last(right), y0 = first(below), y1 = last(above);
+    if (x0 > x1 || y0 > y1) return;  // between the middles of pixels, as most small ones are
     const float area = cross(a, b, c);
     if (!(std::abs(area) > 1e-12f)) return;
-    const Eigen::Vector3f low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    for (int y = first(low[1]); y <= last(high[1]); ++y) {
-      for (int x = first(low[0]); x <= last(high[0]); ++x) {
+    for (int y = y0; y <= y1; ++y) {
+      for (int x = x0; x <= x1; ++x) {
         const Eigen::Vector3f p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0);
         const float u = cross(p, b, c) / area, v = cross(a, p, c) / area, w = 1 - u - v;
         if (u < -1e-5f || v < -1e-5f || w < -1e-5f) continue;
@@ -44,7 +49,7 @@ class HeightMap {
 
   // Takes the lowest of each pixel and its neighbours: then nothing that is flat hides itself.
   void lower() {
-    std::vector<float> row(side);
+    std::vector<float> row(static_cast<std::size_t>(side));
     for (const bool across : {true, false}) {
       for (int j = 0; j < side; ++j) {
         const auto item = [&](int i) -> float& { return across ? at(i, j) : at(j, i); };
@@ -68,13 +73,16 @@ class HeightMap {
   static float cross(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   }
-  static int first(float x) { return std::max(0, static_cast<int>(std::ceil(x - 0.5f))); }
-  static int last(float x) { return std::min(side - 1, static_cast<int>(std::floor(x - 0.5f))); }
-  static std::size_t index(int x, int y) {
-    return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
+  // Of pixels whose middle is not before, not behind a place x > 0.
+  static int first(float x) { return static_cast<int>(x + 0.5f); }
+  int last(float x) const { return std::min(side - 1, static_cast<int>(x + 0.5f) - 1); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+           static_cast<std::size_t>(x);
   }
   float& at(int x, int y) { return heights_[index(x, y)]; }
 
+  int side;
   std::vector<float> heights_;
 };
 
@@ -100,20 +108,21 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
     if (used[v])
       size = std::max(size, (points.row(static_cast<Eigen::Index>(v)).transpose() - centre).norm());
   if (!(size > 0) || !std::isfinite(size)) return out;
+  const int side = n < 50'000 ? 256 : 512;
   const double scale = 0.5 * (side - 4) / size;
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const Rows scaled = (scale * (points.rowwise() - centre.transpose())).cast<float>();
 
   std::vector<std::vector<char>> seen(directions);
   parallel_for(directions, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 up = direction(static_cast<int>(i)), across = up.unitOrthogonal();
-      Eigen::Matrix3d to_map;
-      to_map << across.transpose(), up.cross(across).transpose(), up.transpose();
-      Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> p(points.rows(), 3);
-      for (Eigen::Index v = 0; v < p.rows(); ++v) {
-        const Vec3 q = to_map * (scale * (points.row(v).transpose() - centre));
-        p.row(v) = (q + Vec3(0.5 * side, 0.5 * side, 0)).cast<float>().transpose();
-      }
-      HeightMap map;
+      Eigen::Matrix3d axes;
+      axes << across, up.cross(across), up;
+      Rows p(points.rows(), 3);
+      p.noalias() = scaled * axes.cast<float>();
+      p.leftCols<2>().array() += 0.5f * static_cast<float>(side);
+      HeightMap map(side);
       for (Eigen::Index t = 0; t < triangles.rows(); ++t)
         map.add(p.row(triangles(t, 0)), p.row(triangles(t, 1)), p.row(triangles(t, 2)));
       map.lower();

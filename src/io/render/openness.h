@@ -11,9 +11,9 @@ namespace littoral::io {
 /// no orientation: either side of either face may be asked, also where faces disagree.
 using Openness = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-/// Asks in 64 directions, each by a picture of depths with 512 pixels along the larger side, so
-/// what is closer together than a few hundredths of the surface's size is not told apart. Vertices
-/// of no triangle count as open. Every triangle's vertices must be finite. The same for any thread
+/// Asks in 64 directions, each by a picture of heights with 256 or, from 50,000 vertices on, 512
+/// pixels across the surface: what is closer together than two of them is not told apart. Vertices
+/// of no triangle count as open. Vertices of triangles must be finite. The same for any thread
 /// count.
 Openness openness(const MatX3& points, const MatX3i& triangles);
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { assertAlone, changed, frames } from "./browser.mjs";
-import { base64, field, scene, show, square, torus } from "./scenes.mjs";
+import { base64, field, scene, show, sky, square, torus, torusNormal } from "./scenes.mjs";
 
 const small = { viewport: { width: 760, height: 420 } };
 const floats = (list) => base64(Float32Array.from(list));
@@ -53,14 +53,11 @@ test("from the pin the way to the source is drawn and measured", async () => {
   }
 });
 
-/// The sky seen from a wall that sees a half of it, of which a part is hidden.
-const sky = (normal, part) => [...normal.map((c) => Math.round(255 * (part * 0.75 * c + 0.75) / 1.5)), Math.round(255 * 0.5 * part)];
-
 test("occluded shading darkens what sees less of the sky, on the side that sees less", async () => {
   const t = torus(72, 36), open = [], n = t.positions.length / 3;
   for (let v = 0; v < n; ++v) {
-    const [x, y, z] = t.positions.slice(3 * v, 3 * v + 3), r = Math.hypot(x, z), normal = [(x * (r - 0.68)) / r, y, (z * (r - 0.68)) / r].map((c) => c / 0.3);
-    open.push(...sky(normal, r < 0.68 ? 0.2 : 1));  // the hole is dark
+    const place = t.positions.slice(3 * v, 3 * v + 3);
+    open.push(...sky(torusNormal(place), Math.hypot(place[0], place[2]) < 0.68 ? 0.2 : 1));  // the hole is dark
   }
   const made = scene(t, [], { frame: { centre: [0, 0, 0], radius: 1, towardsEye: [0, 1, 0], up: [0, 0, -1] } });
   made.surface.openness = base64(Uint8Array.from(open));

@@ -1,5 +1,6 @@
 // node test/measure.mjs [TRIANGLES ...]: how long a page takes to its first picture, and a frame. Chromium draws in
-// software unless GPU=1 is set and the machine has one.
+// software unless GPU=1 is set and the machine has one. Processor time is that of the page's process and of the one
+// that draws, all their threads together: it says what a machine can do that is busy with something else.
 import { field, scene, show, torus } from "./scenes.mjs";
 
 for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [500000, 2000000]) {
@@ -8,8 +9,12 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
   const less = { ...shape, positions: Float32Array.from(shape.positions), triangles: Uint32Array.from(shape.triangles) };
   const made = scene(less, [{ ...field("distance", values.slice(0, 4)), ...range(values) }], { title: "torus" });
   const shown = await show(made, { wait: false, viewport: { width: 1286, height: 720 } });
+  const session = await shown.page.context().browser().newBrowserCDPSession();
+  const spent = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo
+    .reduce((sum, { type, cpuTime }) => sum + (type === "renderer" || type === "GPU" ? 1000 * cpuTime : 0), 0);
   try {
     await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
+    const first = await spent();
     const times = await shown.page.evaluate(() => {
       const opened = performance.now(), { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [];
       for (let i = 0; i < 8; ++i) {
@@ -24,8 +29,9 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
       return { opened, start: littoral.firstFrame(), frame: frames.sort((a, b) => a - b)[4], pick: performance.now() - from,
         renderer: gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER) };
     });
+    const frame = (await spent() - first) / 8;
     console.log(`${2 * side * side} triangles: first picture by ${Math.round(times.opened)} ms (${Math.round(times.start)} ms of them from the scene on), ` +
-      `frame ${times.frame.toFixed(0)} ms, place under the cursor ${times.pick.toFixed(0)} ms; ${times.renderer}`);
+      `frame ${times.frame.toFixed(0)} ms; processor ${Math.round(first)} ms and ${frame.toFixed(0)} ms a frame; place under the cursor ${times.pick.toFixed(0)} ms; ${times.renderer}`);
   } finally {
     await shown.close();
   }

@@ -57,6 +57,15 @@ export function torus(m, n) {
   return { positions, triangles };
 }
 
+/// The unit normal of torus() at a place.
+export function torusNormal([x, y, z]) {
+  const r = Math.hypot(x, z);
+  return [(x * (r - 0.68)) / r, y, (z * (r - 0.68)) / r].map((c) => c / 0.3);
+}
+
+/// The openness of a wall with that normal that sees a part of its half of the sky.
+export const sky = (normal, part) => [...normal.map((c) => Math.round((255 * (part * 0.75 * c + 0.75)) / 1.5)), Math.round(255 * 0.5 * part)];
+
 export function scene({ positions, triangles }, fields, more = {}) {
   const none = base64(new Float32Array(0));
   return {

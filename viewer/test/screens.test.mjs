@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { test } from "node:test";
 import { frames } from "./browser.mjs";
-import { field, scene, show, torus } from "./scenes.mjs";
+import { base64, field, scene, show, sky, torus, torusNormal } from "./scenes.mjs";
 
 const folder = join(dirname(fileURLToPath(import.meta.url)), "screens");
 const shape = torus(72, 36), at = (v, k) => shape.positions[3 * v + k], each = (f) => Array.from({ length: shape.positions.length / 3 }, (_, v) => f(v));
@@ -21,6 +21,25 @@ const pair = () => scene(shape, [field("distance", each((v) => Math.hypot(at(v, 
   title: "first", ...facts,
   beside: scene(shape, [field("distance", each((v) => 1.3 * Math.hypot(at(v, 0) + 1, at(v, 1), at(v, 2))), { spacing: 0.2 })], { title: "second", frame: view }),
 });
+/// Distance from a place of the outer rim, straight through space: what leads to it is much like the way along the surface.
+const far = () => field("distance", each((v) => Math.hypot(at(v, 0) - 0.98, at(v, 1), at(v, 2))), { spacing: 0.1 });
+const place = (v) => [at(v, 0), at(v, 1), at(v, 2)];
+function occluded() {
+  const made = scene(shape, [far()], { title: "torus", ...facts, shading: "occluded" });
+  made.surface.openness = base64(Uint8Array.from(each((v) => sky(torusNormal(place(v)), 0.5 + 0.5 * Math.min(1, Math.hypot(at(v, 0), at(v, 2)) ** 3))).flat()));
+  return made;
+}
+function cloud() {
+  const made = scene(shape, [far()], { title: "points", ...facts });
+  Object.assign(made.surface, { nodes: "vertices", discs: base64(Float32Array.from(each((v) => [...torusNormal(place(v)), 0.04]).flat())) });
+  return made;
+}
+/// Pins a place, and with it the way from there.
+async function pinned(page) {
+  const at = await page.evaluate(() => littoral.view.project([-0.5, 0.27, 0.35])), stage = await page.locator("#stage").boundingBox();
+  await page.mouse.click(stage.x + at.x, stage.y + at.y);
+  await page.mouse.move(stage.x + 60, stage.y + stage.height - 4);
+}
 
 const screens = [
   ["light-1400", signed(), { viewport: { width: 1400, height: 900 } }],
@@ -28,6 +47,12 @@ const screens = [
   ["unreachable-900", parts(), { viewport: { width: 900, height: 560 }, hash: "#map=viridis" }],
   ["regions-dark-900", parts(), { viewport: { width: 900, height: 560 }, colorScheme: "dark", hash: "#field=region" }],
   ["beside-1000", pair(), { viewport: { width: 1000, height: 560 } }],
+  ["way-1400", scene(shape, [far()], { title: "torus", ...facts }), { viewport: { width: 1400, height: 900 }, act: pinned }],
+  ["way-dark-420", scene(shape, [far()], { title: "torus", ...facts }), { viewport: { width: 420, height: 800 }, colorScheme: "dark", act: pinned }],
+  ["occluded-1400", occluded(), { viewport: { width: 1400, height: 900 } }],
+  ["occluded-dark-420", occluded(), { viewport: { width: 420, height: 800 }, colorScheme: "dark" }],
+  ["discs-1400", cloud(), { viewport: { width: 1400, height: 900 } }],
+  ["discs-dark-420", cloud(), { viewport: { width: 420, height: 800 }, colorScheme: "dark" }],
   ["folded-360", signed(), { viewport: { width: 360, height: 640 }, hash: "#panel=0&range=-0.5,0.6" }],
 ];
 
@@ -56,10 +81,11 @@ const compare = (page, one, two) => page.evaluate(async ([a, b]) => {
   return { mean: (4 * sum) / p.bytes.length, far: (4 * far) / p.bytes.length };
 }, [one, two]);
 
-for (const [name, made, options] of screens) test(`the page looks as it did: ${name}`, async () => {
+for (const [name, made, { act, ...options }] of screens) test(`the page looks as it did: ${name}`, async () => {
   const shown = await show(made, options), file = join(folder, `${name}.png`);
   try {
     if (/labels=1/.test(options.hash ?? "")) await shown.page.waitForFunction(() => littoral.written() > 0);
+    await act?.(shown.page);
     await frames(shown.page);
     const taken = await shown.page.screenshot();
     assert.deepEqual(shown.errors, []);

@@ -1,5 +1,6 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
+PROCESSOR ?= $(shell uname -m)
 .PHONY: help demo build install check test test-long format tidy wheel web docs bench peers domains clean
 
 help:  ## this list
@@ -38,10 +39,11 @@ tidy:  ## clang-tidy over the library and the program
 	cmake --preset tidy
 	cd build/tidy && run-clang-tidy-14 -quiet -p . '/src/'
 
-wheel:  ## the Python package as a wheel, in build/dist
+wheel:  ## the Python package as a wheel, in build/dist (PROCESSOR=aarch64 for another processor's)
 	scripts/setup.sh build
 	scripts/setup.sh python
-	scripts/make_wheel.sh build/dist
+	$(if $(filter aarch64,$(PROCESSOR)),scripts/setup.sh aarch64)
+	scripts/make_wheel.sh build/dist $(PROCESSOR) build/wheel-$(PROCESSOR)
 
 web:  ## the studio, a page that computes, and the package for JavaScript (WebAssembly), in dist
 	scripts/setup.sh web

@@ -1,12 +1,24 @@
 #!/usr/bin/env bash
 # Makes the wheel of the Python package, with the libraries it is linked to inside.
-# usage: scripts/make_wheel.sh FOLDER [ARGUMENT_OF_PIP...]
+# usage: scripts/make_wheel.sh FOLDER PROCESSOR BUILD [ARGUMENT_OF_PIP...]
+#   PROCESSOR   x86_64 or aarch64; what is not this machine's is cross-compiled
+#   BUILD       the folder to compile in
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=$1
-shift
+processor=$2
+build=$3
+shift 3
 raw=$(mktemp -d)
 trap 'rm -rf "$raw"' EXIT
-build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$raw" "$@"
-PATH="$PWD/build/venv/bin:$PATH" build/venv/bin/auditwheel repair -w "$folder" "$raw"/littoral-*.whl >"$raw/log" 2>&1 ||
-  { cat "$raw/log" >&2; exit 1; }
+settings=(-Cbuild-dir="$build" -Ccmake.define.LITTORAL_MANYLINUX=ON "$@")
+if [ "$processor" != "$(uname -m)" ]; then
+  export _PYTHON_HOST_PLATFORM=linux-$processor CMAKE_TOOLCHAIN_FILE=$PWD/cmake/$processor.cmake
+  # The toolchain's is for programs without shared libraries.
+  settings+=(-Ccmake.define.ZLIB_LIBRARY_RELEASE="/usr/lib/$processor-linux-gnu/libz.so")
+fi
+build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$raw" \
+  "${settings[@]}"
+PATH="$PWD/build/venv/bin:$PATH" LD_LIBRARY_PATH="$PWD/$build/python/manylinux/cmeel.prefix/lib" \
+  build/venv/bin/auditwheel repair --plat "manylinux_2_28_$processor" -w "$folder" \
+  "$raw"/littoral-*.whl >"$raw/log" 2>&1 || { cat "$raw/log" >&2; exit 1; }

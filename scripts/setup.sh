@@ -12,10 +12,10 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
-  libopenblas-dev libmetis-dev libcli11-dev nlohmann-json3-dev libpng-dev zlib1g-dev libopenvdb-dev
+  libopenblas-dev libmetis-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libopenvdb-dev
   libtbb-dev libboost-dev libimath-dev)
-test_packages=(git clang-14 libclang-rt-14-dev libgtest-dev libgmock-dev librapidcheck-dev liblemon-dev
-  libbenchmark-dev python3-venv chromium doxygen)
+test_packages=(git clang-14 libclang-rt-14-dev libpng-dev libgtest-dev libgmock-dev librapidcheck-dev
+  liblemon-dev libbenchmark-dev python3-venv chromium doxygen)
 web_packages=(emscripten libfast-float-dev)
 arm_packages=(g++-aarch64-linux-gnu qemu-user libpng-dev:arm64 zlib1g-dev:arm64 libgtest-dev:arm64
   libgmock-dev:arm64 librapidcheck-dev:arm64)

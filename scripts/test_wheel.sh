@@ -17,7 +17,7 @@ for name in BLAS OPENVDB TESTS; do
   value=$(sed -n "s/^LITTORAL_$name:[A-Z]*=//p" "$build/CMakeCache.txt")
   kept+=("-Ccmake.define.LITTORAL_$name=$value")
 done
-scripts/make_wheel.sh "$out" -Cbuild-dir="$build" "${kept[@]}"
+scripts/make_wheel.sh "$out" "$(uname -m)" "$build" "${kept[@]}"
 wheel=$(ls "$out"/littoral-*.whl)
 case "$wheel" in *-cp310-abi3-*) ;; *) echo "$wheel is not for the stable ABI" >&2; exit 1 ;; esac
 if python3 -m zipfile -l "$wheel" | grep -E '\.(a|h|cmake)  |lib64|/bin/'; then
@@ -29,8 +29,10 @@ for python in "$@"; do
   venv="$out/venv"
   rm -rf "$venv"
   "$python" -m venv "$venv"
-  "$venv/bin/pip" install --disable-pip-version-check -q "$wheel" \
-    $(grep -E '^(hypothesis|pytest)==' requirements-dev.txt) scipy
+  tools=$(grep -E '^(hypothesis|pytest)==' requirements-dev.txt)
+  # Their pinned versions are for the Python of build/venv and later.
+  if "$python" -c 'import sys; sys.exit(sys.version_info >= (3, 11))'; then tools="hypothesis pytest"; fi
+  "$venv/bin/pip" install --disable-pip-version-check -q "$wheel" $tools scipy
   env -i HOME="$out" PATH="$venv/bin" LITTORAL_SHARED="${LITTORAL_SHARED:-}" \
     python -m pytest -q -rs -p no:cacheprovider --rootdir python/tests python/tests
   env -i HOME="$out" PATH="$venv/bin" \

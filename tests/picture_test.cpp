@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <sstream>
 
 #include "base/parallel.h"
@@ -220,6 +221,37 @@ TEST(Picture, FileIsAPngOfTheSizeAskedFor) {
   EXPECT_EQ(rgb, io::draw_picture(scene, options).rgb);
   fs::remove(path);
   EXPECT_THROW(io::write_picture("/nonexistent-folder/picture.png", scene, options), IoError);
+}
+
+TEST(Picture, PngOfAnyImageIsReadByLibpng) {
+  std::mt19937 random(3);
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 1}, {1, 9}, {64, 48}, {301, 200}})
+    for (const int kind : {0, 1, 2}) {  // noise, ramps along x and y, their sum with noise
+      io::Image image{width, height, {}};
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          for (int c = 0; c < 3; ++c) {
+            const unsigned noise = random();
+            const int ramp = (x * (c + 1) + 3 * y) % 256;
+            image.rgb.push_back(static_cast<unsigned char>(
+                kind == 0 ? noise : ramp + (kind == 1 ? 0 : static_cast<int>(noise % 5))));
+          }
+      const std::string bytes = io::encode_png(image);
+      png_image header{};
+      header.version = PNG_IMAGE_VERSION;
+      ASSERT_TRUE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()));
+      EXPECT_EQ(header.warning_or_error, 0u) << header.message;
+      EXPECT_EQ(static_cast<int>(header.width), width);
+      EXPECT_EQ(static_cast<int>(header.height), height);
+      header.format = PNG_FORMAT_RGB;
+      std::vector<unsigned char> rgb(PNG_IMAGE_SIZE(header));
+      ASSERT_TRUE(png_image_finish_read(&header, nullptr, rgb.data(), 0, nullptr));
+      EXPECT_EQ(rgb, image.rgb);
+      // The differences of a ramp are few numbers.
+      if (kind == 1 && width > 100) {
+        EXPECT_LT(bytes.size(), image.rgb.size() / 50);
+      }
+    }
 }
 
 TEST(Picture, RefusesBadOptionsAndScenes) {

@@ -170,6 +170,26 @@ TEST(HeldPoisson, AgreesWithTheSaddlePointSystem) {
   }
 }
 
+TEST(HeldPoisson, StopsBetweenTheLastIterationAndTheCorrection) {
+  const HeldGrid held{};
+  int solves = 0, stop_at = -1;
+  CancelToken token;
+  const auto solve = [&](VecX& v) {
+    held.poisson.solve(v, Task());
+    if (++solves == stop_at) token.cancel();
+  };
+  VecX x = held.b;
+  held.poisson.solve(x, Task());
+  const ConstraintRows rows{held.rows.A, VecX::Zero(held.m), 1e-10};
+  Report report;
+  solve_constrained(solve, x, rows, Task(), report);
+  ASSERT_GT(solves, 2);
+  stop_at = solves - 1;
+  solves = 0;
+  EXPECT_THROW(solve_constrained(solve, x, rows, Task(token), report), Cancelled);
+  EXPECT_EQ(solves, stop_at);
+}
+
 TEST(HeldPoisson, OneValueAlongEachGroupAgreesWithTheSaddlePointSystem) {
   // Unknowns x, multipliers and a constant for each group: A x - B c = 0.
   const HeldGrid held{};

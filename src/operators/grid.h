@@ -32,9 +32,9 @@ double grid_sharpening_memory(double nodes);
 /// which a cell has many would be held by many rows, and the cell would lock). Points outside the
 /// box are left out. Where points have parts a row has those of one.
 struct GridRows {
-  SpMat A;                // rows x nodes, row sums 1
-  VecX weight;            // rows: sum of the points' weights
-  std::vector<int> part;  // rows; empty: points have none
+  Eigen::SparseMatrix<double, Eigen::RowMajor> A;  // rows x nodes, row sums 1
+  VecX weight;                                     // rows: sum of the points' weights
+  std::vector<int> part;                           // rows; empty: points have none
 };
 GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
                    const std::vector<int>& part = {});

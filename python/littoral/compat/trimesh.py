@@ -86,8 +86,8 @@ def contains(mesh: Any, points: Any) -> npt.NDArray[np.bool_]:
 class ProximityQuery:
     """A mesh prepared once for many queries; the arguments and results of trimesh's class.
 
-    The mesh is taken as it is now: changes made to it later are not seen. `sdf` is the
-    `littoral.SDF` behind it, which is negative inside.
+    The mesh is taken as it is at the first query: changes made to it later are not seen. `sdf` is
+    the `littoral.SDF` behind it, which is negative inside.
 
     >>> import littoral
     >>> ProximityQuery(littoral.examples.cube()).signed_distance([[.5, .5, .5]]).tolist()
@@ -96,7 +96,10 @@ class ProximityQuery:
 
     def __init__(self, mesh: Any) -> None:
         self._mesh = mesh
-        self._near = Nearest(mesh)
+
+    @cached_property
+    def _near(self) -> Nearest:
+        return Nearest(self._mesh)
 
     @property
     def sdf(self) -> SDF:

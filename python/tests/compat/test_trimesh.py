@@ -96,6 +96,15 @@ def test_what_was_prepared_is_kept_until_the_mesh_changes(cube, monkeypatch):
     assert len(made) == 2
 
 
+def test_a_query_takes_the_mesh_when_it_is_first_asked():
+    # trimesh makes one for each mesh, before its vertices are there.
+    cube = littoral.examples.cube()
+    V = np.array(cube.points)
+    query = ours.ProximityQuery((V, cube.faces))
+    V *= 2
+    np.testing.assert_allclose(query.signed_distance([[1, 1, 1]]), 1)
+
+
 def test_bad_input(cube):
     for points in (np.zeros(3), np.zeros((2, 2)), np.zeros((1, 2, 3)), [[np.nan, 0, 0]]):
         with pytest.raises(ValueError, match="points"):

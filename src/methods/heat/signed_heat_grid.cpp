@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/heat/convolve.h"
@@ -94,7 +95,9 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   VecX phi = grid_divergence(grid, Y, solve_stage);
   Y.resize(0, 3);
   GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
+  solve_stage.checkpoint(1);
   const GridRows rows = grid_rows(grid, source.points, source.areas, part);
+  constrain_stage.checkpoint();
   if (rows.A.rows() == 0) {
     report.warn("box-misses-input",
                 "the box holds no sample of the input; distances are shifted by the box's centre");
@@ -116,10 +119,19 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
   // speed.
   const GridPoisson<float> poisson(grid.n, grid.spacing);
+  Eigen::VectorXf single(phi.size());
+  const auto convert = [&](const auto& from, auto& to) {
+    parallel_for(from.size(), 1 << 18, [&](std::size_t begin, std::size_t end) {
+      constrain_stage.checkpoint();
+      const auto first = static_cast<Eigen::Index>(begin),
+                 n = static_cast<Eigen::Index>(end - begin);
+      to.segment(first, n) = from.segment(first, n).template cast<std::decay_t<decltype(to[0])>>();
+    });
+  };
   const auto solve = [&](VecX& b) {
-    Eigen::VectorXf single = b.cast<float>();
+    convert(b, single);
     poisson.solve(single, constrain_stage);
-    b = single.cast<double>();
+    convert(single, b);
   };
   phi = solve_constrained(solve, std::move(phi), constraints, constrain_stage, report);
   if (constraint == SpaceConstraint::level_sets) shift_to_mean_zero();

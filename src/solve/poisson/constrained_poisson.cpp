@@ -26,13 +26,22 @@ void remove_means(const std::vector<int>& group, VecX& v) {
 
 VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
                        const Task& task, Report& report) {
-  const SpMat& A = rows.A;
+  const auto& A = rows.A;
   if (A.rows() == 0) return x;
   // Stationarity: L x + A^T mu = b, A x = softness mu; L x sums to zero, so mu does too (the rows
   // of A sum to 1), and the constant part of x balances the mean of A x. Groups: A x = B c +
   // softness mu with c free, so B^T mu = 0.
   VecX mu = VecX::Zero(A.rows());
-  VecX r = A * x;
+  VecX r = A * x, s(x.size());
+  // s = L^+ A^T v, in the same place each time: fresh memory of that size takes as long as the
+  // sums.
+  const auto spread_and_solve = [&](const VecX& v) {
+    s.setZero();
+    s.noalias() += A.transpose() * v;
+    task.checkpoint();
+    solve(s);
+    task.checkpoint();
+  };
   remove_means(rows.group, r);
   VecX p = r;
   double rr = r.squaredNorm();
@@ -43,8 +52,7 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     // Residuals fall geometrically: their logarithm is the progress.
     const double done = std::log(start / residual()) / std::log(start / rows.tolerance);
     task.checkpoint(std::min(1.0, std::max(0.0, done)));
-    VecX s = A.transpose() * p;
-    solve(s);
+    spread_and_solve(p);
     VecX q = A * s + rows.softness.cwiseProduct(p);
     remove_means(rows.group, q);
     const double curvature = p.dot(q);
@@ -60,8 +68,7 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
   report.residuals.emplace_back("constraint", start > 0 ? residual() / start : 0);
   if (residual() > rows.tolerance) report.status = "not converged";
   if (iteration > 0) {
-    VecX s = A.transpose() * mu;
-    solve(s);
+    spread_and_solve(mu);
     x -= s;
   }
   if (!rows.group.empty()) return x;

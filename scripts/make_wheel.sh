@@ -20,5 +20,11 @@ fi
 build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$raw" \
   "${settings[@]}"
 PATH="$PWD/build/venv/bin:$PATH" LD_LIBRARY_PATH="$PWD/$build/python/manylinux/cmeel.prefix/lib" \
-  build/venv/bin/auditwheel repair --plat "manylinux_2_28_$processor" -w "$folder" \
-  "$raw"/littoral-*.whl >"$raw/log" 2>&1 || { cat "$raw/log" >&2; exit 1; }
+  build/venv/bin/auditwheel repair -w "$raw/repaired" "$raw"/littoral-*.whl >"$raw/log" 2>&1 ||
+  { cat "$raw/log" >&2; exit 1; }
+case $(ls "$raw/repaired") in
+  *manylinux_2_1[0-9]_"$processor"* | *manylinux_2_2[0-8]_"$processor"*) ;;
+  *) echo "not for glibc 2.28: $(ls "$raw/repaired")" >&2; exit 1 ;;
+esac
+mkdir -p "$folder"
+mv "$raw"/repaired/* "$folder"

@@ -61,8 +61,9 @@ std::shared_ptr<const IntrinsicTriangulation> triangulation_of(const SurfaceDoma
       intrinsic_triangulation(*domain.mesh, report));
 }
 
-SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report)
-    : domain_(std::move(domain)) {
+SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report,
+                                             std::shared_ptr<const IntrinsicTriangulation> T)
+    : domain_(std::move(domain)), T_(std::move(T)) {
   task.checkpoint();
   if (domain_.kind() == "polygon mesh") {
     Report quiet;
@@ -75,7 +76,7 @@ SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Re
     }
   }
   if (domain_.kind() == "triangle mesh") {
-    T_ = triangulation_of(domain_, report);
+    if (!T_) T_ = triangulation_of(domain_, report);
   } else {
     const Stopwatch watch(report, "triangulation");
     nodal_ = std::make_shared<const NodalSurface>(

@@ -44,7 +44,9 @@ CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report);
 /// elsewhere. Nodes need normals: polygon meshes that are not orientable are cut into triangles.
 class SurfaceDiscretization {
  public:
-  SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report);
+  /// T: the triangulation of a triangle mesh, if it is there already.
+  SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report,
+                        std::shared_ptr<const IntrinsicTriangulation> T = nullptr);
 
   const SurfaceDomain& domain() const { return domain_; }
   const std::shared_ptr<const Operators>& operators() const { return ops_; }

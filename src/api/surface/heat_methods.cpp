@@ -6,27 +6,19 @@
 #include <optional>
 #include <utility>
 
-#include "api/surface/beside_marching.h"
 #include "api/surface/discontinuous.h"
 #include "api/surface/discretization.h"
 #include "api/surface/heat_factors.h"
+#include "api/surface/heat_surface.h"
 #include "api/surface/quadratic_method.h"
 #include "base/stopwatch.h"
-#include "domain/mesh/covering_mesh.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/time_scale.h"
-#include "operators/triangles.h"
-#include "sources/conform.h"
-#include "sources/retriangulate_sources.h"
 #include "sources/source_values.h"
-#include "sources/triangle_source_system.h"
 
 namespace littoral {
 
 namespace {
-
-/// What the method diffuses from the sources: functions can use a cover, vectors cannot.
-enum class Diffused { functions, vectors };
 
 /// Throws where there are no polygons to cut into triangles.
 void needs_triangles(const std::string& kind, const std::string& option) {
@@ -83,123 +75,6 @@ void check_values(const Sources& sources, const SignedHeat& options) {
         "gradients; auto, exact and unsigned-heat take them of all");
 }
 
-/// Operators with sources on them.
-struct Problem {
-  std::shared_ptr<const Operators> ops;
-  SourceSystem terms;
-};
-
-/// A triangle mesh on better triangles of the same surface. Curves are cut by the new edges, so
-/// these depend on the sources, but for sources at vertices.
-class RetriangulatedSurface {
- public:
-  RetriangulatedSurface(SurfaceDomain domain, Report& report)
-      : domain_(std::move(domain)), T_(triangulation_of(domain_, report)) {}
-
-  const std::shared_ptr<const IntrinsicTriangulation>& given() const { return T_; }
-
-  /// `shared` says whether later solves meet the same operators, so that factors are worth keeping.
-  Problem problem(const Sources& sources,
-                  const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
-                  Task& task, Report& report) const {
-    const PlacedSources placed =
-        place_sources(domain_, sources, task.stage(0.02, "placing the sources"), report);
-    warn_of_shadowed(*domain_.mesh, *T_, placed, report);
-    const Diffused diffused = needs(placed);
-    const Task stage = task.stage(0.08, "operators");
-    stage.checkpoint();
-    shared = placed.pieces.empty() &&
-             std::all_of(placed.points.begin(), placed.points.end(),
-                         [](const SurfacePoint& p) { return p.on == SurfacePoint::On::vertex; });
-    if (shared) {
-      const auto made = [&] { return made_for(PlacedSources{}, diffused, report, stage); };
-      const auto fine = (diffused == Diffused::vectors ? for_vectors_ : for_functions_).get(made);
-      return {fine->ops, source_system(fine->mesh, fine->T, placed)};
-    }
-    const Made fine = made_for(placed, diffused, report, stage);
-    return {fine.ops, source_system(fine.mesh, fine.T, fine.sources)};
-  }
-
- private:
-  struct Made {
-    SurfaceMesh mesh;
-    IntrinsicTriangulation T;
-    PlacedSources sources;
-    std::shared_ptr<const Operators> ops;
-  };
-
-  Made made_for(const PlacedSources& placed, Diffused diffused, Report& report,
-                const Task& task) const {
-    Retriangulated fine = [&] {
-      const Stopwatch watch(report, "retriangulation");
-      const bool nonmanifold =
-          std::any_of(T_->edge_use.begin(), T_->edge_use.end(), [](int n) { return n > 2; });
-      if (diffused == Diffused::vectors || !nonmanifold)
-        return retriangulated(*domain_.mesh, *T_, placed, {}, report, task);
-      const CoveringMesh cover = covering_mesh(*domain_.mesh, *T_);
-      return retriangulated(cover.mesh, cover.T,
-                            covering_sources(*domain_.mesh, *T_, cover, placed), {}, report, task);
-    }();
-    const Stopwatch watch(report, "operators");
-    auto ops = std::make_shared<const Operators>(triangle_operators(fine.T));
-    return {std::move(fine.mesh), std::move(fine.T), std::move(fine.sources), std::move(ops)};
-  }
-
-  SurfaceDomain domain_;
-  std::shared_ptr<const IntrinsicTriangulation> T_;
-  Kept<Made> for_vectors_, for_functions_;  // without sources
-};
-
-/// What both heat methods share: a discretization, or better triangles.
-class HeatSurface {
- public:
-  HeatSurface(const SurfaceDomain& domain, bool intrinsic_delaunay, const Task& task,
-              Report& report)
-      : domain_(domain) {
-    if (intrinsic_delaunay)
-      fine_.emplace(domain, report);
-    else
-      plain_.emplace(domain, task, report);
-  }
-
-  const SurfaceDomain& domain() const { return domain_; }
-  const SurfaceDiscretization& plain() const { return *plain_; }
-
-  Problem problem(const Sources& sources,
-                  const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
-                  Task& task, Report& report) const {
-    if (fine_) return fine_->problem(sources, needs, shared, task, report);
-    shared = true;
-    return {plain_->operators(),
-            plain_->system(sources, task.stage(0.1, "placing the sources"), report)};
-  }
-  SurfaceAnswer at_input(const VecX& phi) const {
-    if (plain_) return plain_->at_input(phi);
-    return {phi.head(domain_.mesh->n_vertices()), {}};
-  }
-
-  /// What the answer says about itself. Fast marching takes a tenth of the time of a first solve,
-  /// and longer than a later one, so it is walked where there is one only.
-  void check(const Sources& sources, const VecX& phi, SolveHint hint, const Task& task,
-             Report& report) const {
-    const std::size_t before = report.warnings.size();
-    warn_off_unit(domain_.kind(), report);
-    const auto& T = plain_ ? plain_->triangulation() : fine_->given();
-    if (!T || hint != SolveHint::single_rhs || domain_.kind() != "triangle mesh") return;
-    Report quiet;  // they have been placed before
-    const PlacedSources placed = place_sources(domain_, sources, task, quiet);
-    if (!value_range(sources).same() && !pieces_with_sides(placed).empty()) return;
-    const double mean =
-        report_beside_marching(*domain_.mesh, *T, placed, at_input(phi).values, task, report);
-    if (report.warnings.size() == before) warn_beside_marching(mean, report);
-  }
-
- private:
-  SurfaceDomain domain_;
-  std::optional<SurfaceDiscretization> plain_;  // one of the two
-  std::optional<RetriangulatedSurface> fine_;
-};
-
 /// Factors of the operators that solves share, one set for each of them; others serve one solve.
 template <class Factors>
 class SharedFactors {
@@ -225,6 +100,9 @@ class SignedHeatOnSurface {
   SignedHeatOnSurface(const SurfaceDomain& domain, const SignedHeat& options, SolveHint hint,
                       const Task& task, Report& report)
       : surface_(domain, options.intrinsic_delaunay, task, report), hint_(hint) {}
+  /// Whose answers are not checked.
+  SignedHeatOnSurface(SurfaceDiscretization on, SolveHint hint)
+      : surface_(std::move(on)), hint_(hint), checks_(false) {}
 
   SurfaceAnswer solve(const Sources& given, SignedHeat& options, Task& task, Report& report) const {
     check_values(given, options);
@@ -243,7 +121,7 @@ class SignedHeatOnSurface {
       return gradients ? Diffused::functions : Diffused::vectors;
     };
     bool shared = false;
-    const Problem problem = surface_.problem(sources, needs, shared, task, report);
+    const HeatProblem problem = surface_.problem(sources, needs, shared, task, report);
     const Operators& ops = *problem.ops;
     const SourceSystem& terms = problem.terms;
     const bool rises = may_rise(options.time_scale, ops);
@@ -276,7 +154,7 @@ class SignedHeatOnSurface {
       phi = solve(*first, solving, report);
       warn_misaligned(report);
     }
-    if (options.sharpen == Sharpening::off)
+    if (checks_ && options.sharpen == Sharpening::off)
       surface_.check(sources, phi, hint_, task.stage(0.5, "checking"), report);
     if (options.sharpen == Sharpening::quadratic) {
       const auto elements =
@@ -294,6 +172,7 @@ class SignedHeatOnSurface {
 
   HeatSurface surface_;
   SolveHint hint_;
+  bool checks_ = true;
   SharedFactors<SignedHeatFactors> factors_;
   Kept<QuadraticOnSurface> elements_;
 };
@@ -308,7 +187,7 @@ class UnsignedHeatOnSurface {
                       Report& report) const {
     const auto needs = [](const PlacedSources&) { return Diffused::functions; };
     bool shared = false;
-    const Problem problem = surface_.problem(sources, needs, shared, task, report);
+    const HeatProblem problem = surface_.problem(sources, needs, shared, task, report);
     const bool rises = may_rise(options.time_scale, *problem.ops);
     if (options.time_scale == 0) options.time_scale = 1;
     const auto factors = factors_.of(problem.ops, shared, [&] {
@@ -377,6 +256,17 @@ auto unsigned_heat(const SurfaceDomain& domain, const UnsignedHeat& options, Sol
 }
 
 }  // namespace
+
+std::function<VecX(const Sources&, Task, Report&)> unchecked_signed_heat(
+    const SurfaceDomain& domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint,
+    Task task, Report& report) {
+  auto method = std::make_shared<const SignedHeatOnSurface>(
+      SurfaceDiscretization(domain, std::move(task), report, std::move(T)), hint);
+  return [method](const Sources& sources, Task t, Report& r) {
+    SignedHeat defaults;
+    return method->solve(sources, defaults, t, r).values;
+  };
+}
 
 std::vector<Method<SurfaceDomain>> heat_methods() {
   return {make_method<SurfaceDomain>(

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "api/surface/edge_chains.h"
+#include "api/surface/heat_surface.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -228,8 +229,8 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
   const SurfaceMesh& mesh = *domain_.mesh;
   Report quiet;  // mesh and sources have been spoken of
   const auto heat = heat_.get([&] {
-    return prepare<SurfaceDomain>(SignedHeat{}, on_heat_, hint_, task.stage(0.6, "factoring"),
-                                  quiet);
+    return unchecked_signed_heat(on_heat_, on_heat_.mesh == domain_.mesh ? T_ : nullptr, hint_,
+                                 task.stage(0.6, "factoring"), quiet);
   });
   Sources with_sides;  // others would draw the zero set to themselves
   for (const Curve& curve : given.curves)
@@ -238,7 +239,7 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
     if (curve.is_signed) with_sides.space_curves.push_back(curve);
   for (Curve& curve : with_sides.curves) curve.value = 0;
   for (SpaceCurve& curve : with_sides.space_curves) curve.value = 0;
-  const VecX phi = heat->solve(with_sides, task.stage(0.4, "solving"), quiet).values;
+  const VecX phi = (*heat)(with_sides, task.stage(0.4, "solving"), quiet);
   PlacedSources sided = placed;
   sided.points.clear();
   sided.pieces = pieces_with_sides(placed);

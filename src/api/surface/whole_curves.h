@@ -1,6 +1,7 @@
 #pragma once
 // Broken signed curves on triangle meshes, made whole so that they have sides.
 
+#include <functional>
 #include <memory>
 
 #include "api/surface/discretization.h"
@@ -52,7 +53,7 @@ class WholeCurves {
   SolveHint hint_;
   bool has_regions_ = true;  // sides of triangles are those of the input
   Kept<JumpSurface> uncut_;
-  Kept<Solver<SurfaceDomain>> heat_;
+  Kept<std::function<VecX(const Sources&, Task, Report&)>> heat_;
 };
 
 }  // namespace littoral

@@ -40,7 +40,7 @@ class Retriangulating : public testing::TestWithParam<std::tuple<Triangulated, d
       : mesh(std::get<0>(GetParam()).soup),
         T(intrinsic_triangulation(mesh, report)),
         sources(place_sources(mesh, drawn(), report)),
-        after(retriangulated(mesh, T, sources, {std::get<1>(GetParam()), 3}, report, {})) {}
+        after(retriangulated(mesh, T, sources, {std::get<1>(GetParam()), 3, {}}, report, {})) {}
 
   static Sources drawn() {
     MatX3 line(3, 3);

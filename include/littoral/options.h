@@ -177,8 +177,9 @@ struct SurfaceWinding {
   Residual residual = Residual::faces;
   Contour contour = Contour::curve;
   Labels labels = Labels::round;
-  double curve_weight = 0.01;     // cost of a unit jump on the curve, relative to elsewhere
-  bool keep_nonbounding = false;  // label by rounding u, without decomposing the curve
+  double curve_weight = 0.01;       // cost of a unit jump on the curve, relative to elsewhere
+  bool keep_nonbounding = false;    // label by rounding u, without decomposing the curve
+  bool intrinsic_delaunay = false;  // flip edges beside the curve before solving
 };
 
 // ---------------------------------------------------------------------------- through tets

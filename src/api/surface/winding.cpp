@@ -169,10 +169,23 @@ void check_combination(const SurfaceWinding& options) {
       options.boundary_condition != BoundaryCondition::natural)
     throw UnsupportedError("option boundary-condition: free boundaries need formulation primal",
                            "options-conflict");
+  if (formulation != Formulation::primal && options.intrinsic_delaunay)
+    throw UnsupportedError("option intrinsic-delaunay needs formulation primal",
+                           "options-conflict");
   if (formulation == Formulation::nonconforming && options.labels == Labels::cut)
     throw UnsupportedError(
         "option labels: cut needs curves along edges, formulation primal or dual",
         "options-conflict");
+}
+
+std::shared_ptr<const DelaunayJumps> better_triangles(const SurfaceMesh& cut, const JumpSurface& on,
+                                                      const VecX& curve,
+                                                      const SurfaceWinding& options,
+                                                      const Task& task, Report& report) {
+  if (!options.intrinsic_delaunay) return nullptr;
+  const Stopwatch watch(report, "retriangulation");
+  return std::make_shared<const DelaunayJumps>(
+      delaunay_jumps(cut, on.T, *on.J, curve, task, report));
 }
 
 class WindingOnSurface {
@@ -212,7 +225,8 @@ class WindingOnSurface {
       warn_of_nonmanifold_edges(cut, *J, report);
       answer.numbers =
           formulation == Formulation::primal
-              ? WindingSolver(J).solve(curves.times, options, work, report)
+              ? WindingSolver(J, better_triangles(cut, *on, curves.times, options, work, report))
+                    .solve(curves.times, options, work, report)
               : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
     }
     answer.region = labels_of_input(mesh, answer, *J);

@@ -176,6 +176,7 @@ Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTrian
                                    CurveNetwork curves, const RefineOptions& options,
                                    Report& report, const Task& task) {
   IntrinsicMeshEditor M(mesh, T, std::move(curves));
+  if (!options.keep.empty()) M.keep = options.keep;
   Improvement improvement(M, options, task);
   std::deque<int> all;
   for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(e);

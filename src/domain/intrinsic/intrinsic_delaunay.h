@@ -28,6 +28,7 @@ struct CurveNetwork {
 struct RefineOptions {
   double smallest_angle = 25;  // degrees; 0: flips only
   double growth = 3;           // at most this many vertices are added for each there was
+  std::vector<char> keep;      // edges of the input that are never flipped; empty: none
 };
 
 /// A triangulation of the same surface. Its first vertices are those of the input; `mesh` has its

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -161,6 +163,7 @@ void IntrinsicMeshEditor::place(const Drawing& drawing, int edge, int left, cons
 }
 
 bool IntrinsicMeshEditor::fixed(int e) const {
+  if (e < int_size(keep) && keep[e]) return true;
   if (edges[e].faces.size() != 2) return true;
   const int f = edges[e].faces[0], g = edges[e].faces[1];
   const int i = side_of(f, e), j = side_of(g, e);

@@ -33,7 +33,7 @@ class IntrinsicMeshEditor {
   /// Laplacian; +infinity without a face.
   double delaunay_sum(int e) const;
   /// Can the edge not be flipped whatever its triangles' shapes? One with more or fewer than two,
-  /// or with two that have no common orientation.
+  /// or with two that have no common orientation, or one to be kept.
   bool fixed(int e) const;
   /// Flips an edge if its two triangles allow it.
   bool flip(int e);
@@ -47,6 +47,7 @@ class IntrinsicMeshEditor {
 
   std::vector<Face> faces;
   std::vector<Edge> edges;
+  std::vector<char> keep;  // the first edges: never flipped
   int n_vertices() const { return points_.size(); }
 
  private:

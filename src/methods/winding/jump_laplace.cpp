@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "solve/poisson/poisson.h"
@@ -147,6 +148,21 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k)
       if (!u.open[J.node(f, k)]) u.u(f, k) += u0[unknown[J.node(f, k)]];
+  finish(J, u);
+  return u;
+}
+
+CornerFunction solve_jump_laplace(const JumpCalculus& J, const DelaunayJumps& on, const VecX& jump,
+                                  Boundary boundary, const Task& task, Report& report) {
+  const CornerFunction fine = solve_jump_laplace(*on.J, on.jump(jump), {}, boundary, task, report);
+  CornerFunction u = jump_offsets(J, jump);
+  VecX u0(J.n_nodes);
+  for (int i = 0; i < J.n_nodes; ++i) {
+    const auto& [a, b] = std::pair(on.before[i], on.here[i]);
+    u0[i] = fine.u(b.face, b.k) - u.u(a.face, a.k);
+  }
+  for (int f = 0; f < J.n_faces; ++f)
+    for (int k = 0; k < 3; ++k) u.u(f, k) += u0[J.node(f, k)];
   finish(J, u);
   return u;
 }

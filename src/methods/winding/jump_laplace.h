@@ -6,6 +6,7 @@
 #include "base/task.h"
 #include "littoral/report.h"
 #include "operators/jump_calculus.h"
+#include "operators/jump_delaunay.h"
 
 namespace littoral {
 
@@ -31,6 +32,10 @@ enum class Boundary {
 /// component. Where there is a `field` (faces, in their frames; or empty) it solves
 /// Delta u = div field instead.
 CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const VecXc& field,
+                                  Boundary boundary, const Task& task, Report& report);
+
+/// The same, solved on Delaunay triangles that keep the edges across which it jumps.
+CornerFunction solve_jump_laplace(const JumpCalculus& J, const DelaunayJumps& on, const VecX& jump,
                                   Boundary boundary, const Task& task, Report& report);
 
 /// Step 2: the Darboux derivative, df without the jumps; 0 on edges at open nodes. A 1-form.

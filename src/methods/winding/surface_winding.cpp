@@ -33,7 +33,10 @@ const OptionTable<SurfaceWinding>& winding_options() {
                   "make nonbounding parts follow the curve more closely.")
           .toggle(&O::keep_nonbounding, "keep-nonbounding",
                   "Leaves parts of the curve that bound nothing in: rounds the solution of the "
-                  "jump Laplace equation as it is.");
+                  "jump Laplace equation as it is.")
+          .toggle(&O::intrinsic_delaunay, "intrinsic-delaunay",
+                  "Solves the jump Laplace equation on Delaunay triangles of the same surface, "
+                  "got by flipping edges that the curve does not run along.");
   return table;
 }
 
@@ -69,6 +72,12 @@ void label_regions(const JumpCalculus& J, const std::vector<FacePair>& pairs,
                 result);
 }
 
+CornerFunction WindingSolver::harmonic(const VecX& jump, Boundary boundary, const Task& task,
+                                       Report& report) const {
+  return fine_ ? solve_jump_laplace(*J_, *fine_, jump, boundary, task, report)
+               : solve_jump_laplace(*J_, jump, {}, boundary, task, report);
+}
+
 WindingNumbers WindingSolver::solve(const VecX& curve, const SurfaceWinding& options, Task task,
                                     Report& report) const {
   const JumpCalculus& J = *J_;
@@ -82,8 +91,7 @@ WindingNumbers WindingSolver::solve(const VecX& curve, const SurfaceWinding& opt
   // Step 1: u, eq. 6.2.
   {
     const Stopwatch watch(report, "jump Laplace");
-    result.u = solve_jump_laplace(J, result.curve, {}, Boundary::natural,
-                                  task.stage(0.2, "jump Laplace"), report);
+    result.u = harmonic(result.curve, Boundary::natural, task.stage(0.2, "jump Laplace"), report);
   }
   // Steps 2 to 4, where there are curves that bound nothing.
   const bool simple = std::all_of(J.simply_connected.begin(), J.simply_connected.end(),
@@ -95,15 +103,15 @@ WindingNumbers WindingSolver::solve(const VecX& curve, const SurfaceWinding& opt
     result.bounding = bounding_part(result);
     // Step 5: w, eq. 6.2 with what is left of the curve.
     const Stopwatch watch(report, "winding function");
-    result.w = solve_jump_laplace(J, result.bounding, {}, Boundary::natural,
-                                  task.stage(0.6, "jump Laplace"), report);
+    result.w =
+        harmonic(result.bounding, Boundary::natural, task.stage(0.6, "jump Laplace"), report);
   }
 
   if (options.boundary_condition == BoundaryCondition::free) {
     // At a straight or round boundary the image of the curve has one sign here, the other there.
     const Stopwatch watch(report, "level boundary");
-    const CornerFunction level = solve_jump_laplace(J, result.bounding, {}, Boundary::level,
-                                                    task.stage(0.8, "jump Laplace"), report);
+    const CornerFunction level =
+        harmonic(result.bounding, Boundary::level, task.stage(0.8, "jump Laplace"), report);
     result.w.u = 0.5 * (result.w.u + level.u);
   }
   label_regions(J, {}, options, task.stage(1, "labels"), result, report);

@@ -78,7 +78,11 @@ void label_outside_zero(const JumpCalculus& J, VecXi& region);
 /// One surface's winding numbers; const and usable from several threads.
 class WindingSolver {
  public:
-  explicit WindingSolver(std::shared_ptr<const JumpCalculus> J) : J_(std::move(J)) {}
+  /// fine: triangles on which the jump Laplace equation is solved instead, with edges of the
+  /// curves that will be given kept; or none.
+  explicit WindingSolver(std::shared_ptr<const JumpCalculus> J,
+                         std::shared_ptr<const DelaunayJumps> fine = nullptr)
+      : J_(std::move(J)), fine_(std::move(fine)) {}
 
   /// `curve` (edges): how often the curve runs along each edge, against counted negative; so the
   /// winding number is larger by that on the left. The report gets residuals and iterations, and
@@ -90,7 +94,11 @@ class WindingSolver {
   void decompose(WindingNumbers& result, const SurfaceWinding& options, Task& task,
                  Report& report) const;
 
+  CornerFunction harmonic(const VecX& jump, Boundary boundary, const Task& task,
+                          Report& report) const;
+
   std::shared_ptr<const JumpCalculus> J_;
+  std::shared_ptr<const DelaunayJumps> fine_;
 };
 
 }  // namespace littoral

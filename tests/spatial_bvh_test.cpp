@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "brute_force.h"
 #include "littoral/error.h"
 #include "spatial/grid_values.h"
+#include "spatial/nearest_kernels.h"
 #include "spatial/triangle_bvh.h"
 #include "spatial/triangulate.h"
 #include "test_meshes.h"
@@ -116,6 +118,40 @@ TEST(SpatialBvh, PruningNeverChangesTheWinner) {
       }
     }
   }
+}
+
+TEST(SpatialBvh, BoundsOfEightTrianglesHold) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (Arrangement kind : {Arrangement::generic, Arrangement::needles, Arrangement::collinear,
+                           Arrangement::coincident, Arrangement::repeated, Arrangement::lattice})
+    for (int round = 0; round < 200; ++round) {
+      Soup soup = random_soup(random, kind, nearest_lanes);
+      soup.points /= 1.2;
+      CornerLanes lanes;
+      for (int l = 0; l < nearest_lanes; ++l)
+        for (int k = 0; k < 9; ++k)
+          lanes.corner[k][l] = static_cast<float>(soup.points(soup.faces(l, k / 3), k % 3));
+      Vec3 query = std::pow(10, 1.5 * u(random) - 0.5) * Vec3(u(random), u(random), u(random));
+      if (round % 4 == 0) query = soup.points.row(round % 24);
+      const std::array<float, 3> from{float(query[0]), float(query[1]), float(query[2])};
+      alignas(32) std::array<float, nearest_lanes> bound;
+      float most = std::numeric_limits<float>::max();
+      const unsigned met = nearest_kernels().bounds(lanes, from.data(), most, bound.data());
+      double least = std::numeric_limits<double>::infinity(), gap = 0;
+      for (int l = 0; l < nearest_lanes; ++l) {
+        const double distance =
+            closest_point_brute_force(soup.points, soup.faces.row(l), query).distance;
+        least = std::min(least, distance);
+        EXPECT_LE(std::sqrt(bound[l]), distance);
+        EXPECT_EQ(met >> l & 1, bound[l] <= most ? 1u : 0u);
+        gap = std::max(gap, distance - std::sqrt(bound[l]));
+      }
+      EXPECT_GE(std::sqrt(most), least);
+      if (kind == Arrangement::generic || kind == Arrangement::coincident) {
+        EXPECT_LE(gap, 1e-4 * (1 + query.norm()));
+      }
+    }
 }
 
 /// Nodes about the soup, from three times its size down to a thousandth of it.

@@ -30,8 +30,8 @@ template <class S>
 }
 
 /// To the nearest side, or to the plane where the point lies above the triangle.
-[[gnu::always_inline]] inline float ways_of(const CornerLanes& t, const float* from,
-                                            WayLanes& out) {
+[[gnu::always_inline]] inline float ways_of(const CornerLanes& t, const float* from, WayLanes& out,
+                                            std::array<float, lanes>* sides = nullptr) {
   const float qx = from[0], qy = from[1], qz = from[2];
   for (int l = 0; l < lanes; ++l) {
     const float ax = t.corner[0][l] - qx, ay = t.corner[1][l] - qy, az = t.corner[2][l] - qz;
@@ -57,6 +57,7 @@ template <class S>
     const float x2 = cx + tc * wx, y2 = cy + tc * wy, z2 = cz + tc * wz;
     const float s2 = x2 * x2 + y2 * y2 + z2 * z2;
     x = s2 < best ? x2 : x, y = s2 < best ? y2 : y, z = s2 < best ? z2 : z;
+    if (sides) (*sides)[l] = smaller(s2, best);
     // n . (p x e): on which side of an edge the origin's foot lies.
     const auto side = [&](float px, float py, float pz, float ex, float ey, float ez) {
       return nx * (py * ez - pz * ey) + ny * (pz * ex - px * ez) + nz * (px * ey - py * ex);
@@ -125,6 +126,34 @@ using Flags = std::array<std::int32_t, lanes>;
     };
     const float least = smaller(along(0), smaller(along(3), along(6)));
     met[l] = least > reach_of(b, x, y, z, std::sqrt(w.squared[l])) ? 0 : 1;
+  }
+  return bits_of(met);
+}
+
+/// Along its way, which need not be the shortest, no point of the triangle is nearer than its
+/// nearest corner; none of the sides is farther than the triangle.
+[[gnu::always_inline]] inline unsigned bounds_of(const CornerLanes& t, const float* from,
+                                                 float& most, float* squared) {
+  constexpr float tiny = 1e-30f, rounding = 4e-6f;
+  const float qx = from[0], qy = from[1], qz = from[2];
+  const float slack = 2e-6f * (2 + std::abs(qx) + std::abs(qy) + std::abs(qz));
+  WayLanes w;
+  alignas(32) std::array<float, lanes> sides;
+  ways_of(t, from, w, &sides);
+  const float reach = std::sqrt(least_of(sides)) * (1 + rounding) + slack;
+  most = smaller(most, reach * reach);
+  alignas(32) Flags met;
+  for (int l = 0; l < lanes; ++l) {
+    const float x = w.way[0][l], y = w.way[1][l], z = w.way[2][l];
+    const auto along = [&](int k) {
+      return x * (t.corner[k][l] - qx) + y * (t.corner[k + 1][l] - qy) +
+             z * (t.corner[k + 2][l] - qz);
+    };
+    const float least = smaller(along(0), smaller(along(3), along(6)));
+    const float length = std::sqrt(w.squared[l] + tiny);
+    const float away = larger((1 - rounding) * least / length - slack, 0.0f);
+    squared[l] = away * away;
+    met[l] = squared[l] <= most ? 1 : 0;
   }
   return bits_of(met);
 }
@@ -215,6 +244,9 @@ float ways_plain(const CornerLanes& t, const float* from, WayLanes& out) {
 unsigned within_plain(const CornerLanes& t, const WayLanes& w, const BoxWithBalls& b) {
   return within_of(t, w, b);
 }
+unsigned bounds_plain(const CornerLanes& t, const float* from, float& most, float* squared) {
+  return bounds_of(t, from, most, squared);
+}
 void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
   look_of(t, number, nodes);
 }
@@ -238,6 +270,10 @@ void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
                                              const BoxWithBalls& b) {
   return within_of(t, w, b);
 }
+[[gnu::target("avx2")]] unsigned bounds_avx2(const CornerLanes& t, const float* from, float& most,
+                                             float* squared) {
+  return bounds_of(t, from, most, squared);
+}
 [[gnu::target("avx2")]] void look_avx2(const NearTriangle& t, double number,
                                        const NearNodes& nodes) {
   look_of(t, number, nodes);
@@ -247,11 +283,11 @@ void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
 }  // namespace
 
 const NearestKernels& nearest_kernels() {
-  static const NearestKernels best =
-      LITTORAL_FASTEST((NearestKernels{&put_ball_plain, &balls_plain, &ways_plain,
-                                       &ways_to_middles_plain, &within_plain, &look_plain}),
-                       (NearestKernels{&put_ball_avx2, &balls_avx2, &ways_avx2,
-                                       &ways_to_middles_avx2, &within_avx2, &look_avx2}));
+  static const NearestKernels best = LITTORAL_FASTEST(
+      (NearestKernels{&put_ball_plain, &balls_plain, &ways_plain, &ways_to_middles_plain,
+                      &within_plain, &bounds_plain, &look_plain}),
+      (NearestKernels{&put_ball_avx2, &balls_avx2, &ways_avx2, &ways_to_middles_avx2, &within_avx2,
+                      &bounds_avx2, &look_avx2}));
   return best;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What grid_distances.cpp does to many triangles or nodes at once, by the widest instructions the
-// processor has. Which ones changes nothing in the results.
+// What searches for the nearest triangle do to many triangles or nodes at once, by the widest
+// instructions the processor has. Which ones changes nothing in the results.
 
 #include <array>
 
@@ -59,6 +59,10 @@ struct NearestKernels {
   float (*ways_to_middles)(const CornerLanes&, const float* from, WayLanes&);
   /// A bit for each triangle that meets the convex hull of the balls, or may.
   unsigned (*within)(const CornerLanes&, const WayLanes&, const BoxWithBalls&);
+  /// Squared distances that no point of the triangles is nearer than, less by about 1e-6 of the
+  /// distances and of the size of the coordinates; `most` becomes one that one of them does not
+  /// exceed, if that is less. Returns a bit for each triangle within it.
+  unsigned (*bounds)(const CornerLanes&, const float* from, float& most, float* squared);
   /// Where the triangle is nearer than what was, `nearest` becomes `number`.
   void (*look)(const NearTriangle&, double number, const NearNodes&);
 };

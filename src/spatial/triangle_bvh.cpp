@@ -95,11 +95,10 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   std::iota(rows.begin(), rows.end(), 0);
   MatX3 all(rows.size(), 3);  // corners in the order of the tree
   corners_.resize(corners.size());
-  place_.assign(faces.rows(), -1);
+  group_of_.assign(faces.rows(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted[i] = faces_[order[i]];
     corners_[i] = corners[order[i]];
-    place_[sorted[i]] = i;
     for (std::size_t k = 0; k < 3; ++k) all.row(3 * i + k) = corners_[i][k];
   }
   faces_ = std::move(sorted);
@@ -110,6 +109,17 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   all = (all.rowwise() - centre_.transpose()) / unit_;
   std::vector<Lanes> ranges;
   add_node(splits, 0, ranges);
+  for (int g = 0; g < int_size(groups_); ++g)
+    for (int i = groups_[g].begin; i < groups_[g].end; ++i) group_of_[faces_[i]] = g;
+  lanes_.resize(groups_.size());
+  parallel_for(groups_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g)
+      for (int l = 0; l < nearest_lanes; ++l) {
+        const int at = std::min(groups_[g].begin + l, groups_[g].end - 1);  // the last again
+        for (int k = 0; k < 9; ++k)
+          lanes_[g].corner[k][l] = static_cast<float>(all(3 * at + k / 3, k % 3));
+      }
+  });
   parallel_for(nodes_.size(), 64, [&](std::size_t begin, std::size_t end) {
     BoundNode node;
     for (std::size_t at = begin; at < end; ++at) {
@@ -151,7 +161,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
     }
     const int count = job.end - job.begin;
     splits[job.node] = {box, job.begin, job.end, -1};
-    if (count == 1) continue;
+    if (count <= nearest_lanes) continue;
 
     int axis = 0;
     const double extent = (centres.high - centres.low).maxCoeff(&axis);
@@ -242,7 +252,8 @@ int TriangleBvh::add_node(const std::vector<Split>& splits, int root, std::vecto
   for (std::size_t c = 0; c < members.size(); ++c) {
     const Split& s = splits[members[c]];
     ranges[at][c] = {s.begin, s.end};
-    const int child = s.child < 0 ? -1 - s.begin : add_node(splits, members[c], ranges);
+    if (s.child < 0) groups_.push_back({s.begin, s.end});
+    const int child = s.child < 0 ? -int_size(groups_) : add_node(splits, members[c], ranges);
     nodes_[at].child[c] = child;
   }
   return at;
@@ -280,32 +291,68 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
       best_at = i;
     }
   };
-  if (hint >= 0 && hint < int_size(place_) && place_[hint] >= 0) look_at(place_[hint]);
+
+  // In the nodes' coordinates. Bounds hold for computed feet, too, so that leaving out what is
+  // beyond `reach` never changes which of several equally near faces wins.
+  const Vec3 local = (q - centre_) / unit_;
+  const double per_unit = 1 / (unit_ * unit_);  // a power of two
+  const bool near = local.cwiseAbs().maxCoeff() <= near_bound_kernel;
+  SmallBoundKernel* const bounds = near ? small_bound_kernels().near : small_bound_kernels().far;
+  const NearestKernels& kernels = nearest_kernels();
+  const std::array<float, 3> from{static_cast<float>(local[0]), static_cast<float>(local[1]),
+                                  static_cast<float>(local[2])};
+  double reach = std::numeric_limits<double>::max();  // empty lanes are at infinity
+  struct Candidate {
+    float squared;
+    int stored;
+  };
+  std::array<Candidate, 64> candidates;
+  int n_candidates = 0;
+  const auto look_at_candidates = [&] {
+    std::sort(candidates.begin(), candidates.begin() + n_candidates,
+              [](const Candidate& a, const Candidate& b) { return a.squared < b.squared; });
+    for (int i = 0; i < n_candidates; ++i)
+      if (candidates[i].squared <= std::min(reach, best * per_unit)) look_at(candidates[i].stored);
+    n_candidates = 0;
+    reach = std::min(reach, best * per_unit);
+  };
+  const auto look_at_group = [&](int g) {
+    const Group& group = groups_[g];
+    if (!near) {
+      for (int i = group.begin; i < group.end; ++i) look_at(i);
+      reach = std::min(reach, best * per_unit);
+      return;
+    }
+    alignas(32) std::array<float, nearest_lanes> bound;
+    float most = std::numeric_limits<float>::max();
+    unsigned met = kernels.bounds(lanes_[g], from.data(), most, bound.data());
+    reach = std::min<double>(reach, most);
+    for (met &= (1u << (group.end - group.begin)) - 1; met != 0; met &= met - 1) {
+      const int l = std::countr_zero(met);
+      if (!(bound[l] <= reach)) continue;
+      candidates[n_candidates++] = {bound[l], group.begin + l};
+      if (n_candidates == int_size(candidates)) look_at_candidates();
+    }
+  };
+  const int hinted = hint >= 0 && hint < int_size(group_of_) ? group_of_[hint] : -1;
+  if (hinted >= 0) look_at_group(hinted);
 
   std::array<BoundEntry, stack_size> stack;  // a node adds at most eight
-  const Vec3 local = (q - centre_) / unit_;
-  const SmallBoundKernels& kernels = small_bound_kernels();
-  SmallBoundKernel* const bounds =
-      local.cwiseAbs().maxCoeff() <= near_bound_kernel ? kernels.near : kernels.far;
-  const double per_unit = 1 / (unit_ * unit_);  // a power of two
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
     const BoundEntry entry = stack[--top];
-    if (entry.squared > best * per_unit) continue;
+    if (entry.squared > reach) continue;
     if (entry.child < 0) {
-      look_at(-1 - entry.child);
+      if (const int g = -1 - entry.child; g != hinted) look_at_group(g);
       continue;
     }
     const SmallBoundNode& node = nodes_[entry.child];
-    // Bounds hold for computed feet, too, so that pruning never changes which of several equally
-    // near faces wins.
     alignas(64) double bound[width];
-    // Empty lanes are at infinity: the first bound is the largest number.
-    const double most = std::min(best * per_unit, std::numeric_limits<double>::max());
-    const unsigned near = bounds(node, local.data(), most, bound);
-    top = push_children(node.child, bound, near, stack.data(), top);
+    const unsigned met = bounds(node, local.data(), reach, bound);
+    top = push_children(node.child, bound, met, stack.data(), top);
   }
+  look_at_candidates();
 
   NearestPoint answer;
   answer.face = faces_[best_at];

@@ -10,6 +10,7 @@
 #include "littoral/types.h"
 #include "littoral/volume.h"
 #include "spatial/bound_node.h"
+#include "spatial/nearest_kernels.h"
 
 namespace littoral {
 
@@ -27,7 +28,7 @@ struct NearestPoint {
 /// out. Coordinates are scaled by a power of two inside, so any magnitude up to 1e300 works.
 /// Split by surface area (Wald, "On fast construction of SAH-based bounding volume hierarchies",
 /// 2007: binned), by count where that fails to divide; then eight boxes and disks to a node, down
-/// to single triangles.
+/// to groups of up to eight triangles.
 class TriangleBvh {
  public:
   /// points: n x 3; faces: m x 3, rows index points. Throws InputError if an index is out of range
@@ -52,10 +53,14 @@ class TriangleBvh {
   struct Split {
     Box box;
     int begin = 0, end = 0;  // into `order`
-    int child = -1;          // the left one, the right one follows it; -1: one triangle
+    int child = -1;          // the left one, the right one follows it; -1: a group of triangles
   };
   static constexpr int width = bound_lanes;
   static std::vector<Split> split(const std::vector<Box>& boxes, std::vector<int>& order);
+  /// Stored triangles looked at together: [begin, end), at most `nearest_lanes`.
+  struct Group {
+    int begin = 0, end = 0;
+  };
   /// Stored triangles [begin, end) of the children of a node; none in empty lanes.
   using Lanes = std::array<std::pair<int, int>, width>;
   int add_node(const std::vector<Split>& splits, int root, std::vector<Lanes>& ranges);
@@ -63,12 +68,14 @@ class TriangleBvh {
   Vec3 to_tree(const Vec3& query) const;  // coordinates as they are stored
   double distance_to(int stored, const Vec3& query) const;
 
-  int exponent_ = 0;                          // stored coordinates = coordinates * 2^-exponent
-  Vec3 centre_ = Vec3::Zero();                // nodes: coordinates about it,
-  double unit_ = 1;                           // in these units
-  std::vector<SmallBoundNode> nodes_;         // child: another node, or -1 - (stored triangle)
+  int exponent_ = 0;                   // stored coordinates = coordinates * 2^-exponent
+  Vec3 centre_ = Vec3::Zero();         // nodes: coordinates about it,
+  double unit_ = 1;                    // in these units
+  std::vector<SmallBoundNode> nodes_;  // child: another node, or -1 - (group)
+  std::vector<Group> groups_;
+  std::vector<CornerLanes> lanes_;            // corners of each group in the nodes' coordinates
   std::vector<int> faces_;                    // original number of each stored triangle
-  std::vector<int> place_;                    // where each original one is stored, or -1
+  std::vector<int> group_of_;                 // of each original one, or -1
   std::vector<std::array<Vec3, 3>> corners_;  // scaled, in the order of the tree
 };
 

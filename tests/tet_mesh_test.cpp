@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "api/tet/tet_boundary.h"
 #include "constants.h"
 #include "domain/tet/tet_locator.h"
 #include "io/tet/tets.h"
@@ -25,6 +26,24 @@ VecX tet_distance(const TetMesh& mesh, const TetSources& sources,
                   const OptionValues& options = {}) {
   Report report;
   return test::tet_mesh_distance(mesh, sources, AnyMethod::named("signed-heat", options), report);
+}
+
+TEST(TetPictures, AreCutOpenWhereTheBoundaryHasOneValue) {
+  for (const int n : {4, 5}) {
+    const TetMesh mesh = test::tet_box(n);
+    const VecX inward =
+        mesh.points.cwiseMin((1 - mesh.points.array()).matrix()).rowwise().minCoeff();
+    const io::TetFile file{mesh, {}, {{"distance", inward}}};
+    EXPECT_EQ(boundary_of(file).scalars.at("distance").maxCoeff(), 0);
+    const PolygonSoup drawn = drawn_surface(file);
+    const VecX& shown = drawn.scalars.at("distance");
+    EXPECT_NEAR(shown.maxCoeff(), n % 2 ? 0.4 : 0.5, 1e-12);
+    EXPECT_LE(drawn.points.col(2).maxCoeff(), 0.5 + 1e-12);
+    for (int v = 0; v < drawn.n_vertices(); ++v)
+      if (shown[v] > 1e-12) EXPECT_NEAR(drawn.points(v, 2), 0.5, 1e-12);
+    const io::TetFile sloping{mesh, {}, {{"x", mesh.points.col(0)}}};
+    EXPECT_EQ(drawn_surface(sloping).n_faces(), boundary_of(sloping).n_faces());
+  }
 }
 
 TEST(TetLocator, FindsTheTetAndItsCoordinates) {

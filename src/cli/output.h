@@ -42,7 +42,8 @@ void keep_upright(io::Scene& scene, const std::string& input);
 void write_result(const std::string& file, const PolygonSoup& result, const std::string& field,
                   const std::string& input, const Report& report,
                   const std::function<void(io::Scene&)>& add = {});
-/// The same for distance on tets: whole, its values alone, or its boundary.
+/// The same for distance on tets: whole, its values alone, or its boundary, which is drawn cut open
+/// where it is the source.
 void write_tet_result(const std::string& file, const TetMesh& mesh, const VecX& values,
                       const std::string& input, const Report& report);
 

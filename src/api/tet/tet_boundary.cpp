@@ -129,4 +129,26 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
   return out.soup(field);
 }
 
+PolygonSoup drawn_surface(const io::TetFile& file) {
+  PolygonSoup boundary = boundary_of(file);
+  if (boundary.n_faces() == 0 || boundary.scalars.empty()) return boundary;
+  const VecX& values = boundary.scalars.begin()->second;
+  if (values.minCoeff() < values.maxCoeff()) return boundary;
+  constexpr int axis = 2;
+  const double middle = boundary.points.col(axis).mean();
+  const auto& tets = file.mesh.tets;
+  const auto passes = [&](Eigen::Index t) {
+    bool below = false, above = false;
+    for (int k = 0; k < 4; ++k) {
+      const double height = file.mesh.points(tets(t, k), axis) - middle;
+      below = below || height < 0;
+      above = above || height > 0;
+    }
+    return below && above;
+  };
+  for (Eigen::Index t = 0; t < tets.rows(); ++t)
+    if (passes(t)) return cut_open(file, axis, middle);
+  return boundary;
+}
+
 }  // namespace littoral

@@ -15,4 +15,8 @@ PolygonSoup boundary_of(const io::TetFile& file);
 /// section of the tets there. Throws InputError if the plane misses the tets.
 PolygonSoup cut_open(const io::TetFile& file, int axis, double position);
 
+/// What pictures show: the boundary, cut open in the middle where its field has one value all over,
+/// as distance from it has.
+PolygonSoup drawn_surface(const io::TetFile& file);
+
 }  // namespace littoral

@@ -207,11 +207,11 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
   return scene;
 }
 
-/// The boundary, which --slice cuts open.
+/// The boundary, which --slice cuts open; open in any case where nothing is seen on it.
 io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
   io::Scene scene =
-      scene_of(view.position.empty() ? boundary_of(file)
+      scene_of(view.position.empty() ? drawn_surface(file)
                                      : cut_open(file, view.axis_number(), view.slice_at()),
                arguments, session);
   scene.nodes = io::SceneNodes::none;  // those of the boundary are numbered anew

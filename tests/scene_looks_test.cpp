@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -85,6 +87,18 @@ TEST(SceneDiscs, LieAlongTheSurfaceAndCoverIt) {
     most = std::max(most, scene.discs(v, 3));
   }
   EXPECT_LT(most, 2 * least);
+  for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t)
+    for (int i = 0; i <= 6; ++i)
+      for (int j = 0; i + j <= 6; ++j) {
+        const Eigen::RowVector3i corners = scene.triangles.row(t);
+        const Vec3 x = (i * scene.points.row(corners[0]) + j * scene.points.row(corners[1]) +
+                        (6 - i - j) * scene.points.row(corners[2])) /
+                       6;
+        const auto covered = [&](int v) {
+          return (x - scene.points.row(v).transpose()).norm() <= scene.discs(v, 3);
+        };
+        EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), covered)) << t;
+      }
   EXPECT_GT(scene.discs(n, 3), least);
   EXPECT_LT(scene.discs(n, 3), most);
   EXPECT_NO_THROW(io::check_scene(scene));
@@ -95,6 +109,21 @@ TEST(SceneDiscs, LieAlongTheSurfaceAndCoverIt) {
   EXPECT_EQ(drawn.values[12 * n], infinity);
   scene.discs(3, 1) = infinity;
   EXPECT_THROW(io::check_scene(scene), InputError);
+}
+
+TEST(SceneDiscs, CoverPointsThatAreFurtherApartOneWay) {
+  PolygonSoup rows;
+  rows.points.resize(9, 3);
+  for (int v = 0; v < 9; ++v) rows.points.row(v) << v % 3, 0.4 * double(v / 3), 0;
+  for (const int a : {0, 1, 3, 4}) {
+    rows.add_face(std::array{a, a + 1, a + 4});
+    rows.add_face(std::array{a, a + 4, a + 3});
+  }
+  io::Scene scene = io::make_scene(rows);
+  const double scale = (scene.points.row(2) - scene.points.row(0)).norm() / 2;
+  io::show_as_discs(scene);
+  for (int v = 0; v < 9; ++v)
+    EXPECT_NEAR(scene.discs(v, 3) / scale, 1.05 * std::hypot(0.5, 0.2), 1e-12);
 }
 
 TEST(SceneStyle, NiceSpacing) {

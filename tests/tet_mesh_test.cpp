@@ -39,8 +39,11 @@ TEST(TetPictures, AreCutOpenWhereTheBoundaryHasOneValue) {
     const VecX& shown = drawn.scalars.at("distance");
     EXPECT_NEAR(shown.maxCoeff(), n % 2 ? 0.4 : 0.5, 1e-12);
     EXPECT_LE(drawn.points.col(2).maxCoeff(), 0.5 + 1e-12);
-    for (int v = 0; v < drawn.n_vertices(); ++v)
-      if (shown[v] > 1e-12) EXPECT_NEAR(drawn.points(v, 2), 0.5, 1e-12);
+    for (int v = 0; v < drawn.n_vertices(); ++v) {
+      if (shown[v] > 1e-12) {
+        EXPECT_NEAR(drawn.points(v, 2), 0.5, 1e-12);
+      }
+    }
     const io::TetFile sloping{mesh, {}, {{"x", mesh.points.col(0)}}};
     EXPECT_EQ(drawn_surface(sloping).n_faces(), boundary_of(sloping).n_faces());
   }

@@ -31,7 +31,7 @@ function occluded() {
 }
 function cloud() {
   const made = scene(shape, [far()], { title: "points", ...facts });
-  Object.assign(made.surface, { nodes: "vertices", discs: base64(Float32Array.from(each((v) => [...torusNormal(place(v)), 0.04]).flat())) });
+  Object.assign(made.surface, { nodes: "vertices", discs: base64(Float32Array.from(each((v) => [...torusNormal(place(v)), 0.054]).flat())) });
   return made;
 }
 /// Pins a place, and with it the way from there.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -11,6 +12,8 @@
 namespace littoral::io {
 
 namespace {
+
+constexpr double overlap = 1.05;  // of discs, where the surface bends between them
 
 // Sums over the triangles at each vertex, each with the sign that agrees with the sum so far: the
 // triangles of a cloud have no common orientation, and about a point they are nearly flat.
@@ -28,6 +31,14 @@ MatX3 mean_normals(const MatX3& points, const MatX3i& triangles) {
     }
   }
   return sum;
+}
+
+/// Radius of discs about the corners that cover a triangle.
+double covering_radius(const Vec3& a, const Vec3& b, const Vec3& c) {
+  std::array<double, 3> s{(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()};
+  std::sort(s.begin(), s.end());
+  if (s[0] + s[1] <= s[2]) return std::sqrt(s[2]) / 2;  // obtuse: half of the longest side will do
+  return std::sqrt(s[0]) * std::sqrt(s[1]) * std::sqrt(s[2]) / (2 * (b - a).cross(c - a).norm());
 }
 
 double middle(std::vector<double>& numbers) {
@@ -68,18 +79,23 @@ void show_as_discs(Scene& scene) {
   scene.discs.setZero(n, 4);
   scene.discs.leftCols<3>() = mean_normals(scene.points, scene.triangles);
   std::vector<std::vector<double>> around(static_cast<std::size_t>(n));
+  VecX covering = VecX::Zero(n);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int i = scene.triangles(t, k), j = scene.triangles(t, (k + 1) % 3);
       const double length = (scene.points.row(i) - scene.points.row(j)).norm();
       for (const int v : {i, j}) around[static_cast<std::size_t>(v)].push_back(length);
     }
+    const auto corner = scene.triangles.row(t);
+    const double radius = covering_radius(scene.points.row(corner[0]), scene.points.row(corner[1]),
+                                          scene.points.row(corner[2]));
+    for (const int v : corner) covering[v] = std::max(covering[v], radius);
   }
   std::vector<double> known;
   for (Eigen::Index v = 0; v < n; ++v) {
     auto& lengths = around[static_cast<std::size_t>(v)];
     if (lengths.empty()) continue;
-    scene.discs(v, 3) = 0.75 * middle(lengths);
+    scene.discs(v, 3) = std::min(overlap * covering[v], 2 * middle(lengths));
     known.push_back(scene.discs(v, 3));
   }
   const double usual = known.empty() ? 0 : middle(known);

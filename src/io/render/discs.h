@@ -7,8 +7,9 @@ namespace littoral::io {
 
 /// Lets pages and pictures show the vertices of a scene as discs instead of its triangles, which
 /// join the points of a cloud to their neighbours: normals are those of the triangles about a
-/// point, radii three quarters of the middle distance to the points it is joined to. Points of no
-/// triangle have the middle radius, and face the way of the first view.
+/// point, radii those with which discs cover these triangles, up to twice the middle distance to
+/// the points it is joined to. Points of no triangle have the middle radius, and face the way of
+/// the first view.
 void show_as_discs(Scene& scene);
 
 inline constexpr int disc_corners = 12;

@@ -141,7 +141,7 @@ PolygonSoup drawn_surface(const io::TetFile& file) {
     bool below = false, above = false;
     for (int k = 0; k < 4; ++k) {
       const double height = file.mesh.points(tets(t, k), axis) - middle;
-      below = below || height < 0;
+      below = below || height <= 0;
       above = above || height > 0;
     }
     return below && above;

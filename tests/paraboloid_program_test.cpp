@@ -8,7 +8,7 @@ namespace littoral {
 namespace {
 
 using Program = ParaboloidProgram<6, 2>;
-using Solver = ParaboloidSolver<6, 2>;
+using SmallSolver = ParaboloidSolver<6, 2>;
 
 /// Slopes along unknowns i and j, value unknown k.
 Program::Point point(int k, int i, int j) {
@@ -30,10 +30,10 @@ Program two_disks() {
   return program;
 }
 
-Solver one_element() { return Solver(6, {{0, 1, 2, 3, 4, 5}}, Task()); }
+SmallSolver one_element() { return SmallSolver(6, {{0, 1, 2, 3, 4, 5}}, Task()); }
 
 ParaboloidResult solved(const Program& program, double tolerance = 1e-9,
-                        const Solver::Inserter& insert = {}) {
+                        const SmallSolver::Inserter& insert = {}) {
   return one_element().solve(program, VecX::Constant(6, 0.1), {tolerance, 100}, insert, Task());
 }
 

@@ -113,18 +113,23 @@ using Flags = std::array<std::int32_t, lanes>;
   return bits;
 }
 
+/// How far the nearest corner of a triangle is along its way from a point, times the way's length.
+[[gnu::always_inline]] inline float least_along(const CornerLanes& t, const WayLanes& w, int l,
+                                                const float* from) {
+  const auto along = [&](int k) {
+    return w.way[0][l] * (t.corner[k][l] - from[0]) + w.way[1][l] * (t.corner[k + 1][l] - from[1]) +
+           w.way[2][l] * (t.corner[k + 2][l] - from[2]);
+  };
+  return smaller(along(0), smaller(along(3), along(6)));
+}
+
 /// Along its way every point of the triangle lies beyond all balls.
 [[gnu::always_inline]] inline unsigned within_of(const CornerLanes& t, const WayLanes& w,
                                                  const BoxWithBalls& b) {
-  const float qx = b.centre[0], qy = b.centre[1], qz = b.centre[2];
   alignas(32) Flags met;
   for (int l = 0; l < lanes; ++l) {
     const float x = w.way[0][l], y = w.way[1][l], z = w.way[2][l];
-    const auto along = [&](int k) {
-      return x * (t.corner[k][l] - qx) + y * (t.corner[k + 1][l] - qy) +
-             z * (t.corner[k + 2][l] - qz);
-    };
-    const float least = smaller(along(0), smaller(along(3), along(6)));
+    const float least = least_along(t, w, l, b.centre.data());
     met[l] = least > reach_of(b, x, y, z, std::sqrt(w.squared[l])) ? 0 : 1;
   }
   return bits_of(met);
@@ -135,8 +140,7 @@ using Flags = std::array<std::int32_t, lanes>;
 [[gnu::always_inline]] inline unsigned bounds_of(const CornerLanes& t, const float* from,
                                                  float& most, float* squared) {
   constexpr float tiny = 1e-30f, rounding = 4e-6f;
-  const float qx = from[0], qy = from[1], qz = from[2];
-  const float slack = 2e-6f * (2 + std::abs(qx) + std::abs(qy) + std::abs(qz));
+  const float slack = 2e-6f * (2 + std::abs(from[0]) + std::abs(from[1]) + std::abs(from[2]));
   WayLanes w;
   alignas(32) std::array<float, lanes> sides;
   ways_of(t, from, w, &sides);
@@ -144,12 +148,7 @@ using Flags = std::array<std::int32_t, lanes>;
   most = smaller(most, reach * reach);
   alignas(32) Flags met;
   for (int l = 0; l < lanes; ++l) {
-    const float x = w.way[0][l], y = w.way[1][l], z = w.way[2][l];
-    const auto along = [&](int k) {
-      return x * (t.corner[k][l] - qx) + y * (t.corner[k + 1][l] - qy) +
-             z * (t.corner[k + 2][l] - qz);
-    };
-    const float least = smaller(along(0), smaller(along(3), along(6)));
+    const float least = least_along(t, w, l, from);
     const float length = std::sqrt(w.squared[l] + tiny);
     const float away = larger((1 - rounding) * least / length - slack, 0.0f);
     squared[l] = away * away;

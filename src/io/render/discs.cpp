@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "io/render/raster.h"
 #include "io/render/scene_style.h"
 
 namespace littoral::io {
@@ -56,13 +57,9 @@ MatX3 mean_gradients(const Scene& scene, const VecX& values) {
     const auto corner = scene.triangles.row(t);
     const Vec3 a = scene.points.row(corner[0]);
     const Vec3 u = Vec3(scene.points.row(corner[1])) - a, v = Vec3(scene.points.row(corner[2])) - a;
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-    const double area2 = uu * vv - uv * uv;
     const double p = values[corner[1]] - values[corner[0]];
     const double q = values[corner[2]] - values[corner[0]];
-    Vec3 g = Vec3::Zero();
-    if (area2 > 1e-14 * uu * vv && std::isfinite(p) && std::isfinite(q))
-      g = ((vv * p - uv * q) * u + (uu * q - uv * p) * v) / area2;
+    const Vec3 g = gradient_in_triangle(u, v, p, q);
     for (int k = 0; k < 3; ++k) {
       sum.row(corner[k]) += g.transpose();
       ++count[corner[k]];

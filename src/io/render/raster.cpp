@@ -63,6 +63,13 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
   return normals;
 }
 
+Vec3 gradient_in_triangle(const Vec3& u, const Vec3& v, double p, double q) {
+  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
+  const double area2 = uu * vv - uv * uv;
+  if (!(area2 > 1e-14 * uu * vv) || !std::isfinite(p) || !std::isfinite(q)) return Vec3::Zero();
+  return ((vv * p - uv * q) * u + (uu * q - uv * p) * v) / area2;
+}
+
 Eigen::Matrix<double, Eigen::Dynamic, 6> slope_tensors(const MatX3& points, const MatX3i& triangles,
                                                        const VecX& values, double length_scale) {
   Eigen::Matrix<double, Eigen::Dynamic, 6> sum;
@@ -72,15 +79,11 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> slope_tensors(const MatX3& points, cons
     const Vec3 a = points.row(triangles(t, 0));
     const Vec3 u = (Vec3(points.row(triangles(t, 1))) - a) / length_scale;
     const Vec3 v = (Vec3(points.row(triangles(t, 2))) - a) / length_scale;
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-    const double area2 = uu * vv - uv * uv;
     const double p = values[triangles(t, 1)] - values[triangles(t, 0)];
     const double q = values[triangles(t, 2)] - values[triangles(t, 0)];
     const double area = u.cross(v).norm();
     if (!(area > 0)) continue;
-    Vec3 g = Vec3::Zero();
-    if (area2 > 1e-14 * uu * vv && std::isfinite(p) && std::isfinite(q))
-      g = ((vv * p - uv * q) * u + (uu * q - uv * p) * v) / area2;
+    const Vec3 g = gradient_in_triangle(u, v, p, q);
     for (int k = 0; k < 3; ++k) {
       const int i = triangles(t, k);
       sum.row(i) += area * Eigen::Matrix<double, 1, 6>{{g[0] * g[0], g[1] * g[1], g[2] * g[2],

@@ -80,6 +80,10 @@ class MarkRaster {
 /// and on creases, where faces keep their own normals.
 MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double length_scale);
 
+/// Gradient in a triangle with sides u and v of what grows by p along u and by q along v; 0 where
+/// there is no area or a value is not finite.
+Vec3 gradient_in_triangle(const Vec3& u, const Vec3& v, double p, double q);
+
 /// At each vertex the mean of g g^T over its triangles, by area, where g is the gradient of a field
 /// that is linear on them: xx, yy, zz, xy, xz, yz. The slope across a line of the picture is then
 /// the same on both sides of an edge, and opposite gradients do not cancel. Triangles without area

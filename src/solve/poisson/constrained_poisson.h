@@ -12,7 +12,7 @@ namespace littoral {
 
 /// What is asked of A x.
 struct ConstraintRows {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> A;  // rows x unknowns, few by many; row sums 1
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>& A;  // rows x unknowns; row sums 1
   VecX softness;             // rows: 0 holds a row, s > 0 penalises it by (A x)^2 / (2 s)
   double tolerance;          // largest root mean square of A x + softness * multiplier [as x]
   std::vector<int> group{};  // rows: A x takes one value, unknown, along each; empty: 0 along all

@@ -24,7 +24,6 @@ test("a curve of clicks gives the distance of the command line", async () => {
   assert.ok(places.length >= 4);
   await page.click("#mode-curve");
   await clickAll(page, places);
-  await settled(page);
   const { strokes, values } = await state(page);
   assert.deepEqual(strokes, [{ nodes: places.length, closed: false, signed: true }]);
   const { name, bytes } = await saved(page, "save-sources");
@@ -60,7 +59,6 @@ test("the saved field holds the same numbers", async () => {
 test("a click on the first node closes the curve, and inside becomes negative to its right", async () => {
   const [first] = await ring(page, 5);
   await page.mouse.click(first.x, first.y);
-  await settled(page);
   const { strokes, values } = await state(page);
   assert.equal(strokes[0].closed, true);
   assert.ok(Math.min(...values) < 0 && Math.max(...values) > 0);
@@ -71,13 +69,10 @@ test("a click on the first node closes the curve, and inside becomes negative to
 test("reversing turns the sign, undo and redo go back and forth", async () => {
   const before_ = (await state(page)).values;
   await page.click("#reverse");
-  await settled(page);
   assertClose((await state(page)).values, before_.map((x) => -x), 1e-6);
   await page.keyboard.press("Control+z");
-  await settled(page);
   assertClose((await state(page)).values, before_, 1e-12);
   await page.keyboard.press("Control+Shift+z");
-  await settled(page);
   assertClose((await state(page)).values, before_.map((x) => -x), 1e-6);
   await page.click("#close");
   assert.equal((await state(page)).strokes[0].closed, false);
@@ -97,13 +92,11 @@ test("a node that is dragged moves, as one step", async () => {
   assert.ok(Math.hypot(moved.x - at.x + 20, moved.y - at.y - 15) < 4, JSON.stringify([at, moved]));
   assert.notDeepEqual((await state(page)).values, values);
   await page.click("#undo");
-  await settled(page);
   assertClose((await state(page)).values, values, 1e-12);
 });
 
 test("an unsigned curve has distance to both sides", async () => {
   await page.click("#signed");
-  await settled(page);
   const { strokes, values } = await state(page);
   assert.equal(strokes[0].signed, false);
   assert.ok(Math.min(...values) > -1e-9);
@@ -121,7 +114,6 @@ test("a freehand stroke that ends where it began is a closed curve of many nodes
   for (const { x, y } of places) await page.mouse.move(x, y);
   await page.mouse.move(first.x, first.y);
   await page.mouse.up();
-  await settled(page);
   const { strokes, values } = await state(page);
   assert.equal(strokes.length, 2);
   assert.equal(strokes[1].closed, true);
@@ -132,7 +124,6 @@ test("a freehand stroke that ends where it began is a closed curve of many nodes
 
 test("regions of the closed curve", async () => {
   await page.selectOption("#task", "regions");
-  await settled(page);
   const { values, method } = await state(page);
   assert.equal(method, "surface-winding");
   assert.ok(new Set(values.map(Math.round)).size >= 2);

@@ -55,14 +55,18 @@ export async function clickAll(page, places) {
   for (const { x, y } of places) await page.mouse.click(x, y);
 }
 
-export const state = (page) => page.evaluate(() => ({
-  strokes: studio.history.drawing.strokes.map((s) => ({ nodes: s.nodes.length, closed: s.closed, signed: s.signed })),
-  points: studio.history.drawing.points.length,
-  values: studio.answer ? Array.from(studio.answer.values) : null,
-  method: studio.answer?.report.method, status: document.getElementById("status").textContent,
-  message: document.getElementById("message").hidden ? null : document.getElementById("message").textContent,
-  warnings: [...document.querySelectorAll("#warnings li")].map((li) => li.textContent),
-}));
+/** What is drawn and what is answered, once nothing is being computed. */
+export async function state(page) {
+  await settled(page);
+  return page.evaluate(() => ({
+    strokes: studio.history.drawing.strokes.map((s) => ({ nodes: s.nodes.length, closed: s.closed, signed: s.signed })),
+    points: studio.history.drawing.points.length,
+    values: studio.answer ? Array.from(studio.answer.values) : null,
+    method: studio.answer?.report.method, status: document.getElementById("status").textContent,
+    message: document.getElementById("message").hidden ? null : document.getElementById("message").textContent,
+    warnings: [...document.querySelectorAll("#warnings li")].map((li) => li.textContent),
+  }));
+}
 
 /** What a button gives to save, in a format of the list beside it: its bytes and name. */
 export async function saved(page, id, format) {

@@ -61,14 +61,12 @@ test("a curve of clicks gives the distance of the command line; no request goes 
   await page.click("#mode-curve");
   const places = await ring(page, 5);
   await clickAll(page, places);
-  await settled(page);
   const { strokes, values } = await state(page);
   assert.equal(strokes[0].nodes, places.length);
   const { bytes } = await saved(page, "save-sources");
   assertClose(values, byProgram(spot, bytes), 1e-12);
   assert.match((await saved(page, "save-field", ".csv")).bytes.toString(), /^vertex,distance\n0,/);
   await page.selectOption("#task", "regions");
-  await settled(page);
   assert.equal((await state(page)).method, "surface-winding");
   assert.deepEqual(shown.errors, []);
   const elsewhere = shown.requests.filter((url) => !/^(data|blob):/.test(url) && new URL(url).origin !== served.here.origin);
@@ -99,7 +97,6 @@ test("a file that is dropped is computed by the program too", async () => {
   await page.click("#mode-point");
   const [place] = await ring(page, 12, 0.3);
   await page.mouse.click(place.x, place.y);
-  await settled(page);
   const { values, points } = await state(page);
   assert.equal(points, 1);
   assert.ok(values.length > 3000 && Math.min(...values) >= 0);

@@ -203,7 +203,7 @@ TEST(AutomaticThroughTets, TurnsRoundACurvedHoleAsOftenAsItMust) {
     };
     const TetErrors errors = tet_errors(mesh, phi, exact);
     EXPECT_LT(errors.mean, 0.001);
-    EXPECT_LT(errors.largest, 0.05);
+    EXPECT_LT(errors.largest, 0.012);
   }
 }
 

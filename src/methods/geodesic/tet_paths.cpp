@@ -95,7 +95,7 @@ class Bending {
     while (!open_.empty()) {
       const auto [length, v] = open_.top();
       open_.pop();
-      if (length > ways_[v].front().length) continue;
+      if (ways_[v].front().length < better * length) continue;  // queued again since
       task.checkpoint(std::min(1.0, ++done / double(wanted)));
       const std::vector<Way> known = ways_[v];
       for (const int w : neighbours(v)) {

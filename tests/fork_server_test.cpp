@@ -3,6 +3,7 @@
 #include "base/platform/fork_server.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -141,6 +142,74 @@ TEST(Batch, RunsFunctionsAndGoesOn) {
   EXPECT_EQ(second.unchanged, 1u);
   EXPECT_TRUE(std::filesystem::is_directory(folder / "x/b.dir"));
   EXPECT_FALSE(std::filesystem::exists(folder / ".status.tmp"));
+}
+
+/// Twenty jobs, four at once, under a server that may hold so many more files open than it starts
+/// with: two for each process.
+BatchSummary batch_with_few_files(const std::filesystem::path& folder, rlim_t more) {
+  const int lowest = ::dup(STDERR_FILENO);
+  ::close(lowest);
+  rlimit before{};
+  ::getrlimit(RLIMIT_NOFILE, &before);
+  rlimit few = before;
+  few.rlim_cur = static_cast<rlim_t>(lowest) + 3 + more;
+  ::setrlimit(RLIMIT_NOFILE, &few);
+  Batch batch({[](const BatchJob&, const std::filesystem::path& where) -> BatchOutcome {
+                 std::filesystem::create_directory(where / "made");
+                 return {};
+               },
+               [](const BatchJob& job, const std::filesystem::path&) { return job.input; }});
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  std::vector<BatchJob> jobs;
+  for (char name = 'a'; name < 'u'; ++name)
+    jobs.push_back({{name}, std::string{name, '/', name}, {}});
+  return batch.run(jobs, {.folder = folder, .processes = 4, .start_patience = 0.2});
+}
+
+TEST(Batch, WaitsWhereTheSystemHasNoPlaceForAnotherProcess) {
+  const TemporaryFolder made("batch");
+  const BatchSummary summary = batch_with_few_files(made.path() / "out", 2);
+  EXPECT_EQ(summary.done, 20u);
+  EXPECT_EQ(summary.failed, 0u);
+  try {
+    batch_with_few_files(made.path() / "none", 0);
+    FAIL() << "nothing can be started";
+  } catch (const IoError& e) {
+    EXPECT_NE(std::string(e.what()).find("cannot start a process: Too many open files; run again"),
+              std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(std::filesystem::file_size(made.path() / "none/status.jsonl"), 0u);
+  EXPECT_FALSE(std::filesystem::exists(made.path() / "none/.status.tmp"));
+}
+
+TEST(Batch, KeepsTextsWithZeroBytes) {
+  const TemporaryFolder made("batch");
+  const std::string message("one\0two", 7);
+  Batch batch({[&](const BatchJob&, const std::filesystem::path&) -> BatchOutcome {
+                 return {"solve", message, "[1]"};
+               },
+               [](const BatchJob&, const std::filesystem::path&) { return std::string("h"); }});
+  const BatchSummary summary = batch.run({{"a", "a", {}}}, {.folder = made.path()});
+  ASSERT_EQ(summary.failures.size(), 1u);
+  EXPECT_EQ(summary.failures[0].message, message);
+  Batch other({[](const BatchJob&, const std::filesystem::path&) { return BatchOutcome{}; }});
+  EXPECT_THROW(other.run({{message, "a", {}}}, {.folder = made.path()}), InputError);
+}
+
+TEST(Batch, DoesNotReplaceItsOwnFile) {
+  const TemporaryFolder made("batch");
+  Batch batch({[](const BatchJob&, const std::filesystem::path& where) -> BatchOutcome {
+                 std::filesystem::create_directory(where / "status.jsonl");
+                 return {};
+               },
+               [](const BatchJob& job, const std::filesystem::path&) { return job.input; }});
+  const BatchSummary summary =
+      batch.run({{"a", "status", {}}, {"b", "below/status", {}}}, {.folder = made.path()});
+  EXPECT_EQ(summary.done, 1u) << "below it the name is free";
+  ASSERT_EQ(summary.failures.size(), 1u);
+  EXPECT_EQ(summary.failures[0].example, "a");
+  EXPECT_TRUE(std::filesystem::is_regular_file(made.path() / "status.jsonl"));
 }
 
 TEST(Batch, RefusesNamesOutsideItsFolder) {

@@ -2,7 +2,8 @@
 
 COUNT files from the surfaces of DATA that have at most FACES (4000) faces: each is copied with
 random damage of its mesh (faces removed, turned round, doubled, vertices moved) or, every tenth, of
-its bytes (cut short, overwritten, numbers replaced). The same seed makes the same files.
+its bytes (cut short, overwritten, numbers replaced). Every tenth again is a file of DATA as it is,
+among them the corrupted ones. The same seed makes the same files.
 """
 
 import sys
@@ -13,11 +14,18 @@ import numpy as np
 import littoral
 
 
+def files(data: Path) -> list[Path]:
+    """All that a surface may be in, whole or not."""
+    return [
+        path
+        for path in sorted(data.rglob("*"))
+        if path.suffix in (".obj", ".off", ".ply", ".stl") and path.stat().st_size <= 400_000
+    ]
+
+
 def sources(data: Path, most: int = 4000) -> list[tuple[bytes, str, np.ndarray, np.ndarray]]:
     found = []
-    for path in sorted(data.rglob("*")):
-        if path.suffix not in (".obj", ".off", ".ply", ".stl") or path.stat().st_size > 400_000:
-            continue
+    for path in files(data):
         try:
             mesh = littoral.read(path)
             V, F = np.array(mesh.points), np.array(mesh.faces)
@@ -68,15 +76,19 @@ def main() -> None:
     data, count, out = Path(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
     rng = np.random.default_rng(int(sys.argv[4]) if len(sys.argv) > 4 else 0)
     meshes = sources(data, int(sys.argv[5]) if len(sys.argv) > 5 else 4000)
+    whole = files(data)
     for k in range(count):
         original, suffix, V, F = meshes[int(rng.integers(len(meshes)))]
         folder = out / f"{k // 500:03d}"
         folder.mkdir(parents=True, exist_ok=True)
         if k % 10 == 9:
             (folder / f"{k:06d}{suffix}").write_bytes(damaged_bytes(original, rng))
+        elif k % 10 == 4:
+            path = whole[int(rng.integers(len(whole)))]
+            (folder / f"{k:06d}{path.suffix}").write_bytes(path.read_bytes())
         else:
             (folder / f"{k:06d}.obj").write_text(damaged_mesh(V, F, rng))
-    print(f"{count} inputs from {len(meshes)} meshes")
+    print(f"{count} inputs from {len(meshes)} meshes and {len(whole)} files")
 
 
 if __name__ == "__main__":

@@ -48,6 +48,7 @@ struct BatchOptions {
   int processes = 0;             // at once; 0: one for each core
   double time_limit = 0;         // of a job [seconds]; 0: none
   double memory_limit = 0;       // of a job, what it can write to [bytes]; 0: none
+  double start_patience = 10;    // to wait for a place for a process [seconds]
 };
 
 /// Failures that say the same but for names, numbers and what is quoted.
@@ -79,8 +80,8 @@ class Batch {
   /// Does the jobs of the shard: every shards-th of the list. Each that ends, however it does, adds
   /// a line to the folder's status.jsonl (of shards status.I-of-N.jsonl). Results are moved into
   /// place when they are whole. Throws InputError for bad options and two jobs of one name, IoError
-  /// where the folder cannot be written to or another batch writes to it, Cancelled; what was done
-  /// by then is known to the next run. To be called once.
+  /// where the folder cannot be written to, another batch writes to it or the system starts no
+  /// process, Cancelled; what was done by then is known to the next run. To be called once.
   BatchSummary run(const std::vector<BatchJob>& jobs, const BatchOptions& options,
                    const Context& context = {});
 

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
+import glob
 import hashlib
 import json
 import os
+import re
 import shutil
-import subprocess
 import sys
-from collections.abc import Callable, Iterable, Mapping
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from . import _core
+from ._batch_verb import batch_of_verb
 from ._errors import Error, InputError, IoError, SolveError, UnsupportedError
-from ._settings import Progress, settings
+from ._settings import Progress, settings, told
 
 Work = Callable[..., Any]
 
@@ -76,13 +79,15 @@ def _item(value: Any, name: str | None) -> _Item:
     return _Item(value, label, name or hashlib.sha256(label.encode()).hexdigest()[:16])
 
 
-def _listed(items: Any) -> list[_Item]:
+def _listed(items: Any, out: str) -> list[_Item]:
     """Items with names below the folder of results; those that two would have keep extensions."""
     if isinstance(items, Mapping):
         return [_item(value, name) for name, value in items.items()]
     if isinstance(items, (str, os.PathLike)):
-        items = _files(os.fspath(items))
-    found = [_item(value, None) for value in items]
+        files = _files(os.fspath(items), out)
+        found = [_item(path, _without_extension(below)) for path, below in files]
+    else:
+        found = [_item(value, None) for value in items]
     counts: dict[str, int] = {}
     for item in found:
         counts[item.name] = counts.get(item.name, 0) + 1
@@ -94,41 +99,76 @@ def _listed(items: Any) -> list[_Item]:
     ]
 
 
-def _files(where: str) -> list[str]:
-    """The files of a folder or pattern, local or by a URL, sorted."""
+def _files(where: str, out: str) -> list[tuple[str, str]]:
+    """The files of a folder or pattern, local or by a URL, sorted; each with its path below that.
+
+    Hidden ones, and those of the folder of results, are left out.
+    """
     if _is_url(where):
         import fsspec
 
         fs, path = fsspec.core.url_to_fs(where)
-        found = [p for p in fs.find(path)] if fs.isdir(path) else fs.glob(path)
-        return sorted(fs.unstrip_protocol(p) for p in found)
-    if os.path.isdir(where):
-        paths = Path(where).rglob("*")
+        found = fs.find(path) if fs.isdir(path) else fs.glob(path)
+        root, paths = fs.unstrip_protocol(path), sorted(fs.unstrip_protocol(p) for p in found)
+    elif os.path.isdir(where):
+        root, paths = where, sorted(_below(where, out, ()))
     else:
-        folder, _, pattern = where.rpartition("/")
-        paths = Path(folder or ".").glob(pattern)
-    return sorted(str(p) for p in paths if p.is_file())
+        found = [where] if os.path.isfile(where) else glob.glob(where, recursive=True)
+        root, paths = where, sorted(p for p in found if os.path.isfile(p))
+    if not paths:
+        raise InputError(f"there are no files in {where}")
+    if root in paths:
+        return [(path, os.path.basename(path)) for path in paths]
+    if any(c in root for c in "*?["):
+        root = re.split(r"[*?\[]", root)[0].rpartition("/")[0]
+    return [(path, path[len(root) :] if path.startswith(root) else path) for path in paths]
 
 
-def _verb(verb: str) -> Work:
-    """A verb of the program as work."""
-    name = os.environ.get("LITTORAL", "littoral")
-    program = shutil.which(name)
-    if program is None:
-        raise UnsupportedError(f"work: the verb {verb!r} needs the program {name} on the path")
+def _below(folder: str, out: str, above: tuple[str, ...]) -> Iterator[str]:
+    """The files below a folder; a link to a folder that it lies in is not followed."""
+    real = os.path.realpath(folder)
+    if real in above or real == os.path.realpath(out):
+        return
+    for entry in os.scandir(folder):
+        if entry.name.startswith("."):
+            continue
+        if entry.is_dir():
+            yield from _below(entry.path, out, (*above, real))
+        elif entry.is_file():
+            yield entry.path
+
+
+def _one_by_program(verb: str, to: list[str]) -> Work:
+    """A verb as work, for files that are fetched first: the program's batch of one."""
 
     def run(path: str, output: str, **options: Any) -> Any:
-        words = [f"--{key.replace('_', '-')}={value}" for key, value in options.items()]
-        command = [program, verb, *words, "--json", "--threads=1", "-o", output, "--", path]
-        ended = subprocess.run(command, capture_output=True, text=True)
-        report = json.loads(ended.stdout) if ended.stdout else None
-        if ended.returncode != 0:
-            kind = (report or {}).get("error", {})
-            raise _Failure(kind.get("kind", "crash"), kind.get("message", ended.stderr[-200:]))
-        return report
+        folder, name = os.path.split(output)
+        with tempfile.TemporaryDirectory() as made:
+            batch_of_verb([(path, name)], verb, made, to, options, [])
+            [line] = map(json.loads, Path(made, "status.jsonl").read_text().splitlines())
+            if line["status"] != "done":
+                raise _Failure(line["status"], line["message"])
+            for result in line["outputs"]:
+                shutil.move(os.path.join(made, result), os.path.join(folder, result))
+        return line["report"]
 
     run.__module__, run.__qualname__ = "littoral", verb
     return run
+
+
+def _is_remote(items: Any) -> bool:
+    if isinstance(items, (str, os.PathLike)):
+        return _is_url(os.fspath(items))
+    values = items.values() if isinstance(items, Mapping) else items
+    return any(isinstance(value, str) and _is_url(value) for value in values)
+
+
+def _jobs(items: Any) -> str | list[tuple[str, str | None]]:
+    """Items as the program's batch takes them."""
+    if isinstance(items, (str, os.PathLike)):
+        return os.fspath(items)
+    named = items.items() if isinstance(items, Mapping) else ((None, value) for value in items)
+    return [(os.fspath(value), name) for name, value in named]
 
 
 class _Failure(Exception):
@@ -242,7 +282,7 @@ def batch(
     work: Work | str,
     out: str | os.PathLike[str],
     *,
-    to: str = "",
+    to: str | Iterable[str] = "",
     options: Mapping[str, Any] | None = None,
     processes: int = 0,
     time_limit: float = 0.0,
@@ -258,12 +298,14 @@ def batch(
 
     items: a folder, a pattern, paths, values that JSON can hold, or a dict from names to any of
     these. work: `work(item, output, **options)`, where `output` is the path to write to, the item's
-    name and `to` in a folder of its own; what it returns is the report. Or a verb of the program.
-    An exception, a crash, more seconds than time_limit, more bytes than memory_limit are a line in
-    `out`/status.jsonl. Results are moved into `out` when they are whole; with the same options and
-    content an item is done once, by all runs together. shard: (3, 8) is the third of eight parts.
-    Paths and out may be URLs of fsspec; the status is then in the local folder `state`. Raises
-    InputError for two items of one name, IoError where `out` cannot be written to.
+    name and `to` in a folder of its own; what it returns is the report. Or a verb of the program,
+    which then does the same as `littoral batch`: items may be a list .txt, .csv or .jsonl, and `to`
+    several extensions or none, for the verb's usual one. An exception, a crash, more seconds than
+    time_limit, more bytes than memory_limit are a line in `out`/status.jsonl. Results are moved
+    into `out` when they are whole; with the same options and content an item is done once, by all
+    runs together. shard: (3, 8) is the third of eight parts. Paths and out may be URLs of fsspec;
+    where out is one, the status is in the local folder `state`. Raises InputError for no items and
+    for two of one name, IoError where `out` cannot be written to.
 
     >>> import json, tempfile, littoral
     >>> def area(path, output):
@@ -275,16 +317,38 @@ def batch(
     >>> done.done, done.failed
     (1, 0)
     """
-    listed = _listed(items)
     given = dict(options or {})
-    call = _verb(work) if isinstance(work, str) else work
     place = os.fspath(out)
     remote = place if _is_url(place) else ""
-    if remote and state is None:
-        raise InputError(f"state: a local folder for status.jsonl goes with {place}")
-    job = _Job(listed, call, to, given, remote)
-    identity = f"{getattr(call, '__module__', '')}.{getattr(call, '__qualname__', repr(call))}"
-    words = [identity, f"--to={to}", *(f"--{k}={json.dumps(v)}" for k, v in given.items())]
+    if bool(remote) != (state is not None):
+        raise InputError(f"state: a local folder for status.jsonl goes with an out that is a URL, "
+                         f"not with {place}" if state is not None else
+                         f"state: a local folder for status.jsonl goes with {place}")  # fmt: skip
+    if not isinstance(items, (str, os.PathLike, Mapping)):
+        items = list(items)
+    if isinstance(work, str):
+        extensions = [to] if isinstance(to, str) and to else list(to)
+        if not remote and not _is_remote(items):
+            words = [
+                f"--shard={shard[0]}/{shard[1]}", "--resume" if resume else "--no-resume",
+                f"--retry={retries}", f"--jobs={processes}", f"--time-limit={time_limit}",
+                f"--memory-limit={int(memory_limit)}", *(["--fail-fast"] if fail_fast else []),
+            ]  # fmt: skip
+            made = batch_of_verb(
+                _jobs(items), work, place, extensions, given, words, told(progress)
+            )
+            made["failures"] = tuple(BatchFailures(**each) for each in made["failures"])
+            return BatchSummary(**made)
+        work, to = _one_by_program(work, extensions), ""
+        marks = [f"--to={each}" for each in extensions]
+    else:
+        if not isinstance(to, str):
+            raise TypeError("to: a function writes one path; expected one extension")
+        marks = [f"--to={to}"]
+    listed = _listed(items, place)
+    job = _Job(listed, work, to, given, remote)
+    identity = f"{getattr(work, '__module__', '')}.{getattr(work, '__qualname__', repr(work))}"
+    words = [identity, *marks, *(f"--{k}={json.dumps(v)}" for k, v in given.items())]
     if remote:
         words.append(f"--out={remote}")
     how = {

@@ -20,17 +20,26 @@ _progress: contextvars.ContextVar[Progress | None] = contextvars.ContextVar(
 _defaults = {"threads": 0, "memory_limit": 0.0}
 
 
+def told(callback: Progress | None = None) -> Progress | None:
+    """Whom a call tells of its progress."""
+    return callback or _progress.get()
+
+
 def settings(threads: int | None = None, callback: Progress | None = None) -> _core.Settings | None:
     """What a call is run with; None where everything is as by default."""
-    told = callback or _progress.get()
-    if threads is None and told is None and not (_defaults["threads"] or _defaults["memory_limit"]):
+    listener = told(callback)
+    if (
+        threads is None
+        and listener is None
+        and not (_defaults["threads"] or _defaults["memory_limit"])
+    ):
         return None
     used = _defaults["threads"] if threads is None else threads
     if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or used < 0:
         raise ValueError(
             f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
         )
-    return _core.Settings(int(used), told, float(_defaults["memory_limit"]))
+    return _core.Settings(int(used), listener, float(_defaults["memory_limit"]))
 
 
 def set_threads(threads: int) -> None:

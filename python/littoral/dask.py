@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from typing import Any
 
 from distributed import Client
@@ -20,7 +22,7 @@ def batch(
     """
     count = shards or 4 * max(1, sum(client.nthreads().values()))
     how.setdefault("processes", 1)
-    listed = items if isinstance(items, (str, dict)) else list(items)
+    listed = items if isinstance(items, (str, os.PathLike, Mapping)) else list(items)
     futures = [
         client.submit(_batch, listed, work, out, shard=(k, count), pure=False, retries=10, **how)
         for k in range(1, count + 1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Mapping
 from typing import Any
 
 import ray
@@ -19,7 +21,7 @@ def batch(items: Any, work: Any, out: Any, *, shards: int = 0, **how: Any) -> li
     count = shards or 4 * max(1, int(ray.cluster_resources().get("CPU", 1)))
     how.setdefault("processes", 1)
     task = ray.remote(num_cpus=1, max_retries=-1)(_batch)
-    listed = ray.put(items if isinstance(items, (str, dict)) else list(items))
+    listed = ray.put(items if isinstance(items, (str, os.PathLike, Mapping)) else list(items))
     return list(
         ray.get(
             [task.remote(listed, work, out, shard=(k, count), **how) for k in range(1, count + 1)]

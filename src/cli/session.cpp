@@ -16,10 +16,11 @@ namespace littoral::cli {
 
 namespace {
 
-/// "12 s left" once enough is done to tell; nothing before.
-std::string remaining_text(double fraction, double seconds) {
+/// "12 s left" once enough is done to tell; nothing before, nor where the stage says it.
+std::string remaining_text(double fraction, double seconds, const std::string& stage) {
   constexpr double known_from = 0.05, soon = 2;
-  if (fraction < known_from || seconds < soon) return "";
+  if (fraction < known_from || fraction >= 1 || seconds < soon || stage.ends_with(" left"))
+    return "";
   const double left = std::ceil(seconds * (1 - fraction) / fraction);
   if (left < 100) return ", about " + number_text(left) + " s left";
   return ", about " + number_text(std::ceil(left / 60)) + " min left";
@@ -56,7 +57,7 @@ Task::Callback Session::progress_callback() {
     if (!wanted) return;
     drawn_ = true;
     const double seconds = std::chrono::duration<double>(now - begin_).count();
-    draw_progress(fraction, stage + remaining_text(fraction, seconds));
+    draw_progress(fraction, stage + remaining_text(fraction, seconds, stage));
   };
 }
 

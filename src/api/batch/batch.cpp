@@ -31,21 +31,26 @@ namespace {
 
 constexpr double patience = 0.05;  // [seconds] between looks at what was asked to stop
 constexpr double redraw = 0.1;     // [seconds] between reports of progress
+constexpr double hold_seconds = 0.1;  // before another try to start a process
 
-// What goes to a child and what comes back: texts with zero bytes between them.
+// What goes to a child and what comes back: texts, each behind its size.
 
 std::string joined(const std::vector<std::string>& texts) {
   std::string out;
-  for (const std::string& text : texts) out.append(text).append(1, '\0');
+  for (const std::string& text : texts) out.append(std::to_string(text.size()) + ":").append(text);
   return out;
 }
 
+/// The texts that are whole; a child may have ended while it wrote.
 std::vector<std::string> separated(const std::string& bytes) {
   std::vector<std::string> out;
   for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\0', at), bytes.size());
-    out.push_back(bytes.substr(at, end - at));
-    at = end + 1;
+    const std::size_t begin = bytes.find(':', at) + 1;
+    if (begin == 0) break;
+    const std::size_t size = std::stoul(bytes.substr(at, begin - at));
+    if (size > bytes.size() - begin) break;
+    out.push_back(bytes.substr(begin, size));
+    at = begin + size;
   }
   return out;
 }
@@ -114,7 +119,6 @@ std::string signal_text(const ForkEnd& end) {
 
 /// Of a child that did not come to its end.
 BatchOutcome outcome_without_word(const ForkEnd& end, const BatchOptions& options) {
-  if (!end.not_started.empty()) return failure("system", end.not_started);
   if (end.timed_out)
     return failure("time",
                    "stopped after the time limit of " + number_text(options.time_limit) + " s");
@@ -139,6 +143,9 @@ void check(const std::vector<BatchJob>& jobs, const BatchOptions& options) {
                      "option-value");
   std::unordered_map<std::string, const BatchJob*> names;
   for (const BatchJob& job : jobs) {
+    if ((job.input + job.name).find('\0') != std::string::npos)
+      throw InputError("the name of the input '" + job.input.substr(0, job.input.find('\0')) +
+                       "...' has a zero byte in it");
     const fs::path name = job.name;
     if (name.empty() || name.filename().empty() || name.is_absolute() ||
         std::find(name.begin(), name.end(), "..") != name.end())
@@ -179,11 +186,9 @@ class RunningBatch {
   BatchSummary run() {
     while (!over_) {
       task_.checkpoint();
-      while (!over_ && running_.size() < processes_ && next_ < jobs_.size()) {
-        start({next_, 1});
-        next_ += static_cast<std::size_t>(options_.shards);
-      }
-      if (running_.empty()) break;
+      while (!over_ && running_.size() < processes_ && seconds() >= start_again_at_)
+        if (!start_next()) break;
+      if (running_.empty() && held_.empty()) break;
       if (const auto end = server_->wait(patience)) finish(*end);
       show_progress();
     }
@@ -204,18 +209,39 @@ class RunningBatch {
     return status_.temporary() / (std::to_string(process_id()) + "-" + std::to_string(job));
   }
 
+  /// What was held back goes first. Is there any?
+  bool start_next() {
+    if (!held_.empty()) {
+      const Attempt attempt = held_.back();
+      held_.pop_back();
+      start(attempt);
+      return true;
+    }
+    if (next_ >= jobs_.size()) return false;
+    start({next_, 1});
+    next_ += static_cast<std::size_t>(options_.shards);
+    return true;
+  }
+
+  /// The system has no place for another process now. That is no fault of the input: it waits until
+  /// one that runs has ended, or a moment. Throws when nothing could be started for too long.
+  void hold(const Attempt& attempt, const std::string& why) {
+    held_.push_back(attempt);
+    const double now = seconds();
+    if (full_since_ < 0) full_since_ = now;
+    if (running_.empty() && now - full_since_ > options_.start_patience)
+      throw IoError(why + "; run again to go on", "system");
+    start_again_at_ = now + hold_seconds;
+  }
+
   void start(const Attempt& attempt) {
     const BatchJob& job = jobs_[attempt.job];
     std::error_code error;
     const fs::path folder = folder_of(attempt.job);
     fs::create_directory(folder, error);
+    if (error)
+      return hold(attempt, "cannot make the folder " + folder.string() + ": " + error.message());
     running_[attempt.job] = attempt;
-    if (error) {
-      ForkEnd end;
-      end.id = attempt.job;
-      end.not_started = "cannot make the folder " + folder.string() + ": " + error.message();
-      return finish(end);
-    }
     std::vector<std::string> texts{folder.string(), history_.hash_when_done(job), job.input,
                                    job.name};
     texts.insert(texts.end(), job.options.begin(), job.options.end());
@@ -225,6 +251,14 @@ class RunningBatch {
   void finish(const ForkEnd& end) {
     const Attempt attempt = running_.at(end.id);
     running_.erase(end.id);
+    const fs::path folder = folder_of(attempt.job);
+    std::error_code ignored;
+    if (!end.not_started.empty()) {
+      fs::remove_all(folder, ignored);
+      return hold(attempt, end.not_started);
+    }
+    full_since_ = -1;
+    start_again_at_ = 0;
     const BatchJob& job = jobs_[attempt.job];
     Told told = told_by(end);
     BatchLine line{job,
@@ -233,15 +267,11 @@ class RunningBatch {
                    end.seconds,
                    end.peak_memory,
                    attempt.number};
-    const fs::path folder = folder_of(attempt.job);
     if (line.outcome.status == "done") move_results(folder, line);
-    std::error_code ignored;
     fs::remove_all(folder, ignored);
-    if (end.not_started.empty()) {
-      ++started_;
-      summary_.start_seconds += end.start_seconds;
-      summary_.peak_memory = std::max(summary_.peak_memory, end.peak_memory);
-    }
+    ++started_;
+    summary_.start_seconds += end.start_seconds;
+    summary_.peak_memory = std::max(summary_.peak_memory, end.peak_memory);
     if (is_worth_retrying(line.outcome) && attempt.number <= options_.retries)
       return start({attempt.job, attempt.number + 1});
     if (line.outcome.status == "unchanged") {
@@ -273,6 +303,11 @@ class RunningBatch {
       fs::create_directories(options_.folder / below);
       for (const auto& entry : fs::directory_iterator(folder)) {
         const fs::path target = below / entry.path().filename(), whole = options_.folder / target;
+        if (is_status_file(target)) {
+          line.outcome = failure("io", "a result cannot be named " + target.string() +
+                                           ", as the list of what became of all is");
+          return;
+        }
         if (fs::is_directory(whole)) fs::remove_all(whole);
         fs::rename(entry.path(), whole);
         line.outputs.push_back(target.string());
@@ -313,6 +348,8 @@ class RunningBatch {
   BatchStatusFile status_;
   BatchHistory history_;
   std::map<std::uint64_t, Attempt> running_;
+  std::vector<Attempt> held_;
+  double full_since_ = -1, start_again_at_ = 0;  // [seconds] of this run; -1: there is place
   std::size_t next_ = 0, processes_ = 1, started_ = 0, shown_ = 0;
   bool over_ = false;
   double shown_at_ = 0;

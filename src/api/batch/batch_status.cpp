@@ -20,6 +20,11 @@ std::string one_line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// A text as it comes back from a line.
+std::string as_written(const std::string& text) {
+  return Json::parse(one_line_of(Json(text))).get<std::string>();
+}
+
 std::string status_name(int shard, int shards) {
   if (shards == 1) return "status";
   return "status." + std::to_string(shard) + "-of-" + std::to_string(shards);
@@ -36,12 +41,12 @@ const fs::path& made_folder(const fs::path& folder) {
   return folder;
 }
 
-bool is_status_file(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.rfind("status", 0) == 0 && path.extension() == ".jsonl";
-}
-
 }  // namespace
+
+bool is_status_file(const fs::path& path) {
+  const std::string name = path.string();
+  return name.rfind("status", 0) == 0 && path.extension() == ".jsonl" && !path.has_parent_path();
+}
 
 BatchStatusFile::BatchStatusFile(const fs::path& folder, int shard, int shards)
     : path_(made_folder(folder) / (status_name(shard, shards) + ".jsonl")),
@@ -109,7 +114,7 @@ BatchHistory::BatchHistory(const fs::path& folder) : folder_(folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (is_status_file(entry->path())) files.push_back(entry->path());
+    if (is_status_file(entry->path().filename())) files.push_back(entry->path());
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     std::ifstream in(file, std::ios::binary);
@@ -118,7 +123,7 @@ BatchHistory::BatchHistory(const fs::path& folder) : folder_(folder) {
       if (!line.is_object()) continue;
       try {
         if (line.at("status") != "done") continue;
-        done_[line.at("name")] = {line.at("hash"), one_line_of(line.at("options")),
+        done_[line.at("name").get<std::string>()] = {line.at("hash"), one_line_of(line.at("options")),
                                   line.at("outputs")};
       } catch (const Json::exception&) {
         continue;  // a line of somebody else
@@ -128,11 +133,14 @@ BatchHistory::BatchHistory(const fs::path& folder) : folder_(folder) {
 }
 
 std::string BatchHistory::hash_when_done(const BatchJob& job) const {
-  const auto found = done_.find(job.name);
+  const std::string name = as_written(job.name);
+  const auto found = done_.find(name);
   if (found == done_.end() || found->second.options != one_line_of(Json(job.options))) return "";
   const auto is_there = [&](const std::string& output) {
     std::error_code error;
-    return fs::exists(folder_ / output, error);
+    // Names that are no UTF-8 are written with signs in place of some bytes.
+    const bool begins = name != job.name && output.rfind(name, 0) == 0;
+    return fs::exists(folder_ / (begins ? job.name + output.substr(name.size()) : output), error);
   };
   if (!std::all_of(found->second.outputs.begin(), found->second.outputs.end(), is_there)) return "";
   return found->second.hash;

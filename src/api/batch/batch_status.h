@@ -13,6 +13,9 @@
 
 namespace littoral {
 
+/// Is this, below the folder, a name of such a file?
+bool is_status_file(const std::filesystem::path& path);
+
 /// A line of the file.
 struct BatchLine {
   const BatchJob& job;

@@ -30,30 +30,52 @@ bool may_be_input(const fs::path& path) {
   return io::is_read_as(path, {Kind::surface, Kind::cloud, Kind::volume, Kind::voxels, Kind::tets});
 }
 
-std::vector<ListedJob> of_folder(const fs::path& folder, const fs::path& without) {
-  std::vector<ListedJob> jobs;
-  std::error_code error;
-  using Walk = fs::recursive_directory_iterator;
-  for (Walk entry(folder, fs::directory_options::follow_directory_symlink, error), end;
-       !error && entry != end; entry.increment(error)) {
-    const fs::path& path = entry->path();
-    std::error_code ignored;
-    const bool hidden = path.filename().string().front() == '.';
-    const bool is_folder = entry->is_directory(ignored);
-    if (is_folder && (hidden || fs::equivalent(path, without, ignored)))
-      entry.disable_recursion_pending();
-    else if (!is_folder && !hidden && may_be_input(path))
-      jobs.push_back({path.string(), name_of(path.lexically_relative(folder)), {}, ""});
+/// The inputs below a folder.
+class FolderWalk {
+ public:
+  FolderWalk(fs::path folder, fs::path without)
+      : folder_(std::move(folder)), without_(std::move(without)) {
+    add(folder_);
+    std::sort(jobs.begin(), jobs.end(),
+              [](const ListedJob& a, const ListedJob& b) { return a.input < b.input; });
   }
-  if (error)
-    throw InputError("cannot read the folder " + folder.string() + ": " + error.message(),
-                     "cannot-read");
+
+  std::vector<ListedJob> jobs;
+
+ private:
+  void add(const fs::path& folder) {
+    std::error_code error, ignored;
+    const fs::path real = fs::canonical(folder, error);
+    // A link to a folder that this one lies in would lead round and round.
+    if (std::find(open_.begin(), open_.end(), real) != open_.end()) return;
+    open_.push_back(real);
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const fs::path& path = entry->path();
+      if (path.filename().string().front() == '.') continue;
+      if (!entry->is_directory(ignored)) {
+        if (may_be_input(path))
+          jobs.push_back({path.string(), name_of(path.lexically_relative(folder_)), {}, ""});
+      } else if (!fs::equivalent(path, without_, ignored)) {
+        add(path);
+      }
+    }
+    if (error)
+      throw InputError("cannot read the folder " + folder.string() + ": " + error.message(),
+                       "cannot-read");
+    open_.pop_back();
+  }
+
+  fs::path folder_, without_;
+  std::vector<fs::path> open_;  // the folders that the one being read lies in
+};
+
+std::vector<ListedJob> of_folder(const fs::path& folder, const fs::path& without) {
+  std::vector<ListedJob> jobs = FolderWalk(folder, without).jobs;
   if (jobs.empty())
     throw InputError("there are no inputs in the folder " + folder.string() +
                          ": files of the formats that 'littoral formats' lists",
                      "bad-file");
-  std::sort(jobs.begin(), jobs.end(),
-            [](const ListedJob& a, const ListedJob& b) { return a.input < b.input; });
   return jobs;
 }
 
@@ -201,6 +223,7 @@ std::vector<ListedJob> of_list(const std::string& list, Read read) {
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string where = list + ":" + std::to_string(++number) + ": ";
+    if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);
     try {
       std::optional<ListedJob> job = read(line);
       if (!job) continue;

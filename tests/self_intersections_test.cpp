@@ -146,6 +146,10 @@ TEST(SelfIntersections, AgreeWithAllPairs) {
     }
     EXPECT_EQ(any, all[f] != 0) << f;
   }
+  std::vector<char> asked(150, 0);  // also of some faces alone
+  for (int f = 0; f < 150; f += 7) asked[f] = 1;
+  const auto some = self_intersecting_faces(soup.points, faces, {}, asked);
+  for (int f = 0; f < 150; ++f) EXPECT_EQ(some[f], asked[f] && all[f]) << f;
 }
 
 }  // namespace

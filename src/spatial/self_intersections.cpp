@@ -1,11 +1,13 @@
 #include "spatial/self_intersections.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.h"
-#include "spatial/boundary_edges.h"
 #include "spatial/cluster_tree.h"
 #include "spatial/exact_signs.h"
 
@@ -13,18 +15,14 @@ namespace littoral {
 
 namespace {
 
-struct Corner {
-  int id;  // equal for equal positions
-  Vec3 at;
-};
-using Triangle = std::array<Corner, 3>;
+using Triangle = std::array<Vec3, 3>;
 
 Vec2 without(int axis, const Vec3& x) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
 
 /// An axis along which the triangle is seen with an area; -1 if it has none.
 int seen_along(const Triangle& t) {
   for (int axis = 0; axis < 3; ++axis)
-    if (orientation_sign(without(axis, t[0].at), without(axis, t[1].at), without(axis, t[2].at)))
+    if (orientation_sign(without(axis, t[0]), without(axis, t[1]), without(axis, t[2])))
       return axis;
   return -1;
 }
@@ -47,7 +45,7 @@ bool meets_within_plane(const Vec3& u, const Vec3& v, const Triangle& t) {
   const int axis = seen_along(t);
   const Vec2 a = without(axis, u), b = without(axis, v);
   std::array<Vec2, 3> c;
-  for (int k = 0; k < 3; ++k) c[k] = without(axis, t[k].at);
+  for (int k = 0; k < 3; ++k) c[k] = without(axis, t[k]);
   const int turn = orientation_sign(c[0], c[1], c[2]);
   bool inside = true;  // the first end; otherwise the segment crosses a side
   for (int k = 0; k < 3; ++k) {
@@ -59,7 +57,7 @@ bool meets_within_plane(const Vec3& u, const Vec3& v, const Triangle& t) {
 
 /// A segment and a triangle of some area, both with their ends.
 bool meets(const Vec3& u, const Vec3& v, const Triangle& t) {
-  const Vec3 &a = t[0].at, &b = t[1].at, &c = t[2].at;
+  const Vec3 &a = t[0], &b = t[1], &c = t[2];
   const int at_u = orientation_sign(a, b, c, u), at_v = orientation_sign(a, b, c, v);
   if (at_u * at_v > 0) return false;
   if (at_u == 0 && at_v == 0) return meets_within_plane(u, v, t);
@@ -70,30 +68,50 @@ bool meets(const Vec3& u, const Vec3& v, const Triangle& t) {
 
 /// The triangle with the corners that the other one has too in front, and how many these are.
 int shared_first(Triangle& t, const Triangle& other) {
-  const auto is_shared = [&](const Corner& c) {
-    return std::any_of(other.begin(), other.end(), [&](const Corner& o) { return o.id == c.id; });
-  };
-  return static_cast<int>(std::stable_partition(t.begin(), t.end(), is_shared) - t.begin());
+  int shared = 0;
+  for (int k = 0; k < 3; ++k)
+    if (t[k] == other[0] || t[k] == other[1] || t[k] == other[2])
+      std::rotate(t.begin() + shared++, t.begin() + k, t.begin() + k + 1);
+  return shared;
+}
+
+/// Seen along an axis, does a line through two corners of s part the triangles, but for corners on
+/// the line that both have? So it is where a surface is nearly flat, where signs in space are zero
+/// or cost most.
+bool parted_by(const Triangle& s, const Triangle& t, int axis) {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &from = s[k], &to = s[(k + 1) % 3];
+    const Vec2 a = without(axis, from), b = without(axis, to);
+    const int own = orientation_sign(a, b, without(axis, s[(k + 2) % 3]));
+    if (own != 0 && std::all_of(t.begin(), t.end(), [&](const Vec3& x) {
+          return x == from || x == to || orientation_sign(a, b, without(axis, x)) == -own;
+        }))
+      return true;
+  }
+  return false;
 }
 
 /// Two triangles of some area: do they meet beyond what they share?
 bool meet(Triangle s, Triangle t) {
+  int broadest = 0;
+  (s[1] - s[0]).cross(s[2] - s[0]).cwiseAbs().maxCoeff(&broadest);
+  if (parted_by(s, t, broadest) || parted_by(t, s, broadest)) return false;
   const Triangle as_given = s;
   const int shared = shared_first(s, t);
   shared_first(t, as_given);
   if (shared == 3) return true;
   if (shared == 2) {  // hinged: folded flat onto each other, or not at all
-    if (orientation_sign(s[0].at, s[1].at, s[2].at, t[2].at) != 0) return false;
+    if (orientation_sign(s[0], s[1], s[2], t[2]) != 0) return false;
     const int axis = seen_along(s);
-    const Vec2 a = without(axis, s[0].at), b = without(axis, s[1].at);
-    return orientation_sign(a, b, without(axis, s[2].at)) ==
-           orientation_sign(a, b, without(axis, t[2].at));
+    const Vec2 a = without(axis, s[0]), b = without(axis, s[1]);
+    return orientation_sign(a, b, without(axis, s[2])) ==
+           orientation_sign(a, b, without(axis, t[2]));
   }
   // What both have of a common line starts at the shared corner, if there is one, and ends where a
   // side opposite to it meets the other triangle.
   for (int k = shared; k < (shared == 1 ? 2 : 3); ++k) {
     const int next = (k + 1) % 3;
-    if (meets(s[k].at, s[next].at, t) || meets(t[k].at, t[next].at, s)) return true;
+    if (meets(s[k], s[next], t) || meets(t[k], t[next], s)) return true;
   }
   return false;
 }
@@ -109,50 +127,34 @@ struct Bounds {
   }
 };
 
-}  // namespace
-
-std::vector<char> self_intersecting_faces(const MatX3& points, const MatX3i& faces,
-                                          const Task& task, const std::vector<char>& asked) {
-  std::vector<char> out(static_cast<std::size_t>(faces.rows()), 0);
-  const std::vector<int> same = same_positions(points);
-  std::vector<int> number;  // of a triangle that counts -> its face
-  std::vector<Triangle> triangles;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    Triangle t;
-    bool finite = true;
-    for (int k = 0; k < 3; ++k) {
-      const int v = faces(f, k);
-      t[k] = {same[v], points.row(v)};
-      finite = finite && t[k].at.allFinite();
+/// Boxes in a tree.
+class BoxTree {
+ public:
+  explicit BoxTree(std::vector<Bounds> boxes) : boxes_(std::move(boxes)) {
+    MatX3 centres(static_cast<Eigen::Index>(boxes_.size()), 3);
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+      centres.row(static_cast<Eigen::Index>(i)) = boxes_[i].low / 2 + boxes_[i].high / 2;
+    tree_ = cluster(centres, 4);
+    around_.resize(tree_.clusters.size());
+    for (std::size_t c = around_.size(); c-- > 0;) {  // children stand after their parents
+      const Cluster& each = tree_.clusters[c];
+      if (each.child < 0)
+        for (int i = each.begin; i < each.end; ++i) around_[c].include(boxes_[tree_.order[i]]);
+      else
+        for (int k : {0, 1}) around_[c].include(around_[each.child + k]);
     }
-    if (!finite || seen_along(t) < 0) continue;
-    triangles.push_back(t);
-    number.push_back(static_cast<int>(f));
   }
-  if (triangles.empty()) return out;
+  const Bounds& box(int i) const { return boxes_[i]; }
+  /// Neighbours in space stand near each other.
+  const std::vector<int>& order() const { return tree_.order; }
 
-  const std::size_t n = triangles.size();
-  std::vector<Bounds> boxes(n);
-  MatX3 centres(static_cast<Eigen::Index>(n), 3);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const Corner& c : triangles[i]) boxes[i].include({c.at, c.at});
-    centres.row(static_cast<Eigen::Index>(i)) = boxes[i].low / 2 + boxes[i].high / 2;
-  }
-  const ClusterTree tree = cluster(centres, 4);
-  std::vector<Bounds> around(tree.clusters.size());
-  for (std::size_t c = tree.clusters.size(); c-- > 0;) {  // children stand after their parents
-    const Cluster& each = tree.clusters[c];
-    if (each.child < 0)
-      for (int i = each.begin; i < each.end; ++i) around[c].include(boxes[tree.order[i]]);
-    else
-      for (int k : {0, 1}) around[c].include(around[each.child + k]);
-  }
-
-  const auto hits = [&](int i) {  // does triangle i meet any other one?
+  /// True if `is_wanted` is for any of the boxes that a box overlaps.
+  template <class Wanted>
+  bool any_overlaps(const Bounds& box, const Wanted& is_wanted) const {
     std::vector<int> open{0};
     while (!open.empty()) {
-      const Cluster& each = tree.clusters[open.back()];
-      const bool near = around[open.back()].overlaps(boxes[i]);
+      const Cluster& each = tree_.clusters[open.back()];
+      const bool near = around_[open.back()].overlaps(box);
       open.pop_back();
       if (!near) continue;
       if (each.child >= 0) {
@@ -160,18 +162,76 @@ std::vector<char> self_intersecting_faces(const MatX3& points, const MatX3i& fac
         open.push_back(each.child + 1);
         continue;
       }
-      for (int k = each.begin; k < each.end; ++k) {
-        const int j = tree.order[k];
-        if (j != i && boxes[j].overlaps(boxes[i]) && meet(triangles[i], triangles[j])) return true;
-      }
+      for (int k = each.begin; k < each.end; ++k)
+        if (boxes_[tree_.order[k]].overlaps(box) && is_wanted(tree_.order[k])) return true;
     }
     return false;
-  };
+  }
+
+ private:
+  std::vector<Bounds> boxes_;
+  ClusterTree tree_;
+  std::vector<Bounds> around_;
+};
+
+Triangle triangle(const MatX3& points, const MatX3i& faces, Eigen::Index f) {
+  return {points.row(faces(f, 0)), points.row(faces(f, 1)), points.row(faces(f, 2))};
+}
+
+Bounds bounds_of(const Triangle& t) {
+  Bounds out;
+  for (const Vec3& corner : t) out.include({corner, corner});
+  return out;
+}
+
+/// Marks faces whose boxes overlap those of faces that are asked for.
+std::vector<char> near_asked(const MatX3& points, const MatX3i& faces,
+                             const std::vector<char>& asked) {
+  std::vector<Bounds> boxes;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+    if (const Triangle t = triangle(points, faces, f);
+        asked[f] && t[0].allFinite() && t[1].allFinite() && t[2].allFinite())
+      boxes.push_back(bounds_of(t));
+  std::vector<char> out(asked.size(), 0);
+  if (boxes.empty()) return out;
+  const BoxTree tree(std::move(boxes));
+  parallel_for(asked.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      out[f] = tree.any_overlaps(bounds_of(triangle(points, faces, static_cast<Eigen::Index>(f))),
+                                 [](int) { return true; });
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<char> self_intersecting_faces(const MatX3& points, const MatX3i& faces,
+                                          const Task& task, const std::vector<char>& asked) {
+  std::vector<char> out(static_cast<std::size_t>(faces.rows()), 0);
+  const std::vector<char> near =
+      asked.empty() ? std::vector<char>(out.size(), 1) : near_asked(points, faces, asked);
+  std::vector<int> number;  // of a triangle that counts -> its face
+  std::vector<Triangle> triangles;
+  std::vector<Bounds> boxes;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    if (!near[f]) continue;
+    const Triangle t = triangle(points, faces, f);
+    if (!(t[0].allFinite() && t[1].allFinite() && t[2].allFinite()) || seen_along(t) < 0) continue;
+    triangles.push_back(t);
+    boxes.push_back(bounds_of(t));
+    number.push_back(static_cast<int>(f));
+  }
+  if (triangles.empty()) return out;
+
+  const std::size_t n = triangles.size();
+  const BoxTree tree(std::move(boxes));
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint(static_cast<double>(begin) / static_cast<double>(n));
     for (std::size_t k = begin; k < end; ++k) {
-      const int i = tree.order[k];
-      if ((asked.empty() || asked[number[i]]) && hits(i)) out[number[i]] = 1;
+      const int i = tree.order()[k];
+      if (!asked.empty() && !asked[number[i]]) continue;
+      out[number[i]] = tree.any_overlaps(
+          tree.box(i), [&](int j) { return j != i && meet(triangles[i], triangles[j]); });
     }
   });
   return out;

@@ -99,6 +99,11 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
     return row.back();
   };
   std::string nearest;
+  for (const std::string& other : known)  // a beginning says more than letters in common
+    if (name.size() > 2 && other.starts_with(name) &&
+        (nearest.empty() || other.size() < nearest.size()))
+      nearest = other;
+  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
   std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& other : known)
     if (const std::size_t n = edits(other); n < fewest) {

@@ -1,6 +1,7 @@
 #include "cli/arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "base/option_table.h"
@@ -12,8 +13,19 @@ namespace littoral::cli {
 
 namespace {
 
+constexpr std::array lists_of_numbers = {
+    "--vertex", "--curve-vertices", "--at",       "--face",  "--edge",
+    "--level",  "--bounds",         "--distance", "--range", "--dilate",
+    "--erode",  "--colour-range",   "--up",       "--view",  "--scales"};
+
 bool is_list_of_numbers(const std::string& word) {
-  return !word.empty() && word.find_first_not_of("0123456789,") == std::string::npos;
+  return word.find_first_of("0123456789") != std::string::npos &&
+         word.find_first_not_of("0123456789,.+-eE% ") == std::string::npos;
+}
+
+std::string without_blanks(std::string word) {
+  std::erase(word, ' ');
+  return word;
 }
 
 std::map<std::string, std::vector<std::string>> options_without_word() {
@@ -58,11 +70,13 @@ std::vector<std::string> expanded_arguments(std::vector<std::string> words) {
   std::vector<std::string> out;
   for (auto next = words.begin(); next != words.end();) {
     std::string word = *next++;
-    if (word == "--vertex" || word == "--curve-vertices") {
-      std::string list;
-      while (next != words.end() && is_list_of_numbers(*next))
-        list.append(list.empty() ? "" : ",").append(*next++);
-      if (!list.empty()) word += "=" + list;
+    const std::size_t equals = std::min(word.find('='), word.size());
+    if (std::ranges::find(lists_of_numbers, word.substr(0, equals)) != lists_of_numbers.end()) {
+      std::string list = without_blanks(word.substr(std::min(equals + 1, word.size())));
+      while (next != words.end() && (list.empty() || is_list_of_numbers(list)) &&
+             is_list_of_numbers(*next))
+        list.append(list.empty() ? "" : ",").append(without_blanks(*next++));
+      if (!list.empty()) word = word.substr(0, equals) + "=" + list;
     } else if (const auto found = without_word.find(word); found != without_word.end()) {
       const std::vector<std::string>& known = found->second;
       const bool given =
@@ -80,6 +94,8 @@ const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
     if (verb->get_name() == name) return *verb;
     names.push_back(verb->get_name());
   }
+  if (name == "version")
+    throw InputError("there is no verb 'version'; did you mean '--version'?", "unknown-name");
   throw InputError("there is no verb '" + name + "'" + instead_of(name, names, "verbs"),
                    "unknown-name");
 }
@@ -93,6 +109,35 @@ const CLI::Option* option_named(const CLI::App& app, const std::string& word) {
 
 bool is_option(const std::string& word) {
   return word.size() > 1 && word[0] == '-' && word.find_first_of("0123456789.") != 1;
+}
+
+bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
+
+[[noreturn]] void throw_unknown(const CLI::App& program, const CLI::App& verb,
+                                const std::string& name) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& other : option->get_lnames()) known.push_back("--" + other);
+  std::vector<std::string> elsewhere;
+  for (const CLI::App* other : verbs_of(program))
+    if (other->get_option_no_throw(name)) elsewhere.push_back(other->get_name());
+  const bool is_short = name.size() == 2;
+  const std::string own = &verb == &program ? "littoral" : "littoral " + verb.get_name();
+  throw InputError(own + " has no option '" + name + "'" +
+                       (!elsewhere.empty() ? "; it is one of " + listed(elsewhere)
+                        : is_short         ? "; " + own + " --help lists them"
+                                           : meant(name, known)),
+                   "unknown-name");
+}
+
+/// The option that a word names, with "-s=FILE" and "-sFILE" as "-s". Throws InputError where the
+/// verb has none of this name.
+const CLI::Option& known_option(const CLI::App& program, const CLI::App& verb,
+                                const std::string& word) {
+  const bool is_long = word.starts_with("--");
+  const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+  if (const CLI::Option* option = verb.get_option_no_throw(name)) return *option;
+  throw_unknown(program, verb, name);
 }
 
 }  // namespace
@@ -147,25 +192,75 @@ std::vector<std::string> without_words_of_verb(const CLI::App& program,
   return words;
 }
 
-void check_names(const CLI::App& program, const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments.front().front() == '-') return;
-  const CLI::App& verb = verb_named(program, arguments.front());
-  for (const std::string& word : arguments) {
-    if (word == "--") return;
-    if (word.substr(0, 2) != "--") continue;
-    const std::string name = word.substr(0, word.find('='));
-    if (verb.get_option_no_throw(name)) continue;
-    std::vector<std::string> known;
-    for (const CLI::Option* option : verb.get_options())
-      for (const std::string& other : option->get_lnames()) known.push_back("--" + other);
-    std::vector<std::string> elsewhere;
-    for (const CLI::App* other : verbs_of(program))
-      if (other->get_option_no_throw(name)) elsewhere.push_back(other->get_name());
-    throw InputError(
-        "littoral " + verb.get_name() + " has no option '" + name + "'" +
-            (elsewhere.empty() ? meant(name, known) : "; it is one of " + listed(elsewhere)),
-        "unknown-name");
+void check_names(const CLI::App& program, std::vector<std::string>& arguments) {
+  if (arguments.empty())
+    throw InputError("no verb given; littoral help lists them, such as in littoral info FILE",
+                     "usage");
+  if (arguments.front().front() == '-') {
+    known_option(program, program, arguments.front());
+    return;
   }
+  const CLI::App& verb = verb_named(program, arguments.front());
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    std::string& word = arguments[i];
+    if (word == "--") return;
+    if (!is_option(word)) continue;
+    const CLI::Option& option = known_option(program, verb, word);
+    const bool is_long = word.starts_with("--");
+    if (!is_long && word.size() > 3 && word[2] == '=') word.erase(2, 1);  // "-s=FILE"
+    if (!takes_value(option)) continue;
+    const std::size_t equals = is_long ? word.find('=') : std::string::npos;
+    const bool joined = is_long ? equals != std::string::npos : word.size() > 2;
+    const bool has_next = i + 1 < arguments.size();
+    const bool next_is_option =
+        has_next && is_option(arguments[i + 1]) &&
+        verb.get_option_no_throw(arguments[i + 1].substr(0, arguments[i + 1].find('=')));
+    if (joined ? equals + 1 == word.size() : !has_next || next_is_option)
+      throw InputError("option " + word.substr(0, equals) + " has no value: " +
+                           option.get_name(false, true) + " " + option.get_type_name() +
+                           (next_is_option ? ", found '" + arguments[i + 1] + "'" : ""),
+                       "usage");
+    if (!joined) ++i;
+  }
+}
+
+std::string refused_text(const CLI::ParseError& error, const CLI::App& program,
+                         const std::vector<std::string>& arguments, std::string& code) {
+  const CLI::App* verb = nullptr;
+  for (const CLI::App* used : verbs_of(program))
+    if (!arguments.empty() && used->get_name() == arguments.front()) verb = used;
+  code = "usage";
+  if (!verb) return error.what();
+  const std::string name = "littoral " + verb->get_name();
+  std::string inputs;
+  for (const CLI::Option* option : verb->get_options())
+    if (option->get_positional()) inputs += " " + option->get_name(true);
+  const auto see = "; see " + name + " --help";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const std::vector<std::string> extra = verb->remaining(true);
+    return "'" + (extra.empty() ? std::string() : extra.front()) +
+           "' is one argument too many: " + name + " takes" + inputs +
+           ", and files and values behind their options" + see;
+  }
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    for (const CLI::Option* option : verb->get_options()) {
+      if (!option->get_required() || option->count() > 0) continue;
+      if (option->get_positional())
+        return "no " + option->get_name(true) + " given: " + name + inputs + " ..." + see;
+      return "no " + option->get_name(false, true) + " given: " + option->get_description();
+    }
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+    for (const CLI::Option* option : verb->get_options())
+      if (option->count() > 1 && option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
+        return "option " + option->get_name(false, true) + " is given " +
+               std::to_string(option->count()) + " times; give it once";
+  if (dynamic_cast<const CLI::ValidationError*>(&error)) {
+    const std::string text = error.what();
+    code = text.find(" is none of ") != std::string::npos ? "unknown-name" : "option-value";
+    return "option " + text;
+  }
+  return error.what() + see;
 }
 
 }  // namespace littoral::cli

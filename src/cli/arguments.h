@@ -9,8 +9,8 @@
 namespace littoral::cli {
 
 /// Options of which "on" is one of several words may stand without a word, and are joined to the
-/// one that follows or to "on" by "=". Lists of whole numbers, 10 1500 3000 or 10,1500,3000, become
-/// one list with commas.
+/// one that follows or to "on" by "=". Lists of numbers, 10 1500 3000, "10, 1500" or 10,1500,3000,
+/// become one list with commas.
 std::vector<std::string> expanded_arguments(std::vector<std::string> words);
 
 /// Runs another verb for each of many inputs, with options of that verb between its own.
@@ -26,8 +26,12 @@ std::vector<std::string> without_words_of_verb(const CLI::App& program,
                                                std::vector<std::string> words,
                                                std::vector<std::string>& of_verb);
 
-/// Throws InputError for a verb or an option that there is not, naming the nearest.
-void check_names(const CLI::App& program, const std::vector<std::string>& arguments);
+/// Throws InputError for a verb or an option that there is not, naming the nearest, and for options
+/// without their value. "-s=FILE" becomes "-sFILE".
+void check_names(const CLI::App& program, std::vector<std::string>& arguments);
+/// What is wrong with arguments that do not parse, and what to do; its code.
+std::string refused_text(const CLI::ParseError& error, const CLI::App& program,
+                         const std::vector<std::string>& arguments, std::string& code);
 
 /// All verbs in their order.
 std::vector<CLI::App*> verbs_of(CLI::App& program);

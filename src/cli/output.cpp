@@ -33,7 +33,8 @@ void add_output_option(CLI::App& verb, std::vector<std::string>& files, const st
 }
 
 std::string title_of(const std::string& input) {
-  return std::filesystem::path(input).stem().string();
+  return io::is_standard_stream(input) ? "standard input"
+                                       : std::filesystem::path(input).stem().string();
 }
 
 void keep_upright(io::Scene& scene, const std::string& input) {

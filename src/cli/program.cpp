@@ -43,8 +43,8 @@ Status say(Session& session, const CLI::App& program, Status status, const std::
   session.say_line("error: " + text + " [" + code + "]");
   session.failure = {kind, text};
   if (session.json)
-    std::cout << failure_json(session.record, session.report, {kind, code, text, status})
-              << std::endl;
+    session.facts() << failure_json(session.record, session.report, {kind, code, text, status})
+                    << std::endl;
   return status;
 }
 
@@ -87,10 +87,17 @@ void parse(CLI::App& app, std::vector<std::string> words) {
   app.parse(std::move(words));
 }
 
-std::string with_help(const CLI::ParseError& error, const CLI::App& program) {
-  std::string verb;
-  for (const CLI::App* used : program.get_subcommands()) verb = " " + used->get_name();
-  return std::string(error.what()) + " (see littoral" + verb + " --help)";
+bool goes_to_stdout(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    const bool is_next = i > 0 && (arguments[i - 1] == "-o" || arguments[i - 1] == "--output");
+    const std::string value = is_next                         ? word
+                              : word.starts_with("--output=") ? word.substr(9)
+                              : word.starts_with("-o")        ? word.substr(2)
+                                                              : "";
+    if (io::is_standard_stream(value)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -127,9 +134,11 @@ void Program::read(std::vector<std::string> arguments) {
   arguments = expanded_arguments(std::move(arguments));
   check_names(app_, arguments);
   try {
-    parse(app_, std::move(arguments));
+    parse(app_, arguments);
   } catch (const CLI::ParseError& e) {
-    throw InputError(with_help(e, app_), "usage");
+    std::string code;
+    const std::string text = refused_text(e, app_, arguments, code);
+    throw InputError(text, code);
   }
 }
 
@@ -142,7 +151,8 @@ int Program::run(std::vector<std::string> arguments, Signals signals) {
     if (session_.record.verb == batch_verb)
       arguments = without_words_of_verb(app_, std::move(arguments), session_.verb_words);
     check_names(app_, arguments);
-    parse(app_, std::move(arguments));
+    session_.result_to_stdout = goes_to_stdout(arguments);
+    parse(app_, arguments);
   } catch (const CLI::CallForHelp&) {
     std::cout << help_text(app_, session_.record.verb, false);
     return done;
@@ -154,7 +164,9 @@ int Program::run(std::vector<std::string> arguments, Signals signals) {
   } catch (const InputError& e) {
     return say(session_, app_, bad_input, "usage", e.code(), e.what());
   } catch (const CLI::ParseError& e) {
-    return say(session_, app_, bad_input, "usage", "usage", with_help(e, app_));
+    std::string code;
+    const std::string text = refused_text(e, app_, arguments, code);
+    return say(session_, app_, bad_input, "usage", code, text);
   }
   if (signals == Signals::watched) watch_for_interrupts(session_.cancel);
   return run_job(session_, app_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 
 #include "base/option_table.h"
 #include "base/platform/process.h"
@@ -89,6 +90,8 @@ void Session::begin_log() {
   log_line("littoral " LITTORAL_VERSION " " + record.verb + " " + listed(record.inputs));
 }
 
+std::ostream& Session::facts() const { return result_to_stdout ? std::cerr : std::cout; }
+
 void Session::log_line(const std::string& text) {
   if (!log_) return;
   char time[32];
@@ -109,7 +112,7 @@ void Session::print_warnings() {
 void Session::print_report() {
   print_warnings();
   print_details();
-  if (json) std::cout << run_json(record, report) << "\n";
+  if (json) facts() << run_json(record, report) << "\n";
 }
 
 void Session::print_details() const {
@@ -124,6 +127,37 @@ void Session::print_details() const {
     std::fprintf(stderr, "%s: %.3f s\n", stage.c_str(), seconds);
 }
 
+namespace {
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return a == b || std::filesystem::equivalent(a, b, none);
+}
+
+/// A result must not replace what is read, or another result.
+void check_files(const RunRecord& record) {
+  const auto& in = record.inputs;
+  for (std::size_t i = 0; i < in.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (io::is_standard_stream(in[i]) && io::is_standard_stream(in[k]))
+        throw InputError(in[k] + " and " + in[i] + ": standard input can be read as one file only",
+                         "usage");
+  const auto& out = record.outputs;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if (is_same_file(out[k], out[i]) ||
+          (io::is_standard_stream(out[k]) && io::is_standard_stream(out[i])))
+        throw InputError(out[k] + " and " + out[i] + " are one output: name it once", "usage");
+    for (const std::string& input : in)
+      if (!io::is_standard_stream(input) && is_same_file(input, out[i]) &&
+          std::filesystem::is_regular_file(input))
+        throw InputError("the output " + out[i] + " would replace the input: name another file",
+                         "cannot-write");
+  }
+}
+
+}  // namespace
+
 void record_files(const CLI::App& verb, Session& session) {
   session.record.verb = verb.get_name();
   for (const CLI::Option* option : verb.get_options()) {
@@ -132,12 +166,13 @@ void record_files(const CLI::App& verb, Session& session) {
     auto& files = input ? session.record.inputs : session.record.outputs;
     files.insert(files.end(), option->results().begin(), option->results().end());
   }
+  check_files(session.record);
 }
 
 void add_common_options(CLI::App& verb, Session& session) {
   verb.add_option("--threads", session.threads,
                   "threads to use, 0 to 4096; 0: all cores [default 0]")
-      ->check(CLI::Range(0, 4096).description(""))
+      ->check(whole_number(0, 4096))
       ->type_name("N");
   verb.add_option("--progress", session.progress,
                   "a bar on stderr: auto (if it is a terminal), always, never [default auto]")
@@ -145,15 +180,7 @@ void add_common_options(CLI::App& verb, Session& session) {
       ->type_name("WHEN");
   verb.add_option("--time-limit", session.time_limit,
                   "end with an error after this time, 0 to 1e9; 0: never [seconds; default 0]")
-      ->check(CLI::Validator(
-          [](const std::string& text) -> std::string {
-            try {
-              return parse_number("time-limit", text) >= 0 ? "" : "must not be negative";
-            } catch (const InputError& e) {
-              return e.what();
-            }
-          },
-          ""))
+      ->check(number_between(0, 1e9))
       ->type_name("S");
   verb.add_option("--log", session.log_file,
                   "add stages with their times, warnings and errors to the end of this file")
@@ -172,7 +199,7 @@ void add_json_option(CLI::App& verb, Session& session) {
 void add_index_option(CLI::App& verb, Session& session) {
   verb.add_option("--index-base", session.index_base,
                   "what sources and --vertex count from: 0 or 1 [default: as the format has it]")
-      ->check(CLI::IsMember({0, 1}).description(""))
+      ->check(whole_number(0, 1))
       ->type_name("0|1");
 }
 
@@ -196,6 +223,33 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
              },
              "")
       .name(name_with(words));
+}
+
+CLI::Validator whole_number(long long low, long long high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        const char* const last = text.data() + text.size();
+        long long value = 0;
+        const auto [stop, code] = std::from_chars(text.data(), last, value);
+        if (code == std::errc() && stop == last && low <= value && value <= high) return "";
+        return "'" + text + "' is no whole number" +
+               (high == std::numeric_limits<long long>::max()
+                    ? ""
+                    : " from " + std::to_string(low) + " to " + std::to_string(high));
+      },
+      "");
+}
+
+CLI::Validator number_between(double low, double high) {
+  return CLI::Validator(
+      [low, high](const std::string& text) -> std::string {
+        try {
+          if (const double value = parse_number("", text); low <= value && value <= high) return "";
+        } catch (const InputError&) {
+        }
+        return "'" + text + "' is no number from " + number_text(low) + " to " + number_text(high);
+      },
+      "");
 }
 
 CLI::Validator among(const std::vector<std::string>& words) {

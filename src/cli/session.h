@@ -27,6 +27,7 @@ struct Session {
   double time_limit = 0;  // [seconds]; 0: none
   bool json = false, verbose = false, quiet = false, flip = false, dry_run = false;
   std::string log_file;
+  bool result_to_stdout = false;
   std::optional<int> index_base;
 
   std::function<void()> job;  // the verb's work, set when its arguments have been read
@@ -54,6 +55,8 @@ struct Session {
   void note(const std::string& text);
   /// Opens the log. Throws IoError.
   void begin_log();
+  /// Where reports and facts go: standard output, unless a result does.
+  std::ostream& facts() const;
   /// Prints the report's warnings that have not been printed yet.
   void print_warnings();
   /// Prints method, options, sizes and timings on stderr.
@@ -89,6 +92,9 @@ CLI::Option* add_repeated_option(CLI::App& verb, const std::string& names, std::
 }
 /// Accepts one of these words; the message for another one names the nearest.
 CLI::Validator one_of(const std::vector<std::string>& words);
+/// Accepts whole numbers, or any numbers, from `low` to `high`.
+CLI::Validator whole_number(long long low, long long high);
+CLI::Validator number_between(double low, double high);
 /// Accepts any word, so that another check may say more; shells complete these.
 CLI::Validator among(const std::vector<std::string>& words);
 /// The words that `one_of` or `among` gave to an option, separated by spaces; empty if neither did.

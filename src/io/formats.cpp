@@ -127,10 +127,22 @@ std::string extensions(const Kinds& kinds, Holds holds) {
   return out;
 }
 
-std::string refusal(const std::string& what, const std::string& extension, const Kinds& kinds,
-                    Holds holds) {
-  return what + " as " + kinds_text(kinds) + ": the extension is " + in_quotes(extension) +
-         "; possible: " + extensions(kinds, holds);
+/// Why a name does not say a format that is read or written here, and what to say instead.
+std::string refusal(const std::string& what, const std::string& name, const std::string& extension,
+                    const Kinds& kinds, Holds holds) {
+  const std::string possible = extensions(kinds, holds);
+  const std::string first = possible.substr(1, possible.find(' ') - 1);
+  std::string why = "the extension is " + in_quotes(extension);
+  if (name.empty())
+    why = "the name is empty";
+  else if (name == "-" || name.starts_with("/dev/"))
+    why = "it has no extension, which says the format; write " + first + ":- for the format " +
+          in_quotes("." + first);
+  else if (lower_case(extension) == ".gz")
+    why = "results are not packed by gzip";
+  else if (extension.empty())
+    why = "it has no extension, which says the format";
+  return what + " as " + kinds_text(kinds) + ": " + why + "; possible: " + possible;
 }
 
 std::string names_held(const Format& format, Holds holds) {
@@ -164,17 +176,18 @@ const Format& format_to_read(const std::string& extension, const std::string& na
   }
   if (std::error_code none; std::filesystem::is_directory(name, none))
     throw InputError(name + ": cannot be read: it is a folder", "cannot-read");
-  const std::string text = refusal(name + ": cannot be read", extension, kinds, reads);
+  const std::string text = refusal(name + ": cannot be read", name, extension, kinds, reads);
   if (format) throw UnsupportedError(text, "unknown-format");
   throw InputError(text, "unknown-format");
 }
 
 const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds) {
-  const std::string extension = path.extension().string();
+  const std::string extension = extension_to_write(path);
   const Format* format = find(extension);
   if (!format || !holds_any(*format, kinds, writes))
-    throw UnsupportedError(refusal("cannot write " + path.string(), extension, kinds, writes),
-                           "unknown-format");
+    throw UnsupportedError(
+        refusal("cannot write " + path.string(), path.string(), extension, kinds, writes),
+        "unknown-format");
   if (format->available && !format->available())
     throw UnsupportedError("cannot write " + path.string() + ": " + std::string(format->unless),
                            "unknown-format");
@@ -182,21 +195,21 @@ const Format& format_to_write(const std::filesystem::path& path, const Kinds& ki
 }
 
 bool is_read_as(const std::filesystem::path& path, const Kinds& kinds) {
-  const Format* format = find(path.extension().string());
+  const Format* format = find(extension_to_read(path));
   return format && holds_any(*format, kinds, reads);
 }
 
 bool is_written_as(const std::filesystem::path& path, const Kinds& kinds) {
-  const Format* format = find(path.extension().string());
+  const Format* format = find(extension_to_write(path));
   return format && holds_any(*format, kinds, writes);
 }
 
 bool has_extension(const std::filesystem::path& path, std::string_view extension) {
-  return lower_case(path.extension().string()) == extension;
+  return lower_case(extension_to_read(path)) == extension;
 }
 
 Content read_content(const std::filesystem::path& path, const std::string& field) {
-  const Format& format = format_to_read(path.extension().string(), path.string(),
+  const Format& format = format_to_read(extension_to_read(path), path.string(),
                                         {Kind::surface, Kind::cloud, Kind::volume, Kind::tets});
   if (format.read_any) return format.read_any(read_bytes(path), path.string(), field);
   if (format.read_volume) return read_volume(path, field);
@@ -205,7 +218,7 @@ Content read_content(const std::filesystem::path& path, const std::string& field
 }
 
 bool holds(const std::filesystem::path& path, Kind kind) {
-  const Format* format = find(path.extension().string());
+  const Format* format = find(extension_to_read(path));
   if (!format || !reads(*format, kind)) return false;
   if (!format->read_any) return true;
   const Content content = read_content(path);

@@ -74,6 +74,13 @@ struct Format {
 
 const std::vector<Format>& formats();
 
+/// "ply:-": standard input or output in the format .ply. Not so where a folder stands before it.
+bool is_standard_stream(const std::filesystem::path& path);
+/// What says the format of a file to be read: ".ply" of "a.ply", "a.ply.gz" and "ply:-".
+std::string extension_to_read(const std::filesystem::path& path);
+/// The same of a file to be written: ".ply" of "a.ply" and "ply:-".
+std::string extension_to_write(const std::filesystem::path& path);
+
 bool reads(const Format& format, Kind kind);
 bool writes(const Format& format, Kind kind);
 /// The extensions that any of the kinds is read from or written to: ".obj .ply".

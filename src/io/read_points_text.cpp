@@ -57,6 +57,13 @@ Cells cells_of(std::string_view row, char separator) {
   return cells;
 }
 
+/// "x" of " //X [mm]": without a unit in brackets and the mark of a comment before the first name.
+std::string plain_name(const std::string& name) {
+  const std::size_t begin = name.find_first_not_of("/ "), end = name.find_first_of("([");
+  if (begin == std::string::npos || begin >= end) return lower_case(name);
+  return lower_case(std::string(trimmed(std::string_view(name).substr(begin, end - begin))));
+}
+
 /// Where x, y and z are among the names.
 std::optional<std::array<std::size_t, 3>> coordinate_columns(const Cells& names) {
   for (const auto& known : {std::array{"x", "y", "z"}, {"points:0", "points:1", "points:2"}}) {
@@ -64,7 +71,7 @@ std::optional<std::array<std::size_t, 3>> coordinate_columns(const Cells& names)
     bool all = true;
     for (std::size_t d = 0; d < 3 && all; ++d) {
       const auto found = std::ranges::find_if(
-          names, [&](const std::string& name) { return lower_case(name) == known[d]; });
+          names, [&](const std::string& name) { return plain_name(name) == known[d]; });
       all = found != names.end();
       at[d] = static_cast<std::size_t>(found - names.begin());
     }
@@ -128,7 +135,10 @@ PointTable read_points_text(std::string_view bytes, const std::string& name) {
                 std::to_string(cells.size()));
     for (const std::size_t c : columns.xyz) {
       const auto number = parse_double(cells[c]);
-      if (!number) scan.fail("expected a number, found " + in_quotes(cells[c]));
+      if (!number)
+        scan.fail(
+            "expected a number, found " + in_quotes(cells[c]) +
+            (cells[c].find(',') != std::string::npos ? "; decimals stand behind a point" : ""));
       numbers.push_back(*number);
     }
     for (std::size_t c = 0, carried = 0; c < columns.names.size(); ++c)

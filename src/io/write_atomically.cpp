@@ -3,10 +3,13 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iostream>
+#include <sstream>
 #include <string>
 #include <system_error>
 
 #include "base/platform/process.h"
+#include "io/formats.h"
 #include "io/write.h"
 #include "littoral/error.h"
 
@@ -77,10 +80,20 @@ std::string temporary_name(const std::filesystem::path& target) {
   return (target.parent_path() / name).string();
 }
 
+/// All or nothing, as files are.
+void write_to_standard_output(const std::filesystem::path& path,
+                              const std::function<void(std::ostream&)>& body) {
+  std::stringstream whole;
+  body(whole);
+  std::cout << whole.rdbuf() << std::flush;
+  if (!std::cout) fail(path, errno ? errno : EIO);
+}
+
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(std::ostream&)>& body) {
+  if (is_standard_stream(path)) return write_to_standard_output(path, body);
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) fail(path, EISDIR);
@@ -98,6 +111,7 @@ void write_atomically(const std::filesystem::path& path,
 }
 
 void check_writable(const std::filesystem::path& path) {
+  if (is_standard_stream(path)) return;
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) fail(path, EISDIR);

@@ -50,7 +50,7 @@ std::string mesh_extensions() {
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-  io::format_to_read(path.extension().string(), path.string(),
+  io::format_to_read(io::extension_to_read(path), path.string(),
                      {io::Kind::surface, io::Kind::cloud, io::Kind::voxels});
   if (!io::holds(path, io::Kind::voxels)) return Mesh(io::read_surface(path));
   const io::VoxelMask mask = io::read_voxels(path);

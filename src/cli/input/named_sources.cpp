@@ -1,6 +1,7 @@
 // Sources given as options, without a file.
 
 #include <cmath>
+#include <limits>
 
 #include "api/space/input_queries.h"
 #include "base/option_table.h"
@@ -87,6 +88,8 @@ void add_named_sources(CLI::App& verb, NamedSources& named) {
   add_repeated_option(verb, "--vertex", named.vertices,
                       "a source vertex, from 0; several as 1,5,9 or repeated")
       ->delimiter(',')
+      ->check(whole_number(std::numeric_limits<long long>::min(),
+                           std::numeric_limits<long long>::max()))
       ->type_name("I[,I...]");
   add_repeated_option(verb, "--at", named.at,
                       "the point of the surface nearest to a place; may be repeated")

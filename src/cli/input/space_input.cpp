@@ -89,7 +89,7 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts, const GridOptions& 
   verb.add_option("--resolution", texts.resolution,
                   "nodes along the longest side, 2 to 100000 [default " +
                       std::to_string(defaults.resolution.value_or(64)) + "]")
-      ->check(CLI::Range(2, 100000).description(""))
+      ->check(whole_number(2, 100000))
       ->type_name("N");
   verb.add_option("--spacing", texts.spacing,
                   std::string("distance between nodes, instead [") + length_unit_text + "]")
@@ -99,7 +99,7 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts, const GridOptions& 
   verb.add_option("--padding", texts.padding,
                   "without --bounds: margin around the input, in its longest side [default " +
                       number_text(defaults.padding) + "]")
-      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->check(number_between(0, 1000))
       ->type_name("F");
 }
 
@@ -123,8 +123,8 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
   warn_without_box(file, session);
   VolumeMeaning meaning = meaning_named(texts.meaning);
   const bool voxels =
-      io::format_to_read(std::filesystem::path(file).extension().string(), file, {io::Kind::volume})
-          .read_voxels != nullptr;
+      io::format_to_read(io::extension_to_read(file), file, {io::Kind::volume}).read_voxels !=
+      nullptr;
   if (voxels && meaning == VolumeMeaning::automatic) meaning = VolumeMeaning::mask;
   try {
     if (redistance) return shape_at_level(volume, 0);
@@ -138,7 +138,7 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
 
 Shape read_shape(const std::string& file, const SpaceArguments& texts, bool first,
                  Session& session) {
-  io::format_to_read(std::filesystem::path(file).extension().string(), file,
+  io::format_to_read(io::extension_to_read(file), file,
                      {io::Kind::surface, io::Kind::cloud, io::Kind::volume});
   io::Content content = io::read_content(file, first ? texts.field : "");
   const bool redistance = first && texts.redistance;
@@ -167,8 +167,8 @@ OptionValues known_options(const std::string& method, const GivenOptions& given)
 }  // namespace
 
 void warn_without_box(const std::string& file, Session& session) {
-  const io::Format& format = io::format_to_read(std::filesystem::path(file).extension().string(),
-                                                file, {io::Kind::volume});
+  const io::Format& format =
+      io::format_to_read(io::extension_to_read(file), file, {io::Kind::volume});
   if (format.no_box)
     session.report.warn(
         "grid-unplaced",
@@ -245,14 +245,13 @@ void add_smoothing_option(CLI::App& verb, double& smoothing, const std::string& 
                   when +
                       ": regularized winding number, convolved with a Gaussian of this deviation "
                       "[length; default 0, none]")
-      ->check(CLI::Range(0.0, 1e300).description(""))
+      ->check(number_between(0, 1e300))
       ->type_name("S");
 }
 
 io::PointTable read_queries(const std::string& file) {
-  const io::Format& format =
-      io::format_to_read(std::filesystem::path(file).extension().string(), file,
-                         {io::Kind::table, io::Kind::surface, io::Kind::cloud});
+  const io::Format& format = io::format_to_read(
+      io::extension_to_read(file), file, {io::Kind::table, io::Kind::surface, io::Kind::cloud});
   if (format.read_table) return format.read_table(io::read_bytes(file), file);
   return {io::read_surface(file).points, {}};
 }

@@ -98,18 +98,17 @@ bool planned(const RunPlan& plan, Session& session) {
   report.sizes = plan.sizes;
   session.record.plan = run;
   if (session.json) {
-    std::cout << run_json(session.record, report) << "\n";
+    session.facts() << run_json(session.record, report) << "\n";
     return true;
   }
-  std::cout << "method: " << method.name << " (" << run.reason << ")\ndomain: " << plan.domain
-            << "\n";
-  for (const auto& [name, size] : plan.sizes)
-    std::cout << name << ": " << number_text(size) << "\n";
-  std::cout << "time: " << estimate_text(run.seconds, "s")
-            << "\nprocessor time: " << estimate_text(run.processor_seconds, "s")
-            << "\nmemory: " << estimate_text(run.memory_mb, "MB") << ", "
-            << number_text(run.available_memory_mb)
-            << " MB are free\noutputs: " << listed(session.record.outputs) << "\n";
+  std::ostream& out = session.facts();
+  out << "method: " << method.name << " (" << run.reason << ")\ndomain: " << plan.domain << "\n";
+  for (const auto& [name, size] : plan.sizes) out << name << ": " << number_text(size) << "\n";
+  out << "time: " << estimate_text(run.seconds, "s")
+      << "\nprocessor time: " << estimate_text(run.processor_seconds, "s")
+      << "\nmemory: " << estimate_text(run.memory_mb, "MB") << ", "
+      << number_text(run.available_memory_mb)
+      << " MB are free\noutputs: " << listed(session.record.outputs) << "\n";
   return true;
 }
 

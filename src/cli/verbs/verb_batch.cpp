@@ -277,16 +277,14 @@ void add_batch(CLI::App& program, Session& session) {
                       "of sdf]")
       ->type_name("EXT");
   const auto number = [&](const char* name, int& value, int low, const std::string& help) {
-    verb->add_option(name, value, help)
-        ->check(CLI::Range(low, 100000).description(""))
-        ->type_name("N");
+    verb->add_option(name, value, help)->check(whole_number(low, 100000))->type_name("N");
   };
   number("--jobs", options.processes, 0, "inputs at once; 0: one for each core [default 0]");
   number("--threads", arguments->threads, 0, "of each; 0: all cores [default 1]");
   verb->add_option("--time-limit", options.time_limit,
                    "an input that takes longer is ended and has failed; 0: none [seconds; default "
                    "0]")
-      ->check(CLI::Range(0.0, 1e9).description(""))
+      ->check(number_between(0, 1e9))
       ->type_name("S");
   verb->add_option("--memory-limit", options.memory_limit,
                    "an input that needs more has failed: 800MB, 4GB; 0: none [default 0]")

@@ -47,7 +47,7 @@ void run_compare(CompareArguments& arguments, Session& session) {
   session.record.values = {range_of("distance", there.at_vertices)};
   if (!session.json)
     for (const auto& [name, value] : report.sizes)
-      std::cout << name << ": " << number_text(value) << "\n";
+      session.facts() << name << ": " << number_text(value) << "\n";
   PolygonSoup shown = a;
   shown.scalars = {{"distance", there.at_vertices}};
   finish(arguments.out, session.task(), session, [&](const std::string& file) {
@@ -73,7 +73,7 @@ void add_compare(CLI::App& program, Session& session) {
       ->type_name("OUT");
   verb.add_option("--samples", arguments->samples,
                   "points on each surface, 1 to 100000000 [default 100000]")
-      ->check(CLI::Range(1, 100000000).description(""))
+      ->check(whole_number(1, 100000000))
       ->type_name("N");
   add_json_option(verb, session);
 }

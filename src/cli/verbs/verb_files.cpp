@@ -203,7 +203,7 @@ void add_convert(CLI::App& program, Session& session) {
   verb.add_option("--band", arguments->band,
                   "for .vdb: keep values nearer to zero than this many spacings, 0 to 1e6; 0: all "
                   "[default 0]")
-      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->check(number_between(0, 1e6))
       ->type_name("N");
   verb.add_flag("--triangulate", arguments->triangulate, "cut polygons into triangles");
   add_field(verb, *arguments);
@@ -223,7 +223,7 @@ void add_contour(CLI::App& program, Session& session) {
   verb.add_option("--count", arguments->count,
                   "instead: this many evenly spaced values between the smallest and the largest, 1 "
                   "to 1000")
-      ->check(CLI::Range(1, 1000).description(""))
+      ->check(whole_number(1, 1000))
       ->type_name("N");
   verb.add_option("--range", arguments->range,
                   "of --count: from the one value to the other, both included")

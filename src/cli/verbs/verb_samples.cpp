@@ -71,15 +71,13 @@ void add_samples(CLI::App& program, Session& session) {
   verb.add_option("--resolution", options.resolution,
                   "nodes along a side of the cube, of the grid for the surface, 8 to 2048 "
                   "[default 64]")
-      ->check(CLI::Range(8, 2048).description(""))
+      ->check(whole_number(8, 2048))
       ->type_name("N");
   const auto count = [&](const char* name, int& value, const std::string& help) {
-    verb.add_option(name, value, help)
-        ->check(CLI::Range(0, 1000000000).description(""))
-        ->type_name("N");
+    verb.add_option(name, value, help)->check(whole_number(0, 1000000000))->type_name("N");
   };
   const auto share = [&](const char* name, double& value, const std::string& help) {
-    verb.add_option(name, value, help)->check(CLI::Range(0.0, 1.0).description(""))->type_name("F");
+    verb.add_option(name, value, help)->check(number_between(0, 1))->type_name("F");
   };
   count("--surface", options.surface, "points on the surface [default 8192]");
   count("--space", options.space, "points in space [default 8192]");
@@ -96,9 +94,11 @@ void add_samples(CLI::App& program, Session& session) {
       ->type_name("S[,S...]");
   verb.add_option("--margin", options.margin,
                   "of the cube about the input, in its longest side, 0 to 10 [default 0.1]")
-      ->check(CLI::Range(0.0, 10.0).description(""))
+      ->check(number_between(0, 10))
       ->type_name("F");
-  verb.add_option("--seed", options.seed, "of the random numbers [default 0]")->type_name("N");
+  verb.add_option("--seed", options.seed, "of the random numbers [default 0]")
+      ->check(whole_number(0, std::numeric_limits<long long>::max()))
+      ->type_name("N");
   verb.add_option("--numbers", arguments->numbers,
                   "of positions and distances: float16, float32, float64 [default float32]")
       ->check(one_of({"float16", "float32", "float64"}))

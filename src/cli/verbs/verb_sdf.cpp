@@ -183,7 +183,7 @@ void add_sdf(CLI::App& program, Session& session) {
   verb.add_option("--field", arguments->field,
                   "distance, or winding, the generalized winding number: 1 inside, 0 outside "
                   "[default distance]")
-      ->check(CLI::IsMember({"distance", "winding"}).description(""))
+      ->check(one_of({"distance", "winding"}))
       ->type_name("WORD");
   add_smoothing_option(verb, arguments->smoothing, "of --field winding");
   verb.add_option("--domain", arguments->domain,
@@ -198,7 +198,7 @@ void add_sdf(CLI::App& program, Session& session) {
       ->type_name("WORD");
   verb.add_option("--tetgen-timeout", arguments->tetgen.timeout,
                   "how long tetgen may take [seconds; default 600]")
-      ->check(CLI::Range(0.01, 1e6).description(""))
+      ->check(number_between(0.01, 1e6))
       ->type_name("S");
   verb.add_option("--level", arguments->levels,
                   std::string("levels of surfaces, separated by commas [") + length_unit_text +
@@ -207,7 +207,7 @@ void add_sdf(CLI::App& program, Session& session) {
   verb.add_flag("--clip", arguments->clip, "close surfaces along the box where they leave it");
   verb.add_option("--band", arguments->band,
                   "for .vdb: half width of the band kept, in spacings; 0 keeps all [default 0]")
-      ->check(CLI::Range(0.0, 1e6).description(""))
+      ->check(number_between(0, 1e6))
       ->type_name("W");
   add_confidence_option(verb, arguments->confidence);
   add_space_method(verb, arguments->space);

@@ -70,9 +70,16 @@ struct ShowArguments {
 Vec3 direction_of(const std::string& option, const std::string& text) {
   const bool back = text.starts_with('-');
   const std::string axis = text.substr(back || text.starts_with('+') ? 1 : 0);
-  if (axis == "x" || axis == "y" || axis == "z")
-    return (back ? -1 : 1) * Vec3::Unit(axis.front() - 'x');
-  return parse_position(option, text);
+  if (axis.size() == 1)
+    if (const auto k = std::string_view("xyzXYZ").find(axis); k != std::string_view::npos)
+      return (back ? -1 : 1) * Vec3::Unit(static_cast<Eigen::Index>(k % 3));
+  try {
+    return parse_position(option, text);
+  } catch (const InputError&) {
+    throw InputError("option " + option + ": '" + text +
+                         "' is no direction: x, y, z, -x, -y, -z or three numbers X,Y,Z",
+                     "option-value");
+  }
 }
 
 void set_style(io::Scene& scene, const ShowArguments& arguments) {
@@ -302,7 +309,7 @@ CLI::App& add_show_verb(CLI::App& program, Session& session,
       ->type_name("NAME");
   verb.add_option("--isolines", arguments->isolines,
                   "about how many isolines, 0 to 1000 [default 20]")
-      ->check(CLI::Range(0, 1000).description(""))
+      ->check(whole_number(0, 1000))
       ->type_name("N");
   add_style_options(verb, *arguments);
   add_volume_view_options(verb, arguments->volume);
@@ -338,8 +345,10 @@ void add_render(CLI::App& program, Session& session) {
   add_output_option(verb, arguments->out,
                     "the picture: " + io::written_extensions({io::Kind::picture}));
   verb.add_option("--width", arguments->picture.width, "pixels, 16 to 16384 [default 1200]")
+      ->check(whole_number(16, 16384))
       ->type_name("N");
   verb.add_option("--height", arguments->picture.height, "pixels, 16 to 16384 [default 900]")
+      ->check(whole_number(16, 16384))
       ->type_name("N");
 }
 

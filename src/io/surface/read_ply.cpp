@@ -27,7 +27,10 @@ class TextBody {
          " of element " + in_quotes(element.name));
   }
   double value(PlyType) { return scan_.number("a number"); }
-  void end_row() { scan_.expect_end(); }
+  /// Some programs write more values behind the corners of a face than their header has.
+  void end_row(bool may_have_more) {
+    if (!may_have_more) scan_.expect_end();
+  }
   std::size_t bytes_left() const { return scan_.line_bytes_left(); }
   [[noreturn]] void fail(const std::string& text) const { scan_.fail(text); }
 
@@ -76,7 +79,7 @@ class BinaryBody {
     }
     return load<double>(from, order_);
   }
-  void end_row() {}
+  void end_row(bool) {}
   std::size_t bytes_left() const { return bytes_.size() - at_; }
   [[noreturn]] void fail(const std::string& text) const {
     throw InputError(name_ + ": byte " + std::to_string(at_) + ": " + text, "bad-file");
@@ -145,7 +148,7 @@ class PlyReader {
           row_[i] = body_.value(p.type);
         }
       }
-      body_.end_row();
+      body_.end_row(list == 0);
       visit(r);
     }
   }

@@ -104,7 +104,7 @@ Volume read_vol(std::string_view bytes, const std::string& name, const std::stri
 
 VoxelMask read_voxels(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  const Format& format = format_to_read(path.extension().string(), path.string(), {Kind::voxels});
+  const Format& format = format_to_read(extension_to_read(path), path.string(), {Kind::voxels});
   if (format.read_voxels) return format.read_voxels(read_bytes(path), name);
   const Volume volume = format.read_volume(read_bytes(path), name, "");
   if (!volume.values.allFinite())

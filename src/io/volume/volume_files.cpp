@@ -19,7 +19,7 @@ Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
 }
 
 Volume read_volume(const std::filesystem::path& path, const std::string& field) {
-  return read_volume_bytes(read_bytes(path), path.extension().string(), path.string(), field);
+  return read_volume_bytes(read_bytes(path), extension_to_read(path), path.string(), field);
 }
 
 void write_volume(const std::filesystem::path& path, const Volume& volume,

@@ -75,7 +75,7 @@ NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
     kind.family = type[1] == 'b' ? 'u' : type[1];
     size = type[2] - '0';
   }
-  const bool known = (kind.family == 'f' && (size == 4 || size == 8)) ||
+  const bool known = (kind.family == 'f' && (size == 2 || size == 4 || size == 8)) ||
                      ((kind.family == 'i' || kind.family == 'u') &&
                       (size == 1 || size == 2 || size == 4 || size == 8));
   if (!known || (type[0] != '<' && type[0] != '>' && type[0] != '|'))

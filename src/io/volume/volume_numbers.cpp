@@ -23,6 +23,21 @@ void load_all(std::string_view bytes, std::endian order, VecX& values) {
 
 }  // namespace
 
+namespace {
+
+/// IEEE 754 in two bytes: sign, five bits of exponent, ten of the mantissa.
+double half_precision(int bits) {
+  const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+  double value =
+      exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+  if (exponent == 31)
+    value = mantissa == 0 ? std::numeric_limits<double>::infinity()
+                          : std::numeric_limits<double>::quiet_NaN();
+  return bits >> 15 ? -value : value;
+}
+
+}  // namespace
+
 VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, std::endian order) {
   VecX values(static_cast<Eigen::Index>(count));
   const auto is = [&](char family, std::size_t size) {
@@ -30,6 +45,10 @@ VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, st
   };
   if (is('f', 8)) load_all<double>(bytes, order, values);
   if (is('f', 4)) load_all<float>(bytes, order, values);
+  if (is('f', 2)) {
+    load_all<std::uint16_t>(bytes, order, values);
+    for (double& value : values) value = half_precision(static_cast<int>(value));
+  }
   if (is('i', 1)) load_all<std::int8_t>(bytes, order, values);
   if (is('u', 1)) load_all<std::uint8_t>(bytes, order, values);
   if (is('i', 2)) load_all<std::int16_t>(bytes, order, values);

@@ -1,0 +1,90 @@
+// Files as a whole: plain, packed by gzip, or standard input.
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "io/binary.h"
+#include "io/formats.h"
+#include "io/read.h"
+#include "io/text_scan.h"
+#include "io/volume/volume_formats.h"
+#include "littoral/error.h"
+
+namespace littoral::io {
+
+namespace {
+
+constexpr std::string_view stream_mark = ":-", packed_mark = ".gz";
+
+[[noreturn]] void cannot_read(const std::filesystem::path& path, const std::string& why) {
+  throw IoError("cannot read " + path.string() + ": " + why, "cannot-read");
+}
+
+std::string all_of(std::FILE* file, const std::filesystem::path& path) {
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file))
+    bytes.append(block.data(), n);
+  if (std::ferror(file)) cannot_read(path, std::generic_category().message(errno));
+  return bytes;
+}
+
+/// Of a file of one member below 4 GiB, whose size stands at its end.
+std::string without_gzip(const std::string& packed, const std::string& name) {
+  const std::string hint = "; unpack it with gzip -d and name the result";
+  constexpr std::size_t least = 18;  // bytes of head and end
+  if (packed.size() < least || packed.substr(0, 2) != "\x1f\x8b")
+    throw InputError(name + ": not packed by gzip, as its name says", "bad-file");
+  const auto size = load_little<std::uint32_t>(packed.data() + packed.size() - 4);
+  auto bytes = unpack(packed, size, Packing::zlib_or_gzip);
+  if (!bytes)
+    throw InputError(name + ": damaged, of several parts, or beyond 4 GiB" + hint, "bad-file");
+  return *std::move(bytes);
+}
+
+}  // namespace
+
+bool is_standard_stream(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  return name.size() > stream_mark.size() && name.ends_with(stream_mark) &&
+         std::all_of(name.begin(), name.end() - stream_mark.size(),
+                     [](unsigned char c) { return std::isalnum(c); });
+}
+
+std::string extension_to_write(const std::filesystem::path& path) {
+  if (!is_standard_stream(path)) return path.extension().string();
+  const std::string name = path.string();
+  return "." + name.substr(0, name.size() - stream_mark.size());
+}
+
+std::string extension_to_read(const std::filesystem::path& path) {
+  const std::string extension = extension_to_write(path);
+  return lower_case(extension) == packed_mark ? path.stem().extension().string() : extension;
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  if (is_standard_stream(path)) {
+    static const std::string bytes = all_of(stdin, path);  // there is one, and it is read once
+    return bytes;
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) cannot_read(path, "it is a directory");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
+  if (!file)
+    cannot_read(path, std::generic_category().message(errno) +
+                          (path.string().starts_with("~")
+                               ? "; '~' is the home folder only without quotes, in the shell"
+                               : ""));
+  std::string bytes = all_of(file.get(), path);
+  return lower_case(path.extension().string()) == packed_mark ? without_gzip(bytes, path.string())
+                                                              : bytes;
+}
+
+}  // namespace littoral::io

@@ -154,7 +154,7 @@ stage_sanitize_package() {
 stage_clusters() {
   build_release && python3 -m venv build/clusters &&
     build/clusters/bin/pip install --quiet -r requirements-dev.txt -r requirements-clusters.txt &&
-    PYTHONPATH="$PWD/build/release/python" build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py
+    PYTHONPATH="$PWD/build/release/python" build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py python/tests/test_samples.py
 }
 
 # Batches of damaged inputs for an hour, or SOAK_SECONDS: nothing is lost, memory stays flat.

@@ -68,8 +68,9 @@ class Cost:
     def text(self, inputs: int) -> str:
         seconds, processor = time.monotonic() - self.begin, self.used() - self.before
         load = statistics.mean([*self.loads, os.getloadavg()[0]])
+        each = 1000 * processor / inputs
         return (f"{seconds:.0f} s, {inputs / seconds:.2f} a second, "
-                f"{1000 * processor / inputs:.1f} ms of a processor each, load {load:.1f}")  # fmt: skip
+                f"{each:.1f} ms of a processor each, load {load:.1f}")  # fmt: skip
 
 
 def run_batch(program: str, inputs: str, out: str, *words: str) -> None:
@@ -88,8 +89,9 @@ def run_batch(program: str, inputs: str, out: str, *words: str) -> None:
     each = [line["input"] for line in lines]
     kept = [line for line in lines if line["status"] == "done"]
     gone = sum(not (Path(out) / name).exists() for line in kept for name in line["outputs"])
-    print(f"batch {' '.join(words)}: {summary['jobs']} inputs, {len(each)} lines of {len(set(each))}"
-          f", {summary['done']} done with {gone} results missing, {summary['failed']} failed, "
+    print(f"batch {' '.join(words)}: {summary['jobs']} inputs, {len(each)} lines of "
+          f"{len(set(each))}, {summary['done']} done with {gone} results missing, "
+          f"{summary['failed']} failed, "
           f"{cost.text(len(each))}, start {1000 * summary['start_seconds']:.2f} ms, "
           f"largest {summary['peak_memory'] / 1e6:.0f} MB")  # fmt: skip
     quarter = max(1, len(memory) // 4)

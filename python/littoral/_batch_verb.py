@@ -85,7 +85,7 @@ def _watched(command: list[str], stdout: Any, progress: Progress | None) -> tupl
         try:
             while got := os.read(process.stderr.fileno(), 65536):
                 errors = (errors + got)[-65536:]
-                bars = re.findall(rb"\] +(\d+)%[ \t]+([^\r\n\x1b]+)", got) if progress else []
+                bars = re.findall(rb"\] +(\d+) % (\S[^\r\n\x1b]*)", got) if progress else []
                 if bars and progress:
                     progress(int(bars[-1][0]) / 100, bars[-1][1].decode().strip())
         except BaseException:

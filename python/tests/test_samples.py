@@ -29,3 +29,19 @@ def test_samples_of_a_sphere(sphere, tmp_path) -> None:
     for wrong in ({"numbers": "float8"}, {"resolution": 2}, {"scales": []}, {"uniform": 2}):
         with pytest.raises(littoral.InputError):
             littoral.samples(sphere, **wrong)
+
+
+def test_the_libraries_of_the_formats_read_samples(sphere, tmp_path) -> None:
+    zarr, webdataset = pytest.importorskip("zarr"), pytest.importorskip("webdataset")
+    made = littoral.samples(sphere, surface=30, space=40, resolution=12, numbers="float16")
+    for name in ("s.npz", "s.zarr", "s.tar"):
+        made.save(tmp_path / name, "ball")
+    with np.load(tmp_path / "s.npz") as data:
+        arrays = {name: data[name] for name in data}
+    group = zarr.open_group(str(tmp_path / "s.zarr"), mode="r")
+    assert set(group.array_keys()) == set(arrays)
+    assert group.attrs.asdict() == made.card("ball")
+    [sample] = webdataset.WebDataset(str(tmp_path / "s.tar"), shardshuffle=False).decode()
+    for name, array in arrays.items():
+        assert (group[name][:] == array).all() and group[name].dtype == array.dtype, name
+        assert (sample[name + ".npy"] == array).all(), name

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double patience = 0.05;  // [seconds] between looks at what was asked to stop
-constexpr double redraw = 0.1;     // [seconds] between reports of progress
+constexpr double patience = 0.05;     // [seconds] between looks at what was asked to stop
+constexpr double redraw = 0.1;        // [seconds] between reports of progress
 constexpr double hold_seconds = 0.1;  // before another try to start a process
 
 // What goes to a child and what comes back: texts, each behind its size.

@@ -123,8 +123,8 @@ BatchHistory::BatchHistory(const fs::path& folder) : folder_(folder) {
       if (!line.is_object()) continue;
       try {
         if (line.at("status") != "done") continue;
-        done_[line.at("name").get<std::string>()] = {line.at("hash"), one_line_of(line.at("options")),
-                                  line.at("outputs")};
+        done_[line.at("name").get<std::string>()] = {
+            line.at("hash"), one_line_of(line.at("options")), line.at("outputs")};
       } catch (const Json::exception&) {
         continue;  // a line of somebody else
       }

@@ -24,11 +24,12 @@ TEST(EdgeEnvelopes, OfTwoPointsTheNearerMayBeSoInTheMiddleOnly) {
   // p from the middle: sqrt(p^2 + 1) = sqrt(p^2 + .01) + .5, squared: .74 = sqrt(p^2 + .01).
   const double r = 0.74, p = std::sqrt(r * r - 0.01);
   for (const bool far_first : {true, false}) {
-    EdgeEnvelopes all(1);
+    EdgeEnvelopes all;
+    WindowList list;
     const Window far = point_window(0, 4, 2, -1, 0), near = point_window(0, 4, 2, -0.1, 0.5);
-    all.insert(all[0], 4, far_first ? far : near);
-    all.insert(all[0], 4, far_first ? near : far);
-    const std::vector<Window>& kept = all[0].windows;
+    all.insert(list, 4, far_first ? far : near);
+    all.insert(list, 4, far_first ? near : far);
+    const std::vector<Window>& kept = list.windows;
     ASSERT_EQ(kept.size(), 3);
     EXPECT_EQ(kept[0].behind, 0);
     EXPECT_EQ(kept[1].behind, 0.5);
@@ -45,7 +46,8 @@ TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
   std::uniform_real_distribution<double> u(0, 1);
   const double length = 3;
   for (int round = 0; round < 300; ++round) {
-    EdgeEnvelopes all(1);
+    EdgeEnvelopes all;
+    WindowList list;
     std::vector<Window> offered;
     for (int i = 0; i < 25; ++i) {
       double b0 = length * u(random), b1 = length * u(random);
@@ -62,13 +64,13 @@ TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
       if (i % 7 == 6) w = offered[random() % offered.size()];  // the same again
       w.source = i;
       offered.push_back(w);
-      const double least = all.insert(all[0], length, w);
+      const double least = all.insert(list, length, w);
       double best = std::numeric_limits<double>::infinity();
-      for (const Window& kept : all[0].windows)
+      for (const Window& kept : list.windows)
         if (kept.source == i) best = std::min(best, kept.least());
       EXPECT_EQ(least, best);
     }
-    const std::vector<Window>& kept = all[0].windows;
+    const std::vector<Window>& kept = list.windows;
     for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_LE(kept[i - 1].b1, kept[i].b0);
     EXPECT_EQ(all.n_held(), double(kept.size()));
     for (int s = 0; s <= 1000; ++s) {
@@ -92,29 +94,31 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
   std::uniform_real_distribution<double> u(0, 1);
   const double length = 3;
   for (int round = 0; round < 300; ++round) {
-    EdgeEnvelopes all(2);
-    for (int batch = 0; batch < 4; ++batch) {
+    EdgeEnvelopes all;
+    WindowList lists[2];
+    for (int n = 0; n < 4; ++n) {
+      std::vector<Window> batch;
       double least = std::numeric_limits<double>::infinity();
       for (int i = 0; i < 8; ++i) {
         const double b0 = length * std::min(0.9, i / 10. + 0.2 * u(random)),
                      b1 = std::min(length, b0 + length * 0.3 * u(random));
-        Window& w = all.next_of_batch();
-        w = point_window(b0, b1, 5 * u(random) - 1, -2 * u(random), i % 3 ? 1 : u(random));
-        w.source = 8 * batch + i;
-        all.insert(all[1], length, w);
-        all.settle_in_batch(length);
+        Window w = point_window(b0, b1, 5 * u(random) - 1, -2 * u(random), i % 3 ? 1 : u(random));
+        w.source = 8 * n + i;
+        batch.push_back(w);
+        all.insert(lists[1], length, w);
+        all.settle(batch, length);
       }
-      const double found = all.take_batch(all[0], length);
-      for (const Window& w : all[0].windows)
-        if (w.source >= 8 * batch) least = std::min(least, w.least());
+      const double found = all.take(lists[0], batch, length);
+      for (const Window& w : lists[0].windows)
+        if (w.source >= 8 * n) least = std::min(least, w.least());
       EXPECT_EQ(found, least);
     }
-    EXPECT_EQ(all.n_held(), double(all[0].windows.size() + all[1].windows.size()));
-    for (std::size_t i = 1; i < all[0].windows.size(); ++i)
-      EXPECT_LE(all[0].windows[i - 1].b1, all[0].windows[i].b0);
+    EXPECT_EQ(all.n_held(), double(lists[0].windows.size() + lists[1].windows.size()));
+    for (std::size_t i = 1; i < lists[0].windows.size(); ++i)
+      EXPECT_LE(lists[0].windows[i - 1].b1, lists[0].windows[i].b0);
     const auto at = [&](int list, double p) {
       double d = std::numeric_limits<double>::infinity();
-      for (const Window& w : all[list].windows)
+      for (const Window& w : lists[list].windows)
         if (p >= w.b0 && p <= w.b1) d = std::min(d, w.at(p));
       return d;
     };
@@ -129,23 +133,26 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
 }
 
 TEST(EdgeEnvelopes, TheSameWindowAgainIsNotTaken) {
-  EdgeEnvelopes all(2);
+  EdgeEnvelopes all;
+  WindowList list;
   const Window w = point_window(0.5, 2, 1, -1, 0.25);
-  EXPECT_EQ(all.insert(all[1], 3, w), 1.25);
+  EXPECT_EQ(all.insert(list, 3, w), 1.25);
   for (const double nudge : {0., 1e-15, -1e-15}) {
     Window again = w;
     again.behind += nudge;
     again.measure_ends();
-    EXPECT_EQ(all.insert(all[1], 3, again), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(all.insert(list, 3, again), std::numeric_limits<double>::infinity());
   }
   std::vector<Window> open;
   const auto take = [&](const Window& taken) { open.push_back(taken); };
-  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 1, take), 1.25);
-  EXPECT_TRUE(open.empty());
-  EXPECT_EQ(EdgeEnvelopes::take_open(all[1], 2, take), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(EdgeEnvelopes::least_open(list), 1.25);
+  EdgeEnvelopes::take_open(list, take);
   EXPECT_EQ(open.size(), 1);
+  EdgeEnvelopes::take_open(list, take);
+  EXPECT_EQ(open.size(), 1);
+  EXPECT_EQ(EdgeEnvelopes::least_open(list), std::numeric_limits<double>::infinity());
   EXPECT_EQ(all.n_held(), 1);
-  all.forget(all[1]);
+  all.forget(list);
   EXPECT_EQ(all.n_held(), 0);
 }
 

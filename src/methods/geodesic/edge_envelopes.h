@@ -10,123 +10,102 @@
 
 namespace littoral {
 
+/// The windows of an edge.
+struct WindowList {
+  std::vector<Window> windows;                           // from tail to head, do not overlap
+  double due = std::numeric_limits<double>::infinity();  // when the open ones are to go on
+};
+
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
 /// all that was offered. Of two windows, from whichever triangles, only the nearer one at a point
 /// of the edge can belong to a shortest path there; at a tie the older one stays, as a path that
-/// swaps one for the other either coincides with it or bends at the edge and is not shortest.
+/// swaps one for the other either coincides with it or bends at the edge and is not shortest. One
+/// of these for every thread that adds to lists.
 class EdgeEnvelopes {
  public:
-  static constexpr double slack_share = 1e-12;   // of the distance: nearer by less is a tie
-  static constexpr double narrow_share = 1e-12;  // of the edge: narrower stretches are left out
-
-  struct List {
-    std::vector<Window> windows;
-    double due = std::numeric_limits<double>::infinity();  // when the open ones are to go on
-  };
-
-  explicit EdgeEnvelopes(int n_edges) : lists_(n_edges) {}
-
-  List& operator[](int edge) { return lists_[edge]; }
-  const List& operator[](int edge) const { return lists_[edge]; }
-
   /// Takes what is nearest of the window on an edge of the given length; the least distance there,
   /// +inf if nothing is left of it.
-  double insert(List& list, double length, const Window& w) {
-    make_room(list);
-    return insert(list.windows, length, w);
+  double insert(WindowList& list, double length, const Window& w) {
+    const std::size_t before = list.windows.size();
+    const double least = insert(list.windows, length, w);
+    n_held_ += double(list.windows.size()) - double(before);
+    return least;
   }
 
-  /// Several windows for one list, in order from tail to head but for few: each is filled in where
-  /// it will stay, for copies of what was just written wait for it. What is nearest among them
-  /// stays.
-  Window& next_of_batch() { return batch_.emplace_back(); }
-  void leave_out_of_batch() { batch_.pop_back(); }
-  void settle_in_batch(double length) {
-    ++n_taken_;
-    ++n_held_;
-    const std::size_t n = batch_.size();
-    if (n == 1 || batch_[n - 2].b1 <= batch_[n - 1].b0) return;
-    const Fit fit = divide_neighbours(batch_[n - 2], batch_[n - 1], length);
-    if (fit == Fit::both) return;
-    --n_taken_;
-    --n_held_;
-    const Window w = batch_.back();
-    batch_.pop_back();
-    if (fit == Fit::otherwise) insert(batch_, length, w);
+  /// Several windows for one list, in order from tail to head but for few: the last one of the
+  /// batch has just been added, and what is nearest stays. False if it is gone, or is no longer the
+  /// last.
+  bool settle(std::vector<Window>& batch, double length) {
+    const std::size_t n = batch.size();
+    if (n == 1 || batch[n - 2].b1 <= batch[n - 1].b0) return true;
+    const Fit fit = divide_neighbours(batch[n - 2], batch[n - 1], length);
+    if (fit == Fit::both) return true;
+    const Window w = batch.back();
+    batch.pop_back();
+    const double taken = n_taken_;
+    if (fit == Fit::otherwise) insert(batch, length, w);
+    n_taken_ = taken;
+    return false;
   }
 
-  /// Puts the batch into the list; the least distance of what is taken, +inf if nothing is.
-  double take_batch(List& list, double length) {
+  /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is.
+  double take(WindowList& list, const std::vector<Window>& batch, double length) {
     double least = std::numeric_limits<double>::infinity();
-    if (batch_.empty()) return least;
-    make_room(list);
+    if (batch.empty()) return least;
     std::vector<Window>& all = list.windows;
-    if (all.empty()) {
-      all.swap(batch_);
-      for (const Window& w : all) least = std::min(least, w.least());
-      return least;
-    }
-    const double start = all.front().b0, end = all.back().b1;
-    auto first = batch_.begin(), last = batch_.end();
+    const std::size_t before = all.size();
+    const double start = all.empty() ? length : all.front().b0,
+                 end = all.empty() ? length : all.back().b1;
+    auto first = batch.begin(), last = batch.end();
     while (first != last && first->b1 <= start) ++first;
     while (last != first && (last - 1)->b0 >= end) --last;
-    n_taken_ -= double(last - first);  // counted again below
-    n_held_ -= double(last - first);
     for (auto w = first; w != last; ++w) least = std::min(least, insert(all, length, *w));
-    for (auto w = batch_.begin(); w != first; ++w) least = std::min(least, w->least());
-    for (auto w = last; w != batch_.end(); ++w) least = std::min(least, w->least());
-    all.insert(all.end(), last, batch_.end());
-    all.insert(all.begin(), batch_.begin(), first);
-    batch_.clear();
+    for (auto w = batch.begin(); w != first; ++w) least = std::min(least, w->least());
+    for (auto w = last; w != batch.end(); ++w) least = std::min(least, w->least());
+    n_taken_ += double(first - batch.begin()) + double(batch.end() - last);
+    if (first != batch.begin() || last != batch.end()) {
+      std::vector<Window> joined;  // no larger than it has to be
+      joined.reserve(all.size() + std::size_t(first - batch.begin()) +
+                     std::size_t(batch.end() - last));
+      joined.insert(joined.end(), batch.begin(), first);
+      joined.insert(joined.end(), all.begin(), all.end());
+      joined.insert(joined.end(), last, batch.end());
+      all.swap(joined);
+    }
+    n_held_ += double(all.size()) - double(before);
     return least;
   }
 
-  /// Hands over the windows of a list, from tail to head, that have not gone on and whose least
-  /// distance is up to `now`; the least distance of the others.
+  /// Hands over the windows of a list, from tail to head, that have not gone on.
   template <class Take>
-  static double take_open(List& list, double now, const Take& take) {
-    double least = std::numeric_limits<double>::infinity();
+  static void take_open(WindowList& list, const Take& take) {
     for (Window& w : list.windows) {
       if (!w.open) continue;
-      const double d = w.least();
-      if (d > now) {
-        least = std::min(least, d);
-      } else {
-        take(w);
-        w.open = false;
-      }
+      take(w);
+      w.open = false;
     }
-    return least;
   }
 
-  static double least_open(const List& list) {
+  static double least_open(const WindowList& list) {
     double least = std::numeric_limits<double>::infinity();
     for (const Window& w : list.windows)
       if (w.open) least = std::min(least, w.least());
     return least;
   }
 
-  void forget(List& list) {
+  void forget(WindowList& list) {
     n_held_ -= double(list.windows.size());
-    list.windows.clear();
-    spare_.emplace_back().swap(list.windows);
+    std::vector<Window>().swap(list.windows);
   }
 
   double n_taken() const { return n_taken_; }  // windows ever held
   double n_held() const { return n_held_; }
 
  private:
-  void make_room(List& list) {
-    if (list.windows.capacity() > 0 || spare_.empty()) return;
-    list.windows.swap(spare_.back());
-    spare_.pop_back();
-  }
-
   double insert(std::vector<Window>& all, double length, const Window& w) {
     if (all.empty() || all.back().b1 <= w.b0) {
       all.push_back(w);
       ++n_taken_;
-      ++n_held_;
       return w.least();
     }
     const auto beyond =
@@ -135,7 +114,6 @@ class EdgeEnvelopes {
       return replace(all, compare(w, all, beyond - all.begin(), length), w, narrow_share * length);
     all.insert(beyond, w);
     ++n_taken_;
-    ++n_held_;
     return w.least();
   }
 
@@ -325,7 +303,6 @@ class EdgeEnvelopes {
     }
     const auto at = all.begin() + std::ptrdiff_t(range.first);
     const std::size_t before = range.last - range.first, kept = std::min(before, made_.size());
-    n_held_ += double(made_.size()) - double(before);
     std::copy_n(made_.begin(), kept, at);
     if (made_.size() > before)
       all.insert(at + std::ptrdiff_t(kept), made_.begin() + std::ptrdiff_t(kept), made_.end());
@@ -334,10 +311,7 @@ class EdgeEnvelopes {
     return least;
   }
 
-  std::vector<List> lists_;                 // edges
-  std::vector<std::vector<Window>> spare_;  // empty, with room
-  std::vector<Window> batch_;               // of an edge, about to be taken
-  std::vector<Piece> pieces_;               // of the insertion under way
+  std::vector<Piece> pieces_;  // of the insertion under way
   std::vector<Window> made_;
   double n_taken_ = 0, n_held_ = 0;
 };

@@ -48,7 +48,7 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
 }  // namespace
 
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
-    : edges(T.n_edges()), bends(T.n_vertices, 0), corner_offsets(T.n_vertices + 1, 0) {
+    : edges(T.n_edges()), bends(T.n_vertices, never), corner_offsets(T.n_vertices + 1, 0) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   for (int e = 0; e < T.n_edges(); ++e) edges[e] = {inf, inf, T.edges(e, 0), T.edges(e, 1), 0, 0};
   const std::vector<char> is_first = first_of_its_edges(T);
@@ -81,20 +81,22 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     }
   }
   for (int e = 0; e < T.n_edges(); ++e)
-    if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = 1;
+    if (edges[e].n_pages != 2) bends[T.edges(e, 0)] = bends[T.edges(e, 1)] = anywhere;
   // Where triangles disagree about an edge, a bent path can be shorter by that than the straight
   // one which it cuts off.
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k)
       if (T.length(f, k) > edges[T.side_edge(f, k)].length)
-        for (int c = 0; c < 3; ++c) bends[T.faces(f, c)] = 1;
+        for (int c = 0; c < 3; ++c) bends[T.faces(f, c)] = anywhere;
   for (int v = 0; v < T.n_vertices; ++v) {
-    if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
     const auto corners = around(v);
     if (bends[v] || corners.empty()) continue;
     const int side = corners.front(), f = side / 3;
+    const bool more = turn[v] > 2 * std::numbers::pi + 1e-12;
     if (!closes_up(T, *this, v, 3 * f + (side + 2) % 3, static_cast<int>(corners.size())))
-      bends[v] = 1;
+      bends[v] = anywhere;
+    else if (more)
+      bends[v] = behind;
   }
 }
 

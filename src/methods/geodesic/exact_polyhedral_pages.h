@@ -43,8 +43,11 @@ struct PolyhedralPages {
   }
 
   std::vector<Edge> edges;
-  std::vector<int> pages;   // by edge
-  std::vector<char> bends;  // vertices; not inside a disk of at most a full turn
+  std::vector<int> pages;  // by edge
+  /// Whether paths bend at a vertex: never inside a disk of at most a full turn; inside a disk of
+  /// more only behind the vertex, as seen from where they come.
+  enum Bends : char { never = 0, anywhere = 1, behind = 2 };
+  std::vector<char> bends;  // vertices
   std::vector<int> corner_offsets, across;
 };
 

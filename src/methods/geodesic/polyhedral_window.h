@@ -8,6 +8,9 @@
 
 namespace littoral {
 
+inline constexpr double slack_share = 1e-12;   // of the distance: nearer by less is a tie
+inline constexpr double narrow_share = 1e-12;  // of the edge: narrower stretches are left out
+
 /// Rays that cross an edge within [b0, b1]. Coordinates: the edge on the real axis from its tail at
 /// 0 to its length, and the rays going up, whichever triangle they came through: all triangles at
 /// the edge but that one, laid above it, see them so. Rays come straight from the image of a point
@@ -89,5 +92,32 @@ struct Window {
 };
 
 static_assert(sizeof(Window) == 64);
+
+/// Distances at the ends of an edge, +inf where nothing is known.
+struct EdgeEnds {
+  EdgeEnds(double at_tail, double at_head, double edge_length)
+      : tail(at_tail),
+        head(at_head),
+        length(edge_length),
+        tail_slack(slack_share * (tail + length)),
+        head_slack(slack_share * (head + length)) {}
+
+  double tail, head, length;
+  double tail_slack, head_slack;  // nearer by less is a tie
+
+  double narrow() const { return narrow_share * length; }
+  /// Whether the ends reach nothing of a window sooner.
+  bool leave_be(const Window& w) const {
+    return w.d0 <= tail + w.b0 + tail_slack && w.d1 <= head + (length - w.b1) + head_slack;
+  }
+  /// Cuts off what the ends reach sooner; false if nothing is left.
+  bool trim(Window& w) const {
+    if (!leave_be(w)) {
+      w.trim_start(tail, tail_slack);
+      if (w.b1 > w.b0) w.trim_end(head, length, head_slack);
+    }
+    return w.b1 - w.b0 > narrow();
+  }
+};
 
 }  // namespace littoral

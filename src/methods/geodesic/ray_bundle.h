@@ -1,11 +1,11 @@
 #pragma once
 // Windows of one edge on their way through a triangle, side by side.
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "littoral/types.h"
 #include "methods/geodesic/polyhedral_window.h"
+#include "methods/geodesic/ray_kernels.h"
 
 namespace littoral {
 
@@ -30,7 +30,7 @@ struct RayExit {
   bool turned() const { return right != from_apex; }
 };
 
-/// Every step is done for four windows at once: most of what a window costs is waiting for
+/// Every step is done for several windows at once: most of what a window costs is waiting for
 /// quotients and roots, which then overlap.
 class RayBundle {
  public:
@@ -40,30 +40,41 @@ class RayBundle {
   int size() const { return static_cast<int>(windows_.size()); }
   const Window& operator[](int i) const { return *windows_[i]; }
 
-  /// On which side of the rays at the ends of each window the apex lies.
-  void look_at(const TriangleAbove& triangle);
-  /// > 0: the apex lies left of the ray at the window's start, end.
-  double at_start(int i) const { return blocks_[i / lanes].apex0[i % lanes]; }
-  double at_end(int i) const { return blocks_[i / lanes].apex1[i % lanes]; }
-
-  /// Carries windows first, ..., last - 1, and perhaps their neighbours, to a side.
-  void leave(const TriangleAbove& triangle, const RayExit& exit, int first, int last);
+  /// On which side of the rays at the ends of each window the apex lies; rays that pass it by less
+  /// than `tolerance` reach it.
+  void look_at(const TriangleAbove& triangle, double tolerance);
+  /// Which sides of the apex each window goes on to (`RayColumns::goes`).
+  void see_where_to(double crossing, double reach) {
+    littoral::see_where_to(columns_, size(), crossing, reach);
+  }
+  /// Carries windows first, ..., last - 1, and perhaps their neighbours, to a side with these ends.
+  void leave(const TriangleAbove& triangle, const RayExit& exit, const EdgeEnds& ends, int first,
+             int last);
+  const RayColumns& columns() const { return columns_; }
   /// Fills in a window that has been carried there, in the coordinates of the edge of that side.
-  void left_as(int i, const RayExit& exit, std::uint16_t page, Window& w) const;
+  void left_as(int i, std::uint16_t page, Window& w) const {
+    const Window& from = *windows_[i];
+    w.b0 = columns_.to0[i];
+    w.b1 = columns_.to1[i];
+    w.d0 = columns_.to_d0[i];
+    w.d1 = columns_.to_d1[i];
+    w.x = columns_.to_x[i];
+    w.y = columns_.to_y[i];
+    w.behind = columns_.to_behind[i];
+    w.source = from.source;
+    w.page = page;
+    w.depth = static_cast<std::uint8_t>(from.depth + (from.depth < Window::deep));
+    w.parallel = from.parallel;
+    w.open = true;
+  }
 
  private:
-  static constexpr int lanes = 4;
-  using Lanes = Eigen::Array<double, lanes, 1>;
-  struct Block {
-    Lanes b0, b1, x, y, behind, g0, g1, gy;  // direction (g, gy) of the rays at the ends
-    Lanes apex0, apex1;
-    Lanes to0, to1, to_x, to_y, to_d0, to_d1;
-  };
-  template <bool right>
-  void carry(const TriangleAbove& triangle, const RayExit& exit, Block& of) const;
+  void make_room();
 
   std::vector<const Window*> windows_;
-  std::vector<Block> blocks_;
+  std::vector<double> numbers_;
+  std::vector<std::int64_t> flags_;
+  RayColumns columns_{};
 };
 
 }  // namespace littoral

@@ -1,0 +1,287 @@
+#include "methods/geodesic/ray_crossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace littoral {
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
+
+constexpr double bend_slack = 1e-6;  // of a bend of half a turn; costs 1e-12 of a path
+
+double norm(double x, double y) { return std::sqrt(x * x + y * y); }
+
+Complex apex_of(double a, double b, double c) {
+  return {law_of_cosines(a, c, b) / (2 * a), 2 * area_of_lengths(a, b, c) / a};
+}
+
+/// Far corner of a triangle above its side, 3 triangle + k.
+Complex apex_over(const IntrinsicTriangulation& T, int side) {
+  const int f = side / 3, k = side % 3;
+  return apex_of(T.length(f, k), T.length(f, (k + 1) % 3), T.length(f, (k + 2) % 3));
+}
+
+}  // namespace
+
+PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
+    : T(triangulation),
+      pages(T),
+      lists(T.n_edges()),
+      distance(VecX::Constant(T.n_vertices, inf)),
+      nearest(VecXi::Constant(T.n_vertices, -1)),
+      arrival(T.n_vertices),
+      winner(3 * std::size_t(T.n_faces()), {inf, 0}) {}
+
+void RayCrossing::clear() {
+  offers_.clear();
+  n_batches_ = 0;
+}
+
+RayCrossing::Batch& RayCrossing::next_batch(int edge) {
+  if (n_batches_ == batches_.size()) batches_.emplace_back();
+  Batch& batch = batches_[n_batches_++];
+  batch.edge = edge;
+  batch.windows.clear();
+  return batch;
+}
+
+void RayCrossing::leave_source(const PolyhedralStart& start) {
+  const int triangle = start.point ? start.point->face : start.segment->triangle;
+  const TriangleRays rays =
+      start.point ? rays_of_point(T_, *start.point) : rays_of_segment(T_, *start.segment);
+  for (int k = 0; k < 3; ++k)
+    offers_.push_back({T_.faces(triangle, k), start.value + rays.corners[k], start.source, {}});
+  for (auto [side, w] : rays.leaving) {
+    w.source = start.source;
+    w.behind += start.value;
+    leave(side, w);
+  }
+}
+
+void RayCrossing::leave_vertex(int v) {
+  const double d = s_.distance[v];
+  const int source = s_.nearest[v];
+  for (const int side : s_.pages.around(v)) {
+    const int f = side / 3, k1 = side % 3, k2 = (k1 + 1) % 3, k = (k1 + 2) % 3;
+    offers_.push_back({T_.faces(f, k1), d + T_.length(f, k), source, {3 * f + k2, 1}});
+    offers_.push_back({T_.faces(f, k2), d + T_.length(f, k2), source, {3 * f + k, 0}});
+  }
+  const PolyhedralSearch::Arrival& arrival = s_.arrival[v];
+  if (s_.pages.bends[v] == PolyhedralPages::behind && arrival.side >= 0)
+    return leave_behind(v, arrival);
+  for (const int side : s_.pages.around(v)) leave_corner(v, side, 0, T_.length(side / 3, side % 3));
+}
+
+/// Paths straight from a vertex through a stretch of the side across from it.
+void RayCrossing::leave_corner(int v, int side, double b0, double b1) {
+  const Complex apex = apex_over(T_, side);
+  Window w;
+  w.b0 = b0;
+  w.b1 = b1;
+  w.x = apex.real();
+  w.y = apex.imag();
+  w.behind = s_.distance[v];
+  w.source = s_.nearest[v];
+  leave(side, w);
+}
+
+/// Only where it turns by at least half a turn on both sides can a path that bends be shortest.
+void RayCrossing::leave_behind(int v, const PolyhedralSearch::Arrival& arrival) {
+  corners_.clear();
+  const Complex first = apex_over(T_, arrival.side);
+  const double length = T_.length(arrival.side / 3, arrival.side % 3);
+  const auto down = [&](double p) { return std::atan2(p - first.real(), first.imag()); };
+  const double start = down(length) - down(arrival.share * length);
+  double turn = down(length) - down(0);
+  int side = 3 * (arrival.side / 3) + (arrival.side % 3 + 1) % 3;
+  while (true) {
+    const auto at = s_.pages.at(T_.side_edge(side / 3, side % 3));
+    const int entered = at[0] == side ? at[1] : at[0], f = entered / 3, k = entered % 3;
+    if (f == arrival.side / 3) break;
+    Corner c;
+    c.from_start = T_.faces(f, k) == v;
+    c.side = 3 * f + (c.from_start ? k + 1 : k + 2) % 3;
+    c.length = T_.length(f, c.side % 3);
+    const Complex apex = apex_over(T_, c.side);
+    c.x = c.from_start ? apex.real() : c.length - apex.real();
+    c.y = apex.imag();
+    c.angle = std::atan2(c.x, c.y) + std::atan2(c.length - c.x, c.y);
+    turn += c.angle;
+    corners_.push_back(c);
+    side = 3 * f + (c.from_start ? k + 2 : k + 1) % 3;
+  }
+  const double low = std::numbers::pi - bend_slack, high = turn - low;
+  double angle = start;
+  for (const Corner& c : corners_) {
+    const double from = low - angle, to = high - angle;
+    angle += c.angle;
+    if (from >= c.angle || to <= 0) continue;
+    double b0 = from > 0 ? c.crossing(from) : 0, b1 = to < c.angle ? c.crossing(to) : c.length;
+    if (!c.from_start) b0 = c.length - std::exchange(b1, c.length - b0);
+    leave_corner(v, c.side, b0, b1);
+  }
+}
+
+/// Rays that leave a triangle through a side, in that side's coordinates with the triangle (and the
+/// image) above it.
+void RayCrossing::leave(int side, Window w) {
+  const int id = T_.side_edge(side / 3, side % 3);
+  const PolyhedralPages::Edge& edge = s_.pages.edges[id];
+  if (!s_.pages.leads_on(edge, side)) return;
+  w.y = -w.y;
+  if (T_.along(side / 3, side % 3) < 0) w.turn(edge.length);
+  w.page = s_.pages.page_of(edge, side);
+  w.b0 = std::max(w.b0, 0.0);
+  w.b1 = std::min(w.b1, edge.length);
+  w.measure_ends();
+  if (s_.ends(edge).trim(w)) next_batch(id).windows.push_back(w);
+}
+
+void RayCrossing::go_on(int id) {
+  const PolyhedralPages::Edge& edge = s_.pages.edges[id];
+  const EdgeEnds ends = s_.ends(edge);
+  open_.clear();
+  EdgeEnvelopes::take_open(s_.lists[id], [&](Window& w) {
+    if (ends.trim(w)) open_.push_back(&w);
+  });
+  const auto sides = s_.pages.at(edge);
+  for (std::size_t page = 0; page < sides.size(); ++page) {
+    rays_.clear();
+    for (const Window* w : open_)
+      if (w->page != page) rays_.add(*w);
+    if (rays_.size() > 0) cross(sides[page]);
+  }
+}
+
+/// The rays at hand enter a triangle through a side and leave through the others.
+void RayCrossing::cross(int side) {
+  const int f = side / 3, k = side % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+  const bool turned = T_.along(f, k) < 0;
+  TriangleAbove above{T_.length(f, k), 0};
+  above.apex = apex_over(T_, side);
+  if (turned) above.apex = Complex(above.length - above.apex.real(), above.apex.imag());
+  rays_.look_at(above, coverage_share * above.length);
+  const RayColumns& c = rays_.columns();
+  const int apex = T_.faces(f, k2), n = rays_.size();
+  const PolyhedralSearch::Winner& winner = s_.winner[side];
+  far_ = s_.distance[apex];
+  for (int i = 0; i < n; ++i)
+    if (c.covers[i]) look(rays_[i], above, side);
+  // Beyond the line from an end of a window to the far corner, that corner may be nearer.
+  const double slack = slack_share * (far_ + above.length);
+  rays_.see_where_to(winner.crossing, far_ + above.apex.imag() + slack);
+  const bool doubt = s_.most_straight <= Window::deep;
+  int first[2] = {n, n}, last[2] = {0, 0};
+  for (int i = 0; i < n; ++i) {
+    if (doubt || c.goes[i] & 4) c.goes[i] = where_to(i, above, winner);
+    for (const int right : {0, 1})
+      if (c.goes[i] >> right & 1) {
+        first[right] = std::min(first[right], i);
+        last[right] = i + 1;
+      }
+  }
+  for (const int right : {1, 0}) {
+    if (first[right] >= last[right]) continue;
+    const int next = (right == 1) != turned ? k1 : k2;  // of the triangle's sides
+    const int id = T_.side_edge(f, next);
+    const PolyhedralPages::Edge& edge = s_.pages.edges[id];
+    if (!s_.pages.leads_on(edge, 3 * f + next)) continue;
+    // A side from the edge below runs to the apex as given, if it is k1, and else from there.
+    const bool to_apex = (next == k1) == (T_.along(f, next) > 0);
+    const RayExit exit(above, T_.length(f, next), right == 1, !to_apex);
+    const double base = s_.distance[to_apex ? edge.tail : edge.head];
+    leave_together(3 * f + next, id, above, exit,
+                   {to_apex ? base : far_, to_apex ? far_ : base, edge.length}, first[right],
+                   last[right]);
+  }
+}
+
+/// A window whose rays reach the far corner.
+void RayCrossing::look(const Window& w, const TriangleAbove& above, int side) {
+  const double px = above.apex.real(), py = above.apex.imag();
+  const double at_apex = w.at(px, py), reached = std::max(at_apex, 0.0);
+  PolyhedralSearch::Winner& winner = s_.winner[side];
+  if (!(reached < far_ || at_apex < winner.distance)) return;
+  double crossing = w.parallel ? px - py * w.x / w.y : w.x - w.y * (px - w.x) / (py - w.y);
+  crossing = std::clamp(crossing, w.b0, w.b1);
+  if (reached < far_) {
+    const int f = side / 3, k = side % 3;
+    const double share = crossing / above.length;
+    far_ = reached;
+    offers_.push_back({T_.faces(f, (k + 2) % 3),
+                       reached,
+                       w.source,
+                       {side, T_.along(f, k) < 0 ? 1 - share : share}});
+  }
+  if (at_apex < winner.distance) winner = {at_apex, crossing};
+}
+
+/// Sides of the apex that a window goes on to: 1 left, 2 right.
+int RayCrossing::where_to(int i, const TriangleAbove& above,
+                          const PolyhedralSearch::Winner& winner) const {
+  const Window& w = rays_[i];
+  if (w.depth >= s_.most_straight) return 0;
+  bool left = rays_.columns().apex0[i]<0, right = rays_.columns().apex1[i]> 0;
+  const double px = above.apex.real(), py = above.apex.imag();
+  const double slack = slack_share * (far_ + above.length);
+  // One angle, one split: rays beyond those that reach the far corner soonest do not cross them.
+  const bool beyond_left = left && w.b0 >= winner.crossing,
+             beyond_right = right && w.b1 <= winner.crossing;
+  if ((beyond_left || beyond_right) && w.at(px, py) > winner.distance + slack) {
+    left &= !beyond_left;
+    right &= !beyond_right;
+  }
+  // py bounds the norms from below.
+  const double reach = far_ + py + slack;
+  if (left && reach < w.d0 && far_ + norm(px - w.b0, py) + slack < w.d0) left = false;
+  if (right && reach < w.d1 && far_ + norm(px - w.b1, py) + slack < w.d1) right = false;
+  return int(left) + 2 * int(right);
+}
+
+/// Windows from the tail to the head of a side, each compared with the one before it.
+void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, const RayExit& exit,
+                                 const EdgeEnds& ends, int first, int last) {
+  const std::uint16_t page = s_.pages.page_of(s_.pages.edges[id], side);
+  rays_.leave(above, exit, ends, first, last);
+  const RayColumns& c = rays_.columns();
+  const std::int64_t goes = exit.right ? 2 : 1;
+  std::vector<Window>& batch = next_batch(id).windows;
+  const int n = last - first, step = exit.turned() ? -1 : 1;
+  bool as_left = false;  // the last of the batch is the one before, and its head end as it left
+  for (int j = 0, i = exit.turned() ? last - 1 : first; j < n; ++j, i += step) {
+    if (!(c.goes[i] & goes)) {
+      as_left = false;
+      continue;
+    }
+    Window& w = batch.emplace_back();
+    rays_.left_as(i, page, w);
+    if (c.ends[i] != 0) {
+      as_left = false;
+      if (ends.trim(w))
+        envelopes.settle(batch, ends.length);
+      else
+        batch.pop_back();
+      continue;
+    }
+    const int pair = exit.turned() ? i : i - 1;
+    if (as_left && c.meets[pair] == apart) continue;
+    if (as_left && c.meets[pair] == cut_once) {
+      Window& o = batch[batch.size() - 2];
+      if (o.b0 <= w.b0 && c.cut[pair] - o.b0 > ends.narrow()) {
+        o.b1 = w.b0 = c.cut[pair];
+        o.d1 = c.cut_first[pair];
+        w.d0 = c.cut_second[pair];
+        continue;
+      }
+    }
+    as_left = envelopes.settle(batch, ends.length);
+  }
+  if (batch.empty()) --n_batches_;
+}
+
+}  // namespace littoral

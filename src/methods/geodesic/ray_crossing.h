@@ -1,0 +1,107 @@
+#pragma once
+// What goes on from an edge that windows lie on, or from a vertex where paths bend.
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "methods/geodesic/edge_envelopes.h"
+#include "methods/geodesic/exact_polyhedral_pages.h"
+#include "methods/geodesic/exact_polyhedral_starts.h"
+#include "methods/geodesic/ray_bundle.h"
+
+namespace littoral {
+
+/// What the search knows so far.
+struct PolyhedralSearch {
+  explicit PolyhedralSearch(const IntrinsicTriangulation& triangulation);
+
+  struct Winner {
+    double distance;  // least at the far corner among rays through a side
+    double crossing;  // where they cross the side
+  };
+
+  /// The ray that reaches a vertex soonest: the side across from it, 3 triangle + k, and where the
+  /// ray crosses that, as a share from its start; rays of sources in the triangle have none.
+  struct Arrival {
+    int side = -1;
+    double share = 0;
+  };
+
+  const IntrinsicTriangulation& T;
+  PolyhedralPages pages;
+  std::vector<WindowList> lists;  // edges
+  VecX distance;                  // vertices; least found so far
+  VecXi nearest;
+  std::vector<Arrival> arrival;          // vertices
+  std::vector<Winner> winner;            // sides
+  int most_straight = Window::deep + 1;  // how many triangles paths run straight through
+
+  EdgeEnds ends(const PolyhedralPages::Edge& edge) const {
+    return {distance[edge.tail], distance[edge.head], edge.length};
+  }
+};
+
+/// Collects what edges and vertices send, without a change of anything that others read: several
+/// can work on different edges at the same time.
+class RayCrossing {
+ public:
+  explicit RayCrossing(PolyhedralSearch& search) : s_(search), T_(search.T) {}
+
+  struct Offer {
+    int vertex;
+    double distance;
+    int source;
+    PolyhedralSearch::Arrival arrival;
+  };
+  struct Batch {
+    int edge;
+    std::vector<Window> windows;
+    double least;  // of what is taken
+  };
+
+  void clear();
+  /// The windows of an edge that have not gone on, to its triangles.
+  void go_on(int edge);
+  /// Paths that bend at a vertex: along its edges and into its triangles.
+  void leave_vertex(int v);
+  void leave_source(const PolyhedralStart& start);
+
+  const std::vector<Offer>& offers() const { return offers_; }
+  std::size_t n_batches() const { return n_batches_; }
+  Batch& batch(std::size_t i) { return batches_[i]; }
+
+  EdgeEnvelopes envelopes;
+
+ private:
+  void cross(int side);
+  void look(const Window& w, const TriangleAbove& above, int side);
+  int where_to(int i, const TriangleAbove& above, const PolyhedralSearch::Winner& winner) const;
+  void leave_together(int side, int edge, const TriangleAbove& above, const RayExit& exit,
+                      const EdgeEnds& ends, int first, int last);
+  void leave_corner(int v, int side, double b0, double b1);
+  void leave_behind(int v, const PolyhedralSearch::Arrival& arrival);
+  void leave(int side, Window w);
+  Batch& next_batch(int edge);
+
+  PolyhedralSearch& s_;
+  const IntrinsicTriangulation& T_;
+  std::vector<Offer> offers_;
+  std::vector<Batch> batches_;  // the first n_batches_ are in use
+  std::size_t n_batches_ = 0;
+  struct Corner {
+    int side;             // across from the vertex
+    bool from_start;      // the corner is entered at the leg to the start of that side
+    double x, y, length;  // the vertex above the side; its length
+    double angle;
+    /// Where a ray crosses the side, from the end where the corner is entered, that turned away
+    /// from the leg there.
+    double crossing(double turned) const { return x + y * std::tan(turned - std::atan2(x, y)); }
+  };
+  std::vector<Corner> corners_;
+  std::vector<const Window*> open_;
+  RayBundle rays_;
+  double far_ = 0;  // distance of the far corner of the triangle that is crossed
+};
+
+}  // namespace littoral

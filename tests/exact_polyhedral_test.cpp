@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/parallel.h"
 #include "geodesic_helpers.h"
 #include "io/read.h"
 #include "littoral/error.h"
@@ -42,6 +43,22 @@ TEST(ExactPolyhedral, PlaneFromVerticesEdgesFacesAndSeveral) {
     expect_euclidean(mesh, from({corner, edge, face}),
                      {mesh.position(corner), mesh.position(edge), mesh.position(face)});
   }
+}
+
+/// So many sources that more goes on at the same time than is left to one thread.
+TEST(ExactPolyhedralSlow, SameBitsForAnyThreadCount) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(500, 500, 0.3));
+  std::mt19937 random(5);
+  Sources sources;
+  for (int i = 0; i < 25000; ++i)
+    sources.points.push_back(
+        SurfacePoint::at_vertex(static_cast<int>(random() % std::size_t(mesh.n_vertices()))));
+  set_thread_count(1);
+  const VecX one = test::exact(mesh, sources);
+  set_thread_count(3);
+  const VecX three = test::exact(mesh, sources);
+  set_thread_count(0);
+  EXPECT_EQ(one, three);
 }
 
 TEST(ExactPolyhedral, PlaneFromBrokenLine) {

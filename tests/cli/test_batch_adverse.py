@@ -239,7 +239,7 @@ def test_long_lists(scans: Path) -> None:
     [line] = lines(scans / "out", f"status.7-of-{count}.jsonl")
     assert line["input"] == "gone/6.obj"
     own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    assert usage.ru_maxrss < max(own, 100_000), "kB"
+    assert usage.ru_maxrss <= max(own, 100_000), "kB; a child begins with its parent's"
 
 
 def slurm(folder: Path, task: int, first: int, count: int, *words: str) -> int:

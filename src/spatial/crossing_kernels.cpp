@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/kernel_choice.h"
+#include "base/vector_lanes.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -20,26 +21,6 @@ namespace littoral {
 namespace {
 
 constexpr int lanes = winding_lanes;
-
-// Lanes as the compiler's own vectors, of as many as a register holds; comparisons give masks of
-// all bits.
-template <int width>
-struct Wide;
-template <>
-struct Wide<2> {
-  using Lanes = double __attribute__((vector_size(16)));
-  using Bits = std::int64_t __attribute__((vector_size(16)));
-};
-template <>
-struct Wide<4> {
-  using Lanes = double __attribute__((vector_size(32)));
-  using Bits = std::int64_t __attribute__((vector_size(32)));
-};
-
-template <class Lanes>
-[[gnu::always_inline]] inline void load(Lanes& to, const double* from) {
-  __builtin_memcpy(&to, from, sizeof to);
-}
 
 // In the plane z = 0 an edge from a to b that passes it is the point (x, y) = (g, f) / (b_z - a_z).
 double side_y(const double* a, const double* b) { return a[1] * b[2] - a[2] * b[1]; }

@@ -7,36 +7,14 @@
 #include <cmath>
 
 #include "base/kernel_choice.h"
+#include "base/vector_lanes.h"
 
 namespace littoral {
 
 namespace {
 
-// Lanes as the compiler's own vectors, of as many as a register holds; comparisons give masks of
-// all bits.
-template <int width>
-struct RayVector;
-template <>
-struct RayVector<2> {
-  using Lanes = double __attribute__((vector_size(16)));
-  using Bits = std::int64_t __attribute__((vector_size(16)));
-};
-template <>
-struct RayVector<4> {
-  using Lanes = double __attribute__((vector_size(32)));
-  using Bits = std::int64_t __attribute__((vector_size(32)));
-};
-
 #define LITTORAL_INLINE [[gnu::always_inline]] inline
 
-template <class V, class S>
-LITTORAL_INLINE void read(V& to, const S* from) {
-  __builtin_memcpy(&to, from, sizeof to);
-}
-template <class V, class S>
-LITTORAL_INLINE void write(S* to, const V& from) {
-  __builtin_memcpy(to, &from, sizeof from);
-}
 template <class V>
 LITTORAL_INLINE void take_root(V& v) {
   for (int l = 0; l < int(sizeof v / sizeof(double)); ++l) v[l] = std::sqrt(v[l]);
@@ -45,21 +23,21 @@ LITTORAL_INLINE void take_root(V& v) {
 /// Several windows of an edge.
 template <int width>
 struct SomeRays {
-  using V = typename RayVector<width>::Lanes;
-  using B = typename RayVector<width>::Bits;
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   V b0, b1, d0, d1, x, y, y2, behind;
   B parallel;
 
-  LITTORAL_INLINE void read_left(const RayColumns& c, int i) {
-    read(b0, c.to0 + i);
-    read(b1, c.to1 + i);
-    read(d0, c.to_d0 + i);
-    read(d1, c.to_d1 + i);
-    read(x, c.to_x + i);
-    read(y, c.to_y + i);
-    read(behind, c.to_behind + i);
+  LITTORAL_INLINE void load_left(const RayColumns& c, int i) {
+    load(b0, c.to0 + i);
+    load(b1, c.to1 + i);
+    load(d0, c.to_d0 + i);
+    load(d1, c.to_d1 + i);
+    load(x, c.to_x + i);
+    load(y, c.to_y + i);
+    load(behind, c.to_behind + i);
     V p;
-    read(p, c.parallel + i);
+    load(p, c.parallel + i);
     parallel = p != 0;
     y2 = y * y;
   }
@@ -71,65 +49,76 @@ struct SomeRays {
   }
 };
 
+/// Several windows on the edge below, and where the rays at their ends run.
+template <int width>
+struct EnteringRays {
+  using V = typename Wide<width>::Lanes;
+  V b0, b1, x, y, g0, g1, gy;
+  typename Wide<width>::Bits straight;
+
+  LITTORAL_INLINE void load_from(const RayColumns& c, int i) {
+    load(b0, c.b0 + i);
+    load(b1, c.b1 + i);
+    load(x, c.x + i);
+    load(y, c.y + i);
+    V parallel;
+    load(parallel, c.parallel + i);
+    straight = parallel != 0;
+    g0 = straight ? x : b0 - x;
+    g1 = straight ? x : b1 - x;
+    gy = straight ? y : -y;
+  }
+};
+
 template <int width>
 LITTORAL_INLINE void look_lanes(const RayColumns& c, int n, double px, double py,
                                 double tolerance) {
-  using V = typename RayVector<width>::Lanes;
-  using B = typename RayVector<width>::Bits;
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   for (int i = 0; i < n; i += width) {
-    V b0, b1, x, y, parallel;
-    read(b0, c.b0 + i);
-    read(b1, c.b1 + i);
-    read(x, c.x + i);
-    read(y, c.y + i);
-    read(parallel, c.parallel + i);
-    const B straight = parallel != 0;
-    const V g0 = straight ? x : b0 - x, g1 = straight ? x : b1 - x, gy = straight ? y : -y;
-    const V a0 = g0 * py - gy * (px - b0), a1 = g1 * py - gy * (px - b1);
-    write(c.apex0 + i, a0);
-    write(c.apex1 + i, a1);
-    const B past = (a0 > gy * tolerance) | (a1 < -gy * tolerance);
-    write(c.covers + i, ~past);
+    EnteringRays<width> w;
+    w.load_from(c, i);
+    const V a0 = w.g0 * py - w.gy * (px - w.b0), a1 = w.g1 * py - w.gy * (px - w.b1);
+    store(c.apex0 + i, a0);
+    store(c.apex1 + i, a1);
+    const B past = (a0 > w.gy * tolerance) | (a1 < -w.gy * tolerance);
+    store(c.covers + i, ~past);
   }
 }
 
 template <int width>
 LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, double crossing, double reach) {
-  using V = typename RayVector<width>::Lanes;
-  using B = typename RayVector<width>::Bits;
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   for (int i = 0; i < n; i += width) {
     V b0, b1, d0, d1, a0, a1;
-    read(b0, c.b0 + i);
-    read(b1, c.b1 + i);
-    read(d0, c.d0 + i);
-    read(d1, c.d1 + i);
-    read(a0, c.apex0 + i);
-    read(a1, c.apex1 + i);
+    load(b0, c.b0 + i);
+    load(b1, c.b1 + i);
+    load(d0, c.d0 + i);
+    load(d1, c.d1 + i);
+    load(a0, c.apex0 + i);
+    load(a1, c.apex1 + i);
     const B left = a0<0, right = a1> 0;
     const B not_left = (b0 >= crossing) | (d0 > reach), not_right = (b1 <= crossing) | (d1 > reach);
-    write(c.goes + i, (left & 1) | (right & 2) | (((left & not_left) | (right & not_right)) & 4));
+    store(c.goes + i, (left & 1) | (right & 2) | (((left & not_left) | (right & not_right)) & 4));
   }
 }
 
 template <int width, bool right>
 LITTORAL_INLINE void carry_lanes(const RayColumns& c, int first, int last, const ExitNumbers& e) {
-  using V = typename RayVector<width>::Lanes;
-  using B = typename RayVector<width>::Bits;
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   const double px = e.apex_x, py = e.apex_y, base = right ? e.triangle_length : 0.0;
   const double start = e.from_apex ? e.length : 0.0, step = e.from_apex ? -e.length : e.length;
   const bool turned = right != e.from_apex;
   for (int i = first; i < last; i += width) {
-    V b0, b1, x, y, behind, parallel, a0, a1;
-    read(b0, c.b0 + i);
-    read(b1, c.b1 + i);
-    read(x, c.x + i);
-    read(y, c.y + i);
-    read(behind, c.behind + i);
-    read(parallel, c.parallel + i);
-    read(a0, c.apex0 + i);
-    read(a1, c.apex1 + i);
-    const B straight = parallel != 0;
-    const V g0 = straight ? x : b0 - x, g1 = straight ? x : b1 - x, gy = straight ? y : -y;
+    EnteringRays<width> w;
+    w.load_from(c, i);
+    const auto& [b0, b1, x, y, g0, g1, gy, straight] = w;
+    V behind, a0, a1;
+    load(behind, c.behind + i);
+    load(a0, c.apex0 + i);
+    load(a1, c.apex1 + i);
     // Where the rays at the ends leave, as shares of the way from the edge below to the apex. The
     // outer ray leaves nearer to the edge; the inner one may pass the apex.
     V share0 = gy * (base - b0) / (g0 * py - gy * (px - base));
@@ -156,17 +145,17 @@ LITTORAL_INLINE void carry_lanes(const RayColumns& c, int first, int last, const
     take_root(r1);
     const V d0 = to_behind + (straight ? to_x * to0 : r0);
     const V d1 = to_behind + (straight ? to_x * to1 : r1);
-    write(c.to0 + i, to0);
-    write(c.to1 + i, to1);
-    write(c.to_x + i, to_x);
-    write(c.to_y + i, to_y);
-    write(c.to_behind + i, to_behind);
-    write(c.to_d0 + i, d0);
-    write(c.to_d1 + i, d1);
+    store(c.to0 + i, to0);
+    store(c.to1 + i, to1);
+    store(c.to_x + i, to_x);
+    store(c.to_y + i, to_y);
+    store(c.to_behind + i, to_behind);
+    store(c.to_d0 + i, d0);
+    store(c.to_d1 + i, d1);
     const B by_tail = d0 > e.tail + to0 + e.tail_slack;
     const B by_head = d1 > e.head + (e.edge_length - to1) + e.head_slack;
     const B wide = to1 - to0 > e.narrow;
-    write(c.ends + i, (by_tail & 1) | (by_head & 2) | (~wide & 4));
+    store(c.ends + i, (by_tail & 1) | (by_head & 2) | (~wide & 4));
   }
 }
 
@@ -174,12 +163,12 @@ LITTORAL_INLINE void carry_lanes(const RayColumns& c, int first, int last, const
 /// within the first and ends beyond it, and they are equally far at one point between.
 template <int width, bool turned>
 LITTORAL_INLINE void meet_lanes(const RayColumns& c, int first, int last, const ExitNumbers& e) {
-  using V = typename RayVector<width>::Lanes;
-  using B = typename RayVector<width>::Bits;
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   for (int i = first; i < last - 1; i += width) {
     SomeRays<width> o, w;
-    o.read_left(c, turned ? i + 1 : i);
-    w.read_left(c, turned ? i : i + 1);
+    o.load_left(c, turned ? i + 1 : i);
+    w.load_left(c, turned ? i : i + 1);
     const V low = w.b0, high = o.b1;
     V at_low, at_high;
     o.at(low, at_low);
@@ -222,10 +211,10 @@ LITTORAL_INLINE void meet_lanes(const RayColumns& c, int first, int last, const 
     const B clear = ((tied & ~nearer) | met) & (w.b1 - p > e.narrow) & (o.b0 <= w.b0) &
                     (o.b1 <= w.b1) & ~new_at_low & ~(o.parallel ^ w.parallel);
     const B overlap = high > low;
-    write(c.cut + i, p);
-    write(c.cut_first + i, far_o);
-    write(c.cut_second + i, far_w);
-    write(c.meets + i, (overlap & clear & cut_once) | (overlap & ~clear & unclear));
+    store(c.cut + i, p);
+    store(c.cut_first + i, far_o);
+    store(c.cut_second + i, far_w);
+    store(c.meets + i, (overlap & clear & cut_once) | (overlap & ~clear & unclear));
   }
 }
 

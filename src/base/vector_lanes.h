@@ -1,0 +1,31 @@
+#pragma once
+// Lanes as the compiler's own vectors, of as many as a register holds.
+
+#include <cstdint>
+
+namespace littoral {
+
+/// Comparisons of `Lanes` give masks of all bits, as `Bits`.
+template <int width>
+struct Wide;
+template <>
+struct Wide<2> {
+  using Lanes = double __attribute__((vector_size(16)));
+  using Bits = std::int64_t __attribute__((vector_size(16)));
+};
+template <>
+struct Wide<4> {
+  using Lanes = double __attribute__((vector_size(32)));
+  using Bits = std::int64_t __attribute__((vector_size(32)));
+};
+
+template <class Lanes, class Scalar>
+[[gnu::always_inline]] inline void load(Lanes& to, const Scalar* from) {
+  __builtin_memcpy(&to, from, sizeof to);
+}
+template <class Lanes, class Scalar>
+[[gnu::always_inline]] inline void store(Scalar* to, const Lanes& from) {
+  __builtin_memcpy(to, &from, sizeof from);
+}
+
+}  // namespace littoral

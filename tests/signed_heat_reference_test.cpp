@@ -1,5 +1,5 @@
 // Agreement with the outputs of the authors' program. Tolerances and known defects are those stated
-// beside the outputs; docs/measurements/accuracy.md explains each disagreement.
+// beside the outputs; docs/measurements/heat.md explains each disagreement.
 
 #include <gmock/gmock.h>
 

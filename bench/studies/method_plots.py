@@ -2,14 +2,14 @@
 
 usage: method_plots.py surface MESH... > FILE.csv    needs littoral and pygeodesic
        method_plots.py space > FILE.csv              needs littoral
-       method_plots.py plot SURFACE.csv SPACE.csv ACCURACY.md FOLDER    needs matplotlib
+       method_plots.py plot SURFACE.csv SPACE.csv MEASUREMENTS FOLDER  needs matplotlib
        method_plots.py table SURFACE.csv SPACE.csv   prints Markdown
 
 Surface: from vertex 0 of each mesh, against exact polyhedral distance by pygeodesic; mean error in
 % of the largest distance. Space: clouds of 2,048 points with exact normals on five shapes in
 [-1, 1]^3 (bench/studies/tori_accuracy.py), on 32^3 nodes; mean error in % of the longest side.
 Seconds are processor time of one thread for preparing and solving. Regions and all pairs are drawn
-from their tables in docs/measurements/accuracy.md.
+from their tables in docs/measurements, MEASUREMENTS.
 """
 
 import csv
@@ -143,14 +143,18 @@ def rows_of(page: Path, first: str) -> list[list[str]]:
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in body]
 
 
-def plot_tables(page: Path, folder: Path) -> None:
+def plot_tables(measurements: Path, folder: Path) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    regions = rows_of(page, "| genus | faces | cases |")
-    pairs = [r for r in rows_of(page, "| method | parameter | against") if r[0] == "symmetric"]
+    regions = rows_of(measurements / "regions.md", "| genus | faces | cases |")
+    pairs = [
+        r
+        for r in rows_of(measurements / "regularized.md", "| method | parameter | against")
+        if r[0] == "symmetric"
+    ]
     for name, x, y, xlabel, ylabel in (
         ("surface-winding", [r[0] for r in regions], [float(r[3].split("/")[0]) for r in regions],
          "genus of the surface", "mislabelled area, mean [%]"),

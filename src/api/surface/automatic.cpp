@@ -25,7 +25,7 @@ namespace littoral {
 
 namespace {
 
-// Calibrated on damaged curves (docs/measurements/accuracy.md).
+// Calibrated on damaged curves (docs/measurements/robustness.md).
 constexpr double spread = 0.1;
 
 const OptionTable<Automatic>& automatic_options() {

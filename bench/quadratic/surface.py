@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import meshio
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
@@ -185,7 +186,7 @@ class Run:
         limit: int = 3600,  # processor seconds
     ) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out"
+            mesh, out = Path(folder) / "mesh.obj", Path(folder) / "out.ply"
             write_obj(mesh, points, faces)
             if isinstance(source, int):
                 where = ["--vertex", str(source)]
@@ -194,8 +195,8 @@ class Run:
                 text = f"unsigned_point\nf {source[0]} {a:.17g} {b:.17g} {c:.17g}\n"
                 (Path(folder) / "source.txt").write_text(text)
                 where = ["--sources", str(Path(folder) / "source.txt")]
-            files = ["-o", f"{out}.obj", "-o", f"{out}.npy"]
-            command = ["distance", str(mesh), *where, "--method", method, *files, *extra]
+            command = ["distance", str(mesh), *where, "--method", method, "-o", str(out), *extra]
             self.report, self.seconds = timed(command, limit)
-            self.values: Floats = np.load(f"{out}.npy").ravel()
-            self.points, self.faces = read_obj(Path(f"{out}.obj"))
+            fine = meshio.read(out)
+        self.points, self.faces = np.asarray(fine.points), fine.cells_dict["triangle"]
+        self.values: Floats = fine.point_data["distance"].astype(np.float64)

@@ -108,7 +108,7 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
         all.insert(lists[1], length, w);
         all.settle(batch, length);
       }
-      const double found = all.take(lists[0], batch, length);
+      const double found = all.take(lists[0], std::move(batch), length);
       for (const Window& w : lists[0].windows)
         if (w.source >= 8 * n) least = std::min(least, w.least());
       EXPECT_EQ(found, least);

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include "base/platform/memory.h"
 #include "base/platform/threads.h"
+#include "base/thread_crew.h"
 
 namespace littoral {
 
@@ -24,8 +28,48 @@ int requested_thread_count() { return requested_threads; }
 int thread_count() {
   if (!has_threads) return 1;
   if (requested_threads > 0) return requested_threads;
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  static const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return cores;
 }
+
+/// A loop that several threads share. Each works as the one that made it would.
+class SharedLoop {
+ public:
+  SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body)
+      : n_(n), body_(body), mode_(floating_point_mode()), limit_(memory_limit()) {}
+
+  void work() {
+    inside_parallel = true;
+    set_memory_limit(limit_);
+    set_floating_point_mode(mode_);
+    for (std::size_t i; (i = next_.fetch_add(1)) < n_;) {
+      try {
+        body_(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (i < failed_) {
+          failed_ = i;
+          error_ = std::current_exception();
+        }
+        next_.store(n_);
+      }
+    }
+    inside_parallel = false;
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  const std::size_t n_;
+  const std::function<void(std::size_t)>& body_;
+  const std::uint64_t mode_;
+  const double limit_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::size_t failed_ = std::numeric_limits<std::size_t>::max();
+};
 
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -33,39 +77,87 @@ void parallel_for(std::size_t n, std::size_t grain,
   grain = std::max<std::size_t>(1, grain);
   const std::size_t pieces = (n + grain - 1) / grain;
   const std::size_t workers = std::min<std::size_t>(pieces, thread_count());
+  const auto piece = [&](std::size_t p) { body(p * grain, std::min(n, (p + 1) * grain)); };
   if (workers <= 1 || inside_parallel) {
-    for (std::size_t p = 0; p < pieces; ++p) body(p * grain, std::min(n, (p + 1) * grain));
+    for (std::size_t p = 0; p < pieces; ++p) piece(p);
     return;
   }
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr error;
-  std::size_t error_piece = pieces;
-  const std::uint64_t mode = floating_point_mode();
-  const double limit = memory_limit();
-  auto work = [&] {
-    inside_parallel = true;
-    set_memory_limit(limit);
-    set_floating_point_mode(mode);
-    for (std::size_t p; (p = next.fetch_add(1)) < pieces;) {
-      try {
-        body(p * grain, std::min(n, (p + 1) * grain));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (p < error_piece) {
-          error_piece = p;
-          error = std::current_exception();
-        }
-        next.store(pieces);
-      }
-    }
-    inside_parallel = false;
-  };
+  SharedLoop loop(pieces, piece);
   std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < workers; ++w) threads.emplace_back(work);
-  work();
+  for (std::size_t w = 1; w < workers; ++w) threads.emplace_back([&] { loop.work(); });
+  loop.work();
   for (auto& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
+  loop.rethrow();
+}
+
+struct ThreadCrew::Shared {
+  static constexpr int patience = 2000;  // looks, some 20 us, before a thread goes to sleep
+
+  /// Returns when `done` does not hold any more: soon if that is soon.
+  template <class Done>
+  void wait(std::condition_variable& changed, const Done& done) {
+    for (int i = 0; i < patience; ++i) {
+      if (done()) return;
+      pause_briefly();
+    }
+    std::unique_lock lock(mutex);
+    changed.wait(lock, done);
+  }
+  void start() {
+    for (int w = 1; w < n_threads; ++w)
+      threads.emplace_back([this] {
+        for (std::uint64_t seen = 0;;) {
+          wait(begun, [&] { return round.load() != seen; });
+          seen = round.load();
+          if (loop == nullptr) return;
+          loop->work();
+          if (busy.fetch_sub(1) == 1) {
+            { const std::lock_guard lock(mutex); }
+            ended.notify_one();
+          }
+        }
+      });
+  }
+  void begin(SharedLoop* what) {
+    busy.store(int(threads.size()));
+    {
+      const std::lock_guard lock(mutex);
+      loop = what;
+      round.fetch_add(1);
+    }
+    begun.notify_all();
+  }
+
+  const int n_threads = inside_parallel ? 1 : thread_count();
+  std::vector<std::thread> threads;
+  std::mutex mutex;
+  std::condition_variable begun, ended;
+  std::atomic<std::uint64_t> round{0};
+  std::atomic<int> busy{0};
+  SharedLoop* loop = nullptr;  // of this round; none: the threads end
+};
+
+ThreadCrew::ThreadCrew() : shared_(std::make_unique<Shared>()) {}
+
+ThreadCrew::~ThreadCrew() {
+  if (shared_->threads.empty()) return;
+  shared_->begin(nullptr);
+  for (auto& thread : shared_->threads) thread.join();
+}
+
+int ThreadCrew::size() const { return shared_->n_threads; }
+
+void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body) {
+  if (n <= 1 || size() == 1 || inside_parallel) {
+    for (std::size_t i = 0; i < n; ++i) body(i);
+    return;
+  }
+  if (shared_->threads.empty()) shared_->start();
+  SharedLoop loop(n, body);
+  shared_->begin(&loop);
+  loop.work();
+  shared_->wait(shared_->ended, [&] { return shared_->busy.load() == 0; });
+  loop.rethrow();
 }
 
 }  // namespace littoral

@@ -10,4 +10,13 @@ inline constexpr bool has_threads = false;
 inline constexpr bool has_threads = true;
 #endif
 
+/// Lets the processor rest for a moment in a loop that waits.
+inline void pause_briefly() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
 }  // namespace littoral

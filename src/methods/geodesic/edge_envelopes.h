@@ -14,6 +14,7 @@ namespace littoral {
 struct WindowList {
   std::vector<Window> windows;                           // from tail to head, do not overlap
   double due = std::numeric_limits<double>::infinity();  // when the open ones are to go on
+  bool none_open = false;  // all have gone on, whatever they say themselves
 };
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
@@ -26,6 +27,7 @@ class EdgeEnvelopes {
   /// Takes what is nearest of the window on an edge of the given length; the least distance there,
   /// +inf if nothing is left of it.
   double insert(WindowList& list, double length, const Window& w) {
+    close(list);
     const std::size_t before = list.windows.size();
     const double least = insert(list.windows, length, w);
     n_held_ += double(list.windows.size()) - double(before);
@@ -49,13 +51,20 @@ class EdgeEnvelopes {
   }
 
   /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is.
-  double take(WindowList& list, const std::vector<Window>& batch, double length) {
+  double take(WindowList& list, std::vector<Window>&& batch, double length) {
     double least = std::numeric_limits<double>::infinity();
     if (batch.empty()) return least;
+    close(list);
     std::vector<Window>& all = list.windows;
     const std::size_t before = all.size();
-    const double start = all.empty() ? length : all.front().b0,
-                 end = all.empty() ? length : all.back().b1;
+    if (before == 0) {
+      for (const Window& w : batch) least = std::min(least, w.least());
+      n_taken_ += double(batch.size());
+      n_held_ += double(batch.size());
+      all = std::move(batch);
+      return least;
+    }
+    const double start = all.front().b0, end = all.back().b1;
     auto first = batch.begin(), last = batch.end();
     while (first != last && first->b1 <= start) ++first;
     while (last != first && (last - 1)->b0 >= end) --last;
@@ -79,15 +88,15 @@ class EdgeEnvelopes {
   /// Hands over the windows of a list, from tail to head, that have not gone on.
   template <class Take>
   static void take_open(WindowList& list, const Take& take) {
-    for (Window& w : list.windows) {
-      if (!w.open) continue;
-      take(w);
-      w.open = false;
-    }
+    if (list.none_open) return;
+    for (Window& w : list.windows)
+      if (w.open) take(w);
+    list.none_open = true;
   }
 
   static double least_open(const WindowList& list) {
     double least = std::numeric_limits<double>::infinity();
+    if (list.none_open) return least;
     for (const Window& w : list.windows)
       if (w.open) least = std::min(least, w.least());
     return least;
@@ -96,12 +105,20 @@ class EdgeEnvelopes {
   void forget(WindowList& list) {
     n_held_ -= double(list.windows.size());
     std::vector<Window>().swap(list.windows);
+    list.none_open = false;
   }
 
   double n_taken() const { return n_taken_; }  // windows ever held
   double n_held() const { return n_held_; }
 
  private:
+  /// Lets every window say for itself that it has gone on.
+  static void close(WindowList& list) {
+    if (!list.none_open) return;
+    for (Window& w : list.windows) w.open = false;
+    list.none_open = false;
+  }
+
   double insert(std::vector<Window>& all, double length, const Window& w) {
     if (all.empty() || all.back().b1 <= w.b0) {
       all.push_back(w);

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "base/parallel.h"
+#include "base/thread_crew.h"
 #include "methods/geodesic/ray_crossing.h"
 #include "methods/heat/finalize.h"
 
@@ -23,7 +23,7 @@ constexpr double most_held = 3e7;  // windows, 2 GB
 constexpr double together_share =
     0.25;                              // of the wait of an edge: what is due until then goes on too
 constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 1.5e4;  // windows
+constexpr double worth_threads = 1e3;  // windows to carry on; ten times as many to put away
 
 class Front {
  public:
@@ -127,11 +127,11 @@ class Front {
   /// Lets all that was collected go on. Nobody sees what another of them sends: so they can do it
   /// at the same time, and the answer is the same whether they do or not.
   void go_on(double load) {
-    const std::size_t n = together_.size();
+    const std::size_t n = together_.size(), n_threads = std::size_t(threads_.size());
     const std::size_t parts =
-        load > worth_threads && threads_ > 1 ? std::min<std::size_t>(n, 4 * threads_) : 1;
+        load > worth_threads && n_threads > 1 ? std::min<std::size_t>(n, 4 * n_threads) : 1;
     while (crew_.size() < parts) crew_.push_back(std::make_unique<RayCrossing>(search_));
-    at_once(parts, [&](std::size_t part) {
+    threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
       for (std::size_t i = part * n / parts; i < (part + 1) * n / parts; ++i) {
@@ -146,25 +146,20 @@ class Front {
       if (id >= 0) gone_on_.push_back(id);
   }
 
-  template <class Body>
-  static void at_once(std::size_t n, const Body& body) {
-    if (n == 1) return body(0);
-    parallel_for(n, 1, [&](std::size_t i, std::size_t) { body(i); });
-  }
-
   /// Puts what the first members of the crew have collected where it belongs.
   void settle(std::size_t parts, double load) {
     for (std::size_t part = 0; part < parts; ++part)
       for (const RayCrossing::Offer& o : crew_[part]->offers())
         if (offer(o) && search_.pages.bends[o.vertex]) push({o.distance, -1 - o.vertex});
-    const std::size_t n = load > worth_threads ? std::min<std::size_t>(parts, 16) : 1;
-    at_once(n, [&](std::size_t share) {
+    const std::size_t n = load > 10 * worth_threads ? std::min<std::size_t>(parts, 16) : 1;
+    threads_.run(n, [&](std::size_t share) {
       for (std::size_t part = 0; part < parts; ++part)
         for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {
           RayCrossing::Batch& batch = crew_[part]->batch(i);
           if (std::size_t(batch.edge) % n != share) continue;
-          batch.least = crew_[share]->envelopes.take(search_.lists[batch.edge], batch.windows,
-                                                     search_.pages.edges[batch.edge].length);
+          batch.least =
+              crew_[share]->envelopes.take(search_.lists[batch.edge], std::move(batch.windows),
+                                           search_.pages.edges[batch.edge].length);
         }
     });
     for (std::size_t part = 0; part < parts; ++part)
@@ -225,7 +220,6 @@ class Front {
   PolyhedralSearch search_;
   const IntrinsicTriangulation& T_;
   const double most_windows_;
-  const std::size_t threads_ = std::size_t(thread_count());
   double budget_ = most_windows_;
   std::size_t relaxed_ = 0;  // times the limit was met
   double exact_within_ = inf;
@@ -233,6 +227,7 @@ class Front {
   std::vector<int> together_;  // `Entry::id` of what goes on now
   std::deque<int> gone_on_;    // edges, nearly in order
   std::vector<std::unique_ptr<RayCrossing>> crew_;
+  ThreadCrew threads_;
   int n_reached_ = 0;
 };
 

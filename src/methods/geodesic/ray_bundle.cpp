@@ -41,16 +41,17 @@ void RayBundle::look_at(const TriangleAbove& triangle, double tolerance) {
     c.behind[i] = w.behind;
     c.parallel[i] = w.parallel;
   }
-  look_at_apex(c, size(), triangle.apex.real(), triangle.apex.imag(), tolerance);
+  kernels_.look_at_apex(c, size(), triangle.apex.real(), triangle.apex.imag(), tolerance);
 }
 
 void RayBundle::leave(const TriangleAbove& triangle, const RayExit& exit, const EdgeEnds& ends,
                       int first, int last) {
-  leave_through(columns_, first, last,
-                {triangle.length, triangle.apex.real(), triangle.apex.imag(), exit.right,
-                 exit.from_apex, exit.length, exit.tail.real(), exit.tail.imag(), exit.along.real(),
-                 exit.along.imag(), exit.up.real(), exit.up.imag(), ends.tail, ends.head,
-                 ends.tail_slack, ends.head_slack, ends.length, ends.narrow(), slack_share});
+  kernels_.leave_through(
+      columns_, first, last,
+      {triangle.length, triangle.apex.real(), triangle.apex.imag(), exit.right, exit.from_apex,
+       exit.length, exit.tail.real(), exit.tail.imag(), exit.along.real(), exit.along.imag(),
+       exit.up.real(), exit.up.imag(), ends.tail, ends.head, ends.tail_slack, ends.head_slack,
+       ends.length, ends.narrow(), slack_share});
 }
 
 }  // namespace littoral

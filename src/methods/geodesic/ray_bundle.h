@@ -34,6 +34,8 @@ struct RayExit {
 /// quotients and roots, which then overlap.
 class RayBundle {
  public:
+  explicit RayBundle(const RayKernels& kernels = ray_kernels()) : kernels_(kernels) {}
+
   void clear() { windows_.clear(); }
   /// Windows stay where they are.
   void add(const Window& w) { windows_.push_back(&w); }
@@ -45,7 +47,7 @@ class RayBundle {
   void look_at(const TriangleAbove& triangle, double tolerance);
   /// Which sides of the apex each window goes on to (`RayColumns::goes`).
   void see_where_to(double crossing, double reach) {
-    littoral::see_where_to(columns_, size(), crossing, reach);
+    kernels_.see_where_to(columns_, size(), crossing, reach);
   }
   /// Carries windows first, ..., last - 1, and perhaps their neighbours, to a side with these ends.
   void leave(const TriangleAbove& triangle, const RayExit& exit, const EdgeEnds& ends, int first,
@@ -75,6 +77,7 @@ class RayBundle {
   std::vector<double> numbers_;
   std::vector<std::int64_t> flags_;
   RayColumns columns_{};
+  const RayKernels& kernels_;
 };
 
 }  // namespace littoral

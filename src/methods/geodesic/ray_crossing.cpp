@@ -46,7 +46,7 @@ RayCrossing::Batch& RayCrossing::next_batch(int edge) {
   if (n_batches_ == batches_.size()) batches_.emplace_back();
   Batch& batch = batches_[n_batches_++];
   batch.edge = edge;
-  batch.windows.clear();
+  batch.windows = {};
   return batch;
 }
 
@@ -252,6 +252,7 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
   const std::int64_t goes = exit.right ? 2 : 1;
   std::vector<Window>& batch = next_batch(id).windows;
   const int n = last - first, step = exit.turned() ? -1 : 1;
+  batch.reserve(std::size_t(n));
   bool as_left = false;  // the last of the batch is the one before, and its head end as it left
   for (int j = 0, i = exit.turned() ? last - 1 : first; j < n; ++j, i += step) {
     if (!(c.goes[i] & goes)) {

@@ -255,16 +255,14 @@ void leave_plain(const RayColumns& c, int first, int last, const ExitNumbers& e)
 
 }  // namespace
 
-void look_at_apex(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance) {
-  LITTORAL_FASTEST(look_plain, look_avx2)(c, n, apex_x, apex_y, tolerance);
-}
+const RayKernels plain_ray_kernels = {&look_plain, &where_plain, &leave_plain};
 
-void see_where_to(const RayColumns& c, int n, double crossing, double reach) {
-  LITTORAL_FASTEST(where_plain, where_avx2)(c, n, crossing, reach);
-}
-
-void leave_through(const RayColumns& c, int first, int last, const ExitNumbers& exit) {
-  LITTORAL_FASTEST(leave_plain, leave_avx2)(c, first, last, exit);
+const RayKernels& ray_kernels() {
+#if defined(__x86_64__)
+  static const RayKernels wide = {&look_avx2, &where_avx2, &leave_avx2};
+#endif
+  static const RayKernels& best = LITTORAL_FASTEST(plain_ray_kernels, wide);
+  return best;
 }
 
 }  // namespace littoral

@@ -39,13 +39,18 @@ struct ExitNumbers {
   double narrow, slack_share;
 };
 
-void look_at_apex(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance);
+struct RayKernels {
+  void (*look_at_apex)(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance);
+  /// `crossing`: where the ray that is nearest to the far corner comes through. Windows whose
+  /// starts (ends) lie beyond it, or are farther than `reach`, may not go left (right).
+  void (*see_where_to)(const RayColumns& c, int n, double crossing, double reach);
+  /// Windows first, ..., last - 1, and a few beside them.
+  void (*leave_through)(const RayColumns& c, int first, int last, const ExitNumbers& exit);
+};
 
-/// `crossing`: where the ray that is nearest to the far corner comes through. Windows whose starts
-/// (ends) lie beyond it, or are farther than `reach`, may not go left (right).
-void see_where_to(const RayColumns& c, int n, double crossing, double reach);
-
-/// Windows first, ..., last - 1, and a few beside them.
-void leave_through(const RayColumns& c, int first, int last, const ExitNumbers& exit);
+/// For any processor.
+extern const RayKernels plain_ray_kernels;
+/// The fastest ones for the processor that runs the program: the same bits.
+const RayKernels& ray_kernels();
 
 }  // namespace littoral

@@ -126,9 +126,7 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
       if (!(c.goes[i] & c.goes[i + 1] & side) || (c.ends[i] | c.ends[i + 1]) != 0 ||
           c.meets[i] == unclear)
         continue;
-      std::vector<Window> batch(2);
-      rays.left_as(before, 0, batch[0]);
-      rays.left_as(after, 0, batch[1]);
+      std::vector<Window> batch = {rays.left_as(before, 0), rays.left_as(after, 0)};
       const Window o = batch[0], w = batch[1];
       EdgeEnvelopes envelopes;
       ASSERT_TRUE(envelopes.settle(batch, t.ends.length)) << round;

@@ -1,6 +1,7 @@
 // Exact distance with sign at the nodes of a cube, timed for grids.py.
 // usage: littoral_grid_timer MESH NODES THREADS OUT
-//        NODES along each side, at -1 + 2 i / NODES; OUT: doubles as the machine has them, x fastest
+//        NODES along each side, at -1 + 2 i / NODES; OUT: doubles as the machine has them, x
+//        fastest
 // Prints processor and clock seconds of what is prepared, and of the nodes.
 
 #include <chrono>

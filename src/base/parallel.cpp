@@ -37,6 +37,7 @@ class SharedLoop {
  public:
   SharedLoop(std::size_t n, const std::function<void(std::size_t)>& body)
       : n_(n), body_(body), mode_(floating_point_mode()), limit_(memory_limit()) {}
+  SharedLoop(std::size_t n, std::function<void(std::size_t)>&& body) = delete;  // it must stay
 
   void work() {
     inside_parallel = true;
@@ -77,7 +78,9 @@ void parallel_for(std::size_t n, std::size_t grain,
   grain = std::max<std::size_t>(1, grain);
   const std::size_t pieces = (n + grain - 1) / grain;
   const std::size_t workers = std::min<std::size_t>(pieces, thread_count());
-  const auto piece = [&](std::size_t p) { body(p * grain, std::min(n, (p + 1) * grain)); };
+  const std::function<void(std::size_t)> piece = [&](std::size_t p) {
+    body(p * grain, std::min(n, (p + 1) * grain));
+  };
   if (workers <= 1 || inside_parallel) {
     for (std::size_t p = 0; p < pieces; ++p) piece(p);
     return;

@@ -112,11 +112,14 @@ struct EdgeEnds {
   }
   /// Cuts off what the ends reach sooner; false if nothing is left.
   bool trim(Window& w) const {
-    if (!leave_be(w)) {
-      w.trim_start(tail, tail_slack);
-      if (w.b1 > w.b0) w.trim_end(head, length, head_slack);
-    }
+    if (!leave_be(w)) cut(w);  // seldom
     return w.b1 - w.b0 > narrow();
+  }
+
+ private:
+  [[gnu::noinline]] void cut(Window& w) const {
+    w.trim_start(tail, tail_slack);
+    if (w.b1 > w.b0) w.trim_end(head, length, head_slack);
   }
 };
 

@@ -53,21 +53,21 @@ class RayBundle {
   void leave(const TriangleAbove& triangle, const RayExit& exit, const EdgeEnds& ends, int first,
              int last);
   const RayColumns& columns() const { return columns_; }
-  /// Fills in a window that has been carried there, in the coordinates of the edge of that side.
-  void left_as(int i, std::uint16_t page, Window& w) const {
+  /// A window that has been carried there, in the coordinates of the edge of that side.
+  Window left_as(int i, std::uint16_t page) const {
     const Window& from = *windows_[i];
-    w.b0 = columns_.to0[i];
-    w.b1 = columns_.to1[i];
-    w.d0 = columns_.to_d0[i];
-    w.d1 = columns_.to_d1[i];
-    w.x = columns_.to_x[i];
-    w.y = columns_.to_y[i];
-    w.behind = columns_.to_behind[i];
-    w.source = from.source;
-    w.page = page;
-    w.depth = static_cast<std::uint8_t>(from.depth + (from.depth < Window::deep));
-    w.parallel = from.parallel;
-    w.open = true;
+    const RayColumns& c = columns_;
+    return {.b0 = c.to0[i],
+            .b1 = c.to1[i],
+            .d0 = c.to_d0[i],
+            .d1 = c.to_d1[i],
+            .x = c.to_x[i],
+            .y = c.to_y[i],
+            .behind = c.to_behind[i],
+            .source = from.source,
+            .page = page,
+            .depth = static_cast<std::uint8_t>(from.depth + (from.depth < Window::deep)),
+            .parallel = from.parallel};
   }
 
  private:

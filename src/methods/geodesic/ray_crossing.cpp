@@ -178,12 +178,16 @@ void RayCrossing::cross(int side) {
   const bool doubt = s_.most_straight <= Window::deep;
   int first[2] = {n, n}, last[2] = {0, 0};
   for (int i = 0; i < n; ++i) {
-    if (doubt || c.goes[i] & 4) c.goes[i] = where_to(i, above, winner);
-    for (const int right : {0, 1})
-      if (c.goes[i] >> right & 1) {
-        first[right] = std::min(first[right], i);
-        last[right] = i + 1;
-      }
+    std::int64_t goes = c.goes[i];
+    if (doubt || goes & 4) c.goes[i] = goes = where_to(i, above, winner);
+    if (goes & 1) {
+      first[0] = std::min(first[0], i);
+      last[0] = i + 1;
+    }
+    if (goes & 2) {
+      first[1] = std::min(first[1], i);
+      last[1] = i + 1;
+    }
   }
   for (const int right : {1, 0}) {
     if (first[right] >= last[right]) continue;
@@ -259,8 +263,7 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
       as_left = false;
       continue;
     }
-    Window& w = batch.emplace_back();
-    rays_.left_as(i, page, w);
+    Window& w = batch.emplace_back(rays_.left_as(i, page));
     if (c.ends[i] != 0) {
       as_left = false;
       if (ends.trim(w))

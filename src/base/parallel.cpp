@@ -107,44 +107,58 @@ struct ThreadCrew::Shared {
     changed.wait(lock, done);
   }
   void start() {
-    for (int w = 1; w < n_threads; ++w)
-      threads.emplace_back([this] {
-        for (std::uint64_t seen = 0;;) {
-          wait(begun, [&] { return round.load() != seen; });
-          seen = round.load();
-          if (loop == nullptr) return;
-          loop->work();
-          if (busy.fetch_sub(1) == 1) {
-            { const std::lock_guard lock(mutex); }
-            ended.notify_one();
-          }
-        }
-      });
+    for (int w = 1; w < n_threads; ++w) threads.emplace_back([this] { help(); });
   }
-  void begin(SharedLoop* what) {
-    busy.store(int(threads.size()));
+  void help() {
+    for (std::uint64_t seen = 0;;) {
+      wait(begun, [&] { return round.load() != seen; });
+      SharedLoop* mine = nullptr;
+      {
+        const std::lock_guard lock(mutex);
+        seen = round.load();
+        if (over) return;
+        mine = loop;
+        if (mine == nullptr) continue;  // too late
+        ++inside;
+      }
+      mine->work();
+      const std::lock_guard lock(mutex);
+      if (--inside == 0) ended.notify_one();
+    }
+  }
+  void begin(SharedLoop* what, bool last = false) {
     {
       const std::lock_guard lock(mutex);
       loop = what;
-      round.fetch_add(1);
+      over = last;
+      ++round;
     }
     begun.notify_all();
+  }
+  /// Waits for those only that have begun.
+  void end() {
+    {
+      const std::lock_guard lock(mutex);
+      loop = nullptr;
+    }
+    wait(ended, [&] { return inside.load() == 0; });
   }
 
   const int n_threads = inside_parallel ? 1 : thread_count();
   std::vector<std::thread> threads;
-  std::mutex mutex;
+  std::mutex mutex;  // of all that follows; two of it are read without
   std::condition_variable begun, ended;
   std::atomic<std::uint64_t> round{0};
-  std::atomic<int> busy{0};
-  SharedLoop* loop = nullptr;  // of this round; none: the threads end
+  std::atomic<int> inside{0};  // threads in the loop, without the caller's
+  SharedLoop* loop = nullptr;  // what there is to do
+  bool over = false;
 };
 
 ThreadCrew::ThreadCrew() : shared_(std::make_unique<Shared>()) {}
 
 ThreadCrew::~ThreadCrew() {
   if (shared_->threads.empty()) return;
-  shared_->begin(nullptr);
+  shared_->begin(nullptr, true);
   for (auto& thread : shared_->threads) thread.join();
 }
 
@@ -159,7 +173,7 @@ void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body
   SharedLoop loop(n, body);
   shared_->begin(&loop);
   loop.work();
-  shared_->wait(shared_->ended, [&] { return shared_->busy.load() == 0; });
+  shared_->end();
   loop.rethrow();
 }
 

@@ -1,7 +1,7 @@
 # `make demo` and `make test` do everything on a fresh Debian or Ubuntu, system packages included.
 .DEFAULT_GOAL := help
 PROCESSOR ?= $(shell uname -m)
-.PHONY: help demo build install check test test-long format tidy wheel web docs bench peers domains clean
+.PHONY: help demo build install check test test-long format tidy wheel web docs bench peers domains grids clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST)
@@ -62,7 +62,7 @@ bench:  ## benchmarks
 	cmake --build build/bench
 	build/bench/bench/littoral_bench
 
-peers: domains  ## littoral beside other programs: the tables and plot of docs/measurements/performance.md
+peers: domains grids  ## littoral beside other programs: the tables and plot of docs/measurements/performance.md
 	cmake --build build/bench --target littoral_surface_timer
 	build/peers/bin/python bench/peers/compare.py build/bench/bench/littoral_surface_timer $(or $(CLOCK),wall) \
 	  docs/measurements/performance.md docs/gallery/performance-surface.png $(MESHES)
@@ -73,6 +73,14 @@ domains:  ## the part of that about polygon meshes and point clouds
 	cmake --build build/bench --target littoral_domain_timer
 	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
 	build/peers/bin/python bench/peers/domains.py build/bench/bench/littoral_domain_timer docs/measurements/performance.md 96 192
+
+grids:  ## the part of that about grids in space
+	scripts/setup.sh test
+	cmake --preset bench
+	cmake --build build/bench --target littoral_grid_timer
+	python3 -m venv build/peers && build/peers/bin/pip -q install -r bench/peers/requirements.txt
+	build/peers/bin/python bench/peers/grids.py build/bench/bench/littoral_grid_timer docs/measurements/performance.md \
+	  64,128 $(MESHES)
 
 clean:  ## remove what was built
 	rm -rf build out dist

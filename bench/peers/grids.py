@@ -98,7 +98,8 @@ def main() -> None:
     text = (
         f"Processor seconds of one thread; medians of {ROUNDS} interleaved rounds.\n{before}.\n\n"
         "| mesh | faces | nodes a side | program | error at nodes, largest, mean, of the size "
-        "| sides differ | prepared, s | nodes, s | us a node |\n|---|---|---|---|---|---|---|---|---|\n"
+        "| sides differ | prepared, s | nodes, s | us a node |\n"
+        "|---|---|---|---|---|---|---|---|---|\n"
     )
     for spec in meshes:
         path, _, times = spec.partition(":")

@@ -36,8 +36,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
 endif()
 
 # Compiles the files of each folder together, in portions of up to `bytes`; those with compile options
-# of their own stay alone, as do the ones named after `bytes`. Names in the unnamed namespaces of a
-# folder must differ.
+# of their own stay alone, as do the ones named after `bytes`. The folders of a room of
+# `littoral_joined_rooms` count as one: what a library's headers instantiate is then compiled once in a
+# portion, and not once in each small folder. Names in the unnamed namespaces of a folder, or of a
+# joined room, must differ.
+set(littoral_joined_rooms cli io api sources domain operators contour)
 function(littoral_compile_together target bytes)
   if(NOT LITTORAL_UNITY)
     return()
@@ -53,6 +56,9 @@ function(littoral_compile_together target bytes)
       continue()
     endif()
     get_filename_component(folder ${source} DIRECTORY)
+    if(source MATCHES "^${PROJECT_SOURCE_DIR}/src/([a-z]+)/" AND CMAKE_MATCH_1 IN_LIST littoral_joined_rooms)
+      set(folder ${PROJECT_SOURCE_DIR}/src/${CMAKE_MATCH_1})
+    endif()
     file(SIZE ${source} size)
     math(EXPR size_so_far "${size_so_far} + ${size}")
     if(NOT folder STREQUAL folder_before OR size_so_far GREATER bytes)

@@ -129,9 +129,9 @@ std::string report_json(const Report& report) {
   return dump(out);
 }
 
-ValueRange range_of(std::string name, const VecX& values) {
+FieldRange range_of(std::string name, const VecX& values) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  ValueRange range{std::move(name), none, none, static_cast<std::size_t>(values.size()), 0};
+  FieldRange range{std::move(name), none, none, static_cast<std::size_t>(values.size()), 0};
   for (const double value : values) {
     if (!std::isfinite(value)) {
       ++range.not_finite;
@@ -162,7 +162,7 @@ std::string run_json(const RunRecord& record, const Report& report) {
       if (value) planned[name] = *value;
   }
   out["values"] = Json::object();
-  for (const ValueRange& range : record.values)
+  for (const FieldRange& range : record.values)
     out["values"][range.name] = {{"min", number(range.low)},
                                  {"max", number(range.high)},
                                  {"count", range.count},

@@ -33,12 +33,12 @@ void each_entry(R& report, const Visit& visit) {
 Report summed_up(Report report);
 
 /// Values of a result in short.
-struct ValueRange {
+struct FieldRange {
   std::string name;
   double low = 0, high = 0;  // of the finite ones; NaN where there are none
   std::size_t count = 0, not_finite = 0;
 };
-ValueRange range_of(std::string name, const VecX& values);
+FieldRange range_of(std::string name, const VecX& values);
 
 /// What a run would do; numbers are estimates, absent where nothing was measured.
 struct PlannedRun {
@@ -52,7 +52,7 @@ struct RunRecord {
   std::string version, verb;                 // of the program
   std::vector<std::string> inputs, outputs;  // files
   std::optional<Grid> grid;
-  std::vector<ValueRange> values;
+  std::vector<FieldRange> values;
   std::optional<PlannedRun> plan;
 };
 

@@ -12,7 +12,7 @@ namespace littoral::io {
 
 namespace {
 
-using Cells = std::vector<std::string>;
+using TextCells = std::vector<std::string>;
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -36,8 +36,8 @@ char separator_of(std::string_view row) {
 }
 
 /// The cells of a row; quotes are taken off, and doubled ones within are one.
-Cells cells_of(std::string_view row, char separator) {
-  Cells cells(1);
+TextCells cells_of(std::string_view row, char separator) {
+  TextCells cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const char c = row[i];
@@ -65,7 +65,7 @@ std::string plain_name(const std::string& name) {
 }
 
 /// Where x, y and z are among the names.
-std::optional<std::array<std::size_t, 3>> coordinate_columns(const Cells& names) {
+std::optional<std::array<std::size_t, 3>> coordinate_columns(const TextCells& names) {
   for (const auto& known : {std::array{"x", "y", "z"}, {"points:0", "points:1", "points:2"}}) {
     std::array<std::size_t, 3> at{};
     bool all = true;
@@ -82,11 +82,11 @@ std::optional<std::array<std::size_t, 3>> coordinate_columns(const Cells& names)
 
 struct Columns {
   std::array<std::size_t, 3> xyz{0, 1, 2};
-  Cells names;  // empty: there is no head
+  TextCells names;  // empty: there is no head
   std::size_t count = 3;
 };
 
-Columns columns_of(const Cells& first, const std::string& line, const std::string& name) {
+Columns columns_of(const TextCells& first, const std::string& line, const std::string& name) {
   Columns columns;
   columns.count = first.size();
   const bool head =
@@ -122,7 +122,7 @@ PointTable read_points_text(std::string_view bytes, const std::string& name) {
   for (bool first = true; scan.next(); first = false) {
     const std::string line(scan.rest_of_line());
     if (first) separator = separator_of(line);
-    const Cells cells = cells_of(line, separator);
+    const TextCells cells = cells_of(line, separator);
     if (first) {
       columns = columns_of(cells, line, name);
       for (std::size_t c = 0; c < columns.names.size(); ++c)

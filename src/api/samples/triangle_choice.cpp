@@ -9,12 +9,12 @@ namespace littoral {
 
 namespace {
 
-struct Corners {
+struct CornerPoints {
   Vec3 a, b, c;
   Vec3 twice_area() const { return (b - a).cross(c - a); }
 };
 
-Corners corners_of(const PolygonSoup& triangles, int f) {
+CornerPoints corners_of(const PolygonSoup& triangles, int f) {
   const auto face = triangles.face(f);
   return {triangles.points.row(face[0]), triangles.points.row(face[1]),
           triangles.points.row(face[2])};
@@ -61,7 +61,7 @@ PointOnTriangle TriangleChoice::choose(RandomNumbers& random) const {
   const auto found = std::upper_bound(sums_.begin(), sums_.end(), reached);
   const auto f =
       static_cast<int>(std::min<std::ptrdiff_t>(found - sums_.begin(), std::ssize(sums_) - 1));
-  const Corners t = corners_of(*triangles_, f);
+  const CornerPoints t = corners_of(*triangles_, f);
   double u = random.uniform(), v = random.uniform();
   if (u + v > 1) {
     u = 1 - u;

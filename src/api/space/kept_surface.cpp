@@ -32,17 +32,17 @@ Corners corners_of(const MatX3i& faces, Eigen::Index f) {
   return {faces(f, 0), faces(f, 1), faces(f, 2)};
 }
 
-struct TriangleShape {
+struct KeptTriangle {
   Vec3 normal = Vec3::Zero();
   double height = 0, area = 0;  // over the longest side
   bool flat = true;
 };
 
-TriangleShape shape_of(const MatX3& points, const Corners& v) {
+KeptTriangle shape_of(const MatX3& points, const Corners& v) {
   const Vec3 a = points.row(v[0]), b = points.row(v[1]), c = points.row(v[2]);
   const Vec3 across = (b - a).cross(c - a);
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  TriangleShape out;
+  KeptTriangle out;
   out.area = across.norm() / 2;
   out.height = longest > 0 ? 2 * out.area / longest : 0;
   out.flat = !(out.height > flattest * longest);
@@ -84,7 +84,7 @@ bool is_sound(const PolygonSoup& surface) {
 
 /// Whether a part is turned outward (1), inward (-1) or bounds nothing (0), by its widest triangle.
 std::optional<int> turn_of(const MatX3& points, const Corners& widest, const SettledSides& sides) {
-  const TriangleShape shape = shape_of(points, widest);
+  const KeptTriangle shape = shape_of(points, widest);
   const Vec3 centre =
       (points.row(widest[0]) + points.row(widest[1]) + points.row(widest[2])).transpose() / 3;
   const Vec3 step = beside * shape.height * shape.normal;

@@ -18,7 +18,7 @@ namespace littoral {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 bool has_finite_corners(const PolygonSoup& soup, int f) {
   for (int v : soup.face(f))
@@ -130,15 +130,15 @@ int count_coincident_vertices(const MatX3& points) {
   return n;
 }
 
-struct CsgShapes {
+struct FaceShapes {
   int degenerate = 0;
-  double smallest_angle = infinity;  // degrees
+  double smallest_angle = unbounded;  // degrees
   double mean_edge = 0;
 };
 
 /// Coordinates are divided by the diagonal first, so that nothing overflows.
-CsgShapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
-  CsgShapes out;
+FaceShapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
+  FaceShapes out;
   if (!(diagonal > 0)) {
     out.degenerate = mesh.n_faces();
     return out;
@@ -173,7 +173,7 @@ CsgShapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
 std::vector<std::pair<std::string, std::vector<double>>> scalar_ranges(const PolygonSoup& soup) {
   std::vector<std::pair<std::string, std::vector<double>>> out;
   for (const auto& [name, values] : soup.scalars) {
-    double low = infinity, high = -infinity;
+    double low = unbounded, high = -unbounded;
     for (double value : values) {
       if (std::isnan(value)) continue;
       low = std::min(low, value);
@@ -217,7 +217,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
 
   std::vector<char> used(static_cast<std::size_t>(soup.n_vertices()), 0);
   for (int v : soup.corners) used[v] = 1;
-  Vec3 low = Vec3::Constant(infinity), high = -low;
+  Vec3 low = Vec3::Constant(unbounded), high = -low;
   int n_bad = 0, n_used = 0;
   for (int v = 0; v < soup.n_vertices(); ++v) {
     n_used += !mesh.vertex_faces(v).empty();
@@ -234,7 +234,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   for (int e = 0; e < mesh.n_edges(); ++e) n_nonmanifold += mesh.edge_faces(e).size() > 2;
   const int n_loops = count_boundary_loops(mesh, n_boundary);
   const EdgeTurns orientation = orientation_of(mesh);
-  const CsgShapes shapes = shapes_of(mesh, diagonal);
+  const FaceShapes shapes = shapes_of(mesh, diagonal);
 
   std::vector<InfoEntry> out;
   const auto count = [&](const char* key, double n) { out.push_back({key, n}); };

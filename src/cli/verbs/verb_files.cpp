@@ -114,7 +114,7 @@ std::vector<double> levels_for(const FileArguments& arguments, const VecX& value
       levels.push_back(n == 1 ? (low + high) / 2 : low + (high - low) * i / (n - 1));
     return levels;
   }
-  const ValueRange range = range_of("", values);
+  const FieldRange range = range_of("", values);
   if (!(range.low < range.high))
     throw InputError("option count: the values of " + arguments.in + " do not differ",
                      "option-value");

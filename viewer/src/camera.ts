@@ -55,29 +55,39 @@ export class OrbitView {
     return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
   }
 
+  /** Which vertices have to be in the picture; null: all. Kept while the positions stay the same. */
+  private marked: { of: Float32Array; which: Uint8Array | null } | null = null;
+
+  private marks(): Uint8Array | null {
+    const { positions, used } = this.framing;
+    if (this.marked?.of === positions) return this.marked.which;
+    const which = used ? new Uint8Array(positions.length / 3) : null;
+    if (used && which) for (let i = 0; i < used.length; ++i) which[used[i]] = 1;
+    this.marked = { of: positions, which };
+    return which;
+  }
+
   /** Nearest position along the view direction from which everything is inside the picture. */
   reset(): void {
-    const { positions, used } = this.framing, { camera, controls } = this;
+    const { camera, controls } = this, { positions: p } = this.framing, which = this.marks();
     const z = new THREE.Vector3(...this.framing.towardsEye), y = new THREE.Vector3(...this.framing.up);
-    const x = new THREE.Vector3().crossVectors(y, z);
-    const dot = (a: THREE.Vector3, i: number) => a.x * positions[i] + a.y * positions[i + 1] + a.z * positions[i + 2];
+    const x = new THREE.Vector3().crossVectors(y, z), [xx, xy, xz] = x.toArray(), [yx, yy, yz] = y.toArray(), [zx, zy, zz] = z.toArray();
     let left = 1, right = -1, bottom = 1, top = -1;
-    const each = (act: (at: number) => void) => {
-      if (used) for (let i = 0; i < used.length; ++i) act(3 * used[i]);
-      else for (let i = 0; i < positions.length; i += 3) act(i);
-    };
-    each((v) => {
-      const a = dot(x, v), b = dot(y, v);
+    for (let v = 0, i = 0; i < p.length; ++v, i += 3) {
+      if (which && which[v] === 0) continue;
+      const a = xx * p[i] + xy * p[i + 1] + xz * p[i + 2], b = yx * p[i] + yy * p[i + 1] + yz * p[i + 2];
       left = Math.min(left, a); right = Math.max(right, a);
       bottom = Math.min(bottom, b); top = Math.max(top, b);
-    });
+    }
     const tan = (0.9 * Math.max(40, this.height - this.insets.bottom) * this.pixel) / 2;
     const wide = (0.9 * Math.max(40, this.width - this.insets.right) * this.pixel) / 2;
     const cx = (left + right) / 2, cy = (bottom + top) / 2;
     let distance = 1.2;
-    each((v) => {
-      distance = Math.max(distance, dot(z, v) + Math.max(Math.abs(dot(x, v) - cx) / wide, Math.abs(dot(y, v) - cy) / tan));
-    });
+    for (let v = 0, i = 0; i < p.length; ++v, i += 3) {
+      if (which && which[v] === 0) continue;
+      const a = Math.abs(xx * p[i] + xy * p[i + 1] + xz * p[i + 2] - cx) / wide, b = Math.abs(yx * p[i] + yy * p[i + 1] + yz * p[i + 2] - cy) / tan;
+      distance = Math.max(distance, zx * p[i] + zy * p[i + 1] + zz * p[i + 2] + Math.max(a, b));
+    }
     const target = x.multiplyScalar(cx).addScaledVector(y.clone(), cy);
     this.place(target.clone().addScaledVector(z, distance), target, y);
     controls.minDistance = 0.02;

@@ -43,8 +43,8 @@ function showFacts(scene: SceneData): void {
   }
 }
 
-function start(scene: SceneData): void {
-  const began = performance.now(), canvas = element<HTMLCanvasElement>("view"), stage = element("stage");
+function start(scene: SceneData, began: number): void {
+  const read = performance.now(), canvas = element<HTMLCanvasElement>("view"), stage = element("stage");
   const view = new ResultView(canvas, scene), address = new Address(location.hash);
   const ratio = () => Math.min(window.devicePixelRatio || 1, 2);
   let moved = address.get("camera") !== null, ready = false;
@@ -60,7 +60,7 @@ function start(scene: SceneData): void {
   let firstFrame = 0, cameraTimer = 0, camera = "";
 
   view.onFrame = () => {
-    firstFrame ||= performance.now() - began;
+    firstFrame ||= performance.now();
     volume?.place();
     readout.update();
     const now = view.orbit.toText();
@@ -161,7 +161,7 @@ function start(scene: SceneData): void {
   controls.start();
   ready = true;
   fit();
-  const written = address.get("camera");
+  const built = performance.now(), written = address.get("camera");
   if (!written || !orbit.fromText(written)) {
     moved = false;
     orbit.reset();
@@ -175,7 +175,7 @@ function start(scene: SceneData): void {
       tracer: view.panes[0].tracer,
       settled: () => !view.waiting && view.panes.every((pane) => (!pane.tracer?.mesh.visible || pane.tracer.settled) && !pane.volume?.working),
       frames: () => view.frames,
-      firstFrame: () => firstFrame,
+      times: () => ({ began, read, built, firstFrame }),
       pick: (x: number, y: number) => view.pick(x, y),
       readout,
       written: () => controls.written,
@@ -193,11 +193,11 @@ function start(scene: SceneData): void {
 }
 
 try {
-  const text = element("scene").textContent ?? "";
+  const began = performance.now(), text = element("scene").textContent ?? "";
   element("scene").remove();  // the text is as large as the arrays
   const scene = readScene(text);
   showFacts(scene);
-  start(scene);
+  start(scene, began);
 } catch (error) {
   const known = error instanceof SceneError || error instanceof ViewError, message = error instanceof Error ? error.message : String(error);
   fail(known ? message : `The page cannot be shown: ${message}`);

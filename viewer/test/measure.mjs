@@ -1,6 +1,7 @@
-// node test/measure.mjs [TRIANGLES ...]: how long a page takes to its first picture, and a frame. Chromium draws in
-// software unless GPU=1 is set and the machine has one. Processor time is that of the page's process and of the one
-// that draws, all their threads together: it says what a machine can do that is busy with something else.
+// node test/measure.mjs [TRIANGLES ...]: how long a page takes to its first picture, and a frame: what the browser takes
+// to read the file, what the page's own code takes, and what is left to the graphics. Chromium draws in software unless
+// GPU=1 is set and the machine has one. Processor time is that of the page's process and of the one that draws, all
+// their threads together: it says what a machine can do that is busy with something else.
 import { field, scene, show, torus } from "./scenes.mjs";
 
 for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [500000, 2000000]) {
@@ -16,22 +17,29 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
     await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
     const first = await spent();
     const times = await shown.page.evaluate(() => {
-      const opened = performance.now(), { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [];
+      const { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [], asked = [];
+      const finish = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+      finish();
+      const opened = performance.now(), { began, read, built, firstFrame } = littoral.times();
       for (let i = 0; i < 8; ++i) {
         view.orbit.turn(0.1, 0);
         const from = performance.now();
         view.render();
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+        asked.push(performance.now() - from);
+        finish();
         frames.push(performance.now() - from);
       }
-      const from = performance.now();
+      const from = performance.now(), middle = (list) => list.sort((a, b) => a - b)[4];
       littoral.pick(500, 360);
-      return { opened, start: littoral.firstFrame(), frame: frames.sort((a, b) => a - b)[4], pick: performance.now() - from,
+      return { opened, began, read: read - began, built: built - read, drawn: firstFrame - built, graphics: opened - firstFrame,
+        frame: middle(frames), asked: middle(asked), pick: performance.now() - from,
         renderer: gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER) };
     });
     const frame = (await spent() - first) / 8;
-    console.log(`${2 * side * side} triangles: first picture by ${Math.round(times.opened)} ms (${Math.round(times.start)} ms of them from the scene on), ` +
-      `frame ${times.frame.toFixed(0)} ms; processor ${Math.round(first)} ms and ${frame.toFixed(0)} ms a frame; place under the cursor ${times.pick.toFixed(0)} ms; ${times.renderer}`);
+    const ms = (x) => `${x < 10 ? x.toFixed(1) : Math.round(x)} ms`;
+    console.log(`${2 * side * side} triangles, first picture by ${ms(times.opened)}: file read by the browser ${ms(times.began)}, scene ${ms(times.read)}, ` +
+      `geometry and controls ${ms(times.built)}, first frame asked for ${ms(times.drawn)}, drawn ${ms(times.graphics)}; processor ${ms(first)}\n` +
+      `  a frame ${ms(times.frame)}, of which the page's code ${ms(times.asked)}; processor ${ms(frame)}; place under the cursor ${ms(times.pick)}; ${times.renderer}`);
   } finally {
     await shown.close();
   }

@@ -57,7 +57,7 @@ export class Controls {
       this.useRange(read("range-low", this.merged?.low ?? 0), read("range-high", this.merged?.high ?? 0), true);
     });
     const shading = select("shading"), asked = address.get("shading") ?? view.scene.shading;
-    const open = view.panes.some((pane) => pane.scene.surface.openness && !pane.volume);
+    const open = view.panes.some((pane) => pane.hasOcclusion);
     fillSelect(shading, shadings.filter((name) => name !== "occluded" || open));
     shading.value = Array.from(shading.options).some((option) => option.value === asked) ? asked : "smooth";
     shading.addEventListener("change", () => {

@@ -76,7 +76,8 @@ function start(scene: SceneData, began: number): void {
   function hint(): void {
     const pane = view.panes.find((one) => one.tracer?.mesh.visible && !one.tracer.settled), working = view.panes.some((one) => one.volume?.working);
     const progress = pane?.tracer?.progress ?? 1;
-    element("hint").textContent = pane ? `Tracing the cloud … ${Math.floor(100 * progress)} %` : "Making the surface …";
+    const shading = view.panes.some((one) => one.volume?.shadingNow);
+    element("hint").textContent = pane ? `Tracing the cloud … ${Math.floor(100 * progress)} %` : shading ? "Shading corners …" : "Making the surface …";
     element("hint").hidden = !pane && !working;
   }
   view.orbit.controls.addEventListener("start", () => { moved = true; });

@@ -1,5 +1,6 @@
 // Makes isosurfaces, of large volumes in a worker so that the page stays responsive.
 import workerText from "worker:./march-worker.ts";
+import { makeWorker } from "./occlusion";
 import { march, type Grid, type Shell } from "./march";
 
 const small = 300_000;  // nodes that take less than a frame or two
@@ -10,13 +11,9 @@ export class Marcher {
   private next: number | null = null;
 
   constructor(private readonly grid: Grid, private readonly done: (shell: Shell, level: number) => void) {
-    if (grid.values.length <= small || typeof Worker === "undefined") return;
-    const url = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
-    try {
-      this.worker = new Worker(url);
-    } catch {
-      return;  // where the browser forbids it, the page waits
-    }
+    if (grid.values.length <= small) return;
+    this.worker = makeWorker(workerText);
+    if (!this.worker) return;
     this.worker.onmessage = ({ data }: MessageEvent<{ shell: Shell; level: number }>) => {
       this.busy = false;
       this.done(data.shell, data.level);

@@ -122,7 +122,12 @@ export class Pane {
 
   setShading(shading: Shading): void {
     this.look.uniforms.flatShading.value = shading === "flat";
-    this.look.uniforms.occluded.value = shading === "occluded" && this.scene.surface.openness !== null;
+    this.look.uniforms.occluded.value = shading === "occluded" && this.hasOcclusion;
+    this.volume?.setOccluded(shading === "occluded");
+  }
+
+  get hasOcclusion(): boolean {
+    return this.volume !== null || this.scene.surface.openness !== null;
   }
 
   /** Runs something with only surfaces in sight. */

@@ -8,13 +8,22 @@ float light(vec3 n) {
 }
 `;
 
+/** How much light reaches a side of the surface from everywhere: the sky that is seen in direction d is a + b . d, of
+ * which the half above the normal counts by its cosine (io/render/openness.h). */
+export const openFunction = `
+float openPart(vec4 open, vec3 n) {
+  return clamp(open.w + dot(1.5 * open.xyz - 0.75, n) / 1.5, 0.0, 1.0);
+}
+float occlusion(vec4 open, vec3 n) { return 0.3 + 0.7 * openPart(open, n); }
+`;
+
 export const surfaceVertex = `
 in float t;
 in float infinite;
 in float lightness;       // 1 - weight, so that geometry without the attribute has weight 1
 in vec3 slopeA, slopeB;   // xx, yy, zz and xy, xz, yz of the mean of g g^T; 0: not known
 in vec3 bulge, corner;    // of quadratic fields: sides above the mean of their ends; barycentric coordinates
-in vec4 openness;         // how much of the sky is seen, see open()
+in vec4 openness;         // how much of the sky is seen, see openPart()
 in vec2 rim;              // of discs: place inside of a square about them
 out float vTimes, vWeight, vInfinite, vSmooth;
 out vec2 vRim;
@@ -59,15 +68,7 @@ uniform vec2 range;          // values outside are drawn pale
 uniform float pixel;         // side of a CSS pixel at distance 1
 uniform float pixelRatio;
 uniform vec3 plainColour, infiniteColour;
-${lightFunction}
-
-// How much light reaches a side of the surface from everywhere: the sky that is seen in direction d is a + b . d, of
-// which the half above the normal counts by its cosine (io/render/openness.h).
-float open(vec3 n) {
-  vec3 b = 1.5 * vOpen.xyz - 0.75;
-  return clamp(vOpen.w + dot(b, transpose(mat3(viewMatrix)) * n) / 1.5, 0.0, 1.0);
-}
-
+${lightFunction}${openFunction}
 float ink(float away, float width) { return clamp(0.5 * width + 0.5 - away, 0.0, 1.0); }
 
 // t per CSS pixel. Where gradients at vertices are known, the slope is interpolated from them: then it is the
@@ -145,7 +146,7 @@ void main() {
     }
   }
   colour *= light(n);
-  if (occluded) colour *= 0.3 + 0.7 * open(n);
+  if (occluded) colour *= occlusion(vOpen, transpose(mat3(viewMatrix)) * n);
   result = vec4(mix(colour, dark ? vec3(0.92, 0.93, 0.96) : vec3(0.07, 0.08, 0.11), strength), 1.0);
 }`;
 

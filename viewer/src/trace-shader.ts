@@ -1,6 +1,6 @@
 // Sphere tracing of blended tori, as in the library: methods/tori/torus.h, methods/tori/tori.cpp (eq. 5.1 with
 // shifted exponents) and methods/implicit/sphere_trace.cpp, in single precision.
-import { lightFunction } from "./shaders";
+import { lightFunction, openFunction } from "./shaders";
 
 /// Of both passes: a rectangle over the whole picture.
 export const screenVertex = `
@@ -176,8 +176,9 @@ void main() {
 
 export const showFragment = `
 precision highp float;
-${lightFunction}
+${lightFunction}${openFunction}
 precision highp sampler2D;
+precision highp sampler3D;
 in vec2 place;
 out vec4 result;
 uniform sampler2D hits;
@@ -187,15 +188,19 @@ uniform sampler2D colours;
 uniform float colourAt;  // 0..1, or less than 0
 uniform vec3 plainColour;
 uniform mat4 view, toScreen;
+uniform bool occluded;
+uniform sampler3D openness;  // on the grid
+uniform vec3 origin, spacing;
 void main() {
   ivec2 size = textureSize(hits, 0);
   vec4 hit = texelFetch(hits, min(ivec2((0.5 * place + 0.5) * vec2(size)), size - 1), 0);
   if (!(hit.x > 0.0)) discard;  // nothing there, or not traced yet
   vec3 x = eye + hit.x * normalize(rays[0] * place.x + rays[1] * place.y + rays[2]);
-  vec3 seen = (view * vec4(x, 1.0)).xyz, n = mat3(view) * hit.yzw;
-  if (dot(n, seen) > 0.0) n = -n;
+  vec3 seen = (view * vec4(x, 1.0)).xyz, towards = dot(hit.yzw, x - eye) > 0.0 ? -hit.yzw : hit.yzw;
   vec3 colour = colourAt < 0.0 ? plainColour : texture(colours, vec2((255.0 * colourAt + 0.5) / 256.0, 0.5)).rgb;
-  result = vec4(colour * light(n), 1.0);
+  colour *= light(mat3(view) * towards);
+  if (occluded) colour *= occlusion(texture(openness, ((x - origin) / spacing + 0.5) / vec3(textureSize(openness, 0))), towards);
+  result = vec4(colour, 1.0);
   vec4 screen = toScreen * vec4(seen, 1.0);
   gl_FragDepth = clamp(0.5 * screen.z / screen.w + 0.5, 0.0, 1.0);
 }`;

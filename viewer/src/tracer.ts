@@ -34,6 +34,13 @@ function gridTexture({ n, values }: Volume, trace: Trace): THREE.Data3DTexture {
   return t;
 }
 
+function openTexture(n: Triple, data: Uint8Array): THREE.Data3DTexture {
+  const t = new THREE.Data3DTexture(data as Uint8Array<ArrayBuffer>, ...n);
+  t.minFilter = t.magFilter = THREE.LinearFilter;
+  t.needsUpdate = true;
+  return t;
+}
+
 const makeTarget = () => new THREE.WebGLRenderTarget(1, 1, {
   type: THREE.FloatType, format: THREE.RGBAFormat, depthBuffer: false,
   minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter,
@@ -71,7 +78,7 @@ export class Tracer {
     return new Tracer(scene.volume, scene.trace, renderer, look);
   }
 
-  private constructor(volume: Volume, private readonly trace: Trace, private readonly renderer: THREE.WebGLRenderer, private readonly look: Look) {
+  private constructor(private readonly volume: Volume, private readonly trace: Trace, private readonly renderer: THREE.WebGLRenderer, private readonly look: Look) {
     this.low = [...volume.origin];
     this.high = this.low.map((x, a) => x + (volume.n[a] - 1) * volume.spacing[a]) as Triple;
     const tree = makeTree(trace.tori, this.low, this.high);
@@ -97,6 +104,8 @@ export class Tracer {
       hits: { value: null as THREE.Texture | null }, eye: { value: new THREE.Vector3() }, rays: { value: new THREE.Matrix3() },
       colours: look.uniforms.colours, plainColour: look.uniforms.plainColour, colourAt: { value: -1 },
       view: { value: new THREE.Matrix4() }, toScreen: { value: new THREE.Matrix4() },
+      occluded: { value: false }, openness: { value: openTexture([1, 1, 1], Uint8Array.from([128, 128, 128, 255])) },
+      origin: this.uniforms.origin, spacing: this.uniforms.spacing,
     };
     const options = { glslVersion: THREE.GLSL3, vertexShader: screenVertex, depthTest: false, depthWrite: false };
     this.stage.add(quad(new THREE.ShaderMaterial({ ...options, fragmentShader: traceFragment, uniforms: this.uniforms })));
@@ -183,6 +192,16 @@ export class Tracer {
   recolour(t: number): void {
     const map = this.look.uniforms.colourMap.value;
     this.shown.colourAt.value = Math.min(1, Math.max(0, map.x + map.y * t));
+  }
+
+  setOccluded(occluded: boolean): void {
+    this.shown.occluded.value = occluded;
+  }
+
+  /** Of the nodes of the grid. */
+  setOpenness(open: Uint8Array): void {
+    this.shown.openness.value.dispose();
+    this.shown.openness.value = openTexture(this.volume.n, open);
   }
 
   /** Cuts away all where normal . place < offset; without a normal nothing. */

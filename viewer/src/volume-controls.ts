@@ -63,7 +63,7 @@ export function connectVolume(view: ResultView, volume: VolumeView, address: Add
     address.set("level", volume.level);
   });
   function useShell(): void {
-    volume.shell.visible = shell.checked;
+    volume.showShell(shell.checked);
     level.disabled = !shell.checked;
     view.ask();
   }

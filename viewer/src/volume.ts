@@ -4,6 +4,8 @@ import type { Look } from "./look";
 import { gradients, slopeTensors } from "./mesh";
 import { sample, type Grid, type Shell } from "./march";
 import { Marcher } from "./marcher";
+import { Occlusion } from "./occlusion";
+import { onGrid } from "./openness";
 import { pickTriangle, type Ray } from "./pick";
 import type { Triple, Volume } from "./scene";
 import type { Tracer } from "./tracer";
@@ -29,7 +31,9 @@ export class VolumeView {
   readonly low: Triple;
   readonly high: Triple;
   private readonly grid: Grid;
-  private readonly marcher: Marcher | null;
+  private marcher: Marcher | null;
+  private occlusion: Occlusion | null = null;  // from when it is first asked for
+  private occluded = false;
   private made: Shell = empty;
 
   constructor(readonly volume: Volume, readonly look: Look, readonly tracer: Tracer | null, private readonly changed: () => void) {
@@ -132,6 +136,61 @@ export class VolumeView {
     g.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2);
     this.slice.geometry.dispose();
     this.slice.geometry = g;
+    this.reopen();
+  }
+
+  /** Darker where less of the sky is seen, beside surface and slice. */
+  setOccluded(occluded: boolean): void {
+    if (occluded === this.occluded) return;
+    this.occluded = occluded;
+    this.tracer?.setOccluded(occluded);
+    if (!occluded) return;
+    this.occlusion ??= new Occlusion(() => this.both(), (open) => this.putOpenness(open));
+    if (this.tracer) {  // what it traces, made once more of triangles
+      this.marcher ??= new Marcher(this.grid, (shell) => this.keepShell(shell));
+      this.marcher.ask(this.level);
+    }
+    this.reopen();
+  }
+
+  /** Surface and slice have changed: until it is known how open they are, they are taken as open. */
+  private reopen(): void {
+    if (!this.occluded) return;
+    const { shown, slice } = this.parts();
+    this.putOpenness(new Uint8Array(4 * (shown + slice)).map((_, i) => (i % 4 < 3 ? 128 : 255)));
+    this.occlusion?.ask();
+  }
+
+  private parts(): { shown: number; slice: number } {
+    return { shown: this.shell.visible ? this.made.positions.length / 3 : 0, slice: this.slice.geometry.getAttribute("position").count };
+  }
+
+  private both(): { positions: Float32Array; triangles: Uint32Array } {
+    const { shown, slice } = this.parts(), g = this.slice.geometry, inner = shown ? this.made.triangles : empty.triangles;
+    const positions = new Float32Array(3 * (shown + slice)), plane = g.getIndex()?.array ?? [];
+    positions.set(this.made.positions.subarray(0, 3 * shown));
+    positions.set(g.getAttribute("position").array, 3 * shown);
+    const triangles = new Uint32Array(inner.length + plane.length);
+    triangles.set(inner);
+    for (let i = 0; i < plane.length; ++i) triangles[inner.length + i] = shown + plane[i];
+    return { positions, triangles };
+  }
+
+  private putOpenness(open: Uint8Array): void {
+    const { shown, slice } = this.parts();
+    if (open.length !== 4 * (shown + slice)) return;
+    const surface = open.slice(0, 4 * shown);
+    this.slice.geometry.setAttribute("openness", new THREE.BufferAttribute(open.slice(4 * shown), 4, true));
+    if (this.tracer && shown) this.tracer.setOpenness(onGrid(this.grid, this.made.positions, surface));
+    else if (shown) this.shell.geometry.setAttribute("openness", new THREE.BufferAttribute(surface, 4, true));
+    this.changed();
+  }
+
+  showShell(shown: boolean): void {
+    if (this.shell.visible === shown) return;
+    this.shell.visible = shown;
+    this.reopen();
+    this.changed();
   }
 
   setCut(cut: boolean): void {
@@ -149,18 +208,27 @@ export class VolumeView {
 
   setLevel(level: number): void {
     this.level = level;
-    if (this.tracer) this.tracer.setLevel(level);
-    else this.marcher?.ask(level);
+    this.tracer?.setLevel(level);
+    if (!this.tracer || this.occluded) this.marcher?.ask(level);
     this.changed();
   }
 
   /** Is the surface still being made? */
   get working(): boolean {
-    return this.marcher?.working ?? false;
+    return (this.marcher?.working ?? false) || this.shadingNow;
+  }
+
+  /** Is it still being found out how open it is? */
+  get shadingNow(): boolean {
+    return this.occluded && (this.occlusion?.working ?? false);
+  }
+
+  private keepShell(shell: Shell): void {
+    this.made = shell;
+    this.reopen();
   }
 
   private putShell(shell: Shell, level: number): void {
-    this.made = shell;
     const g = new THREE.BufferGeometry(), count = shell.positions.length / 3;
     g.setAttribute("position", new THREE.BufferAttribute(shell.positions, 3));
     g.setAttribute("normal", new THREE.BufferAttribute(shell.normals, 3));
@@ -169,6 +237,7 @@ export class VolumeView {
     g.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2);
     this.shell.geometry.dispose();
     this.shell.geometry = g;
+    this.keepShell(shell);
     this.changed();
   }
 
@@ -208,6 +277,7 @@ export class VolumeView {
 
   dispose(): void {
     this.marcher?.dispose();
+    this.occlusion?.dispose();
     this.slice.geometry.dispose();
     this.shell.geometry.dispose();
   }

@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { base64, field, load, scene, square, torus } from "./scenes.mjs";
 
-const [numbers, colours, fields, mesh, pick, march, lines, scenes, descents] = await Promise.all(
-  ["numbers.ts", "colours.ts", "field.ts", "mesh.ts", "pick.ts", "march.ts", "isolines.ts", "scene.ts", "descent.ts"].map(load));
+const [numbers, colours, fields, mesh, pick, march, lines, scenes, descents, sky] = await Promise.all(
+  ["numbers.ts", "colours.ts", "field.ts", "mesh.ts", "pick.ts", "march.ts", "isolines.ts", "scene.ts", "descent.ts", "openness.ts"].map(load));
 
 const surfaceOf = ({ positions, triangles }) => ({
   positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles), innerSides: null, faces: null, nodes: "faces",
@@ -101,6 +101,53 @@ test("isosurfaces close, with the field's normals; slivers do no harm", () => {
     const facing = [0, 1, 2].reduce((sum, k) => sum + (shell.positions[i + k] / r) * shell.normals[i + k], 0);
     assert.ok(facing > 0.99, `normal ${facing}`);
   }
+});
+
+const openness = (positions, triangles) => {
+  const steps = sky.opennessSteps(Float32Array.from(positions), Uint32Array.from(triangles));
+  for (;;) {
+    const { done, value } = steps.next();
+    if (done) return (v, n) => value[4 * v + 3] / 255 + [0, 1, 2].reduce((sum, k) => sum + (1.5 * value[4 * v + k] / 255 - 0.75) * n[k], 0) / 1.5;
+  }
+};
+
+// As in tests/scene_looks_test.cpp.
+test("openness: of a ball, of the floor of a ditch as wide as it is deep twice, of a sheet", () => {
+  const ball = march.march({ n: [21, 21, 21], origin: [-1, -1, -1], spacing: [0.1, 0.1, 0.1], values: Float32Array.from({ length: 21 ** 3 }, (_, v) =>
+    Math.hypot(v % 21 - 10, Math.floor(v / 21) % 21 - 10, Math.floor(v / 441) - 10) / 10) }, 0.7);
+  const round = openness(ball.positions, ball.triangles);
+  for (let v = 0; v < ball.positions.length / 3; ++v) {
+    const out = Array.from(ball.normals.subarray(3 * v, 3 * v + 3));
+    assert.ok(round(v, out) > 0.9, `${round(v, out)} of the sky from vertex ${v}`);
+    assert.ok(round(v, out.map((c) => -c)) < 0.2, "and nothing from inside");
+  }
+  const positions = [], triangles = [], n = 20;
+  const add = (a, u, w) => {
+    const first = positions.length / 3;
+    for (let j = 0; j <= n; ++j) for (let i = 0; i <= n; ++i) positions.push(...a.map((c, k) => c + (i * u[k] + j * w[k]) / n));
+    for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i) {
+      const v = first + i + (n + 1) * j;
+      triangles.push(v, v + 1, v + n + 2, v, v + n + 2, v + n + 1);
+    }
+  };
+  add([-0.5, -4, 0], [1, 0, 0], [0, 8, 0]);
+  add([-0.5, -4, 0], [0, 0, 0.5], [0, 8, 0]);
+  add([0.5, -4, 0], [0, 0, 0.5], [0, 8, 0]);
+  const middle = 10 + 21 * 10, tilt = 3 * (-0.25 + Math.SQRT2 / 8), near = (x, y) => assert.ok(Math.abs(x - y) < 0.03, `${x} is not ${y}`);
+  const ditch = openness(positions, triangles);
+  near(ditch(middle, [0, 0, 1]), 0.75 + (2 * tilt) / 3);
+  near(ditch(middle, [0, 0, -1]), 0.75 - (2 * tilt) / 3);
+  const sheet = openness(positions, triangles.slice(0, 2400));
+  for (const z of [1, -1]) assert.ok(sheet(middle, [0, 0, z]) > 0.97);
+  assert.equal(Math.round(sheet(positions.length / 3 - 1, [0, 0, 1])), 1, "a vertex of no triangle is open");
+});
+
+test("openness goes from vertices to the nodes about them", () => {
+  const grid = { n: [4, 3, 3], origin: [0, 0, 0], spacing: [1, 1, 1] }, open = sky.onGrid(grid, Float32Array.from([0.25, 1, 1, 2, 2, 2]), Uint8Array.from([10, 20, 30, 40, 100, 110, 120, 130]));
+  const at = (x, y, z) => Array.from(open.subarray(4 * (x + 4 * y + 12 * z), 4 * (x + 4 * y + 12 * z) + 4));
+  assert.deepEqual([at(0, 1, 1), at(1, 1, 1), at(2, 2, 2)], [[10, 20, 30, 40], [10, 20, 30, 40], [100, 110, 120, 130]]);
+  assert.deepEqual(at(3, 1, 2), [100, 110, 120, 130], "and one node on");
+  assert.deepEqual(at(3, 0, 0), [128, 128, 128, 255], "open, where nothing is near");
 });
 
 test("isolines lie where the field has their level", () => {

@@ -114,6 +114,30 @@ test("offset and cut change the picture; it settles again", async () => {
   await settled();
 });
 
+test("occluded shading: dark in the corner between surface and slice", async () => {
+  await page.evaluate(() => {  // the torus itself, cut at z = 0
+    const { volume, view } = littoral, { low, high } = view.scene.fields[0];
+    volume.setLevel(-low / (high - low));
+    volume.setSlice([0, 0, 1], -view.scene.centre[2] / view.scene.radius);
+  });
+  await settled();
+  // How bright it is on the side of the eye, just above the slice and on top.
+  const look = () => page.evaluate(() => [0.04, 0.299].map((z) => {
+    const { centre, radius } = littoral.view.scene, eye = littoral.view.orbit.camera.position, r = (0.8 + Math.sqrt(0.09 - z * z)) / Math.hypot(eye.x, eye.y);
+    const at = littoral.view.project([r * eye.x, r * eye.y, z].map((x, k) => (x - centre[k]) / radius)), bytes = littoral.pixels(), gl = littoral.view.renderer.getContext();
+    return bytes[4 * (Math.floor(at.x) + gl.drawingBufferWidth * (gl.drawingBufferHeight - 1 - Math.floor(at.y)))];
+  }));
+  const smooth = await look();
+  await page.selectOption("#shading", "occluded");
+  await settled();
+  const dark = await look(), part = dark.map((x, i) => x / smooth[i]);
+  assert.ok(part[0] < 0.85 && part[0] > 0.6, `${part[0]} beside the slice`);
+  assert.ok(part[1] > 0.93, `${part[1]} on top`);
+  await page.selectOption("#shading", "smooth");
+  await settled();
+  assert.deepEqual(await look(), smooth);
+});
+
 test("turning asks for fewer pixels first, then all", async () => {
   await settled();
   const frames = await page.evaluate(() => littoral.frames());

@@ -104,6 +104,35 @@ test("the clipping box cuts", async () => {
   assert.ok((await changed(page, () => drag("box-x-high", 100))) > 200);
 });
 
+// How bright the sphere is, seen from the eye, at a height above the slice z = 0.
+const brightness = (height) => page.evaluate((z) => {
+  const eye = littoral.view.orbit.camera.position, r = Math.sqrt(0.36 - z * z) / Math.hypot(eye.x, eye.y);
+  const at = littoral.view.project([r * eye.x, r * eye.y, z].map((x) => x / Math.sqrt(3))), bytes = littoral.pixels(), gl = littoral.view.renderer.getContext();
+  return bytes[4 * (Math.floor(at.x) + gl.drawingBufferWidth * (gl.drawingBufferHeight - 1 - Math.floor(at.y)))];
+}, height);
+const settled = () => page.waitForFunction(() => littoral.settled());
+
+test("occluded shading: dark in the corner between surface and slice, once both rest", async () => {
+  await page.selectOption("#axis", "z");
+  await drag("level", 0);
+  await page.evaluate(() => { const v = littoral.volume, { low, high } = littoral.view.scene.fields[0]; v.setLevel(-low / (high - low)); });
+  await drag("slice", 500);
+  await page.uncheck("#isolines");
+  const smooth = [await brightness(0.05), await brightness(0.55)];
+  await page.selectOption("#shading", "occluded");
+  await settled();
+  const dark = [await brightness(0.05), await brightness(0.55)], part = dark.map((x, i) => x / smooth[i]);
+  // Of the sky about a wall that stands on a plane half is seen: 0.3 + 0.7 / 2. The slice ends soon, so it is more.
+  assert.ok(part[0] > 0.6 && part[0] < 0.85, `${part[0]} beside the slice`);
+  assert.ok(part[1] > 0.93, `${part[1]} on top`);
+  await drag("slice", 100);
+  await settled();
+  assert.ok(await brightness(0.05) / smooth[0] > 0.93, "the slice has gone elsewhere");
+  await page.waitForFunction(() => /shading=occluded/.test(location.hash));
+  await page.selectOption("#shading", "smooth");
+  await page.check("#isolines");
+});
+
 test("the surface has no specks: what lies beside each other looks alike", async () => {
   await page.selectOption("#axis", "z");
   await drag("slice", 0);

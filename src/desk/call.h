@@ -110,6 +110,7 @@ using Operation = std::function<json(Call&)>;
 using Operations = std::map<std::string, Operation>;
 void add_surface_operations(Operations& operations);
 void add_space_operations(Operations& operations);
+void add_shape_operations(Operations& operations);
 void add_given_operations(Operations& operations);
 
 /// What is drawn of a surface: positions, triangles, the polygons they were cut from, scalars.

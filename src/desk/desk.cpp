@@ -34,6 +34,7 @@ const Operations& operations() {
     Operations out{{"about", about}};
     add_surface_operations(out);
     add_space_operations(out);
+    add_shape_operations(out);
     add_given_operations(out);
     return out;
   }();

@@ -1,10 +1,12 @@
-// Starts the installed Chromium on a page from disk and gathers what it complains about.
+// Starts the installed Chromium on a page from disk and gathers what it complains about. FIREFOX=/usr/bin/firefox takes
+// that one instead, by WebDriver BiDi; it draws with WebGL only where there is a display (xvfb-run -a ...).
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
+import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import playwright from "playwright-core";
 
 function executable() {
   if (process.env.CHROMIUM) return process.env.CHROMIUM;
@@ -26,7 +28,10 @@ const flags = [
 
 // One browser serves the pages of a test file; it ends soon after the last of them.
 let running = null, open = 0, ending = 0;
-const launch = (extraFlags) => chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
+export const firefox = process.env.FIREFOX;
+const launch = (extraFlags) => firefox
+  ? playwright._bidiFirefox.launch({ executablePath: firefox, headless: false, firefoxUserPrefs: { "webgl.force-enabled": true } })
+  : playwright.chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
 
 async function contextOf(extraFlags, options) {
   if (extraFlags.length > 0) {
@@ -80,6 +85,18 @@ export async function openResult(variable, options, timeout = 30000) {
 export function assertAlone({ errors, requests, url }) {
   assert.deepEqual(errors, []);
   assert.deepEqual(requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")).map((r) => r.split("#")[0]), [url]);
+}
+
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+/// axe-core finds nothing that those who cannot see, hear or point would miss: names, roles, contrast, order.
+export async function assertAccessible(page) {
+  await page.addScriptTag({ path: axe });
+  const found = await page.evaluate(async () => {
+    const { violations } = await axe.run(document, { resultTypes: ["violations"], preload: false });
+    return violations.flatMap(({ id, nodes }) => nodes.map(({ target, any }) => `${id}: ${target} (${any.map((one) => one.message).join("; ")})`));
+  });
+  assert.deepEqual(found, []);
 }
 
 /// Moves the slider of that name.

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { assertAlone, changed as changedPixels, frames, openPage, openResult } from "./browser.mjs";
+import { assertAccessible, assertAlone, changed as changedPixels, frames, openPage, openResult } from "./browser.mjs";
 
 const shown = await openResult("PAGE");
 const { page } = shown;
@@ -155,6 +155,8 @@ test("labels for those who cannot see", async () => {
   await page.focus("#view");
   await page.keyboard.press("v");
   assert.match(await page.textContent("#status"), /at the centre/);
+  await page.evaluate(() => { for (const box of document.querySelectorAll("details")) box.open = true; });
+  await assertAccessible(page);
 });
 
 test("dark scheme darkens the page", async () => {
@@ -162,6 +164,7 @@ test("dark scheme darkens the page", async () => {
   await frames(page, 3);
   const corner = await page.evaluate(() => littoral.pixels().slice(0, 3));
   assert.ok(Math.max(...Object.values(corner)) < 60);
+  await assertAccessible(page);
   await page.emulateMedia({ colorScheme: "light" });
 });
 

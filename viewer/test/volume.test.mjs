@@ -2,7 +2,7 @@
 // suitable one to LITTORAL_VOLUME_PAGE_OUT): the distance from a sphere of radius 0.6 in [-1, 1]^3.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { assertAlone, changed, drag as dragOn, openResult } from "./browser.mjs";
+import { assertAccessible, assertAlone, changed, drag as dragOn, openResult } from "./browser.mjs";
 
 const shown = await openResult("VOLUME_PAGE");
 const { page } = shown;
@@ -155,5 +155,6 @@ test("the surface has no specks: what lies beside each other looks alike", async
 
 test("labels, no errors, no requests", async () => {
   assert.match(await page.getAttribute("#view", "aria-label"), /volume of .* nodes, distance from/);
+  await assertAccessible(page);
   assertAlone(shown);
 });

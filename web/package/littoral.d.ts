@@ -11,7 +11,9 @@
  * these again by itself when they are next used.
  */
 
-import type { Grid, Orientation, Sdf, Triple, Volume } from "./space.js";
+import type {
+  Grid, Orientation, Repaired, RepairOptions, SampleOptions, Samples, Sdf, Triple, Volume,
+} from "./space.js";
 
 export * from "./errors.js";
 export * from "./space.js";
@@ -221,6 +223,11 @@ export interface Surface {
   regions(curves: Sources, method?: Method, call?: Call): Promise<Regions>;
   /** Signed distance in space around the surface or cloud. */
   signedDistance(method?: Method, orientation?: Orientation, call?: Call): Promise<Sdf>;
+
+  /** A closed surface made of a broken one. */
+  repair(options?: RepairOptions, method?: Method, orientation?: Orientation, call?: Call): Promise<Repaired>;
+  /** Points on the surface and around it with their distances, for learning; the name of the file, .npz or .tar. */
+  samples(name: string, options?: SampleOptions, method?: Method, orientation?: Orientation, call?: Call): Promise<Samples>;
 
   /** The nodes joined along the surface by locally shortest paths; triangle meshes only. */
   path(nodes: readonly SurfacePoint[], closed?: boolean, call?: Call): Promise<SurfacePath>;

@@ -1,4 +1,4 @@
-// Signed distance in space, and volumes: a part of littoral.d.ts.
+// Signed distance in space, volumes, repaired shapes and samples: a part of littoral.d.ts.
 import type { Call, Morphology, Report, Surface } from "./littoral.js";
 
 export interface Orientation {
@@ -83,4 +83,74 @@ export interface Volume {
   /** The bytes of a file: .vti .nrrd .npy .npz .... */
   write(name: string, call?: Call): Promise<Uint8Array>;
   dispose(): void;
+}
+
+/** What `Surface.repair` makes of a surface; lengths in the unit of the input. */
+export interface RepairOptions {
+  /** Of the grid that the surface is taken from: nodes along the longest side, or a spacing. Without both, 128 nodes, or
+   * up to 256 where parts are thin. */
+  readonly resolution?: number;
+  readonly spacing?: number;
+  /** > 0: finer grids, up to 512 nodes, until no point of the result is farther than that from the input. */
+  readonly error?: number;
+  /** > 0: sheets become walls that thick. */
+  readonly thicken?: number;
+  /** Parts whose boxes have shorter diagonals go. */
+  readonly smallestPart?: number;
+  /** Keep parts that are holes in others; default true. */
+  readonly cavities?: boolean;
+  /** Take the surface from a grid also where the input's own triangles will do. */
+  readonly remesh?: boolean;
+  /** Move vertices onto the input; default true. */
+  readonly fit?: boolean;
+}
+
+/** A closed, manifold surface without crossings; where it is not, the report's status is "uncertain" and says why. */
+export interface Repaired {
+  readonly surface: Surface;
+  readonly report: Report;
+}
+
+/** What is sampled; lengths in half sides of the cube about the input. */
+export interface SampleOptions {
+  /** Nodes along a side of the cube, of the grid for the surface; default 64. */
+  readonly resolution?: number;
+  /** How many points on the surface, and in space; default 8192 each. */
+  readonly surface?: number;
+  readonly space?: number;
+  /** Shares: of the surface's points where normals turn; of space's points anywhere, and near where normals turn. */
+  readonly sharp?: number;
+  readonly uniform?: number;
+  readonly curvature?: number;
+  /** How far from the surface, deviations in equal shares. */
+  readonly scales?: readonly number[];
+  /** Of the cube about the input, in its longest side; default 0.1. */
+  readonly margin?: number;
+  readonly seed?: number;
+  /** How positions and distances are rounded; default "float32". */
+  readonly numbers?: "float16" | "float32" | "float64";
+}
+
+/** Points on a shape and around it in the cube [-1, 1]^3; a point x of the input is at (x - centre) / halfSide. */
+export interface Samples {
+  readonly centre: Triple;
+  readonly halfSide: number;
+  readonly surfacePoints: Float64Array;
+  /** Outward. */
+  readonly surfaceNormals: Float64Array;
+  readonly surfaceConfidence: Float64Array;
+  /** 0 by area, 1 where normals turn. */
+  readonly surfaceKinds: Uint8Array;
+  readonly points: Float64Array;
+  /** Negative inside. */
+  readonly distances: Float64Array;
+  readonly confidence: Float64Array;
+  /** 0 anywhere, 2 near the surface, 3 near where normals turn. */
+  readonly kinds: Uint8Array;
+  readonly deviations: Float64Array;
+  /** Version, options, normalisation and figures of quality: JSON. */
+  readonly card: string;
+  /** The bytes of the file that was named. */
+  readonly file: Uint8Array;
+  readonly report: Report;
 }

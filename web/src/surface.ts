@@ -86,6 +86,19 @@ export class SurfaceInWorker implements api.Surface {
     return SdfInWorker.make(this.process, "signedDistance", [this.remote, ...methodOf(method), flip, estimateNormals], call);
   }
 
+  async repair(options: api.RepairOptions = {}, method?: api.Method, { flip = false, estimateNormals = false }: api.Orientation = {}, call: Call = {}) {
+    const args = [this.remote, ...methodOf(method), flip, estimateNormals, options];
+    const remote = new Remote(this.process, "repair", args);
+    const made = await request(this.process, "repair", args, [remote], call) as SurfaceDescription & { report: string };
+    return { surface: new SurfaceInWorker(this.process, remote, this.name, made), report: reportOf(made.report) };
+  }
+
+  async samples(name: string, options: api.SampleOptions = {}, method?: api.Method, { flip = false, estimateNormals = false }: api.Orientation = {}, call: Call = {}) {
+    const found = await this.ask("samples", [...methodOf(method), flip, estimateNormals, options, name, this.name], call) as
+      Omit<api.Samples, "report"> & { report: string };
+    return { ...found, report: reportOf(found.report) };
+  }
+
   async path(nodes: readonly api.SurfacePoint[], closed = false, call: Call = {}): Promise<api.SurfacePath> {
     const { json, positions, length } = await this.ask("path", [pathText(nodes, closed)], call) as
       { json: string; positions: Float64Array; length: number };

@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { deflateSync } from "node:zlib";
 
 export const root = fileURLToPath(new URL("../../", import.meta.url));
-const program = process.env.LITTORAL ?? join(root, "build/release/littoral");
+export const program = process.env.LITTORAL ?? join(root, "build/release/littoral");
 export const folder = mkdtempSync(join(tmpdir(), "littoral-web-"));
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 

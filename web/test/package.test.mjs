@@ -1,11 +1,12 @@
 // The package in Node: the same numbers as the program, errors, memory, cancelling. DIST names it.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { assertSameAsProgram } from "./compare.mjs";
-import { cases, files, obj, queries, regionSources, root } from "./inputs.mjs";
+import { assertSameAsProgram, difference } from "./compare.mjs";
+import { cases, file, files, folder, obj, program, queries, regionSources, root } from "./inputs.mjs";
 import { measured } from "./measured.mjs";
 
 const dist = process.env.DIST ?? join(root, "dist");
@@ -133,6 +134,35 @@ test("space: slices, gradients, volumes, isosurfaces, offsets", async () => {
   assert.deepEqual(await again.values(), await volume.values());
   const made = await littoral.makeVolume(volume.grid, await volume.values());
   assert.ok(Math.abs((await (await made.signedDistance("distance")).at([0, 0, 0]))[0] - (await volume.at([0, 0, 0]))[0]) < 1e-12);
+});
+
+test("a broken surface is repaired, and a shape sampled, as the program does it", async () => {
+  const lines = files["spot.obj"].toString().split("\n");
+  let faces = 0;
+  const broken = lines.filter((line) => !line.startsWith("f ") || ++faces > 40)  // a hole; and then some faces turned round
+    .map((line, i) => (line.startsWith("f ") && i % 5 === 0 ? ["f", ...line.split(" ").slice(1).reverse()].join(" ") : line)).join("\n");
+  file("broken.obj", broken);
+  const surface = await littoral.loadSurface(new TextEncoder().encode(broken), "broken.obj");
+  const { surface: made, report } = await surface.repair({ resolution: 32 });
+  const run = (...args) => execFileSync(program, [...args, "--quiet"], { cwd: folder, stdio: ["ignore", "ignore", "inherit"] });
+  run("repair", "broken.obj", "--resolution", "32", "-o", "repaired.obj");
+  const read = (text) => ({ v: [...text.matchAll(/^v (\S+) (\S+) (\S+)/gm)].flatMap((m) => m.slice(1).map(Number)), f: [...text.matchAll(/^f .*$/gm)].map(([f]) => f) });
+  const here = read(new TextDecoder().decode(await made.write("repaired.obj"))), there = read(readFileSync(join(folder, "repaired.obj"), "utf8"));
+  assert.deepEqual(here.f, there.f);
+  assert.ok(there.f.length > 1000 && difference(here.v, there.v) < 1e-9);
+  assert.equal(report.status, "converged");
+  assert.match(JSON.stringify(await made.info()), /"closed":\s*true/);
+
+  const options = { resolution: 24, surface: 300, space: 300, seed: 7 }, samples = await surface.samples("s.npz", options);
+  run("samples", "broken.obj", "--resolution", "24", "--surface", "300", "--space", "300", "--seed", "7", "-o", "s.npz");
+  assert.ok(readFileSync(join(folder, "s.npz")).equals(samples.file), "the same bytes");
+  assert.deepEqual([samples.surfacePoints.length, samples.distances.length, samples.kinds.length], [900, 300, 300]);
+  assert.ok(samples.points.every((x) => Math.abs(x) <= 1) && samples.distances.some((d) => d < 0));
+  assert.equal(JSON.parse(samples.card).input, "broken.obj");
+  await assert.rejects(surface.samples("s.zarr", options), failure("UnsupportedError", /folder/));
+  await assert.rejects(surface.samples("s.npz", { points: 3 }), failure("InputError", /no option 'points'/));
+  await assert.rejects(surface.repair({ resolution: 2.5 }), failure("InputError", /whole number/));
+  await assert.rejects(surface.repair({ thicken: -1 }), failure("InputError", /thicken/));
 });
 
 test("bad input is a typed error with the library's message", async () => {

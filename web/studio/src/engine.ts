@@ -85,6 +85,16 @@ export class Engine {
     return (family?.methods ?? []).filter((method) => !kind || method.domains.includes(kind));
   }
 
+  /** Work that is no answer to what is drawn, with its progress, and cancelled as that is. */
+  async apart<T>(stage: string, work: (surface: Surface, call: Call) => Promise<T>): Promise<T> {
+    while (this.running) await this.active;
+    const { surface } = this;
+    if (!surface) throw new Error("nothing is open");
+    const call = this.begin(stage), done = work(surface, call).finally(() => this.finish());
+    this.active = done.then(() => undefined, () => undefined);
+    return done;
+  }
+
   /** Takes the place of the surface there was, unless it cannot be read. */
   load(bytes: Uint8Array, name: string): Promise<Surface> {
     return this.replace(name, (call) => this.read(bytes, name, call));

@@ -1,4 +1,5 @@
 // The menu that saves.
+import type { Report } from "littoral/inline";
 import type { App } from "./app";
 import { download, element, fillSelect } from "./dom";
 import type { Engine } from "./engine";
@@ -6,6 +7,7 @@ import { linesAsSvg, picture } from "./saving";
 import type { Stage } from "./stage";
 
 const fieldFormats = [".ply", ".glb", ".csv", ".npy", ".npz", ".obj", ".vtp", ".txt"], lineFormats = [".svg", ".obj", ".ply", ".vtp"];
+const surfaceFormats = [".ply", ".obj", ".stl", ".glb", ".3mf", ".off"], sampleFormats = [".npz", ".tar"];
 
 export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   const menu = element<HTMLDetailsElement>("save-menu");
@@ -16,6 +18,10 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
   fillSelect(lineFormat, choices(lineFormats), lineFormats[0]);
   const offsetFormat = element<HTMLSelectElement>("offsets-format"), spaceFormats = lineFormats.slice(1);
   fillSelect(offsetFormat, choices(spaceFormats), spaceFormats[0]);
+
+  const repairedFormat = element<HTMLSelectElement>("repaired-format"), sampleFormat = element<HTMLSelectElement>("samples-format");
+  fillSelect(repairedFormat, choices(surfaceFormats), surfaceFormats[0]);
+  fillSelect(sampleFormat, choices(sampleFormats), sampleFormats[0]);
 
   const connect = (id: string, save: () => Promise<string>) => element(id).addEventListener("click", () => {
     menu.open = false;
@@ -57,6 +63,22 @@ export function connectSaving(app: App, engine: Engine, stage: Stage): void {
     download(name, new Blob([await engine.surface!.writeLines(lines, name) as BlobPart]));
     return `${name} saved`;
   });
+  /** What a report says that somebody should know who takes the file along. */
+  const doubts = ({ status, warnings }: Report) =>
+    status === "converged" && !warnings.length ? "" : `, ${status}: ${warnings.map(({ message }) => message).join("; ")}`;
+  connect("save-repaired", () => engine.apart("repairing", async (surface, call) => {
+    const { surface: made, report } = await surface.repair({}, {}, {}, call), name = `${stem()}-repaired${repairedFormat.value}`;
+    const text = `${made.counts.faces.toLocaleString("en")} faces`;
+    download(name, new Blob([await made.write(name, call) as BlobPart]));
+    made.dispose();
+    return `${name} saved, ${text}${doubts(report)}`;
+  }));
+  connect("save-samples", () => engine.apart("sampling", async (surface, call) => {
+    const name = `${stem()}-samples${sampleFormat.value}`, { file, card, report } = await surface.samples(name, {}, {}, {}, call);
+    download(name, new Blob([file as BlobPart]));
+    download(`${stem()}-samples.json`, new Blob([card], { type: "application/json" }));
+    return `${name} and its card saved${doubts(report)}`;
+  }));
   connect("save-picture", async () => {
     const legend = element<HTMLCanvasElement>("legend"), blob = await picture(stage, legend.hidden ? null : legend);
     if (!blob) throw new Error("the browser made no picture");

@@ -76,11 +76,23 @@ export async function saved(page, id, format) {
   return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
 
+export const run = (...args) => execFileSync(program, [...args, "--quiet"], { stdio: ["ignore", "ignore", "inherit"] });
+
+/** The command line's confidence at the vertices, for a mesh and a source file. */
+export function confidenceByProgram(mesh, sources) {
+  const to = join(folder, "sure.ply");
+  run("distance", mesh, "-s", sources, "--confidence", "-o", to);
+  const bytes = readFileSync(to), head = bytes.subarray(0, bytes.indexOf("end_header\n") + 11).toString();
+  const [, count] = head.match(/element vertex (\d+)/), doubles = [...head.matchAll(/property double (\w+)/g)].map(([, name]) => name);
+  const stride = 8 * doubles.length + 3, at = head.length + 8 * doubles.indexOf("confidence"); // and three bytes of colour
+  return Array.from({ length: Number(count) }, (_, v) => bytes.readDoubleLE(at + stride * v));
+}
+
 /** The command line's distance at the vertices, for a mesh and the bytes of a source file. */
 export function byProgram(mesh, sources, ...options) {
   const from = join(folder, "sources.txt"), to = join(folder, "out.txt");
   writeFileSync(from, sources);
-  execFileSync(program, ["distance", mesh, "-s", from, "-o", to, "--quiet", ...options], { stdio: ["ignore", "ignore", "inherit"] });
+  run("distance", mesh, "-s", from, "-o", to, ...options);
   return readFileSync(to, "utf8").trim().split("\n").map(Number);
 }
 

@@ -1,12 +1,15 @@
 // Controls, saving, links, bad input, a lost context, touch and sizes.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { whenShown } from "../../../viewer/test/browser.mjs";
+import { assertAccessible, whenShown } from "../../../viewer/test/browser.mjs";
 import {
-  assertClose, byProgram, changedPixels, clickAll, closeQuietly, folder, openStudio, pickFile, ring, saved, settled, state,
+  assertClose, byProgram, changedPixels, clickAll, closeQuietly, confidenceByProgram, folder, openStudio, pickFile, ring, root, run,
+  saved, settled, state,
 } from "./helpers.mjs";
+
+const spot = join(root, "examples/data/spot.obj"), jersey = join(root, "examples/data/spot-jersey.txt");
 
 test("the page opens on a field; each control changes what it should", async () => {
   const shown = await openStudio(), { page } = shown;
@@ -28,6 +31,21 @@ test("the page opens on a field; each control changes what it should", async () 
     return low + (high - low) * Array.from(values).sort((a, b) => a - b)[values.length >> 1];
   });
   assert.ok(Math.abs(middle) < 0.02, `exact distance has slope 1, not ${1 + middle}`);
+  await page.evaluate(() => { document.getElementById("options-box").open = true; });
+  await page.check("#option-confidence");
+  await settled(page);
+  assert.ok(await changedPixels(page, () => page.selectOption("#shown", "confidence")) > 500, "confidence");
+  const seen = await page.evaluate(() => {
+    const { values, low, high, colourLow, colourHigh } = studio.stage.skin.field;
+    return { values: Array.from(values, (t) => low + (high - low) * t), ends: [colourLow, colourHigh], legend: document.getElementById("legend").ariaLabel };
+  });
+  assert.deepEqual(seen.ends, [0, 1]);
+  assert.match(seen.legend ?? await page.getAttribute("#legend", "aria-label"), /^Legend: confidence/);
+  assertClose(seen.values, confidenceByProgram(spot, jersey), 1e-6); // single precision
+  assert.ok(Math.min(...seen.values) < 0.5 && Math.max(...seen.values) > 0.9, "doubtful about the gaps, sure elsewhere");
+  await page.uncheck("#option-confidence");
+  await settled(page);
+  assert.equal(await page.evaluate(() => studio.shown), "field", "gone with what it shows");
   await page.selectOption("#shown", "field");
   await page.focus("#view");
   assert.ok(await changedPixels(page, () => page.keyboard.press("ArrowLeft")) > 500, "arrows turn");
@@ -38,7 +56,6 @@ test("the page opens on a field; each control changes what it should", async () 
   await page.selectOption("#method", "signed-heat");
   const heat = await state(page);
   assert.equal(heat.method, "signed-heat");
-  await page.click("#options-box summary");
   await page.fill("#option-time-scale", "30");
   await page.locator("#option-time-scale").blur();
   assert.notDeepEqual((await state(page)).values, heat.values);
@@ -78,6 +95,34 @@ test("isolines, pictures and fields are saved", async () => {
   await page.fill("#offsets", "0.05, -0.03");
   const offsets = (await saved(page, "save-offsets", ".obj")).bytes.toString();
   assert.ok(offsets.match(/^l /gm).length >= 2, "a line at each distance");
+  await closeQuietly(shown);
+});
+
+test("a broken surface is repaired and sampled as the command line does it; both can be cancelled", async () => {
+  const shown = await openStudio({ example: "spot" }), { page } = shown;
+  const lines = readFileSync(spot, "utf8").split("\n"), first = lines.findIndex((line) => line.startsWith("f "));
+  const broken = [...lines.slice(0, first), ...lines.slice(first + 60)].join("\n"), file = join(folder, "broken.obj");
+  writeFileSync(file, broken);
+  await pickFile(page, "broken.obj", broken);
+  await page.waitForFunction(() => studio.engine.surface.name === "broken.obj");
+  await settled(page);
+  const working = await whenShown(page, "progress", () => document.getElementById("status").textContent);
+  const { name, bytes } = await saved(page, "save-repaired", ".obj");
+  assert.equal(name, "broken-repaired.obj");
+  assert.match(await working(), /Repairing/);
+  run("repair", file, "-o", join(folder, "repaired.obj"));
+  const count = (text, letter) => text.match(new RegExp(`^${letter} `, "gm")).length, there = readFileSync(join(folder, "repaired.obj"), "utf8");
+  for (const letter of ["v", "f"]) assert.equal(count(bytes.toString(), letter), count(there, letter));
+  await page.waitForSelector("#toast:not([hidden])");
+  assert.match(await page.textContent("#toast"), /broken-repaired\.obj saved, [\d,]+ faces/);
+  assert.ok((await saved(page, "save-samples", ".npz")).bytes.includes("points.npy"));
+  await settled(page);
+  await page.evaluate(() => {
+    document.getElementById("save-menu").open = true;
+    new MutationObserver(() => document.getElementById("cancel").click()).observe(document.getElementById("progress"), { attributes: true });
+  });
+  await page.click("#save-repaired");
+  await page.waitForFunction(() => /Not saved: cancelled/.test(document.getElementById("toast").textContent));
   await closeQuietly(shown);
 });
 
@@ -229,5 +274,9 @@ test("every control has a name", async () => {
   const unnamed = await shown.page.evaluate(() => [...document.querySelectorAll("button, select, input, summary, canvas, progress")]
     .filter((e) => !(e.ariaLabel || e.title || e.textContent.trim() || e.labels?.length)).map((e) => e.id || e.outerHTML));
   assert.deepEqual(unnamed, []);
+  await shown.page.evaluate(() => { for (const box of document.querySelectorAll("details")) box.open = true; });
+  await assertAccessible(shown.page);
+  await shown.page.click("#theme");
+  await assertAccessible(shown.page);
   await closeQuietly(shown);
 });

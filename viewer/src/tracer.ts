@@ -140,10 +140,12 @@ export class Tracer {
     uniforms.tolerance.value = Math.max(2e-5, (0.4 / p[5]) * Math.max(0.05, uniforms.eye.value.length() - 1) / Math.max(1, this.size.y));
   }
 
-  /** Before a frame. True while there is more to trace: then another frame is wanted. */
-  prepare(camera: THREE.PerspectiveCamera): boolean {
+  /** Before a frame, of which it gets one of so many parts side by side. True while there is more to trace: then another
+   * frame is wanted. */
+  prepare(camera: THREE.PerspectiveCamera, parts: number): boolean {
     const { size, shown, uniforms } = this;
     this.renderer.getDrawingBufferSize(size);
+    size.x = Math.max(1, Math.round(size.x / parts));
     this.aim(camera);
     shown.view.value.copy(camera.matrixWorldInverse);
     shown.toScreen.value.copy(camera.projectionMatrix);

@@ -94,7 +94,7 @@ export class ResultView {
     let more = false;
     for (const pane of this.panes) {
       const tracer = pane.tracer;
-      if (tracer && tracer.mesh.visible && this.frames > 0) more = tracer.prepare(this.orbit.camera) || more;
+      if (tracer && tracer.mesh.visible && this.frames > 0) more = tracer.prepare(this.orbit.camera, this.panes.length) || more;
       else if (tracer && this.frames === 0) more = true;
     }
     this.render();
@@ -217,7 +217,7 @@ export class ResultView {
     renderer.setPixelRatio(1);
     renderer.setSize(width, height, false);
     this.orbit.setSize(width / this.panes.length, height, { right: insets.right * scale, bottom: insets.bottom * scale });
-    for (const pane of this.panes) while (pane.tracer?.mesh.visible && pane.tracer.prepare(this.orbit.camera));
+    for (const pane of this.panes) while (pane.tracer?.mesh.visible && pane.tracer.prepare(this.orbit.camera, this.panes.length));
     this.render();
     out.getContext("2d")?.drawImage(this.canvas, 0, 0);
     this.setSize({ ...before, insets });

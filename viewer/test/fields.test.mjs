@@ -140,6 +140,58 @@ test("pictures of any size, isolines as SVG and the surface as OBJ can be saved"
   u.forEach((t, v) => close(t, x(v) + 1, 1e-5));
 });
 
+test("each key does what the help says", async () => {
+  await page.focus("#view");
+  for (const [key, id] of [["i", "isolines"], ["n", "labels"], ["w", "wireframe"]]) {
+    const was = await page.isChecked(`#${id}`);
+    for (const now of [!was, was]) {
+      await page.keyboard.press(key);
+      assert.equal(await page.isChecked(`#${id}`), now, key);
+      assert.match(await page.textContent("#status"), now ? /shown$/ : /hidden$/);
+    }
+  }
+  const camera = () => page.evaluate(() => littoral.view.orbit.toText()), first = await camera();
+  for (const key of ["ArrowUp", "ArrowRight", "Shift+ArrowLeft", "+"]) {
+    const before = await camera();
+    await page.keyboard.press(key);
+    assert.notEqual(await camera(), before, key);
+  }
+  await page.keyboard.press("r");
+  assert.equal(await camera(), first);
+  await page.keyboard.press("Enter");
+  assert.ok(await page.isVisible("#pin"));
+  await page.click("#pin-close");
+  assert.ok(await page.isHidden("#pin"));
+  await page.focus("#view");
+  await page.keyboard.press("p");
+  assert.ok(await page.isHidden("#panel"));
+  await page.click("#fold");
+  assert.ok(await page.isVisible("#panel"));
+  await page.focus("#view");
+  assert.equal((await saved(() => page.keyboard.press("s"))).toString("latin1", 1, 4), "PNG");
+});
+
+test("a finger turns the view, a tap pins what is there", async () => {
+  const touch = await show(scene(flat, kinds.slice(0, 1)), { ...small, hasTouch: true, hash: "#panel=0" });
+  try {
+    const camera = () => touch.page.evaluate(() => littoral.view.orbit.toText()), first = await camera();
+    const session = await touch.page.context().newCDPSession(touch.page), stage = await touch.page.locator("#stage").boundingBox();
+    const at = (x) => [{ x: stage.x + x, y: stage.y + 200 }], send = (type, touchPoints) => session.send("Input.dispatchTouchEvent", { type, touchPoints });
+    await send("touchStart", at(150));
+    for (const x of [170, 190, 210]) await send("touchMove", at(x));
+    await send("touchEnd", []);
+    assert.notEqual(await camera(), first);
+    assert.ok(await touch.page.isHidden("#pin"));
+    const middle = await touch.page.evaluate(() => littoral.view.project([0, 0, 0]));
+    await touch.page.touchscreen.tap(stage.x + middle.x, stage.y + middle.y);
+    await touch.page.waitForSelector("#pin:not([hidden])");
+    assert.match(await touch.page.textContent("#pin-text"), /^distance 1\b/);
+    assertAlone(touch);
+  } finally {
+    await touch.close();
+  }
+});
+
 test("a lost graphics context gives a message, and the picture comes back", async () => {
   await page.evaluate(() => {
     window.loser = littoral.view.renderer.getContext().getExtension("WEBGL_lose_context");

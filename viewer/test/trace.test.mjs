@@ -5,11 +5,11 @@ import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
 import { assertAlone, changed, drag as dragOn, openResult, whenShown } from "./browser.mjs";
-import { load } from "./scenes.mjs";
+import { load, show } from "./scenes.mjs";
 
 const { kth, makeTree } = await load("tori-tree.ts");
 
-const shown = await openResult("TRACE_PAGE", { viewport: { width: 720, height: 260 } }, 60000);
+const shown = await openResult("TRACE_PAGE", { viewport: { width: 720, height: 200 } }, 60000);
 const { page } = shown;
 const reference = JSON.parse(readFileSync(`${process.env.TRACE_PAGE}.json`, "utf8"));
 after(() => shown.close());
@@ -148,6 +148,26 @@ test("turning asks for fewer pixels first, then all", async () => {
   const after = await page.evaluate(() => littoral.frames());
   await page.waitForTimeout(400);
   assert.equal(await page.evaluate(() => littoral.frames()), after);
+});
+
+test("two clouds are traced side by side, with one camera", async () => {
+  const text = readFileSync(process.env.TRACE_PAGE, "utf8"), from = text.indexOf(">", text.indexOf('<script id="scene"')) + 1;
+  const one = JSON.parse(text.slice(from, text.indexOf("</script>", from))), { format, version, ...part } = one;
+  const both = await show({ ...one, beside: { ...part, title: "beside" } }, { viewport: { width: 620, height: 220 }, hash: "#panel=0" });
+  try {
+    await both.page.waitForFunction(() => littoral.settled(), null, { timeout: 60000 });
+    const { sides, widths } = await both.page.evaluate(() => {
+      const bytes = littoral.pixels(), gl = littoral.view.renderer.getContext(), w = gl.drawingBufferWidth, sides = [0, 0];
+      for (let i = 0; i < bytes.length; i += 4)  // the surface's grey
+        if (Math.abs(bytes[i] - bytes[i + 2]) < 30 && bytes[i] < 238 && bytes[i] > 60) ++sides[(i / 4) % w < w / 2 ? 0 : 1];
+      return { sides, widths: littoral.view.panes.map((pane) => [pane.tracer.size.x, w / 2]) };
+    });
+    assert.ok(sides[0] > 1000 && Math.abs(sides[1] - sides[0]) < 0.03 * sides[0], `${sides}`);
+    for (const [traced, half] of widths) assert.ok(Math.abs(traced - half) <= 1, "a ray for each pixel, no more");
+    assertAlone(both);
+  } finally {
+    await both.close();
+  }
 });
 
 test("labels, no errors, no requests", async () => {

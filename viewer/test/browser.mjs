@@ -29,6 +29,8 @@ const flags = [
 // One browser serves the pages of a test file; it ends soon after the last of them.
 let running = null, open = 0, ending = 0;
 export const firefox = process.env.FIREFOX;
+/// Of tests that need what playwright offers of Chromium alone: downloads, touches, the clipboard.
+export const chromiumOnly = { skip: firefox ? "needs Chromium" : false };
 const launch = (extraFlags) => firefox
   ? playwright._bidiFirefox.launch({ executablePath: firefox, headless: false, firefoxUserPrefs: { "webgl.force-enabled": true } })
   : playwright.chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
@@ -84,7 +86,9 @@ export async function openResult(variable, options, timeout = 30000) {
 /// The page has complained about nothing and asked for nothing but itself.
 export function assertAlone({ errors, requests, url }) {
   assert.deepEqual(errors, []);
-  assert.deepEqual(requests.filter((r) => !r.startsWith("data:") && !r.startsWith("blob:")).map((r) => r.split("#")[0]), [url]);
+  const others = requests.filter((r) => !/^(data|blob):/.test(r) && r.split("#")[0] !== url);
+  assert.deepEqual(others, []);
+  assert.equal(requests.filter((r) => r.split("#")[0] === url).length, firefox ? 0 : 1);  // which says nothing of files
 }
 
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, test } from "node:test";
-import { assertAlone, changed, frames } from "./browser.mjs";
+import { assertAlone, changed, chromiumOnly, firefox, frames } from "./browser.mjs";
 import { base64, field, scene, show, square, torus } from "./scenes.mjs";
 
 const flat = square(4), corners = (f) => Array.from({ length: flat.triangles.length }, (_, c) => f(Math.floor(c / 3), c % 3, flat.triangles[c]));
@@ -85,7 +85,9 @@ test("colour map, lines, numbers and range change the picture; the address remem
   const pale = await colour(0.8, 0.07), kept = await colour(-0.8, 0.07);
   assert.ok(Math.max(...pale) - Math.min(...pale) < 40 && Math.max(...kept) - Math.min(...kept) > 40);
   const box = await page.locator("#legend").boundingBox();
-  await page.mouse.dblclick(box.x + 50, box.y + box.height / 2);
+  // Firefox takes two clicks of a tool for one each.
+  const twice = () => (firefox ? page.dispatchEvent("#legend", "dblclick") : page.mouse.dblclick(box.x + 50, box.y + box.height / 2));
+  await twice();
   assert.equal(await page.inputValue("#range-high"), "2");
   await page.mouse.move(box.x + 55, box.y + box.height - 15);
   await page.mouse.down();
@@ -93,7 +95,7 @@ test("colour map, lines, numbers and range change the picture; the address remem
   await page.mouse.up();
   const low = Number(await page.inputValue("#range-low"));
   assert.ok(low > 0.7 && low < 1.3, `the lower end was dragged to ${low}`);
-  await page.mouse.dblclick(box.x + 50, box.y + box.height / 2);
+  await twice();
 });
 
 test("an address opens the page as it was", async () => {
@@ -124,7 +126,7 @@ const saved = async (act) => {
   return readFileSync(await download.path());
 };
 
-test("pictures of any size, isolines as SVG and the surface as OBJ can be saved", async () => {
+test("pictures of any size, isolines as SVG and the surface as OBJ can be saved", chromiumOnly, async () => {
   await page.click("#more summary");
   await page.fill("#save-width", "333");
   await page.fill("#save-height", "222");
@@ -168,10 +170,10 @@ test("each key does what the help says", async () => {
   await page.click("#fold");
   assert.ok(await page.isVisible("#panel"));
   await page.focus("#view");
-  assert.equal((await saved(() => page.keyboard.press("s"))).toString("latin1", 1, 4), "PNG");
+  if (!firefox) assert.equal((await saved(() => page.keyboard.press("s"))).toString("latin1", 1, 4), "PNG");
 });
 
-test("a finger turns the view, a tap pins what is there", async () => {
+test("a finger turns the view, a tap pins what is there", chromiumOnly, async () => {
   const touch = await show(scene(flat, kinds.slice(0, 1)), { ...small, hasTouch: true, hash: "#panel=0" });
   try {
     const camera = () => touch.page.evaluate(() => littoral.view.orbit.toText()), first = await camera();

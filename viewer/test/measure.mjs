@@ -13,9 +13,15 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
   const session = await shown.page.context().browser().newBrowserCDPSession();
   const spent = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo
     .reduce((sum, { type, cpuTime }) => sum + (type === "renderer" || type === "GPU" ? 1000 * cpuTime : 0), 0);
+  const own = await shown.page.context().newCDPSession(shown.page);  // processor time of the page's own thread
+  await shown.page.goto("about:blank");
+  await own.send("Performance.enable", { timeDomain: "threadTicks" });
+  const before = await spent();
+  await shown.page.goto(shown.url);
   try {
     await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
-    const first = await spent();
+    const first = await spent() - before, { metrics } = await own.send("Performance.getMetrics");
+    const thread = (name) => 1000 * metrics.find((one) => one.name === name).value;
     const times = await shown.page.evaluate(() => {
       const { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [], asked = [];
       const finish = () => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
@@ -35,10 +41,11 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
         frame: middle(frames), asked: middle(asked), pick: performance.now() - from,
         renderer: gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER) };
     });
-    const frame = (await spent() - first) / 8;
+    const frame = (await spent() - before - first) / 8;
     const ms = (x) => `${x < 10 ? x.toFixed(1) : Math.round(x)} ms`;
     console.log(`${2 * side * side} triangles, first picture by ${ms(times.opened)}: file read by the browser ${ms(times.began)}, scene ${ms(times.read)}, ` +
-      `geometry and controls ${ms(times.built)}, first frame asked for ${ms(times.drawn)}, drawn ${ms(times.graphics)}; processor ${ms(first)}\n` +
+      `geometry and controls ${ms(times.built)}, first frame asked for ${ms(times.drawn)}, drawn ${ms(times.graphics)}; processor ${ms(first)}, ` +
+      `of which the page's thread ${ms(thread("TaskDuration"))}, its code ${ms(thread("ScriptDuration"))}\n` +
       `  a frame ${ms(times.frame)}, of which the page's code ${ms(times.asked)}; processor ${ms(frame)}; place under the cursor ${ms(times.pick)}; ${times.renderer}`);
   } finally {
     await shown.close();

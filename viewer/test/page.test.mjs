@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { assertAccessible, assertAlone, changed as changedPixels, frames, openPage, openResult } from "./browser.mjs";
+import { assertAccessible, assertAlone, changed as changedPixels, chromiumOnly, frames, openPage, openResult } from "./browser.mjs";
 
 const shown = await openResult("PAGE");
 const { page } = shown;
@@ -46,7 +46,7 @@ test("the read-out gives the value under the cursor", async () => {
   await page.waitForSelector("#readout", { state: "hidden" });
 });
 
-test("a click pins the place and copies it as a line of a source file", async () => {
+test("a click pins the place and copies it as a line of a source file", chromiumOnly, async () => {
   const vertex = Number(await fact("vertex")), at = await page.evaluate((v) => littoral.project(v), vertex);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await page.click("#view", { position: { x: at.x, y: at.y } });
@@ -64,15 +64,15 @@ const pictured = JSON.parse(readFileSync(`${process.env.PAGE}.json`, "utf8"));
 async function assertPictured(page, kind) {
   const seen = pictured[kind];
   await page.click("#sources");
-  const { places, bytes, width, height } = await page.evaluate((vertices) => {
-    const gl = littoral.view.renderer.getContext();
-    return { places: vertices.map((v) => littoral.project(v)), bytes: Array.from(littoral.pixels()), width: gl.drawingBufferWidth, height: gl.drawingBufferHeight };
+  const drawn = await page.evaluate((vertices) => {
+    const gl = littoral.view.renderer.getContext(), bytes = littoral.pixels(), width = gl.drawingBufferWidth;
+    return vertices.map((v) => {
+      const place = littoral.project(v), at = 4 * (Math.floor(place.x) + width * (gl.drawingBufferHeight - 1 - Math.floor(place.y)));
+      return Array.from(bytes.slice(at, at + 3));
+    });
   }, seen.map(([v]) => v));
   await page.click("#sources");
-  const apart = seen.map(([, ...rgb], i) => {
-    const at = 4 * (Math.floor(places[i].x) + width * (height - 1 - Math.floor(places[i].y)));
-    return Math.max(...rgb.map((c, k) => Math.abs(c - bytes[at + k])));
-  }).sort((a, b) => a - b);
+  const apart = seen.map(([, ...rgb], i) => Math.max(...rgb.map((c, k) => Math.abs(c - drawn[i][k])))).sort((a, b) => a - b);
   console.log(`${kind}, ${apart.length} vertices: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
   assert.ok(apart.length > 60 && apart[apart.length >> 1] <= 4, `${apart[apart.length >> 1]}`);
   assert.ok(apart[Math.floor(0.7 * apart.length)] <= 12, "seven of ten are alike; lines fall on the others");
@@ -138,7 +138,7 @@ test("nothing is drawn while nothing changes", async () => {
   assert.equal(await page.evaluate(() => littoral.frames()), before);
 });
 
-test("the picture can be saved", async () => {
+test("the picture can be saved", chromiumOnly, async () => {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
   assert.match(download.suggestedFilename(), /^[\w.-]+\.png$/);
 });
@@ -172,7 +172,7 @@ test("no errors, and no request but the page itself", () => {
   assertAlone(shown);
 });
 
-test("without WebGL the page says so", async () => {
+test("without WebGL the page says so", chromiumOnly, async () => {
   const bare = await openPage(shown.url, { extraFlags: ["--disable-webgl", "--disable-3d-apis"] });
   try {
     assert.match(await bare.page.textContent("#message"), /WebGL/);

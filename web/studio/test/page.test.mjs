@@ -80,7 +80,7 @@ test("the cursor reads value and node, a click copies the node", async () => {
   await closeQuietly(shown);
 });
 
-test("isolines, pictures and fields are saved", async () => {
+test("isolines, pictures and fields are saved; nothing is kept from those who cannot see", async () => {
   const shown = await openStudio(), { page } = shown;
   const svg = await saved(page, "save-lines");
   assert.match(svg.bytes.toString(), /^<svg[^]*<path d="M[\d. ]+L[^]*<\/svg>\s*$/);
@@ -95,34 +95,48 @@ test("isolines, pictures and fields are saved", async () => {
   await page.fill("#offsets", "0.05, -0.03");
   const offsets = (await saved(page, "save-offsets", ".obj")).bytes.toString();
   assert.ok(offsets.match(/^l /gm).length >= 2, "a line at each distance");
+
+  // Every control has a name, in both themes.
+  const unnamed = await page.evaluate(() => [...document.querySelectorAll("button, select, input, summary, canvas, progress")]
+    .filter((e) => !(e.ariaLabel || e.title || e.textContent.trim() || e.labels?.length)).map((e) => e.id || e.outerHTML));
+  assert.deepEqual(unnamed, []);
+  await page.evaluate(() => { for (const box of document.querySelectorAll("details")) box.open = true; });
+  await assertAccessible(page);
+  await page.click("#theme");
+  await assertAccessible(page);
   await closeQuietly(shown);
 });
 
 test("a broken surface is repaired and sampled as the command line does it; both can be cancelled", async () => {
   const shown = await openStudio({ example: "spot" }), { page } = shown;
-  const lines = readFileSync(spot, "utf8").split("\n"), first = lines.findIndex((line) => line.startsWith("f "));
-  const broken = [...lines.slice(0, first), ...lines.slice(first + 60)].join("\n"), file = join(folder, "broken.obj");
+  await page.evaluate(() => { // at once, while it is repaired
+    document.getElementById("save-menu").open = true;
+    const bar = document.getElementById("progress");
+    new MutationObserver((_, observer) => {
+      if (bar.hidden) return;
+      observer.disconnect();
+      window.working = document.getElementById("status").textContent;
+      document.getElementById("cancel").click();
+    }).observe(bar, { attributes: true });
+  });
+  await page.click("#save-repaired");
+  await page.waitForFunction(() => /Not saved: cancelled/.test(document.getElementById("toast").textContent));
+  assert.match(await page.evaluate(() => working), /Repairing/);
+
+  const broken = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 3 4\n", file = join(folder, "broken.obj"); // the last is turned round
   writeFileSync(file, broken);
   await pickFile(page, "broken.obj", broken);
   await page.waitForFunction(() => studio.engine.surface.name === "broken.obj");
   await settled(page);
-  const working = await whenShown(page, "progress", () => document.getElementById("status").textContent);
   const { name, bytes } = await saved(page, "save-repaired", ".obj");
   assert.equal(name, "broken-repaired.obj");
-  assert.match(await working(), /Repairing/);
   run("repair", file, "-o", join(folder, "repaired.obj"));
-  const count = (text, letter) => text.match(new RegExp(`^${letter} `, "gm")).length, there = readFileSync(join(folder, "repaired.obj"), "utf8");
-  for (const letter of ["v", "f"]) assert.equal(count(bytes.toString(), letter), count(there, letter));
-  await page.waitForSelector("#toast:not([hidden])");
-  assert.match(await page.textContent("#toast"), /broken-repaired\.obj saved, [\d,]+ faces/);
-  assert.ok((await saved(page, "save-samples", ".npz")).bytes.includes("points.npy"));
-  await settled(page);
-  await page.evaluate(() => {
-    document.getElementById("save-menu").open = true;
-    new MutationObserver(() => document.getElementById("cancel").click()).observe(document.getElementById("progress"), { attributes: true });
-  });
-  await page.click("#save-repaired");
-  await page.waitForFunction(() => /Not saved: cancelled/.test(document.getElementById("toast").textContent));
+  const elements = (text) => text.match(/^[vf] .*$/gm);
+  assert.deepEqual(elements(bytes.toString()), elements(readFileSync(join(folder, "repaired.obj"), "utf8")));
+  await page.waitForFunction(() => /^broken-repaired\.obj saved, 4 faces/.test(document.getElementById("toast").textContent));
+  const samples = (await saved(page, "save-samples", ".npz")).bytes;
+  run("samples", file, "-o", join(folder, "samples.npz"));
+  assert.ok(samples.equals(readFileSync(join(folder, "samples.npz"))), "the same bytes");
   await closeQuietly(shown);
 });
 
@@ -266,17 +280,5 @@ test("one finger draws, two move the camera; nothing overflows from 360 to 2560 
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
     assert.ok(await page.evaluate(() => document.getElementById("view").clientHeight > 0.55 * innerHeight));
   }
-  await closeQuietly(shown);
-});
-
-test("every control has a name", async () => {
-  const shown = await openStudio();
-  const unnamed = await shown.page.evaluate(() => [...document.querySelectorAll("button, select, input, summary, canvas, progress")]
-    .filter((e) => !(e.ariaLabel || e.title || e.textContent.trim() || e.labels?.length)).map((e) => e.id || e.outerHTML));
-  assert.deepEqual(unnamed, []);
-  await shown.page.evaluate(() => { for (const box of document.querySelectorAll("details")) box.open = true; });
-  await assertAccessible(shown.page);
-  await shown.page.click("#theme");
-  await assertAccessible(shown.page);
   await closeQuietly(shown);
 });

@@ -57,7 +57,7 @@ async function contextOf(extraFlags, options) {
   };
 }
 
-export async function openPage(url, { extraFlags = [], ...options } = {}) {
+export async function openPage(url, { extraFlags = [], prepare, ...options } = {}) {
   const { context, end } = await contextOf(extraFlags, { viewport: { width: 900, height: 640 }, ...options });
   const page = await context.newPage();
   const errors = [], requests = [];
@@ -66,6 +66,7 @@ export async function openPage(url, { extraFlags = [], ...options } = {}) {
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => requests.push(request.url()));
+  await prepare?.(page);
   await page.goto(url);
   return {
     page, errors, requests,

@@ -9,18 +9,18 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
   const values = Array.from({ length: side * side }, (_, v) => shape.positions[3 * v]);
   const less = { ...shape, positions: Float32Array.from(shape.positions), triangles: Uint32Array.from(shape.triangles) };
   const made = scene(less, [{ ...field("distance", values.slice(0, 4)), ...range(values) }], { title: "torus" });
-  const shown = await show(made, { wait: false, viewport: { width: 1286, height: 720 } });
+  let own;  // processor time of the page's own thread
+  const prepare = async (page) => {
+    own = await page.context().newCDPSession(page);
+    await own.send("Performance.enable", { timeDomain: "threadTicks" });
+  };
+  const shown = await show(made, { wait: false, viewport: { width: 1286, height: 720 }, prepare });
   const session = await shown.page.context().browser().newBrowserCDPSession();
   const spent = async () => (await session.send("SystemInfo.getProcessInfo")).processInfo
     .reduce((sum, { type, cpuTime }) => sum + (type === "renderer" || type === "GPU" ? 1000 * cpuTime : 0), 0);
-  const own = await shown.page.context().newCDPSession(shown.page);  // processor time of the page's own thread
-  await shown.page.goto("about:blank");
-  await own.send("Performance.enable", { timeDomain: "threadTicks" });
-  const before = await spent();
-  await shown.page.goto(shown.url);
   try {
     await shown.page.waitForFunction(() => window.littoral?.frames() > 0, null, { timeout: 300000 });
-    const first = await spent() - before, { metrics } = await own.send("Performance.getMetrics");
+    const first = await spent(), { metrics } = await own.send("Performance.getMetrics");
     const thread = (name) => 1000 * metrics.find((one) => one.name === name).value;
     const times = await shown.page.evaluate(() => {
       const { view } = littoral, gl = view.renderer.getContext(), one = new Uint8Array(4), frames = [], asked = [];
@@ -41,7 +41,7 @@ for (const wanted of process.argv.length > 2 ? process.argv.slice(2).map(Number)
         frame: middle(frames), asked: middle(asked), pick: performance.now() - from,
         renderer: gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER) };
     });
-    const frame = (await spent() - before - first) / 8;
+    const frame = (await spent() - first) / 8;
     const ms = (x) => `${x < 10 ? x.toFixed(1) : Math.round(x)} ms`;
     console.log(`${2 * side * side} triangles, first picture by ${ms(times.opened)}: file read by the browser ${ms(times.began)}, scene ${ms(times.read)}, ` +
       `geometry and controls ${ms(times.built)}, first frame asked for ${ms(times.drawn)}, drawn ${ms(times.graphics)}; processor ${ms(first)}, ` +

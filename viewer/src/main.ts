@@ -47,10 +47,12 @@ function start(scene: SceneData, began: number): void {
   const read = performance.now(), canvas = element<HTMLCanvasElement>("view"), stage = element("stage");
   const view = new ResultView(canvas, scene), address = new Address(location.hash);
   const ratio = () => Math.min(window.devicePixelRatio || 1, 2);
-  let moved = address.get("camera") !== null, ready = false;
+  const size = () => `${stage.clientWidth} ${stage.clientHeight} ${ratio()}`;
+  let moved = address.get("camera") !== null, ready = false, fitted = "";
 
   function fit(): void {
     if (!ready) return;
+    fitted = size();
     const insets = controls.drawLegend();
     view.setSize({ width: stage.clientWidth, height: stage.clientHeight, insets, pixelRatio: ratio() });
     if (!moved) view.orbit.reset();
@@ -147,7 +149,9 @@ function start(scene: SceneData, began: number): void {
     act(event.shiftKey);
   });
 
-  new ResizeObserver(fit).observe(stage);
+  new ResizeObserver(() => {
+    if (size() !== fitted) fit();  // it also calls when it begins: a frame less of a large surface
+  }).observe(stage);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
     view.setLost(true);

@@ -106,6 +106,8 @@ test("an address opens the page as it was", async () => {
       lines: document.getElementById("isolines").checked, theme: document.documentElement.dataset.theme, camera: littoral.view.orbit.toText(),
       range: document.getElementById("range-low").value,
     }));
+    await frames(again.page, 4);
+    assert.equal(await again.page.evaluate(() => littoral.frames()), 1, "one frame opens it");
     assert.deepEqual(state, { field: "quadratic", map: "cividis", shading: "flat", lines: false, theme: "dark", camera: "0,0.5,3,0,0,0", range: "0.2" });
     assertAlone({ ...again, url: again.url });
   } finally {

@@ -34,6 +34,19 @@ function cloud() {
   Object.assign(made.surface, { nodes: "vertices", discs: base64(Float32Array.from(each((v) => [...torusNormal(place(v)), 0.054]).flat())) });
   return made;
 }
+/// The distance from a ring, cut open by a tilted slice.
+function ring() {
+  const n = 48, step = 2 / (n - 1), low = -0.25, high = 1.5, steps = new Uint16Array(n ** 3);
+  for (let v = 0; v < steps.length; ++v) {
+    const [x, y, z] = [v % n, Math.floor(v / n) % n, Math.floor(v / n / n)].map((i) => i * step - 1);
+    steps[v] = Math.round((65534 * (Math.hypot(Math.hypot(x, y) - 0.6, z) - 0.25 - low)) / (high - low));
+  }
+  const box = { positions: [-1, -1, -1, 1, -1, -1, 1, 1, 1, -1, 1, 1], triangles: [0, 1, 2, 0, 2, 3] };
+  return scene(box, [{ ...field("distance", [low, high]), spacing: 0.1, values: undefined }], {
+    title: "ring", ...facts, shading: "occluded",
+    volume: { n: [n, n, n], origin: [-1, -1, -1], spacing: [step, step, step], low: [-1, -1, -1], high: [1, 1, 1], values: base64(steps), axis: 2, position: 0.5, level: -low / (high - low), isosurface: true },
+  });
+}
 /// Pins a place, and with it the way from there.
 async function pinned(page) {
   const at = await page.evaluate(() => littoral.view.project([-0.5, 0.27, 0.35])), stage = await page.locator("#stage").boundingBox();
@@ -53,6 +66,7 @@ const screens = [
   ["occluded-dark-420", occluded(), { viewport: { width: 420, height: 800 }, colorScheme: "dark" }],
   ["discs-1400", cloud(), { viewport: { width: 1400, height: 900 } }],
   ["discs-dark-420", cloud(), { viewport: { width: 420, height: 800 }, colorScheme: "dark" }],
+  ["volume-900", ring(), { viewport: { width: 900, height: 560 }, hash: "#slice=0.3,0.35,0.89,-0.3" }],
   ["folded-360", signed(), { viewport: { width: 360, height: 640 }, hash: "#panel=0&range=-0.5,0.6" }],
 ];
 
@@ -86,6 +100,7 @@ for (const [name, made, { act, ...options }] of screens) test(`the page looks as
   try {
     if (/labels=1/.test(options.hash ?? "")) await shown.page.waitForFunction(() => littoral.written() > 0);
     await act?.(shown.page);
+    if (made.volume) await shown.page.waitForFunction(() => littoral.settled());
     await frames(shown.page);
     const taken = await shown.page.screenshot();
     assert.deepEqual(shown.errors, []);

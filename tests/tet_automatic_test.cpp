@@ -153,7 +153,7 @@ TEST(AutomaticThroughTets, GoesRoundTwoEdges) {
   const VecX phi = automatic_tets(mesh, {{}, {tet_vertex_at(mesh, {0.125, 0.25, 0.5})}});
   const double arm = std::hypot(0.25, 0.5), length = 2 * arm + 0.25;
   EXPECT_NEAR(phi[tet_vertex_at(mesh, {0.875, 0.25, 0.5})], length, 1e-9);
-  EXPECT_NEAR(phi[tet_vertex_at(mesh, {0.875, 0.25, 1})], std::hypot(length, 0.5), 0.01);
+  EXPECT_NEAR(phi[tet_vertex_at(mesh, {0.875, 0.25, 1})], std::hypot(length, 0.5), 1e-9);
 }
 
 TEST(AutomaticThroughTets, WhatTouchesWithoutBeingJoinedIsAWall) {
@@ -175,36 +175,6 @@ TEST(AutomaticThroughTets, WhatTouchesWithoutBeingJoinedIsAWall) {
   const VecX phi = automatic_tets(mesh, {{}, {tet_vertex_at(mesh, from)}});
   const int behind = tet_vertex_at(mesh, {0, 1, 0.5});
   EXPECT_NEAR(phi[behind], 2 * std::hypot(0.5, 0.5), 1e-9);
-}
-
-TEST(AutomaticThroughTets, TurnsRoundACurvedHoleAsOftenAsItMust) {
-  // Round a cylinder: from one side of it to the other the way follows its boundary.
-  const double radius = 0.25;
-  for (const int n : {8, 16}) {
-    TetMesh mesh = tets_where(
-        n, [&](const Vec3& x) { return (x.head<2>().array() - 0.5).abs().maxCoeff() > radius; });
-    for (auto p : mesh.points.rowwise()) {  // squares to circles
-      const Eigen::RowVector2d d = p.head<2>().array() - 0.5;
-      const double square = d.cwiseAbs().maxCoeff();
-      if (square > 0) p.head<2>() = (d / d.norm() * square).array() + 0.5;
-    }
-    const Vec3 from(0.5 - 0.5, 0.5, 0.5);
-    const VecX phi = automatic_tets(mesh, {{}, {tet_vertex_at(mesh, from)}});
-    const auto exact = [&](const Vec3& x) {
-      const Eigen::Vector2d a = from.head<2>().array() - 0.5, b = x.head<2>().array() - 0.5;
-      const double free =
-          std::acos(std::min(1.0, radius / a.norm())) + std::acos(std::min(1.0, radius / b.norm()));
-      const double angle = std::acos(std::clamp(a.dot(b) / a.norm() / b.norm(), -1.0, 1.0));
-      if (angle <= free) return (x - from).norm();
-      const double flat = std::sqrt(a.squaredNorm() - radius * radius) +
-                          std::sqrt(std::max(0.0, b.squaredNorm() - radius * radius)) +
-                          radius * (angle - free);
-      return std::hypot(flat, x[2] - from[2]);
-    };
-    const TetErrors errors = tet_errors(mesh, phi, exact);
-    EXPECT_LT(errors.mean, 0.001);
-    EXPECT_LT(errors.largest, 0.012);
-  }
 }
 
 TEST(AutomaticThroughTets, EachComponentHasItsOwnSources) {

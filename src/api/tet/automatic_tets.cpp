@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "api/tet/tet_domain.h"
@@ -88,7 +89,7 @@ class AutomaticThroughTets {
   VecX from_nodes(const TetSources& sources, Task& task, Report& report) const {
     VecX phi = VecX::Constant(mesh_.n_vertices(), infinity);
     const auto measure = [&](const MatX3i& faces, bool all_seen) {
-      TetPathSources from{mesh_.points, faces, {}};
+      TetPathSources from{mesh_.points, faces, {}, true};
       for (const auto& f : faces.rowwise()) {
         int c = ops_.component[static_cast<std::size_t>(f[0])];
         for (const int v : f)
@@ -111,6 +112,11 @@ class AutomaticThroughTets {
   TetPathResult paths(const TetPathSources& from, bool all_seen, const SideOf& side,
                       const Task& task, Report& report) const {
     TetPathResult found = tet_paths(mesh_, sight_, ops_.component, from, all_seen, side, task);
+    if (const int folded = folded_tets(mesh_, sight_); folded > 0 && found.bent > 0)
+      report.warn("tets-folded",
+                  std::to_string(folded) +
+                      " times a tet lies on the same side of a face as its neighbour there, folded "
+                      "over it: ways round the boundary may be wrong near such tets");
     if (found.bent > 0)
       report.sizes.emplace_back("share of vertices out of sight",
                                 static_cast<double>(found.bent) / mesh_.n_vertices());
@@ -157,10 +163,10 @@ class AutomaticThroughTets {
     const auto is_in = [](const TetPoint& p) { return p.tet >= 0; };
     if (ops_.n_components == 1 && std::all_of(problem.places.begin(), problem.places.end(), is_in))
       return {problem.surface.points, faces,
-              std::vector<int>(static_cast<std::size_t>(faces.rows()), 0)};
+              std::vector<int>(static_cast<std::size_t>(faces.rows()), 0), false};
     const SurfaceInTets cut = surface_in_tets(mesh_, sight_, problem.surface.points, faces,
                                               problem.samples.points, problem.places);
-    TetPathSources from{cut.points, cut.faces, {}};
+    TetPathSources from{cut.points, cut.faces, {}, false};
     for (const int t : cut.tet) from.component.push_back(component_of_tet(t));
     return from;
   }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double slack = 1e-6;     // barycentric: how far outside a line may pass
 constexpr double touching = 1e-9;  // of a line: how far apart parts in neighbours may be
+constexpr double flat = 1e-9;      // of a tet's height: such tets are folded over nothing
 constexpr double straight = 1e-6;  // of half a turn: edges that turn less are flat
 
 /// Lists by number in one array: begin[i] to begin[i + 1].
@@ -97,8 +98,13 @@ void TetSight::start(Walk& walk) const {
   walk.last = -1;
 }
 
+bool TetSight::holds(int tet, Aim aim) const {
+  const auto corners = mesh_.tets.row(tet).array();
+  return (aim.a < 0 || (corners == aim.a).any()) && (aim.b < 0 || (corners == aim.b).any());
+}
+
 /// From the tets in `open` to others whose parts of the line touch, the furthest first.
-bool TetSight::walk_on(const Vec3& from, const Vec3& to, Walk& walk) const {
+bool TetSight::walk_on(const Vec3& from, const Vec3& to, Walk& walk, Aim aim) const {
   double furthest = -1;
   while (!walk.open.empty()) {
     const auto best =
@@ -107,8 +113,8 @@ bool TetSight::walk_on(const Vec3& from, const Vec3& to, Walk& walk) const {
     const Part here = *best;
     *best = walk.open.back();
     walk.open.pop_back();
-    const bool flat = gradients_[here.tet].isZero(0);
-    if (here.high >= 1 && !flat) return true;
+    const bool is_flat = gradients_[here.tet].isZero(0);
+    if (here.high >= 1 && !is_flat && holds(here.tet, aim)) return true;
     if (here.high > furthest) {
       furthest = here.high;
       walk.last = here.tet;
@@ -128,7 +134,7 @@ bool TetSight::walk_on(const Vec3& from, const Vec3& to, Walk& walk) const {
   return false;
 }
 
-bool TetSight::sees(int vertex, const Vec3& to, Walk& walk) const {
+bool TetSight::sees(int vertex, const Vec3& to, Walk& walk, Aim aim) const {
   start(walk);
   const Vec3 from = mesh_.points.row(vertex);
   for (const int t : tets_at(vertex)) {
@@ -136,10 +142,10 @@ bool TetSight::sees(int vertex, const Vec3& to, Walk& walk) const {
     walk.seen[t] = walk.stamp;
     if (clip(t, from, to, part)) walk.open.push_back(part);
   }
-  return walk_on(from, to, walk);
+  return walk_on(from, to, walk, aim);
 }
 
-bool TetSight::sees(int a, int b, const Vec3& from, const Vec3& to, Walk& walk) const {
+bool TetSight::sees(int a, int b, const Vec3& from, const Vec3& to, Walk& walk, Aim aim) const {
   start(walk);
   for (const int t : tets_at(a)) {
     if (!(mesh_.tets.row(t).array() == b).any()) continue;
@@ -147,7 +153,33 @@ bool TetSight::sees(int a, int b, const Vec3& from, const Vec3& to, Walk& walk) 
     walk.seen[t] = walk.stamp;
     if (clip(t, from, to, part)) walk.open.push_back(part);
   }
-  return walk_on(from, to, walk);
+  return walk_on(from, to, walk, aim);
+}
+
+int folded_tets(const TetMesh& mesh, const TetSight& sight) {
+  int folded = 0;
+  for (int t = 0; t < mesh.n_tets(); ++t)
+    for (int k = 0; k < 4; ++k) {
+      const std::span<const int> sharing = sight.tets_of_face(t, k);
+      if (sharing.size() != 2 || sharing[0] != t) continue;
+      const auto corner = [&](int i) { return Vec3(mesh.points.row(mesh.tets(t, i))); };
+      const Vec3 a = corner((k + 1) % 4), b = corner((k + 2) % 4), c = corner((k + 3) % 4);
+      const Vec3 normal = (b - a).cross(c - a);
+      const int other = sharing[1];
+      const auto on_face = [&](int v) { return (mesh.tets.row(t).array() == v).any(); };
+      for (int i = 0; i < 4; ++i) {
+        const int v = mesh.tets(other, i);
+        if (on_face(v) && v != mesh.tets(t, k)) continue;
+        const Vec3 p = corner(k) - a, q = mesh.points.row(v).transpose() - a;
+        const double least = flat * normal.norm();
+        const double above = normal.dot(p), across = normal.dot(q);
+        if (above * across > 0 && std::abs(above) > least * p.norm() &&
+            std::abs(across) > least * q.norm())
+          ++folded;
+        break;
+      }
+    }
+  return folded;
 }
 
 std::vector<std::vector<int>> reentrant_edges(const TetMesh& mesh, const TetSight& sight) {

@@ -33,9 +33,15 @@ class TetSight {
     int last = -1;
   };
 
-  bool sees(int vertex, const Vec3& to, Walk& walk) const;
+  /// A vertex, or two at the ends of an edge, where a line must end; -1: anywhere at the point. Of
+  /// several in one place, on the sides of a cut, only one may be in sight.
+  struct Aim {
+    int a = -1, b = -1;
+  };
+
+  bool sees(int vertex, const Vec3& to, Walk& walk, Aim aim = {-1, -1}) const;
   /// From a point on the edge between two vertices.
-  bool sees(int a, int b, const Vec3& from, const Vec3& to, Walk& walk) const;
+  bool sees(int a, int b, const Vec3& from, const Vec3& to, Walk& walk, Aim aim = {-1, -1}) const;
 
   std::span<const int> tets_at(int vertex) const;  // of some volume
   /// The tets that have a face; itself among them.
@@ -44,13 +50,18 @@ class TetSight {
  private:
   bool clip(int tet, const Vec3& from, const Vec3& to, Part& part) const;
   void start(Walk& walk) const;
-  bool walk_on(const Vec3& from, const Vec3& to, Walk& walk) const;
+  bool walk_on(const Vec3& from, const Vec3& to, Walk& walk, Aim aim) const;
+  bool holds(int tet, Aim aim) const;
 
   const TetMesh& mesh_;
   const Rows<int, 4>& tet_faces_;
   const Gradients& gradients_;
   std::vector<int> at_vertex_begin_, at_vertex_, of_face_begin_, of_face_;
 };
+
+/// How many pairs of tets that share a face alone lie on the same side of it, one folded over the
+/// other: what is within the mesh is not clear there.
+int folded_tets(const TetMesh& mesh, const TetSight& sight);
 
 /// How sharply the mesh turns about the edges of its boundary: vertex -> the other ends of edges
 /// with more than half a turn of tets round them, where shortest ways may bend.

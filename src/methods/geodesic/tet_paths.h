@@ -15,6 +15,7 @@ struct TetPathSources {
   MatX3 points{0, 3};
   MatX3i faces{0, 3};
   std::vector<int> component{};  // of the faces
+  bool of_mesh = false;          // the corners of faces are vertices of the tets
 };
 
 struct TetPathResult {

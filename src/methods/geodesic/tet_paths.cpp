@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "methods/geodesic/taut_in_tets.h"
+#include "methods/geodesic/tet_paths_taut.h"
 #include "spatial/closest_on_triangle.h"
 #include "spatial/triangle_bvh.h"
 

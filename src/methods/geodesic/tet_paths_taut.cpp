@@ -1,4 +1,4 @@
-#include "methods/geodesic/taut_in_tets.h"
+#include "methods/geodesic/tet_paths_taut.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

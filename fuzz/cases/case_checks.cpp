@@ -192,10 +192,13 @@ void check_values(const MethodCase& given, const Mesh& mesh, const VecX& values,
   if (!out.list.empty() || mesh.n_faces() == 0) return;
   const VecX bound = along_edges(mesh, given.sources);
   double size = 0, edge = 0;
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    for (const int v : mesh.soup().face(f))
-      if (const int w = mesh.soup().face(f)[0]; std::isfinite(bound[v]) && std::isfinite(bound[w]))
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    const auto face = mesh.soup().face(f);
+    for (std::size_t k = 0; k < face.size(); ++k)
+      if (const int v = face[k], w = face[(k + 1) % face.size()];
+          std::isfinite(bound[v]) && std::isfinite(bound[w]))
         edge = std::max(edge, (mesh.points().row(v) - mesh.points().row(w)).stableNorm());
+  }
   size = edge;
   for (const double b : bound)
     if (std::isfinite(b)) size = std::max(size, b);

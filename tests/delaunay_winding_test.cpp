@@ -156,6 +156,152 @@ TEST(DelaunayWinding, WhereFansTouchAndFacesAreFlipped) {
   EXPECT_LT(wrong_jump(mesh, answer), 1e-12);
 }
 
+/// n x m quads in the plane, sheared to needles.
+SurfaceMesh sheared_grid(int n, int m, double by) {
+  PolygonSoup soup = test::grid_soup(n, m, 1);
+  soup.points.col(0) += by * soup.points.col(1);
+  return SurfaceMesh(soup);
+}
+
+TEST(DelaunayWinding, OfCurvesThroughFacesRegionsStay) {
+  const SurfaceMesh mesh = sheared_grid(24, 24, 3);
+  Sources sources;
+  MatX3 ring(61, 3);
+  const Vec3 middle(2, 0.5, 0);
+  for (int i = 0; i <= 60; ++i) {
+    const double a = 2 * winding_pi * (i % 60) / 60;
+    ring.row(i) = middle + 0.3 * Vec3(std::cos(a), std::sin(a), 0);
+  }
+  sources.space_curves.push_back({ring, true, "ring"});
+  Report report;
+  const WindingAnswer plain = test::surface_winding(mesh, sources),
+                      better = test::surface_winding(
+                          mesh, sources, SurfaceWinding{.intrinsic_delaunay = true}, report);
+  EXPECT_GT(flips_of(report), 100);
+  EXPECT_EQ(better.numbers.region, plain.numbers.region);
+  EXPECT_LT(wrong_jump(better.cut.mesh, better), 1e-9);
+  const SurfaceMesh& cut = better.cut.mesh;
+  for (int f = 0; f < cut.n_faces(); ++f) {
+    const auto c = cut.face(f);
+    const Vec3 at = (cut.point(c[0]) + cut.point(c[1]) + cut.point(c[2])) / 3;
+    if (std::abs((at - middle).norm() - 0.3) < 0.01) continue;
+    const int t = better.triangle_of_face[f];
+    EXPECT_EQ(better.numbers.region[t], (at - middle).norm() < 0.3 ? 1 : 0);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(better.numbers.w.u(t, k), better.numbers.region[t], 1e-8);
+  }
+}
+
+/// The unit disk, its vertices turned about the middle the further the further out: needles.
+SurfaceMesh wound_disk(int n, double turn) {
+  PolygonSoup soup = test::grid_soup(n, n, 1);
+  for (auto p : soup.points.rowwise()) {
+    const double x = 2 * p[0] - 1, y = 2 * p[1] - 1, r = std::max(std::abs(x), std::abs(y));
+    const double a = std::atan2(y, x) + turn * r;
+    p << r * std::cos(a), r * std::sin(a), 0;
+  }
+  return SurfaceMesh(soup);
+}
+
+TEST(DelaunayWinding, WithAFreeBoundaryItIsNearTheAngle) {
+  const int n = 32;
+  const SurfaceMesh mesh = wound_disk(n, 2.5);
+  std::vector<int> line;
+  for (int j = 10; j <= 20; ++j) line.push_back(j * (n + 1) + 13);
+  std::vector<char> on_line(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  for (const int v : line) on_line[static_cast<std::size_t>(v)] = 1;
+  // RMS difference from the angle under which the line is seen, up to a constant.
+  const auto error = [&](BoundaryCondition boundary, bool delaunay) {
+    Report report;
+    const WindingAnswer answer = test::surface_winding(
+        mesh, through(line),
+        SurfaceWinding{.boundary_condition = boundary, .intrinsic_delaunay = delaunay}, report);
+    if (delaunay) {
+      EXPECT_GT(flips_of(report), 300);
+    }
+    double sum = 0, squares = 0;
+    int count = 0;
+    for (int f = 0; f < mesh.n_faces(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const int v = mesh.face(f)[k];
+        if (on_line[static_cast<std::size_t>(v)] != 0) continue;
+        double angle = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+          const Vec3 a = mesh.point(line[i - 1]) - mesh.point(v);
+          const Vec3 b = mesh.point(line[i]) - mesh.point(v);
+          angle += std::atan2(a.cross(b).z(), a.dot(b)) / (2 * winding_pi);
+        }
+        const double d = answer.numbers.w.u(f, k) - angle;
+        sum += d;
+        squares += d * d;
+        ++count;
+      }
+    return std::sqrt(squares / count - sum / count * (sum / count));
+  };
+  const double better = error(BoundaryCondition::free, true);
+  EXPECT_LT(better, 0.5 * error(BoundaryCondition::free, false));
+  EXPECT_LT(better, 0.25 * error(BoundaryCondition::natural, true));
+}
+
+/// A band of n x m quads, its ends joined, turned over or not.
+struct Band {
+  int n, m;
+  bool twisted;
+
+  int at(int i, int j) const { return i % n * (m + 1) + (twisted && i >= n ? m - j : j); }
+  SurfaceMesh mesh() const {
+    PolygonSoup soup;
+    soup.points.resize(n * (m + 1), 3);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= m; ++j) {
+        const double a = 2 * winding_pi * i / n, half = twisted ? a / 2 : 0;
+        const Vec3 out(std::cos(a), std::sin(a), 0);
+        const Vec3 across = std::cos(half) * Vec3::UnitZ() + std::sin(half) * out;
+        soup.points.row(at(i, j)) = 3 * out + (2.0 * j / m - 1) * across;
+      }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < m; ++j) {
+        test::add_triangle(soup, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+        test::add_triangle(soup, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+    return SurfaceMesh(soup);
+  }
+};
+
+TEST(DelaunayWinding, OnAMoebiusBandRegionsStay) {
+  const Band band{16, 16, true};
+  const SurfaceMesh mesh = band.mesh();
+  // Round a patch that lies across the place where the band is joined: 6 x 5 quads.
+  std::vector<int> loop;
+  for (int i = band.n - 3; i < band.n + 3; ++i) loop.push_back(band.at(i, 4));
+  for (int j = 4; j < 9; ++j) loop.push_back(band.at(band.n + 3, j));
+  for (int i = band.n + 3; i > band.n - 3; --i) loop.push_back(band.at(i, 9));
+  for (int j = 9; j >= 4; --j) loop.push_back(band.at(band.n - 3, j));
+  // Once round the middle: it has one side only, which is said.
+  std::vector<int> core;
+  for (int i = 0; i <= band.n; ++i) core.push_back(band.at(i, band.m / 2));
+  for (const std::vector<int>& curve : {loop, core}) {
+    Report report, plain_report;
+    const WindingAnswer plain = test::surface_winding(mesh, through(curve), {}, plain_report),
+                        better = test::surface_winding(mesh, through(curve),
+                                                       SurfaceWinding{.intrinsic_delaunay = true},
+                                                       report);
+    EXPECT_GT(flips_of(report), 100);
+    EXPECT_EQ(better.region, plain.region);
+    EXPECT_EQ(report.warnings.size(), plain_report.warnings.size());
+    const bool is_loop = curve == loop;
+    if (is_loop) {
+      EXPECT_EQ(better.region.sum(), 2 * 6 * 5);
+      EXPECT_EQ(better.region.cwiseAbs().sum(), 2 * 6 * 5);
+    }
+    const auto said =
+        std::count_if(report.warnings.begin(), report.warnings.end(), [](const Warning& warning) {
+          return warning.text.find("its sides exchanged") != std::string::npos;
+        });
+    EXPECT_EQ(said, is_loop ? 0 : 1);
+  }
+}
+
 TEST(DelaunayWinding, OtherFormulationsRefuseIt) {
   const WoundRing ring;
   for (const Formulation formulation : {Formulation::dual, Formulation::nonconforming})

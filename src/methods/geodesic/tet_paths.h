@@ -28,11 +28,12 @@ struct TetPathResult {
 using SideOf = std::function<double(int face, const Vec3& q, const Vec3& x)>;
 
 /// Exact at vertices that see the nearest point of the sources of their component; elsewhere the
-/// length of a way that stays in the tets, which may be too long by what lies between the points
-/// that were tried. Such ways bend at edges where the boundary is reentrant, each at the point of
-/// the edge that is best for it; those of neighbours are tried in the order of their lengths. Each
-/// boundary point sees the nearest one of the boundary, so that `all_seen` spares the test.
-/// component: vertices, -1 in no tet.
+/// length of a way that stays in the tets, never shorter than the shortest (within the slack of
+/// TetSight). Such ways turn at edges where the boundary is reentrant. Those of neighbours are led
+/// on in the order of their lengths and pulled taut, so that a way is the shortest among those
+/// near it; one that goes round something on the other side may be shorter. Each boundary point
+/// sees the nearest one of the boundary, so that `all_seen` spares the test. component: vertices,
+/// -1 in no tet.
 TetPathResult tet_paths(const TetMesh& mesh, const TetSight& sight,
                         const std::vector<int>& component, const TetPathSources& sources,
                         bool all_seen, const SideOf& side, Task task);

@@ -64,12 +64,18 @@ std::vector<InfoEntry> info_of(const PolygonSoup& soup) {
 
 std::string recommendation_for(const Volume& volume) {
   try {
-    return meaning_of(volume) == VolumeMeaning::mask
-               ? "sdf, query, offset: as they are; the values are a mask, what is not 0 is inside"
-               : "sdf, query, offset: as they are; the values look like signed distance";
+    if (meaning_of(volume) == VolumeMeaning::distance)
+      return "sdf, query, offset: as they are; the values look like signed distance";
   } catch (const InputError&) {
     return "sdf, query, offset: say what the values are with --as, or use --redistance; contour "
            "takes them as they are";
+  }
+  try {
+    check_side_of_mask(volume, false);
+    return "sdf, query, offset: as they are; the values are a mask, what is not 0 is inside";
+  } catch (const InputError&) {
+    return "sdf, query, offset: the values are a mask, and what is not 0 fills its border: say "
+           "--flip where 0 is inside, --as mask where it is outside";
   }
 }
 

@@ -16,13 +16,13 @@ constexpr std::array message_table = std::to_array<Message>({
     {an_error, "unknown-name", "there is no verb, option, method, field or word of this name",
      "a misspelt name, or an option of another verb or method",
      "take the nearest name, or one of the list, from the message"},
-    {an_error, "option-value", "an option's value is out of range or does not go with another",
-     "the message names the option and what it takes",
+    {an_error, "option-value", "an option's value is out of range, or not what the option takes",
+     "the message names the option, what it takes and what was found",
      "change the value; [options](../reference/support.md) lists ranges and units"},
     {an_error, "options-conflict",
-     "an option does not go with this method, surface or other option",
+     "an option does not go with this method, file or other option, or needs another",
      "the combination has no meaning, or there is no such algorithm",
-     "leave one of the two out, or take the method that the message names"},
+     "leave one of the two out, or give the other one that the message names"},
     {an_error, "nothing-given", "nothing to measure from, no curves, no offset, no levels",
      "the verb needs something that was not named", "name it by one of the options in the message"},
     {an_error, "unsupported", "a method does not run on this kind of surface, or not for this",
@@ -62,12 +62,18 @@ constexpr std::array message_table = std::to_array<Message>({
     {an_error, "no-inside", "the input encloses nothing",
      "it is a sheet, is reversed, or is thinner than the grid",
      "`--flip`, a larger `--resolution`, or `--thicken` of `repair`"},
-    {an_error, "volume-meaning", "the values of a volume are neither a mask nor signed distance",
-     "their meaning cannot be told from the numbers",
-     "`--as mask`, `--as distance` or `--as density`, or `--redistance`"},
-    {an_error, "nothing-there", "a level, box, slice or pattern meets nothing",
+    {an_error, "volume-meaning",
+     "the values of a volume are neither a mask nor signed distance, or a mask has its inside "
+     "along "
+     "its border",
+     "what they mean, or which side is inside, cannot be told from the numbers",
+     "`--as mask`, `--as distance` or `--as density`, or `--redistance`; of a mask `--as mask`, or "
+     "`--flip` where 0 is inside"},
+    {an_error, "nothing-there", "a level, box, slice, part or pattern meets nothing",
      "the field does not take the value, or the box lies beside the input",
      "`littoral info` shows ranges of values and boxes"},
+    {an_error, "no-field", "a file has no values to work with, or several fields",
+     "nothing says which values are meant", "`--field NAME`; the message lists those there are"},
     {an_error, "no-path", "no path over the mesh joins two nodes of a curve",
      "the curve runs from one component to another", "split the curve, or weld the mesh"},
     // The machine.
@@ -88,6 +94,10 @@ constexpr std::array message_table = std::to_array<Message>({
      "report it with the input"},
     {an_error, "cancelled", "the computation was stopped", "the caller asked for it", "nothing"},
 
+    // What was asked for.
+    {a_warning, "decimal-comma", "a list of two numbers may have been meant as one",
+     "commas separate numbers, decimals stand behind a point: 0,5 is 0 and 5",
+     "write 0.5, or put a blank behind the comma"},
     // Curves and surfaces.
     {a_warning, "completion-guessed",
      "more of the zero set completes the curves, or the surface in tets, than they make up "

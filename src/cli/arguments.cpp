@@ -1,8 +1,9 @@
 #include "cli/arguments.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <regex>
+#include <set>
 
 #include "base/option_table.h"
 #include "cli/input/method_options.h"
@@ -13,10 +14,16 @@ namespace littoral::cli {
 
 namespace {
 
-constexpr std::array lists_of_numbers = {
-    "--vertex", "--curve-vertices", "--at",       "--face",  "--edge",
-    "--level",  "--bounds",         "--distance", "--range", "--dilate",
-    "--erode",  "--colour-range",   "--up",       "--view",  "--scales"};
+/// Options of any verb whose values are several numbers between commas: what they are called says
+/// so, "X,Y,Z" or "L[,L...]".
+std::set<std::string> lists_of_numbers(const CLI::App& program) {
+  std::set<std::string> names;
+  for (const CLI::App* verb : verbs_of(program))
+    for (const CLI::Option* option : verb->get_options())
+      if (option->get_type_name().find(',') != std::string::npos)
+        for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+  return names;
+}
 
 bool is_list_of_numbers(const std::string& word) {
   return word.find_first_of("0123456789") != std::string::npos &&
@@ -26,6 +33,18 @@ bool is_list_of_numbers(const std::string& word) {
 std::string without_blanks(std::string word) {
   std::erase(word, ' ');
   return word;
+}
+
+/// "10," and "1500" as well as "10" and "1500" are "10,1500".
+void append_to_list(std::string& list, const std::string& more) {
+  if (!list.empty() && !list.ends_with(',') && !more.starts_with(',')) list += ',';
+  list += more;
+}
+
+void check_list(const std::string& option, const std::string& list) {
+  if (list.starts_with(',') || list.ends_with(',') || list.find(",,") != std::string::npos)
+    throw InputError("option " + option + ": a number is missing in '" + list + "'",
+                     "option-value");
 }
 
 std::map<std::string, std::vector<std::string>> options_without_word() {
@@ -65,18 +84,22 @@ std::string help_text(CLI::App& program, const std::string& name, bool all) {
   return program.help("", CLI::AppFormatMode::Normal);
 }
 
-std::vector<std::string> expanded_arguments(std::vector<std::string> words) {
+std::vector<std::string> expanded_arguments(const CLI::App& program,
+                                            std::vector<std::string> words) {
   const auto without_word = options_without_word();
+  const auto lists = lists_of_numbers(program);
   std::vector<std::string> out;
   for (auto next = words.begin(); next != words.end();) {
     std::string word = *next++;
     const std::size_t equals = std::min(word.find('='), word.size());
-    if (std::ranges::find(lists_of_numbers, word.substr(0, equals)) != lists_of_numbers.end()) {
+    const std::string name = word.substr(0, equals);
+    if (lists.count(name) != 0) {
       std::string list = without_blanks(word.substr(std::min(equals + 1, word.size())));
       while (next != words.end() && (list.empty() || is_list_of_numbers(list)) &&
              is_list_of_numbers(*next))
-        list.append(list.empty() ? "" : ",").append(without_blanks(*next++));
-      if (!list.empty()) word = word.substr(0, equals) + "=" + list;
+        append_to_list(list, without_blanks(*next++));
+      if (is_list_of_numbers(list)) check_list(name, list);
+      if (!list.empty()) word = name + "=" + list;
     } else if (const auto found = without_word.find(word); found != without_word.end()) {
       const std::vector<std::string>& known = found->second;
       const bool given =
@@ -86,6 +109,28 @@ std::vector<std::string> expanded_arguments(std::vector<std::string> words) {
     out.push_back(std::move(word));
   }
   return out;
+}
+
+std::vector<std::string> doubtful_lists(const CLI::App& program,
+                                        const std::vector<std::string>& words) {
+  static const std::regex zero_and_more("(--[a-z-]+)?=?(-?0),([1-9][0-9]*)");
+  std::vector<std::string> found;
+  std::smatch part;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (!std::regex_match(words[i], part, zero_and_more)) continue;
+    const std::string name = part[1].matched ? part[1].str() : words[i - 1];
+    const std::string one = part[2].str() + "." + part[3].str();
+    const bool is_list = std::ranges::any_of(verbs_of(program), [&](const CLI::App* verb) {
+      const CLI::Option* option = verb->get_option_no_throw(name);
+      return option && option->get_type_name().find("[,") != std::string::npos &&
+             !option->get_type_name().starts_with('I') && verb->get_name() == words.front();
+    });
+    if (is_list)
+      found.push_back("option " + name + ": " + part[2].str() + "," + part[3].str() +
+                      " is two numbers, " + part[2].str() + " and " + part[3].str() +
+                      "; for one number write " + one + ", and a blank behind the comma for two");
+  }
+  return found;
 }
 
 const CLI::App& verb_named(const CLI::App& program, const std::string& name) {
@@ -192,18 +237,19 @@ std::vector<std::string> without_words_of_verb(const CLI::App& program,
   return words;
 }
 
-void check_names(const CLI::App& program, std::vector<std::string>& arguments) {
+std::vector<std::string> check_names(const CLI::App& program, std::vector<std::string>& arguments) {
+  std::vector<std::string> outputs;
   if (arguments.empty())
     throw InputError("no verb given; littoral help lists them, such as in littoral info FILE",
                      "usage");
   if (arguments.front().front() == '-') {
     known_option(program, program, arguments.front());
-    return;
+    return outputs;
   }
   const CLI::App& verb = verb_named(program, arguments.front());
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     std::string& word = arguments[i];
-    if (word == "--") return;
+    if (word == "--") break;
     if (!is_option(word)) continue;
     const CLI::Option& option = known_option(program, verb, word);
     const bool is_long = word.starts_with("--");
@@ -220,14 +266,19 @@ void check_names(const CLI::App& program, std::vector<std::string>& arguments) {
                            option.get_name(false, true) + " " + option.get_type_name() +
                            (next_is_option ? ", found '" + arguments[i + 1] + "'" : ""),
                        "usage");
+    if (option.get_type_name() == "OUT")
+      outputs.push_back(!joined   ? arguments[i + 1]
+                        : is_long ? word.substr(equals + 1)
+                                  : word.substr(2));
     if (!joined) ++i;
   }
+  return outputs;
 }
 
-std::string refused_text(const CLI::ParseError& error, const CLI::App& program,
+std::string refused_text(const CLI::ParseError& error, CLI::App& program,
                          const std::vector<std::string>& arguments, std::string& code) {
-  const CLI::App* verb = nullptr;
-  for (const CLI::App* used : verbs_of(program))
+  CLI::App* verb = nullptr;
+  for (CLI::App* used : verbs_of(program))
     if (!arguments.empty() && used->get_name() == arguments.front()) verb = used;
   code = "usage";
   if (!verb) return error.what();
@@ -257,7 +308,10 @@ std::string refused_text(const CLI::ParseError& error, const CLI::App& program,
                std::to_string(option->count()) + " times; give it once";
   if (dynamic_cast<const CLI::ValidationError*>(&error)) {
     const std::string text = error.what();
-    code = text.find(" is none of ") != std::string::npos ? "unknown-name" : "option-value";
+    code = "option-value";
+    for (CLI::Option* option : verb->get_options())
+      if (text.starts_with(option->get_name() + ":") && !words_to_complete(*option).empty())
+        code = "unknown-name";
     return "option " + text;
   }
   return error.what() + see;

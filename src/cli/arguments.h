@@ -10,8 +10,12 @@ namespace littoral::cli {
 
 /// Options of which "on" is one of several words may stand without a word, and are joined to the
 /// one that follows or to "on" by "=". Lists of numbers, 10 1500 3000, "10, 1500" or 10,1500,3000,
-/// become one list with commas.
-std::vector<std::string> expanded_arguments(std::vector<std::string> words);
+/// become one list with commas. Throws InputError for a list with nothing between two commas.
+std::vector<std::string> expanded_arguments(const CLI::App& program,
+                                            std::vector<std::string> words);
+/// What is to be said of words that are lists but may have been meant as one number: "0,5".
+std::vector<std::string> doubtful_lists(const CLI::App& program,
+                                        const std::vector<std::string>& words);
 
 /// Runs another verb for each of many inputs, with options of that verb between its own.
 inline constexpr const char* batch_verb = "batch";
@@ -27,10 +31,10 @@ std::vector<std::string> without_words_of_verb(const CLI::App& program,
                                                std::vector<std::string>& of_verb);
 
 /// Throws InputError for a verb or an option that there is not, naming the nearest, and for options
-/// without their value. "-s=FILE" becomes "-sFILE".
-void check_names(const CLI::App& program, std::vector<std::string>& arguments);
+/// without their value. "-s=FILE" becomes "-sFILE". Returns the outputs that are named.
+std::vector<std::string> check_names(const CLI::App& program, std::vector<std::string>& arguments);
 /// What is wrong with arguments that do not parse, and what to do; its code.
-std::string refused_text(const CLI::ParseError& error, const CLI::App& program,
+std::string refused_text(const CLI::ParseError& error, CLI::App& program,
                          const std::vector<std::string>& arguments, std::string& code);
 
 /// All verbs in their order.

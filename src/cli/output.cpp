@@ -84,7 +84,8 @@ void check_level_outputs(const std::vector<std::string>& out, std::size_t levels
   check_outputs(out, kinds);
   if (out.size() != 1 && out.size() != levels)
     throw InputError("there are " + std::to_string(out.size()) + " output files for " +
-                     std::to_string(levels) + " levels: name one for all, or one for each");
+                         std::to_string(levels) + " levels: name one for all, or one for each",
+                     "usage");
 }
 
 void write_lines(const std::vector<std::string>& out, const SurfaceMesh& mesh,

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
-#include <regex>
 
 #include "base/option_table.h"
 #include "base/parallel.h"
@@ -20,26 +19,11 @@ namespace {
 
 enum Status { done = 0, failed = 1, bad_input = 2 };
 
-/// The library names its parameters: "option time-scale". Those that the verb has as flags get
-/// their hyphens here.
-std::string with_flags(const std::string& text, const CLI::App& program) {
-  static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
-  std::string out;
-  auto rest = text.cbegin();
-  for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
-    out.append(rest, (*at)[1].first);
-    for (const CLI::App* verb : program.get_subcommands())
-      if (verb->get_option_no_throw("--" + (*at)[1].str())) out += "--";
-    rest = (*at)[1].first;
-  }
-  return out.append(rest, text.cend());
-}
-
 /// The error as one line with its code, and as an object where a report was asked for.
-Status say(Session& session, const CLI::App& program, Status status, const std::string& kind,
-           const std::string& code, std::string text) {
+Status say(Session& session, Status status, const std::string& kind, const std::string& code,
+           std::string text) {
   session.print_warnings();
-  text = one_line(with_flags(text, program));
+  text = one_line(session.with_flags(text));
   session.say_line("error: " + text + " [" + code + "]");
   session.failure = {kind, text};
   if (session.json)
@@ -48,7 +32,7 @@ Status say(Session& session, const CLI::App& program, Status status, const std::
   return status;
 }
 
-int run_job(Session& session, const CLI::App& program) {
+int run_job(Session& session) {
   const TimeLimit limit(session.cancel, session.time_limit);
   try {
     set_thread_count(session.threads);
@@ -60,24 +44,24 @@ int run_job(Session& session, const CLI::App& program) {
     return session.status;
   } catch (const Cancelled&) {
     if (limit.passed())
-      return say(session, program, failed, "time", "time-limit",
+      return say(session, failed, "time", "time-limit",
                  "stopped after the time limit of " + number_text(session.time_limit) +
                      " s; nothing was written");
     exit_interrupted();
   } catch (const InputError& e) {
-    return say(session, program, bad_input, "input", e.code(), e.what());
+    return say(session, bad_input, "input", e.code(), e.what());
   } catch (const UnsupportedError& e) {
-    return say(session, program, bad_input, "unsupported", e.code(), e.what());
+    return say(session, bad_input, "unsupported", e.code(), e.what());
   } catch (const OutputError& e) {
-    return say(session, program, failed, "io", e.code(), e.what());
+    return say(session, failed, "io", e.code(), e.what());
   } catch (const IoError& e) {
-    return say(session, program, session.reading ? bad_input : failed, "io", e.code(), e.what());
+    return say(session, session.reading ? bad_input : failed, "io", e.code(), e.what());
   } catch (const SolveError& e) {
-    return say(session, program, failed, "solve", e.code(), e.what());
+    return say(session, failed, "solve", e.code(), e.what());
   } catch (const std::bad_alloc&) {
-    return say(session, program, failed, "memory", "too-large", "not enough memory");
+    return say(session, failed, "memory", "too-large", "not enough memory");
   } catch (const std::exception& e) {
-    return say(session, program, failed, "internal", "internal", e.what());
+    return say(session, failed, "internal", "internal", e.what());
   }
 }
 
@@ -87,23 +71,11 @@ void parse(CLI::App& app, std::vector<std::string> words) {
   app.parse(std::move(words));
 }
 
-bool goes_to_stdout(const std::vector<std::string>& arguments) {
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& word = arguments[i];
-    const bool is_next = i > 0 && (arguments[i - 1] == "-o" || arguments[i - 1] == "--output");
-    const std::string value = is_next                         ? word
-                              : word.starts_with("--output=") ? word.substr(9)
-                              : word.starts_with("-o")        ? word.substr(2)
-                                                              : "";
-    if (io::is_standard_stream(value)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Program::Program() : app_("Distance and inside/outside for geometry that is broken.", "littoral") {
   session_.record.version = LITTORAL_VERSION;
+  session_.program = &app_;
   app_.set_version_flag("--version", "littoral " LITTORAL_VERSION);
   app_.require_subcommand(1);
   app_.set_help_all_flag("--help-all", "also the options of methods");
@@ -131,7 +103,7 @@ Program::Program() : app_("Distance and inside/outside for geometry that is brok
 }
 
 void Program::read(std::vector<std::string> arguments) {
-  arguments = expanded_arguments(std::move(arguments));
+  arguments = expanded_arguments(app_, std::move(arguments));
   check_names(app_, arguments);
   try {
     parse(app_, arguments);
@@ -144,15 +116,17 @@ void Program::read(std::vector<std::string> arguments) {
 
 int Program::run(std::vector<std::string> arguments, Signals signals) {
   try {
-    arguments = expanded_arguments(std::move(arguments));
+    const std::vector<std::string> doubtful = doubtful_lists(app_, arguments);
+    arguments = expanded_arguments(app_, std::move(arguments));
     session_.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     if (!arguments.empty() && arguments.front().front() != '-')
       session_.record.verb = arguments.front();
     if (session_.record.verb == batch_verb)
       arguments = without_words_of_verb(app_, std::move(arguments), session_.verb_words);
-    check_names(app_, arguments);
-    session_.result_to_stdout = goes_to_stdout(arguments);
+    session_.result_to_stdout =
+        std::ranges::any_of(check_names(app_, arguments), io::is_standard_stream);
     parse(app_, arguments);
+    for (const std::string& text : doubtful) session_.report.warn("decimal-comma", text);
   } catch (const CLI::CallForHelp&) {
     std::cout << help_text(app_, session_.record.verb, false);
     return done;
@@ -162,14 +136,14 @@ int Program::run(std::vector<std::string> arguments, Signals signals) {
   } catch (const CLI::Success& request) {  // --version
     return app_.exit(request);
   } catch (const InputError& e) {
-    return say(session_, app_, bad_input, "usage", e.code(), e.what());
+    return say(session_, bad_input, "usage", e.code(), e.what());
   } catch (const CLI::ParseError& e) {
     std::string code;
     const std::string text = refused_text(e, app_, arguments, code);
-    return say(session_, app_, bad_input, "usage", code, text);
+    return say(session_, bad_input, "usage", code, text);
   }
   if (signals == Signals::watched) watch_for_interrupts(session_.cancel);
-  return run_job(session_, app_);
+  return run_job(session_);
 }
 
 }  // namespace littoral::cli

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <iostream>
 #include <limits>
+#include <regex>
+#include <string_view>
 
 #include "base/option_table.h"
 #include "base/platform/process.h"
@@ -42,6 +44,24 @@ std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; }, ' ');
   return text;
+}
+
+std::string Session::with_flags(const std::string& text) const {
+  static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
+  std::string out;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
+    bool known = false;
+    if (program)
+      for (const CLI::App* verb : program->get_subcommands())
+        known = known || verb->get_option_no_throw("--" + (*at)[1].str());
+    const auto next = (*at)[0].second;
+    const bool begins = (*at)[0].first == text.cbegin() || (next != text.cend() && *next == ':');
+    out.append(rest, known && !begins ? (*at)[0].first : (*at)[1].first);
+    if (known) out += "--";
+    rest = (*at)[1].first;
+  }
+  return out.append(rest, text.cend());
 }
 
 Task::Callback Session::progress_callback() {
@@ -102,11 +122,12 @@ void Session::log_line(const std::string& text) {
 
 void Session::print_warnings() {
   end_progress();
-  for (; warned_ < report.warnings.size(); ++warned_)
-    if (const auto& [code, text] = report.warnings[warned_]; !quiet)
-      say_line("warning: " + text + " [" + code + "]");
-    else
-      log_line("warning: " + text + " [" + code + "]");
+  for (; warned_ < report.warnings.size(); ++warned_) {
+    auto& [code, text] = report.warnings[warned_];
+    text = with_flags(text);
+    const std::string line = "warning: " + text + " [" + code + "]";
+    quiet ? log_line(line) : say_line(line);
+  }
 }
 
 void Session::print_report() {
@@ -269,6 +290,22 @@ std::string words_to_complete(CLI::Option& option) {
   }
 }
 
+namespace {
+
+/// "05" of "0,05", which was meant as one number; nobody writes a number so.
+bool begins_with_extra_zero(std::string_view number) {
+  if (number.starts_with('-')) number.remove_prefix(1);
+  return number.size() > 1 && number[0] == '0' && number[1] >= '0' && number[1] <= '9';
+}
+
+/// What is said of a list that has twice as many numbers as it should.
+std::string comma_hint(std::size_t found, std::size_t expected) {
+  return ", found " + std::to_string(found) +
+         (found == 2 * expected ? "; decimals stand behind a point" : "");
+}
+
+}  // namespace
+
 std::vector<double> parse_numbers(const std::string& option, const std::string& text) {
   std::vector<double> out;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -278,8 +315,16 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     const auto [stop, code] = std::from_chars(first, last, value);
     if (code != std::errc() || stop != last || !std::isfinite(value))
       throw InputError(
-          "option " + option + ": '" + std::string(first, last) + "' is not a finite number",
+          "option " + option + ": '" + std::string(first, last) + "' is not a finite number" +
+              (std::string_view(first, last).ends_with('%') ? ", and this one takes no per cent"
+                                                            : ""),
           "option-value");
+    if (begins_with_extra_zero({first, last}))
+      throw InputError("option " + option + ": '" + std::string(first, last) +
+                           "' begins with 0; commas separate numbers, and decimals stand behind a "
+                           "point, as in 0." +
+                           std::string(first, last),
+                       "option-value");
     out.push_back(value);
     begin = end + 1;
   }
@@ -289,21 +334,29 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 double parse_number(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
   if (numbers.size() != 1)
-    throw InputError("option " + option + " takes one number", "option-value");
+    throw InputError("option " + option + " takes one number" + comma_hint(numbers.size(), 1),
+                     "option-value");
   return numbers.front();
 }
 
 Vec3 parse_position(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
   if (numbers.size() != 3)
-    throw InputError("option " + option + " takes three numbers: x,y,z", "option-value");
+    throw InputError(
+        "option " + option + " takes three numbers, x,y,z" + comma_hint(numbers.size(), 3),
+        "option-value");
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::array<double, 2> parse_range(const std::string& option, const std::string& text) {
   const std::vector<double> numbers = parse_numbers(option, text);
-  if (numbers.size() != 2 || !(numbers[0] < numbers[1]))
-    throw InputError("option " + option + " takes two ascending numbers: a,b", "option-value");
+  if (numbers.size() != 2)
+    throw InputError("option " + option + " takes two numbers, a,b" + comma_hint(numbers.size(), 2),
+                     "option-value");
+  if (!(numbers[0] < numbers[1]))
+    throw InputError("option " + option + " takes two ascending numbers, found " +
+                         number_text(numbers[0]) + " and " + number_text(numbers[1]),
+                     "option-value");
   return {numbers[0], numbers[1]};
 }
 

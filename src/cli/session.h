@@ -42,6 +42,11 @@ struct Session {
   std::optional<Failure> failure;  // what was said at the end
 
   int status = 0;  // of a run without an error
+  const CLI::App* program = nullptr;
+
+  /// The library names its parameters, "raise option resolution". Those that the verb has as flags
+  /// are that here: "raise --resolution", and at the beginning "option --resolution".
+  std::string with_flags(const std::string& text) const;
 
   /// Draws progress on stderr; empty where nobody asked for it.
   Task::Callback progress_callback();
@@ -57,7 +62,7 @@ struct Session {
   void begin_log();
   /// Where reports and facts go: standard output, unless a result does.
   std::ostream& facts() const;
-  /// Prints the report's warnings that have not been printed yet.
+  /// Prints the report's warnings that have not been printed yet, and keeps them as printed.
   void print_warnings();
   /// Prints method, options, sizes and timings on stderr.
   void print_details() const;

@@ -244,12 +244,12 @@ void report_boundary(const PolygonSoup& surface, double level, Report& report) {
     open += !std::binary_search(sides.begin(), sides.end(), std::pair(b, a));
   report.sizes.emplace_back("boundary edges", static_cast<double>(open));
   if (open != 0)
-    report.warn(
-        "open-surface",
-        "the surface at level " + number_text(level) +
-            " is open: it meets the boundary of the box or the tets along " + std::to_string(open) +
-            " edges; a larger box (option padding or bounds) avoids that, option clip closes it "
-            "there");
+    report.warn("open-surface",
+                "the surface at level " + rounded_text(level) +
+                    " is open: it meets the boundary of the box or the tets along " +
+                    std::to_string(open) +
+                    " edges; raise option padding or widen option bounds, or close it there by "
+                    "option clip");
 }
 
 }  // namespace littoral

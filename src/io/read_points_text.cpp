@@ -66,12 +66,24 @@ std::string plain_name(const std::string& name) {
 
 /// Where x, y and z are among the names.
 std::optional<std::array<std::size_t, 3>> coordinate_columns(const TextCells& names) {
-  for (const auto& known : {std::array{"x", "y", "z"}, {"points:0", "points:1", "points:2"}}) {
+  struct Known {
+    std::string_view before, axes;
+  };
+  constexpr std::array all_known = std::to_array<Known>({{"", "xyz"},
+                                                         {"points:", "012"},
+                                                         {"points_", "012"},
+                                                         {"points_", "xyz"},
+                                                         {"coordinates:", "012"},
+                                                         {"p", "xyz"},
+                                                         {"pos_", "xyz"},
+                                                         {"position_", "xyz"}});
+  for (const Known& known : all_known) {
     std::array<std::size_t, 3> at{};
     bool all = true;
     for (std::size_t d = 0; d < 3 && all; ++d) {
+      const std::string wanted = std::string(known.before) + known.axes[d];
       const auto found = std::ranges::find_if(
-          names, [&](const std::string& name) { return plain_name(name) == known[d]; });
+          names, [&](const std::string& name) { return plain_name(name) == wanted; });
       all = found != names.end();
       at[d] = static_cast<std::size_t>(found - names.begin());
     }
@@ -103,9 +115,11 @@ Columns columns_of(const TextCells& first, const std::string& line, const std::s
   }
   const auto xyz = coordinate_columns(first);
   if (!xyz)
-    throw InputError(
-        name + ": the first line, " + in_quotes(line) + ", names no columns x, y and z",
-        "bad-file");
+    throw InputError(name + ": the first line, " + in_quotes(line) +
+                         ", names no columns x, y and z (or Px, Py, Pz; Points:0, Points:1, "
+                         "Points:2; pos_x, pos_y, "
+                         "pos_z)",
+                     "bad-file");
   columns.xyz = *xyz;
   columns.names = first;
   return columns;

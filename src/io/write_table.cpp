@@ -15,30 +15,33 @@ namespace littoral::io {
 
 namespace {
 
-/// A name as a cell: quoted where it holds a comma, a quote or a line end.
+/// A name as a cell: quoted where it holds a separator, a quote or a line end.
 std::string csv_cell(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  if (name.find_first_of(",\t\"\r\n") == std::string::npos) return name;
   std::string cell = "\"";
   for (char c : name) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
   return cell + '"';
 }
 
-}  // namespace
-
-void write_csv(std::ostream& out, const Table& table) {
+void write_separated(std::ostream& out, const Table& table, char separator) {
   const Eigen::MatrixXd& x = table.columns;
-  if (!table.rows_are.empty()) out << table.rows_are << ',';
-  for (const TextColumn& column : table.carried) out << csv_cell(column.name) << ',';
+  if (!table.rows_are.empty()) out << table.rows_are << separator;
+  for (const TextColumn& column : table.carried) out << csv_cell(column.name) << separator;
   for (std::size_t c = 0; c < table.names.size(); ++c)
-    out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? ',' : '\n');
+    out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? separator : '\n');
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
-    if (!table.rows_are.empty()) out << r << ',';
+    if (!table.rows_are.empty()) out << r << separator;
     for (const TextColumn& column : table.carried)
-      out << csv_cell(column.cells[static_cast<std::size_t>(r)]) << ',';
+      out << csv_cell(column.cells[static_cast<std::size_t>(r)]) << separator;
     for (Eigen::Index c = 0; c < x.cols(); ++c)
-      out << exact_text(x(r, c)) << (c + 1 < x.cols() ? ',' : '\n');
+      out << exact_text(x(r, c)) << (c + 1 < x.cols() ? separator : '\n');
   }
 }
+
+}  // namespace
+
+void write_csv(std::ostream& out, const Table& table) { write_separated(out, table, ','); }
+void write_tsv(std::ostream& out, const Table& table) { write_separated(out, table, '\t'); }
 
 void write_txt(std::ostream& out, const Table& table) {
   const Eigen::MatrixXd& x = table.columns;

@@ -30,6 +30,8 @@ void write_table(const std::filesystem::path& path, const Table& table);
 
 /// A line of names, then rows; numbers as short as they read back the same.
 void write_csv(std::ostream& out, const Table& table);
+/// The same with tabs between.
+void write_tsv(std::ostream& out, const Table& table);
 /// Rows of %.17g with blanks between.
 void write_txt(std::ostream& out, const Table& table);
 /// NumPy's format 1.0: float64, rows x columns, or one axis for one column.
@@ -45,11 +47,11 @@ struct PointTable {
 };
 
 /// A table of points: rows of cells between commas, semicolons, tabs or blanks. A first row that
-/// is no number names the columns, and x, y, z (or Points:0, Points:1, Points:2) are the points;
-/// without one there are three columns. Throws InputError naming the line, and for other columns
-/// one that shows the first line.
+/// is no number names the columns, and x, y, z (or Px, Py, Pz; Points:0, Points:1, Points:2 of
+/// ParaView; pos_x, pos_y, pos_z) are the points; without one there are three columns. Throws
+/// InputError naming the line, and for other columns one that shows the first line.
 PointTable read_points_text(std::string_view bytes, const std::string& name);
-/// NumPy's N x 3 array, alone or in an archive.
+/// NumPy's N x 3 array, alone or in an archive, or one of records with the fields x, y, z.
 PointTable read_npy_points(std::string_view bytes, const std::string& name);
 PointTable read_npz_points(std::string_view bytes, const std::string& name);
 void write_npz(std::ostream& out, const Table& table);

@@ -86,7 +86,7 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   if (kept.empty())
     throw InputError(
         "no point has a normal that is not zero; option estimate-normals computes some",
-        "option-value");
+        "no-normals");
   if (index(kept.size()) < cloud.points.rows())
     report.warn("normals-unusable", std::to_string(cloud.points.rows() - index(kept.size())) +
                                         " points without a usable normal are left out");

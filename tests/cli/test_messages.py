@@ -88,7 +88,7 @@ def test_codes_are_single_and_rows_are_whole() -> None:
         (("distance", "square.obj", "--vertex=0", "-o", "a.png2"), 2, "unknown-format"),
         (("distance", "square.obj", "--vertex=0", "-o", "no/a.txt"), 1, "cannot-write"),
         (("sdf", "square.obj"), 2, "usage"),
-        (("sdf", "square.obj", "--resolution=64", "--spacing=1", "-o", "a.vti"), 2, "option-value"),
+        (("sdf", "square.obj", "--resolution=1", "-o", "a.vti"), 2, "option-value"),
         (("quary",), 2, "unknown-name"),
         (("info", "bad.obj"), 2, "bad-file"),
     ],

@@ -82,7 +82,7 @@ def test_files_packed_by_gzip_are_read(run: Run, mesh: Path) -> None:
         (("sdf", "square.obj", "-o"), "option -o has no value", "usage"),
         (("distance", "square.obj", "--vertex", "1.5", "-o", "a.ply"), "whole", "option-value"),
         (("sdf", "square.obj", "--resolution", "24%", "-o", "a.vti"), "whole", "option-value"),
-        (("sdf", "square.obj", "--padding", "10%", "-o", "a.vti"), "no number", "option-value"),
+        (("sdf", "square.obj", "--padding", "10x", "-o", "a.vti"), "no number", "option-value"),
         (
             ("sdf", "square.obj", "--resolution=8", "--resolution=9", "-o", "a.vti"),
             "is given 2 times",

@@ -48,7 +48,7 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
   const auto shared = lattice_about(source.points, local, building, report);
   const TetLattice& lattice = *shared;
   const TetMesh& mesh = lattice.mesh();
-  check_tet_memory(mesh, "a lattice of ", "use a smaller resolution");
+  check_tet_memory(mesh, "a lattice of ", "lower option resolution");
   const auto ops = run_interruptible(building, [shared] { return tet_operators(shared->mesh()); });
   std::vector<TetPoint> places;
   std::vector<int> cubes;

@@ -22,8 +22,8 @@ Volume offset_back(const Volume& distance, double level, double back, double rea
   const PolygonSoup surface = isosurface(distance.grid, distance.values, level, {}, unheard,
                                          task.stage(0.3, std::string(name) + ": first offset"));
   if (surface.n_faces() == 0)
-    throw InputError(std::string(name) + " by " + number_text(std::abs(level)) +
-                         " leaves nothing: no surface at distance " + number_text(level),
+    throw InputError(std::string(name) + " by " + rounded_text(std::abs(level)) +
+                         " leaves nothing: no surface at distance " + rounded_text(level),
                      "nothing-there");
   Volume field = distance;
   field.values = redistance(distance.grid, distance.values, level, surface, reach,
@@ -45,7 +45,7 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
         isosurface(volume.grid, volume.values, level, {.close = close_at_box}, report,
                    task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
     if (surface.n_faces() == 0)
-      report.warn("level-missed", "there is no surface at level " + number_text(level) +
+      report.warn("level-missed", "there is no surface at level " + rounded_text(level) +
                                       "; values run from " +
                                       rounded_text(volume.values.minCoeff()) + " to " +
                                       rounded_text(volume.values.maxCoeff()));
@@ -85,10 +85,18 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
   if (!(thickness > 0) || !std::isfinite(thickness))
     throw InputError("the thickness of a wall must be positive", "option-value");
   const double spacing = distance.grid.spacing.maxCoeff();
-  if (thickness < spacing)
-    report.warn("wall-thin", "a wall of thickness " + number_text(thickness) +
-                                 " is thinner than the spacing of the grid, " +
-                                 rounded_text(spacing) + ": use a larger option resolution");
+  if (thickness < spacing) {
+    constexpr double finest = 1024;  // nodes along the longest side that are worth naming
+    const double nodes = *std::max_element(distance.grid.n.begin(), distance.grid.n.end());
+    const double needed = std::ceil(2 * spacing / thickness * nodes);
+    report.warn("wall-thin",
+                "a wall of thickness " + rounded_text(thickness) +
+                    " is thinner than the spacing of the grid, " + rounded_text(spacing) +
+                    ": it may have holes; " +
+                    (needed <= finest
+                         ? "option resolution " + number_text(needed) + " has two cells across it"
+                         : "take a thicker wall, or smaller option bounds"));
+  }
   std::vector<double> levels;
   for (const double d : offsets)
     for (const double side : {0.5, -0.5}) levels.push_back(d + side * thickness);
@@ -102,13 +110,13 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
     Isosurface& outer = sides[2 * i];
     PolygonSoup& inner = sides[2 * i + 1].surface;
     if (outer.surface.n_faces() == 0)
-      throw InputError("no wall at offset " + number_text(offsets[i]) + ": its outer surface, at " +
-                           number_text(outer.level) + ", is empty",
+      throw InputError("no wall at offset " + rounded_text(offsets[i]) +
+                           ": its outer surface, at " + rounded_text(outer.level) + ", is empty",
                        "nothing-there");
     if (inner.n_faces() == 0)
-      report.warn("wall-thin", "the wall at offset " + number_text(offsets[i]) +
+      report.warn("wall-thin", "the wall at offset " + rounded_text(offsets[i]) +
                                    " is solid: there is no surface at " +
-                                   number_text(sides[2 * i + 1].level));
+                                   rounded_text(sides[2 * i + 1].level));
     for (int f = 0; f < inner.n_faces(); ++f)
       std::reverse(inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f)],
                    inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f) + 1]);
@@ -119,9 +127,9 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
     for (int e = 0; e < mesh.n_edges(); ++e) open_edges += mesh.edge_faces(e).size() == 1;
     if (open_edges > 0)
       report.warn("open-surface",
-                  "the wall at offset " + number_text(offsets[i]) + " is open along " +
+                  "the wall at offset " + rounded_text(offsets[i]) + " is open along " +
                       std::to_string(open_edges) +
-                      " edges where it meets the box: use a larger option padding, or option clip");
+                      " edges where it meets the box: raise option padding, or use option clip");
     walls.push_back({offsets[i], std::move(wall)});
   }
   return walls;
@@ -161,8 +169,9 @@ void write_isosurfaces(const std::vector<std::string>& files,
   }
   if (files.size() != surfaces.size())
     throw InputError("there are " + std::to_string(files.size()) + " output files for " +
-                     std::to_string(surfaces.size()) +
-                     " levels: name one file for all, or one for each");
+                         std::to_string(surfaces.size()) +
+                         " levels: name one file for all, or one for each",
+                     "usage");
   for (std::size_t i = 0; i < files.size(); ++i)
     io::write_surface(files[i], join_isosurfaces({surfaces[i]}));
 }

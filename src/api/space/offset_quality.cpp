@@ -88,7 +88,7 @@ void measure_offset(const Isosurface& offset, const PolygonSoup& input,
         "accuracy-missed",
         name + "half of the surface is nearer than " + rounded_text(median) + ", and " +
             rounded_text(100 * off / total) +
-            " % of it is more than a tenth off what was asked; use a larger resolution" +
+            " % of it is more than a tenth off what was asked; raise option resolution" +
             (report.method == SpaceAutomatic::method
                  ? ""
                  : std::string(", and method ") + SpaceAutomatic::method + " for exact distances"));

@@ -73,7 +73,7 @@ VecX on_grid(const SpaceInput& input, const Grid& grid, const Regularized& optio
   const auto nodes = static_cast<double>(grid.n_nodes());
   check_memory(factor_memory(nodes),
                "a factorization on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
-               "use a smaller resolution or another method");
+               "lower option resolution, or take another method");
   const NearestSource nearest(input.surface, input.samples);
   const KnownDistances known = known_distances(grid, nearest, input.samples);
   if (known.empty()) throw InputError("the box holds no sample of the input", "nothing-there");

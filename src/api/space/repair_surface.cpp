@@ -102,10 +102,10 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   VecX& values = made.distance.values;
   if (options.thicken > 0) {
     if (options.thicken < 2 * h)
-      report.warn("wall-thin", "walls of thickness " + number_text(options.thicken) +
+      report.warn("wall-thin", "walls of thickness " + rounded_text(options.thicken) +
                                    " are thinner than two cells of the grid (" +
                                    rounded_text(2 * h) +
-                                   "): they may have holes; use a larger resolution");
+                                   "): they may have holes; raise option resolution");
     const VecX to_input = redistance(made.distance.grid, values, 0, triangulate(input),
                                      options.thicken + 2 * h, task.stage(0.1, "walls"));
     values = values.cwiseMin((to_input.cwiseAbs().array() - options.thicken / 2).matrix());
@@ -113,7 +113,8 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   if (!(values.array() < 0).any())
     throw InputError(
         "the input has no inside: no node of the grid lies in it. Sheets become walls with option "
-        "thicken; thin parts need a larger resolution; if all of it is reversed, flip it",
+        "thicken; thin parts need a larger option resolution; if all of it is reversed, say option "
+        "flip",
         "no-inside");
   // Nodes that lie on a sheet have the value zero: they are not inside.
   made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
@@ -146,8 +147,8 @@ void drop_parts(PolygonSoup& surface, const RepairOptions& options, Report& repo
   const auto left = std::count(stays.begin(), stays.end(), 1);
   if (left == 0)
     throw InputError("option smallest-part: all " + std::to_string(stays.size()) +
-                         " parts are smaller than " + number_text(options.smallest_part),
-                     "option-value");
+                         " parts are smaller than " + rounded_text(options.smallest_part),
+                     "nothing-there");
   if (small + cavities > 0) surface = with_parts(surface, parts, stays);
   report.sizes.emplace_back("parts", static_cast<double>(left));
   report.sizes.emplace_back("small parts dropped", small);
@@ -223,7 +224,7 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
     report.warn("result-unsound", "the result is not sound: " + number_text(open) +
                                       " edges or vertices are open or nonmanifold, " +
                                       number_text(crossing) +
-                                      " faces cross others; try another resolution");
+                                      " faces cross others; try another option resolution");
   }
   const OneSidedDistance to_input =
       one_sided_distance(result, input, samples, task.stage(0.2, "comparing"));
@@ -251,7 +252,7 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
         "parts-lost",
         number_text(std::round(1000 * share.outside) / 10) +
             " % of the input's area is not part of the result: sheets without an inside, or "
-            "parts thinner than the grid; use option thicken, or a larger resolution");
+            "parts thinner than the grid; use option thicken, or raise option resolution");
   }
 }
 
@@ -299,7 +300,7 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
   report.status = "uncertain";
   report.warn("accuracy-missed", "the largest error is " + rounded_text(largest_error(report)) +
                                      " with " + std::to_string(resolutions.back()) +
-                                     " nodes, not " + number_text(options.error));
+                                     " nodes, not " + rounded_text(options.error));
   return surface;
 }
 

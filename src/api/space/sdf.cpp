@@ -34,7 +34,8 @@ void check_queries(const MatX3& queries, Eigen::Index first) {
 
 Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   if (request.resolution && request.spacing)
-    throw InputError("only one of resolution and spacing can be given", "option-value");
+    throw InputError("option resolution and option spacing both say how fine the grid is: give one",
+                     "options-conflict");
   if (request.resolution && *request.resolution < 2)
     throw InputError("option resolution must be at least 2", "option-value");
   if (request.spacing && !(*request.spacing > 0 && std::isfinite(*request.spacing)))
@@ -146,7 +147,8 @@ PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request
                                : request.method;
   const MethodInfo& info = Registry<SpaceDomain>::instance().find(Tori::method)->info;
   if (method.name() != info.name)
-    throw InputError("tori are fitted by method " + info.name + ", not by " + method.name());
+    throw InputError("tori are fitted by method " + info.name + ", not by " + method.name(),
+                     "options-conflict");
   const Tori options = typed_options(info, tori_options(), method);
   report.method = info.name;
   report.domain = "set of points";

@@ -100,8 +100,8 @@ void check_grid(const Grid& grid) {
     throw InputError("the grid's box must be finite and its spacings positive", "option-value");
   const double nodes = double(grid.n[0]) * grid.n[1] * grid.n[2];
   if (nodes > std::numeric_limits<int>::max())
-    throw InputError(grid_text(grid) + " is too large; use a smaller resolution", "too-large");
-  check_memory(bytes_per_node * nodes, grid_text(grid), "use a smaller resolution");
+    throw InputError(grid_text(grid) + " is too large; lower option resolution", "too-large");
+  check_memory(bytes_per_node * nodes, grid_text(grid), "lower option resolution");
 }
 
 Box box_on_grid(const PolygonSoup& input, const Grid& grid) {

@@ -41,10 +41,10 @@ namespace {
 TorusFit torus_fit(const Tori& options) {
   if (options.fit == TorusWeights::closed) {
     if (!options.weights.empty())
-      throw InputError("option weights goes with fit learned", "option-value");
+      throw InputError("option weights goes with fit learned", "options-conflict");
     return options.noisy ? TorusFit::noisy() : TorusFit::exact();
   }
-  if (options.noisy) throw InputError("option noisy goes with fit closed", "option-value");
+  if (options.noisy) throw InputError("option noisy goes with fit closed", "options-conflict");
   if (options.weights.empty()) return TorusFit::by(LearnedFit::built_in());
   return TorusFit::by(std::make_shared<const LearnedFit>(
       LearnedFit::parse(io::read_bytes(options.weights), options.weights)));
@@ -101,7 +101,7 @@ VecX heat_on_grid(const SpaceInput& input, const Grid& grid, SpaceSignedHeat& op
   if (options.sharpen)
     check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
                  "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
-                 "use a smaller resolution or leave out sharpen");
+                 "lower option resolution, or leave out option sharpen");
   VecX phi = signed_heat_grid(grid, input.samples, options,
                               task.stage(options.sharpen ? 0.2 : 1, "signed heat"), report,
                               parts_to_hold(input, options));

@@ -20,6 +20,7 @@ constexpr double thinnest = 0.05;  // of those that are lost: as thick as these 
 constexpr double slack = 1.2;      // spacings in a part that is held for sure
 constexpr double touching = 0.98;  // of its radius: how far a ball may be from the surface
 constexpr int halvings = 12;
+constexpr double largest_grid = 1024.0 * 1024 * 1024;  // of a grid that is worth naming
 
 /// Which sides the eight nodes of the cell at x are on: 1 inside, 2 outside, 3 both; 3 beyond the
 /// box, of which nothing is known.
@@ -104,12 +105,16 @@ void warn_of_thin_parts(const PointwiseDistance& distance, const OrientedPoints&
   const int nodes = *std::max_element(grid.n.begin(), grid.n.end());
   const double needed = std::ceil(slack * h / thickest * (nodes - 1)) + 1;
   report.sizes.emplace_back("resolution that holds the thin parts", needed);
-  report.warn(
-      "thin-parts",
-      percent_text(share) +
-          " of the surface bounds parts or gaps thinner than the grid's spacing with no node "
-          "in them: contours miss or tear them. Resolution " +
-          number_text(needed) + " in this box would hold them");
+  const double finer = needed / nodes;
+  const bool feasible = static_cast<double>(grid.n_nodes()) * finer * finer * finer <= largest_grid;
+  report.warn("thin-parts",
+              percent_text(share) +
+                  " of the surface bounds parts or gaps thinner than the grid's spacing with no "
+                  "node in them: contours miss or tear them; " +
+                  (feasible ? "option resolution " + number_text(needed) + " would hold them"
+                            : "they are down to " + rounded_text(thickest) +
+                                  " thick, too thin for a grid of this box: take smaller option "
+                                  "bounds about them, or points of `littoral query`"));
 }
 
 }  // namespace littoral

@@ -7,6 +7,7 @@
 #include "base/option_table.h"
 #include "contour/isosurface.h"
 #include "littoral/error.h"
+#include "methods/implicit/settled_sides.h"
 
 namespace littoral {
 
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double least_slope = 0.7, largest_slope = 1.4;  // of what is taken for distance
 constexpr std::size_t most_sampled_cells = 4'000'000;
+constexpr double mostly = 0.5, nearly_all = 0.9;  // of the nodes on a volume's border
+constexpr double more_than_within = 1.1;
 
 /// What is seen of values without knowing what they are.
 struct ValueTraits {
@@ -99,7 +102,29 @@ void look_at_slopes(const Volume& volume, ValueTraits& seen) {
       "volume-meaning");
 }
 
-Volume with_border(const Volume& mask) {
+/// Shares of the nodes that are inside: of all, and of those on the border of the box.
+struct InsideShares {
+  double all = 0, border = 0;
+};
+
+InsideShares inside_shares(const Volume& mask, bool flip) {
+  const auto& n = mask.grid.n;
+  double inside = 0, at_border = 0, border = 0;
+  for (int k = 0; k < n[2]; ++k)
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i) {
+        const double value = mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))];
+        const bool is_inside = (value != 0) != flip;
+        const bool is_border =
+            i == 0 || j == 0 || k == 0 || i + 1 == n[0] || j + 1 == n[1] || k + 1 == n[2];
+        inside += is_inside;
+        border += is_border;
+        at_border += is_border && is_inside;
+      }
+  return {inside / static_cast<double>(mask.grid.n_nodes()), at_border / border};
+}
+
+Volume with_border(const Volume& mask, bool flip) {
   Volume out;
   for (int d = 0; d < 3; ++d) out.grid.n[d] = mask.grid.n[d] + 2;
   out.grid.spacing = mask.grid.spacing;
@@ -108,27 +133,36 @@ Volume with_border(const Volume& mask) {
   for (int k = 0; k < mask.grid.n[2]; ++k)
     for (int j = 0; j < mask.grid.n[1]; ++j)
       for (int i = 0; i < mask.grid.n[0]; ++i)
-        if (mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))] != 0)
+        if ((mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))] != 0) != flip)
           out.values[static_cast<Eigen::Index>(out.grid.node(i + 1, j + 1, k + 1))] = 0;
   return out;
 }
 
-Shape shape_of_mask(const Volume& mask) {
+Shape shape_of_mask(const Volume& mask, bool flip) {
   if (!mask.values.allFinite())
     throw InputError("a mask needs finite values, 0 outside", "not-finite");
-  const Volume bordered = with_border(mask);
+  const double low = mask.values.minCoeff(), high = mask.values.maxCoeff();
+  if (low < high && (mask.values.array() != 0).all())
+    throw InputError("no value of the mask is 0, so that nothing is outside: they run from " +
+                         rounded_text(low) + " to " + rounded_text(high) +
+                         ". Option as density takes as inside what is larger than option threshold",
+                     "volume-meaning");
+  const Volume bordered = with_border(mask, flip);
   Report unheard;
   Shape shape;
   shape.surface = isosurface(bordered.grid, bordered.values, 0.5, {}, unheard);
   if (shape.surface.n_faces() == 0)
-    throw InputError("nothing is inside: all values are 0", "no-inside");
+    throw InputError(
+        flip ? "nothing is inside: no value is 0" : "nothing is inside: all values are 0",
+        "no-inside");
   return shape;
 }
 
 Shape shape_of_density(Volume density, std::optional<double> threshold) {
   ValueTraits seen;
   look_at_values(density, seen);
-  if (!(seen.low < seen.high)) throw InputError("a density needs values that differ");
+  if (!(seen.low < seen.high))
+    throw InputError("a density needs values that differ", "nothing-there");
   const double level = threshold.value_or((seen.low + seen.high) / 2);
   if (!(level >= seen.low && level < seen.high))
     throw InputError("option threshold: no surface at " + rounded_text(level) +
@@ -153,14 +187,32 @@ VolumeMeaning meaning_of(const Volume& volume) {
   throw_unclear(seen);
 }
 
-Shape shape_of(Volume volume, VolumeMeaning meaning, std::optional<double> threshold) {
-  if (meaning == VolumeMeaning::automatic) meaning = meaning_of(volume);
+void check_side_of_mask(const Volume& mask, bool flip) {
+  const InsideShares shares = inside_shares(mask, flip);
+  if (shares.all == 1 || shares.border <= mostly) return;
+  if (shares.border < nearly_all && shares.border <= more_than_within * shares.all) return;
+  const std::string inside = flip ? "0" : "not 0";
+  throw InputError("what is " + inside + " fills " + percent_text(shares.border) +
+                       " of the border of the volume, as the outside of a shape does. Say which "
+                       "side is inside: option as mask takes what is not 0" +
+                       (flip ? "; with option flip, what is 0" : ", option flip what is 0"),
+                   "volume-meaning");
+}
+
+Shape shape_of(Volume volume, VolumeMeaning meaning, std::optional<double> threshold, bool flip) {
+  if (meaning == VolumeMeaning::automatic) {
+    meaning = meaning_of(volume);
+    if (meaning == VolumeMeaning::mask) check_side_of_mask(volume, flip);
+  }
   if (threshold && meaning != VolumeMeaning::density)
-    throw InputError("option threshold goes with option as density", "option-value");
-  if (meaning == VolumeMeaning::mask) return shape_of_mask(volume);
-  if (meaning == VolumeMeaning::density) return shape_of_density(std::move(volume), threshold);
+    throw InputError("option threshold goes with option as density", "options-conflict");
+  if (meaning == VolumeMeaning::mask) return shape_of_mask(volume, flip);
   Shape shape;
-  shape.field = std::move(volume);
+  if (meaning == VolumeMeaning::density)
+    shape = shape_of_density(std::move(volume), threshold);
+  else
+    shape.field = std::move(volume);
+  shape.request.flip = flip;
   return shape;
 }
 

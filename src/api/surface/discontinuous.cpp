@@ -139,7 +139,7 @@ Sources without_nonbounding(const SurfaceDomain& domain, const Sources& sources,
   if (kept.empty())
     throw InputError(
         "no part of the curves bounds a region; option discontinuous takes such curves",
-        "option-value");
+        "options-conflict");
   for (const auto& [name, value] : winding.sizes)
     if (name.ends_with("bounding_length")) report.sizes.emplace_back(name, value);
   return kept;

@@ -44,7 +44,9 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
     task.stage(1.0 / static_cast<double>(levels.size()), "tracing lines").checkpoint();
     all.push_back({level, isolines(mesh, values, level)});
     if (all.back().lines.empty())
-      report.warn("level-missed", "there are no lines at level " + number_text(level));
+      report.warn("level-missed", "there are no lines at level " + rounded_text(level) +
+                                      "; values run from " + rounded_text(values.minCoeff()) +
+                                      " to " + rounded_text(values.maxCoeff()));
     any = any || !all.back().lines.empty();
   }
   if (!any) throw InputError("none of the levels is met by a face", "nothing-there");

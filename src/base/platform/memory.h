@@ -21,7 +21,7 @@ double peak_memory();
 void return_freed_memory();
 
 /// Throws IoError, with both numbers and the remedy, if `bytes` exceeds the available memory.
-/// what: "a grid of 999 x 999 x 999 nodes"; remedy: "use a smaller resolution".
+/// what: "a grid of 999 x 999 x 999 nodes"; remedy: "lower option resolution".
 void check_memory(double bytes, const std::string& what, const std::string& remedy);
 
 }  // namespace littoral

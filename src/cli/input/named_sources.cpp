@@ -20,7 +20,7 @@ int checked_element(const std::string& option, double number, int count, const s
     throw InputError("option " + option + ": there is no element " + number_text(number) + "; " +
                          file + " has " + std::to_string(count) + ", counted from " +
                          std::to_string(base),
-                     "option-value");
+                     "no-such-element");
   return static_cast<int>(number) - base;
 }
 

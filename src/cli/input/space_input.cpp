@@ -28,7 +28,8 @@ namespace {
 void add_meaning_options(CLI::App& verb, SpaceArguments& texts) {
   const auto group = in_group("Volumes as input");
   group(verb.add_option("--as", texts.meaning,
-                        "what volumes hold: mask (0 outside, all else inside), distance (negative "
+                        "what volumes hold: mask (0 outside, all else inside; with --flip 0 "
+                        "inside), distance (negative "
                         "inside, taken as it is) or density (larger than --threshold inside) "
                         "[default: voxels and volumes of 0 and one other value are masks; those of "
                         "both signs and slope 1 distance; all else is an error]"))
@@ -76,7 +77,7 @@ void add_confidence_option(CLI::App& verb, bool& confidence) {
 VecX confidence_at(const CsgShapes& shapes, const MatX3& points, Session& session) {
   const Shape& input = shapes.all.front();
   if (!shapes.plain() || input.field)
-    throw InputError("option confidence is for one mesh, soup or cloud", "option-value");
+    throw InputError("option confidence is for one mesh, soup or cloud", "options-conflict");
   Report ignored;  // the distance's holds the same
   const Task task = session.task();
   const WindingOfInput winding(input.surface, {input.request.flip, input.request.estimate_normals},
@@ -95,12 +96,11 @@ void add_grid_options(CLI::App& verb, SpaceArguments& texts, const GridOptions& 
                   std::string("distance between nodes, instead [") + length_unit_text + "]")
       ->type_name("H");
   verb.add_option("--bounds", texts.bounds, "the box: x0,y0,z0,x1,y1,z1 [length]")
-      ->type_name("BOX");
-  verb.add_option("--padding", texts.padding,
-                  "without --bounds: margin around the input, in its longest side [default " +
-                      number_text(defaults.padding) + "]")
-      ->check(number_between(0, 1000))
-      ->type_name("F");
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  add_share_option(verb, "padding", texts.padding, 1000,
+                   "without --bounds: margin around the input, in its longest side, 0.1 or 10% "
+                   "[default " +
+                       number_text(defaults.padding) + "]");
 }
 
 SpaceRequest space_request(const SpaceArguments& texts, const Session& session) {
@@ -125,12 +125,19 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
   const bool voxels =
       io::format_to_read(io::extension_to_read(file), file, {io::Kind::volume}).read_voxels !=
       nullptr;
-  if (voxels && meaning == VolumeMeaning::automatic) meaning = VolumeMeaning::mask;
   try {
-    if (redistance) return shape_at_level(volume, 0);
+    if (voxels && !redistance && meaning == VolumeMeaning::automatic) {
+      check_side_of_mask(volume, session.flip);
+      meaning = VolumeMeaning::mask;
+    }
+    if (redistance) {
+      Shape shape = shape_at_level(volume, 0);
+      shape.request.flip = session.flip;
+      return shape;
+    }
     std::optional<double> threshold;
     if (!texts.threshold.empty()) threshold = parse_number("threshold", texts.threshold);
-    return shape_of(std::move(volume), meaning, threshold);
+    return shape_of(std::move(volume), meaning, threshold, session.flip);
   } catch (const InputError& e) {
     throw InputError(file + ": " + e.what(), e.code());
   }
@@ -147,8 +154,9 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
   if (redistance)
     throw InputError(
         file + " is no volume: option redistance is for " + io::read_extensions({io::Kind::volume}),
-        "option-value");
+        "options-conflict");
   Shape shape;
+  shape.request.flip = session.flip;
   const auto* tets = std::get_if<io::TetFile>(&content);
   shape.surface = tets ? boundary_of(*tets) : std::get<PolygonSoup>(std::move(content));
   return shape;
@@ -180,7 +188,7 @@ void warn_without_box(const std::string& file, Session& session) {
 
 CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
   if (texts.redistance && texts.meaning != "auto")
-    throw InputError("option redistance does not go with option as", "option-value");
+    throw InputError("option redistance does not go with option as", "options-conflict");
   CsgShapes shapes;
   shapes.all.push_back(read_shape(texts.input, texts, true, session));
   for (const auto& [how, files] : {std::pair(Boolean::unite, &texts.unite),
@@ -196,18 +204,20 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
   if (!texts.offset.empty()) shapes.csg.offset = parse_length("offset", texts.offset, size);
   Shape& first = shapes.all.front();
   const AnyMethod own = first.request.method;  // where the level of a volume is measured anew
+  const bool flip = first.request.flip;        // what is still to be done of it
   first.request = space_request(texts, session);
+  first.request.flip = flip;
   if (first.request.method.name().empty())
     first.request.method = AnyMethod::named(own.name(), first.request.method.values());
   if (!texts.operand_method.empty() && shapes.all.size() == 1)
-    throw InputError("option operand-method: there is no shape but INPUT", "option-value");
+    throw InputError("option operand-method: there is no shape but INPUT", "options-conflict");
   for (std::size_t s = 1; s < shapes.all.size(); ++s) {
     Shape& shape = shapes.all[s];
     const std::string name = !texts.operand_method.empty() ? texts.operand_method
                              : !texts.method.name.empty()  ? texts.method.name
                                                            : std::string(SpaceAutomatic::method);
     shape.request = {AnyMethod::named(name, known_options(name, texts.method.options)),
-                     session.flip, texts.estimate_normals && shape.surface.n_faces() == 0};
+                     shape.request.flip, texts.estimate_normals && shape.surface.n_faces() == 0};
     check_method<SpaceDomain>(shape.request.method);
   }
   check_combination(shapes.csg, shapes.all.size());
@@ -224,7 +234,9 @@ GridOptions grid_request(const SpaceArguments& texts, const InputSize& size) {
   if (!texts.bounds.empty()) {
     const std::vector<double> numbers = parse_numbers("bounds", texts.bounds);
     if (numbers.size() != 6)
-      throw InputError("option bounds takes x0,y0,z0,x1,y1,z1", "option-value");
+      throw InputError("option bounds takes six numbers, x0,y0,z0,x1,y1,z1, found " +
+                           std::to_string(numbers.size()),
+                       "option-value");
     request.bounds.emplace();
     std::copy(numbers.begin(), numbers.end(), request.bounds->begin());
   }
@@ -240,12 +252,12 @@ CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::s
       ->type_name("FILE");
 }
 
-void add_smoothing_option(CLI::App& verb, double& smoothing, const std::string& when) {
+void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::string& when) {
   verb.add_option("--smoothing", smoothing,
                   when +
                       ": regularized winding number, convolved with a Gaussian of this deviation "
-                      "[length; default 0, none]")
-      ->check(number_between(0, 1e300))
+                      "[" +
+                      length_unit_text + "; default 0, none]")
       ->type_name("S");
 }
 

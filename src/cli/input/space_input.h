@@ -56,7 +56,7 @@ void warn_without_box(const std::string& file, Session& session);
 /// Adds --points, whose help begins with `help`.
 CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help);
 /// Adds --smoothing of winding numbers in space; `when` says what it goes with.
-void add_smoothing_option(CLI::App& verb, double& smoothing, const std::string& when);
+void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::string& when);
 /// Points of any surface or cloud file, or those of a table with its other columns.
 io::PointTable read_queries(const std::string& file);
 

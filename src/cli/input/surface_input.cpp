@@ -44,7 +44,7 @@ PolygonSoup read_surfaces(const std::vector<std::string>& files) {
     if (all.n_vertices() > 0 && (more.n_faces() > 0) != (all.n_faces() > 0))
       throw InputError(
           "option sources: " + file + " is a cloud and others are meshes, or the other way round",
-          "option-value");
+          "options-conflict");
     const int first = all.n_vertices();
     const auto append = [first](MatX3& to, const MatX3& from) {
       to.conservativeResize(first + from.rows(), 3);
@@ -52,7 +52,8 @@ PolygonSoup read_surfaces(const std::vector<std::string>& files) {
     };
     append(all.points, more.points);
     if (more.n_faces() == 0) {
-      if (more.normals.rows() == 0) throw InputError(file + " has neither faces nor normals");
+      if (more.normals.rows() == 0)
+        throw InputError(file + " has neither faces nor normals", "no-normals");
       append(all.normals, more.normals);
     }
     for (int f = 0; f < more.n_faces(); ++f) {
@@ -94,7 +95,7 @@ std::string choose_field(const PolygonSoup& soup, const std::string& wanted,
   throw InputError(known.empty()
                        ? file + " holds no field with one value per vertex"
                        : file + " has the fields " + known + ": choose one with option field",
-                   "option-value");
+                   "no-field");
 }
 
 }  // namespace littoral::cli

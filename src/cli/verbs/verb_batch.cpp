@@ -53,7 +53,7 @@ void check_verb(const CLI::App& verb) {
     return;
   throw InputError("option verb: batch is for verbs of one input, and " + verb.get_name() +
                        (inputs > 1 ? " takes " + std::to_string(inputs) : " takes no file"),
-                   "option-value");
+                   "options-conflict");
 }
 
 /// The words of both, where those of the line replace the others of the same option.
@@ -98,7 +98,7 @@ class JobMaker {
     name_.clear();
     to_.clear();
     if (!listed.words.empty()) {
-      const Words words = expanded_arguments(listed.words);
+      const Words words = expanded_arguments(program_->app(), listed.words);
       for (const std::string& word : words)
         if (word.rfind("--verb=", 0) == 0) verb_ = word.substr(7);
       own = separate_words(line_, verb_named(program_->app(), verb_), words, of_verb);

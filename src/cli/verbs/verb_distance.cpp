@@ -47,7 +47,8 @@ Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Sess
   if (arguments.boundary) {
     const std::vector<Curve> loops = boundary_curves(mesh);
     if (loops.empty())
-      throw InputError("option boundary: " + arguments.domain + " has no boundary", "option-value");
+      throw InputError("option boundary: " + arguments.domain + " has no boundary",
+                       "nothing-there");
     sources.curves.insert(sources.curves.end(), loops.begin(), loops.end());
   }
   if (sources.empty()) {
@@ -64,7 +65,7 @@ TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, S
     throw InputError(
         "options --at, --face, --edge and --curve-vertices are for surfaces; tets take "
         "--vertex, --boundary and --sources",
-        "option-value");
+        "options-conflict");
   sources.vertices =
       checked_vertices(named.vertices, file.mesh.n_vertices(), arguments.domain, session);
   sources.boundary = arguments.boundary;

@@ -81,10 +81,11 @@ void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& ses
 void convert(FileArguments& arguments, Session& session) {
   check_outputs({arguments.out}, {Kind::surface, Kind::field, Kind::volume, Kind::tets});
   if (arguments.band > 0 && !io::has_extension(arguments.out, ".vdb"))
-    throw InputError("option band is for .vdb; other formats hold every node", "option-value");
+    throw InputError("option band is for .vdb; other formats hold every node", "options-conflict");
   const bool to_tets = io::is_written_as(arguments.out, {Kind::tets});
   if (to_tets && !io::is_read_as(arguments.in, {Kind::tets}))
-    throw InputError(arguments.out + " holds tets, " + arguments.in + " has none");
+    throw InputError(arguments.out + " holds tets, " + arguments.in + " has none",
+                     "unknown-format");
   const Overloaded job{[&](const Volume& volume) {
                          check_outputs({arguments.out}, {Kind::volume});
                          session.reading = false;
@@ -103,9 +104,10 @@ void convert(FileArguments& arguments, Session& session) {
 }
 
 /// The levels given, or evenly spaced ones: between the extremes of the values, or from one end of
-/// a range to the other.
-std::vector<double> levels_for(const FileArguments& arguments, const VecX& values) {
-  if (!arguments.levels.empty()) return parse_numbers("level", arguments.levels);
+/// a range to the other. Per cent are of the longest side of what distance is known on.
+std::vector<double> levels_for(const FileArguments& arguments, const VecX& values,
+                               const InputSize& size) {
+  if (!arguments.levels.empty()) return parse_lengths("level", arguments.levels, size);
   const int n = arguments.count;
   std::vector<double> levels;
   if (!arguments.range.empty()) {
@@ -117,17 +119,34 @@ std::vector<double> levels_for(const FileArguments& arguments, const VecX& value
   const FieldRange range = range_of("", values);
   if (!(range.low < range.high))
     throw InputError("option count: the values of " + arguments.in + " do not differ",
-                     "option-value");
+                     "nothing-there");
   for (int i = 1; i <= n; ++i) levels.push_back(range.low + (range.high - range.low) * i / (n + 1));
   return levels;
+}
+
+/// The longest side of points that a field is known at. Throws InputError unless it is distance.
+InputSize side_for(const std::string& field, const MatX3& points) {
+  return [&] {
+    if (field != "distance")
+      throw InputError("option level: % is of a length, for the field distance, not for " + field,
+                       "options-conflict");
+    return (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+  };
+}
+
+double no_side() {
+  throw InputError(
+      "option level: % is of the longest side of a shape, and a volume holds only its box: give a "
+      "length",
+      "options-conflict");
 }
 
 void contour(FileArguments& arguments, Session& session) {
   if (arguments.levels.empty() == (arguments.count == 0))
     throw InputError("name either option level or option count", "nothing-given");
   if (!arguments.range.empty() && arguments.count == 0)
-    throw InputError("option range goes with option count", "option-value");
-  const std::size_t count = levels_for(arguments, Eigen::Vector2d(0, 1)).size();
+    throw InputError("option range goes with option count", "options-conflict");
+  const std::size_t count = levels_for(arguments, Eigen::Vector2d(0, 1), [] { return 1.0; }).size();
   io::Kinds outputs;
   if (io::is_read_as(arguments.in, {Kind::surface, Kind::cloud})) outputs.push_back(Kind::sources);
   if (io::is_read_as(arguments.in, {Kind::volume, Kind::tets})) outputs.push_back(Kind::surface);
@@ -138,8 +157,8 @@ void contour(FileArguments& arguments, Session& session) {
         warn_without_box(arguments.in, session);
         session.reading = false;
         write_isosurfaces(arguments.outs,
-                          isosurfaces(volume, levels_for(arguments, volume.values), arguments.clip,
-                                      session.report, session.task()));
+                          isosurfaces(volume, levels_for(arguments, volume.values, no_side),
+                                      arguments.clip, session.report, session.task()));
       },
       [&](const io::TetFile& file) {
         check_outputs(arguments.outs, {Kind::surface});
@@ -147,19 +166,21 @@ void contour(FileArguments& arguments, Session& session) {
         const VecX& values = field_of(file, arguments, name);
         session.reading = false;
         std::vector<Isosurface> surfaces;
-        for (const double level : levels_for(arguments, values))
+        for (const double level : levels_for(arguments, values, side_for(name, file.mesh.points)))
           surfaces.push_back(
               {level, isosurface(file.mesh, values, level, session.report, session.task())});
         write_isosurfaces(arguments.outs, surfaces);
       },
       [&](const PolygonSoup& soup) {
         check_outputs(arguments.outs, {Kind::sources});
-        const VecX values = soup.scalars.at(choose_field(soup, arguments.field, arguments.in));
+        const std::string name = choose_field(soup, arguments.field, arguments.in);
+        const VecX values = soup.scalars.at(name);
         const SurfaceMesh mesh = mesh_of(soup, arguments.in);
         session.reading = false;
         Task task = session.task();
         const auto found =
-            level_lines(mesh, values, levels_for(arguments, values), session.report, task);
+            level_lines(mesh, values, levels_for(arguments, values, side_for(name, soup.points)),
+                        session.report, task);
         task.checkpoint(1);
         write_lines(arguments.outs, mesh, found);
       }};
@@ -218,7 +239,8 @@ void add_contour(CLI::App& program, Session& session) {
                    "a surface with values: .ply, or .obj with texture; " +
                        kinds_help({Kind::volume, Kind::tets}) + " with values");
   verb.add_option("--level", arguments->levels,
-                  "the values, separated by commas [unit of the field]")
+                  "the values, separated by commas [unit of the field; distance on a surface or in "
+                  "tets also with % of the longest side]")
       ->type_name("L[,L...]");
   verb.add_option("--count", arguments->count,
                   "instead: this many evenly spaced values between the smallest and the largest, 1 "

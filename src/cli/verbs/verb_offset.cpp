@@ -8,6 +8,7 @@
 #include "api/space/isosurfaces.h"
 #include "api/space/offset_quality.h"
 #include "api/surface/level_lines.h"
+#include "base/option_table.h"
 #include "cli/input/method_options.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
@@ -70,7 +71,7 @@ OffsetLengths lengths_of(const OffsetArguments& arguments, const InputSize& size
 
 void offset_curves(OffsetArguments& arguments, std::size_t count, Session& session) {
   if (!arguments.wall.empty())
-    throw InputError("option shell is for shapes in space", "option-value");
+    throw InputError("option shell is for shapes in space", "options-conflict");
   check_level_outputs(arguments.out, count, {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
@@ -129,6 +130,13 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   const double reach =
       farthest + lengths.wall / 2 + lengths.morphology.open + lengths.morphology.close;
   GridOptions grid = grid_request(space, size);
+  constexpr double farthest_reach = 900;  // longest sides
+  if (!(reach <= farthest_reach * longest_side(shapes)))
+    throw InputError("the offsets reach " + rounded_text(reach) + " from an input of size " +
+                         rounded_text(longest_side(shapes)) + ": more than " +
+                         rounded_text(farthest_reach) +
+                         " times its size is not computed. Are they in its unit?",
+                     "option-value");
   grid.padding += reach / longest_side(shapes);
   DistanceAround around;
   around.lengths = lengths;

@@ -1,6 +1,7 @@
 // littoral pairs: distance between all pairs of vertices of a surface.
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "api/surface/pairs.h"
@@ -68,6 +69,8 @@ void add_pairs(CLI::App& program, Session& session) {
       verb, "--vertex", arguments->vertices,
       "a vertex to measure from, from 0; several as 1,5,9 or repeated; without, all")
       ->delimiter(',')
+      ->check(whole_number(std::numeric_limits<long long>::min(),
+                           std::numeric_limits<long long>::max()))
       ->type_name("I[,I...]");
   add_output_option(verb, arguments->out,
                     "the matrix, a row for each vertex measured from: " +

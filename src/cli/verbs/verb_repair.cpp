@@ -37,7 +37,7 @@ void run_repair(RepairArguments& arguments, Session& session) {
   options.cavities = !arguments.fill_cavities;
   if (options.error > 0 && (grid.resolution || grid.spacing))
     throw InputError("option error chooses the grid: give it, or resolution or spacing",
-                     "option-value");
+                     "options-conflict");
   session.reading = false;
   GridOptions likely = options.grid;
   if (!likely.resolution && !likely.spacing) likely.resolution = repair_nodes;

@@ -77,25 +77,24 @@ void add_samples(CLI::App& program, Session& session) {
     verb.add_option(name, value, help)->check(whole_number(0, 1000000000))->type_name("N");
   };
   const auto share = [&](const char* name, double& value, const std::string& help) {
-    verb.add_option(name, value, help)->check(number_between(0, 1))->type_name("F");
+    add_share_option(verb, name, value, 1, help);
   };
   count("--surface", options.surface, "points on the surface [default 8192]");
   count("--space", options.space, "points in space [default 8192]");
-  share("--sharp", options.sharp,
+  share("sharp", options.sharp,
         "share of the surface's points that are where normals turn [default 0.5]");
-  share("--uniform", options.uniform,
+  share("uniform", options.uniform,
         "share of space's points that are anywhere in the cube [default 0.25]");
-  share("--curvature", options.curvature,
+  share("curvature", options.curvature,
         "share of them that are near where normals turn; the rest are near the surface [default "
         "0.25]");
   verb.add_option("--scales", arguments->scales,
                   "how far from the surface, deviations in half sides of the cube [default "
                   "0.005,0.02,0.08]")
       ->type_name("S[,S...]");
-  verb.add_option("--margin", options.margin,
-                  "of the cube about the input, in its longest side, 0 to 10 [default 0.1]")
-      ->check(number_between(0, 10))
-      ->type_name("F");
+  add_share_option(verb, "margin", options.margin, 10,
+                   "of the cube about the input, in its longest side, 0 to 10, or 10% [default "
+                   "0.1]");
   verb.add_option("--seed", options.seed, "of the random numbers [default 0]")
       ->check(whole_number(0, std::numeric_limits<long long>::max()))
       ->type_name("N");

@@ -25,9 +25,8 @@ const io::Kinds space_outputs = {Kind::volume, Kind::tets, Kind::surface, Kind::
 
 struct SdfArguments {
   SpaceArguments space;
-  std::string levels, field = "distance";
+  std::string levels, field = "distance", smoothing;
   std::vector<double> level_values;
-  double smoothing = 0;
   std::vector<std::string> out;
   double band = 0;
   bool clip = false, confidence = false;
@@ -98,8 +97,8 @@ void write_distance(const std::string& file, const SdfArguments& arguments, cons
 void check_field(const SdfArguments& arguments) {
   if (arguments.field == "winding" && arguments.domain == "tets")
     throw UnsupportedError("option field winding is for grids", "options-conflict");
-  if (arguments.field != "winding" && arguments.smoothing > 0)
-    throw InputError("option smoothing goes with --field winding", "option-value");
+  if (arguments.field != "winding" && !arguments.smoothing.empty())
+    throw InputError("option smoothing goes with --field winding", "options-conflict");
 }
 
 bool holds_confidence(const std::string& file) {
@@ -111,15 +110,16 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   check_outputs(arguments.out, space_outputs);
   for (const std::string& file : arguments.out)
     if (arguments.domain != "tets" && io::is_written_as(file, {Kind::tets}))
-      throw InputError(file + " holds tets: they are there with --domain tets");
+      throw InputError(file + " holds tets: they are there with --domain tets", "options-conflict");
   for (const std::string& file : arguments.out)
     if (arguments.confidence && !holds_confidence(file))
       throw InputError(
           file +
-          " holds one number a node: confidence is written to VTK image data, and with "
-          "the surface at --level to formats with numbers at vertices");
+              " holds one number a node: confidence is written to VTK image data, and with "
+              "the surface at --level to formats with numbers at vertices",
+          "options-conflict");
   if (arguments.tets != "lattice" && arguments.domain != "tets")
-    throw InputError("option tets goes with --domain tets", "option-value");
+    throw InputError("option tets goes with --domain tets", "options-conflict");
   if (arguments.clip && arguments.domain == "tets")
     throw UnsupportedError("option clip is for grids: the cube of the tets is larger than the box",
                            "options-conflict");
@@ -143,13 +143,14 @@ void run_sdf(SdfArguments& arguments, Session& session) {
         !shape.request.method.name().empty() || !arguments.space.method.options.empty())
       throw InputError(
           "option field winding takes one mesh, soup or cloud, no method and no offset",
-          "option-value");
-    volume.values = grid_winding(shape.surface, volume.grid, shape.request, session.task(),
-                                 session.report, arguments.smoothing);
+          "options-conflict");
+    volume.values =
+        grid_winding(shape.surface, volume.grid, shape.request, session.task(), session.report,
+                     parse_radius("smoothing", arguments.smoothing, size));
     volume.name = "winding";
   } else if (arguments.domain == "tets") {
     if (shapes.all.size() != 1 || shapes.all.front().field || shapes.csg.offset != 0)
-      throw InputError("option domain tets takes one mesh, soup or cloud", "option-value");
+      throw InputError("option domain tets takes one mesh, soup or cloud", "options-conflict");
     const Shape& shape = shapes.all.front();
     arguments.tetgen.by =
         arguments.tets == "tetgen" ? TetFilling::By::tetgen : TetFilling::By::lattice;

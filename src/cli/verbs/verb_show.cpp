@@ -33,7 +33,10 @@ constexpr int framing_nodes = 40, slice_nodes = 128, page_nodes = 64;  // along 
 struct VolumeViewArguments {
   std::string axis = "z", position, level;
   int axis_number() const { return axis.front() - 'x'; }
-  double slice_at() const { return parse_number("slice", position); }
+  double slice_at(const Vec3& low, const Vec3& high) const {
+    const int a = axis_number();
+    return parse_place("slice", position, low[a], high[a]);
+  }
   bool no_surface = false;
 };
 
@@ -133,12 +136,12 @@ void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
       ->type_name("A");
   volumes(
       verb.add_option("--slice", texts.position,
-                      "where along the axis [length; default: the middle of the box]; tets are cut "
-                      "open there"))
+                      "where along the axis [length, or with % of the way through the box; default "
+                      "50%]; tets are cut open there"))
       ->type_name("P");
   volumes(verb.add_option("--level", texts.level,
-                          "the level of the surface shown [default 0, or half way where the values "
-                          "do not pass 0]"))
+                          "the level of the surface shown; with --trace a length, or with % of the "
+                          "longest side [default 0, or half way where the values do not pass 0]"))
       ->type_name("L");
   volumes(verb.add_flag("--no-surface", texts.no_surface, "show the slice only"));
 }
@@ -162,14 +165,17 @@ void check_no_trace_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     if (option->get_group() == trace_group && option->count() > 0)
       throw InputError("option " + option->get_single_name() + " goes with option trace",
-                       "option-value");
+                       "options-conflict");
 }
 
 io::Scene volume_scene(const Volume& volume, const std::string& file,
                        const VolumeViewArguments& texts) {
   io::VolumeView view;
   view.axis = texts.axis_number();
-  if (!texts.position.empty()) view.position = texts.slice_at();
+  const auto& n = volume.grid.n;
+  if (!texts.position.empty())
+    view.position =
+        texts.slice_at(volume.grid.origin, volume.grid.point(n[0] - 1, n[1] - 1, n[2] - 1));
   if (!texts.level.empty()) view.level = parse_number("level", texts.level);
   view.isosurface = !texts.no_surface;
   try {
@@ -186,9 +192,11 @@ io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
   TracedView traced;
   traced.axis = view.axis_number();
   traced.for_page = for_page;
-  if (!view.position.empty()) traced.position = view.slice_at();
-  if (!view.level.empty()) traced.level = parse_number("level", view.level);
-  GridOptions request = grid_request(texts.space, [&] { return longest_side(shapes); });
+  const InputSize size = [&] { return longest_side(shapes); };
+  if (const Box box = bounding_box(shapes); !view.position.empty())
+    traced.position = view.slice_at(box.low, box.high);
+  if (!view.level.empty()) traced.level = parse_length("level", view.level, size);
+  GridOptions request = grid_request(texts.space, size);
   if (!request.resolution && !request.spacing)
     request.resolution = for_page                      ? page_nodes
                          : traced.position.has_value() ? slice_nodes
@@ -217,9 +225,12 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
 /// The boundary, which --slice cuts open; open in any case where nothing is seen on it.
 io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
+  const MatX3& x = file.mesh.points;
   io::Scene scene =
-      scene_of(view.position.empty() ? drawn_surface(file)
-                                     : cut_open(file, view.axis_number(), view.slice_at()),
+      scene_of(view.position.empty()
+                   ? drawn_surface(file)
+                   : cut_open(file, view.axis_number(),
+                              view.slice_at(x.colwise().minCoeff(), x.colwise().maxCoeff())),
                arguments, session);
   scene.nodes = io::SceneNodes::none;  // those of the boundary are numbered anew
   return scene;
@@ -229,14 +240,14 @@ io::Scene scene_of(const Volume& volume, const ShowArguments& arguments, Session
   if (!arguments.sources.empty())
     throw InputError(
         "option sources: sources are drawn on surfaces, " + arguments.in + " is a volume",
-        "option-value");
+        "options-conflict");
   return volume_scene(volume, arguments.in, arguments.volume);
 }
 
 io::Scene read_scene_of(ShowArguments& arguments, bool for_page, Session& session) {
   if (arguments.trace.trace) {
     if (!arguments.sources.empty() || !arguments.field.empty())
-      throw InputError("options --sources and --field do not go with --trace", "option-value");
+      throw InputError("options --sources and --field do not go with --trace", "options-conflict");
     return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
   }
   check_no_trace_options(*arguments.verb);

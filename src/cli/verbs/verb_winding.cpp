@@ -22,11 +22,10 @@ using io::Kind;
 const io::Kinds region_outputs = {Kind::field, Kind::page, Kind::picture};
 
 struct WindingArguments {
-  std::string domain, points, curves, show = "region";
+  std::string domain, points, curves, smoothing, show = "region";
   std::vector<std::string> sources, out;
   NamedSources named;
   MethodArguments method;
-  double smoothing = 0;
 };
 
 void write_regions(const std::string& file, const WindingArguments& arguments,
@@ -55,8 +54,10 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   const PolygonSoup input = io::read_surface(arguments.domain);
   const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
-  const VecX values = query_winding(input, queries.points, request, session.task(), session.report,
-                                    arguments.smoothing);
+  const double smoothing = parse_radius("smoothing", arguments.smoothing,
+                                        [&] { return bounding_box(input).size().maxCoeff(); });
+  const VecX values =
+      query_winding(input, queries.points, request, session.task(), session.report, smoothing);
   session.record.values = {range_of("winding", values)};
   finish(arguments.out, session.task(), session, [&](const std::string& file) {
     write_at_points(file, queries, {{"winding"}, values});
@@ -68,8 +69,8 @@ void run_winding(WindingArguments& arguments, Session& session) {
     run_at_points(arguments, session);
     return;
   }
-  if (arguments.smoothing > 0)
-    throw InputError("option smoothing goes with --points", "option-value");
+  if (!arguments.smoothing.empty())
+    throw InputError("option smoothing goes with --points", "options-conflict");
   check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
     throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj",

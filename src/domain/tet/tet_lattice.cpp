@@ -211,7 +211,7 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
       }
     }
     if (tree.cubes.size() * 12 > max_tets)
-      throw InputError("the tet lattice would have too many tets; use a smaller resolution",
+      throw InputError("the tet lattice would have too many tets; lower option resolution",
                        "too-large");
   }
   balance(tree);
@@ -225,7 +225,7 @@ TetLattice::TetLattice(const Vec3& origin, double side, int depth, const MatX3& 
     filler.fill(tree.cubes[at]);
     cube_.resize(filler.n_tets(), int_size(first_tet_) - 1);
     if (filler.n_tets() > max_tets)
-      throw InputError("the tet lattice would have too many tets; use a smaller resolution",
+      throw InputError("the tet lattice would have too many tets; lower option resolution",
                        "too-large");
   }
   first_tet_.push_back(filler.n_tets());

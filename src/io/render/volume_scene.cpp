@@ -53,8 +53,7 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
   for (Eigen::Index v = 0; v < volume.values.size(); ++v) {
     const double value = volume.values[v];
     if (std::isnan(value))
-      throw InputError("volume: the value of node " + std::to_string(v) + " is NaN",
-                       "option-value");
+      throw InputError("volume: the value of node " + std::to_string(v) + " is NaN", "not-finite");
     if (!std::isfinite(value)) {
       known->infinite = true;
       continue;
@@ -62,7 +61,7 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
     known->low = std::min(known->low, value);
     known->high = std::max(known->high, value);
   }
-  if (known->low > known->high) throw InputError("volume: no value is finite", "option-value");
+  if (known->low > known->high) throw InputError("volume: no value is finite", "not-finite");
   const bool zero = known->low < 0 && known->high > 0;
   known->level = view.level.value_or(zero ? 0 : 0.5 * known->low + 0.5 * known->high);
   if (!std::isfinite(known->level))
@@ -75,7 +74,7 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
   if (!(position >= low && position <= low + step * steps))
     throw InputError("volume: the slice at " + number_text(position) + " is outside the box, " +
                          rounded_text(low) + " to " + rounded_text(low + step * steps),
-                     "option-value");
+                     "nothing-there");
   known->slice = static_cast<int>(std::lround((position - low) / step));
   known->position = known->slice / steps;
   known->thin = thinned(volume);

@@ -28,9 +28,17 @@ void write_vdb(std::ostream& out, const Volume& volume, const VolumeWriteOptions
 /// has_openvdb().
 Volume read_vdb(std::string_view bytes, const std::string& name, const std::string& field);
 
+/// One of the values of a record.
+struct NpyField {
+  std::string name, type;  // "x", "<f8"
+  std::size_t at = 0;      // bytes from the record's beginning
+  std::int64_t count = 1;  // of numbers
+};
 /// The header of a NumPy file: shape, type and order; nothing if it is none.
 struct NpyHeader {
-  std::string type;  // "<f8"
+  std::string type;              // "<f8"
+  std::vector<NpyField> fields;  // of records, which have no type
+  std::size_t record = 0;        // bytes
   bool fortran = false;
   std::vector<std::int64_t> shape;
   std::size_t data = 0;  // where the numbers begin
@@ -43,7 +51,8 @@ struct NpyArray {
   bool fortran = false;  // the first axis runs fastest
   VecX numbers;
 };
-/// Throws InputError and UnsupportedError naming the file.
+/// Records with fields x, y, z, or one of three numbers, are an array of N x 3; with nx, ny, nz too
+/// of N x 6. Throws InputError and UnsupportedError naming the file.
 NpyArray read_npy_array(std::string_view bytes, const std::string& name);
 /// array[i, j, k] at x_i, y_j, z_k; spacing 1, origin 0. Throws InputError unless it has three
 /// axes.

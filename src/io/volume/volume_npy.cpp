@@ -29,6 +29,65 @@ std::string_view entry(std::string_view header, const std::string& key) {
   return {};
 }
 
+/// What stands between quotes at the beginning of a text.
+std::optional<std::string> quoted(std::string_view text) {
+  if (text.size() < 2 || (text[0] != '\'' && text[0] != '"')) return std::nullopt;
+  const std::size_t end = text.find(text[0], 1);
+  if (end == std::string_view::npos) return std::nullopt;
+  return std::string(text.substr(1, end - 1));
+}
+
+void skip(std::string_view& text, std::string_view marks) {
+  text.remove_prefix(std::min(text.find_first_not_of(marks), text.size()));
+}
+
+/// The number of bytes of "<f8", "|S5" or "<U5"; 0 for what is none of these.
+std::size_t bytes_of_type(const std::string& type) {
+  std::size_t size = 0;
+  if (type.size() < 3 || type.size() > 9) return 0;
+  const auto [end, code] = std::from_chars(type.data() + 2, type.data() + type.size(), size);
+  if (code != std::errc() || end != type.data() + type.size()) return 0;
+  return type[1] == 'U' ? 4 * size : size;
+}
+
+/// Records: [('x', '<f8'), ('normal', '<f4', (3,))].
+bool read_fields(std::string_view descr, NpyHeader& npy) {
+  descr.remove_prefix(1);
+  while (true) {
+    skip(descr, " ,");
+    if (descr.starts_with(']')) return !npy.fields.empty();
+    if (!descr.starts_with('(')) return false;
+    descr.remove_prefix(1);
+    NpyField field;
+    for (std::string* part : {&field.name, &field.type}) {
+      skip(descr, " ,");
+      const auto text = quoted(descr);
+      if (!text) return false;
+      *part = *text;
+      descr.remove_prefix(text->size() + 2);
+    }
+    skip(descr, " ,");
+    if (descr.starts_with('(')) {
+      for (skip(descr, "( ,"); !descr.starts_with(')'); skip(descr, " ,")) {
+        std::int64_t n = 0;
+        const auto [stop, code] = std::from_chars(descr.data(), descr.data() + descr.size(), n);
+        if (code != std::errc() || n < 1 || n > 1'000'000 || field.count > 1'000'000) return false;
+        field.count *= n;
+        descr.remove_prefix(static_cast<std::size_t>(stop - descr.data()));
+      }
+      descr.remove_prefix(1);
+      skip(descr, " ,");
+    }
+    if (!descr.starts_with(')')) return false;
+    descr.remove_prefix(1);
+    const std::size_t size = bytes_of_type(field.type);
+    if (size == 0) return false;
+    field.at = npy.record;
+    npy.record += size * static_cast<std::size_t>(field.count);
+    npy.fields.push_back(std::move(field));
+  }
+}
+
 }  // namespace
 
 std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
@@ -45,10 +104,13 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
 
   const std::string_view descr = entry(header, "descr"), order = entry(header, "fortran_order"),
                          shape = entry(header, "shape");
-  if (descr.size() < 2 || (descr[0] != '\'' && descr[0] != '"')) return std::nullopt;
-  const std::size_t end = descr.find(descr[0], 1);
-  if (end == std::string_view::npos) return std::nullopt;
-  npy.type = descr.substr(1, end - 1);
+  if (descr.starts_with('[')) {
+    if (!read_fields(descr, npy)) return std::nullopt;
+  } else if (const auto type = quoted(descr)) {
+    npy.type = *type;
+  } else {
+    return std::nullopt;
+  }
   npy.fortran = order.substr(0, 4) == "True";
   if (!npy.fortran && order.substr(0, 5) != "False") return std::nullopt;
   if (shape.empty() || shape[0] != '(') return std::nullopt;
@@ -65,36 +127,102 @@ std::optional<NpyHeader> parse_npy_header(std::string_view bytes) {
   }
 }
 
-NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
-  const auto header = parse_npy_header(bytes);
-  if (!header) throw InputError(name + ": the header is not that of a NumPy array", "bad-file");
-  const std::string& type = header->type;
+namespace {
+
+NumberKind number_kind(const std::string& type, const std::string& name) {
   NumberKind kind;
-  std::int64_t size = 0;
-  if (type.size() == 3) {
-    kind.family = type[1] == 'b' ? 'u' : type[1];
-    size = type[2] - '0';
-  }
-  const bool known = (kind.family == 'f' && (size == 2 || size == 4 || size == 8)) ||
-                     ((kind.family == 'i' || kind.family == 'u') &&
-                      (size == 1 || size == 2 || size == 4 || size == 8));
+  kind.family = type.size() != 3 ? '?' : type[1] == 'b' ? 'u' : type[1];
+  kind.size = type.size() != 3 ? 0 : static_cast<std::size_t>(type[2] - '0');
+  const bool real = kind.family == 'f', whole = kind.family == 'i' || kind.family == 'u';
+  const bool known =
+      (real && (kind.size == 2 || kind.size == 4 || kind.size == 8)) ||
+      (whole && (kind.size == 1 || kind.size == 2 || kind.size == 4 || kind.size == 8));
   if (!known || (type[0] != '<' && type[0] != '>' && type[0] != '|'))
     throw UnsupportedError(name + ": numbers of type " + in_quotes(type) +
                                "; floating-point numbers and integers are read",
                            "unsupported-file");
-  kind.size = static_cast<std::size_t>(size);
-  const std::size_t most = (bytes.size() - header->data) / kind.size;
+  return kind;
+}
+
+std::endian order_of(const std::string& type) {
+  return type[0] == '>' ? std::endian::big : std::endian::little;
+}
+
+/// How many items of this size the shape asks for; no more than the file holds.
+std::size_t checked_count(const NpyHeader& header, std::size_t held, std::size_t size,
+                          const std::string& name) {
+  const std::size_t most = held / size;
   std::uint64_t count = 1;
-  for (const std::int64_t n : header->shape) {
+  for (const std::int64_t n : header.shape) {
     if (n > 0 && count > most / static_cast<std::uint64_t>(n))
       throw InputError(name + ": the shape has more numbers than the file holds", "bad-file");
     count *= static_cast<std::uint64_t>(n);
   }
   if (count > most)
     throw InputError(name + ": a number without its bytes", "bad-file");  // shape ()
-  const std::endian order = type[0] == '>' ? std::endian::big : std::endian::little;
-  return {header->shape, header->fortran,
-          load_numbers(bytes.substr(header->data), kind, static_cast<std::size_t>(count), order)};
+  return count;
+}
+
+/// The fields with these names, or the one of three numbers; none where one is missing.
+std::vector<NpyField> named_fields(const NpyHeader& header, const std::vector<std::string>& names,
+                                   const std::vector<std::string>& whole) {
+  std::vector<NpyField> found;
+  for (const std::string& name : names)
+    for (const NpyField& field : header.fields)
+      if (field.count == 1 && lower_case(field.name) == name) found.push_back(field);
+  if (found.size() == 3) return found;
+  for (const NpyField& field : header.fields)
+    if (field.count == 3 && std::ranges::find(whole, lower_case(field.name)) != whole.end()) {
+      found.assign(3, field);
+      for (std::size_t d = 0; d < 3; ++d) found[d].at += d * bytes_of_type(field.type);
+      return found;
+    }
+  return {};
+}
+
+/// Points of records, N x 3 or, with normals, N x 6.
+NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
+                           const std::string& name) {
+  std::vector<NpyField> fields =
+      named_fields(header, {"x", "y", "z"}, {"xyz", "point", "points", "position", "positions"});
+  if (fields.empty() || header.shape.size() != 1) {
+    std::string names;
+    for (const NpyField& field : header.fields) names += (names.empty() ? "" : ", ") + field.name;
+    throw UnsupportedError(name + ": records with the fields " + names +
+                               "; of records, one axis with the fields x, y, z is read as points",
+                           "unsupported-file");
+  }
+  for (NpyField& field : named_fields(header, {"nx", "ny", "nz"}, {"normal", "normals"}))
+    fields.push_back(std::move(field));
+  const std::size_t rows = checked_count(header, bytes.size(), header.record, name);
+  NpyArray points;
+  const auto columns = static_cast<std::int64_t>(fields.size());
+  points.shape = {static_cast<std::int64_t>(rows), columns};
+  points.numbers.resize(static_cast<Eigen::Index>(rows * fields.size()));
+  for (std::size_t c = 0; c < fields.size(); ++c) {
+    const NumberKind kind = number_kind(fields[c].type, name);
+    std::string column;
+    column.reserve(rows * kind.size);
+    for (std::size_t r = 0; r < rows; ++r)
+      column.append(bytes.substr(r * header.record + fields[c].at, kind.size));
+    const VecX numbers = load_numbers(column, kind, rows, order_of(fields[c].type));
+    for (std::size_t r = 0; r < rows; ++r)
+      points.numbers[static_cast<Eigen::Index>(r * fields.size() + c)] =
+          numbers[static_cast<Eigen::Index>(r)];
+  }
+  return points;
+}
+
+}  // namespace
+
+NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
+  const auto header = parse_npy_header(bytes);
+  if (!header) throw InputError(name + ": the header is not that of a NumPy array", "bad-file");
+  const std::string_view data = bytes.substr(header->data);
+  if (!header->fields.empty()) return points_of_records(*header, data, name);
+  const NumberKind kind = number_kind(header->type, name);
+  const std::size_t count = checked_count(*header, data.size(), kind.size, name);
+  return {header->shape, header->fortran, load_numbers(data, kind, count, order_of(header->type))};
 }
 
 Volume npy_volume(const NpyArray& array, const std::string& name) {
@@ -128,9 +256,11 @@ Eigen::MatrixXd npy_rows(const NpyArray& array, const std::string& expected,
     std::string shape;
     for (const std::int64_t n : array.shape)
       shape += (shape.empty() ? "" : " x ") + std::to_string(n);
-    throw InputError(
-        name + ": " + expected + ", this one is " + (shape.empty() ? "a number" : shape),
-        "bad-file");
+    const bool lies = array.shape.size() == 2 && array.shape[0] == 3 && array.shape[1] != 3;
+    throw InputError(name + ": " + expected + ", this one is " +
+                         (shape.empty() ? "a number" : shape) +
+                         (lies ? ": transpose it, as array.T does" : ""),
+                     "bad-file");
   }
   const Eigen::Index rows = array.shape[0], n = array.shape[1];
   if (rows == 0) throw InputError(name + ": no points", "bad-file");

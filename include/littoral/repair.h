@@ -37,9 +37,9 @@ struct Repaired {
 /// the surface is contoured on a grid and fitted to the input where that does not make it cross
 /// itself. The result is checked without rounding; where it is not closed, manifold
 /// and free of crossings, or misses more than a hundredth of the input's area, the report's status
-/// is "uncertain" and says why. Throws InputError for bad input, for options out of range and where
-/// the input has no inside (`thicken` gives it one); UnsupportedError for `thicken` and `error` of
-/// a cloud.
+/// is "uncertain" and says why. A surface without an inside becomes walls, three spacings thick
+/// unless `thicken` is given, with a warning. Throws InputError for bad input, for options out of
+/// range and for a cloud without an inside; UnsupportedError for `thicken` and `error` of a cloud.
 Repaired repair(const PolygonSoup& input, const RepairOptions& options = {},
                 const AnyMethod& method = {}, const Orientation& orientation = {},
                 const Context& context = {});

@@ -61,7 +61,7 @@ constexpr std::array message_table = std::to_array<Message>({
      "without either there is no inside", "`--estimate-normals`"},
     {an_error, "no-inside", "the input encloses nothing",
      "it is a sheet, is reversed, or is thinner than the grid",
-     "`--flip`, a larger `--resolution`, or `--thicken` of `repair`"},
+     "`--flip`, or a larger `--resolution`"},
     {an_error, "volume-meaning",
      "the values of a volume are neither a mask nor signed distance, or a mask has its inside "
      "along "
@@ -89,7 +89,7 @@ constexpr std::array message_table = std::to_array<Message>({
     {an_error, "tetgen-failed", "tetgen is missing, failed or ended too late",
      "it is another program", "install it, or leave `--domain tets` to the lattice"},
     {an_error, "system", "a process or port cannot be opened", "the operating system refused",
-     "free some, or fewer `--processes`"},
+     "free some, or fewer `--jobs`"},
     {an_error, "internal", "an error that nobody foresaw", "a fault of littoral",
      "report it with the input"},
     {an_error, "cancelled", "the computation was stopped", "the caller asked for it", "nothing"},
@@ -169,7 +169,7 @@ constexpr std::array message_table = std::to_array<Message>({
      "`--constraint none`, or `--soft`"},
     {a_warning, "not-converged", "an iteration stopped before its tolerance",
      "the answer is its best iterate; the report has the residual",
-     "a larger `--iterations` or looser `--tolerance` where the method has them"},
+     "a larger `--max-iterations` or looser `--tolerance` where the method has them"},
     {a_warning, "level-missed", "there is nothing at a level",
      "values do not reach it; the message has their range", "another level"},
     {a_warning, "option-without-effect", "an option was not followed",
@@ -221,6 +221,9 @@ constexpr std::array message_table = std::to_array<Message>({
     {a_warning, "parts-lost", "part of the input's area is not part of the result",
      "sheets without an inside, or parts thinner than the grid",
      "`--thicken`, or a larger `--resolution`"},
+    {a_warning, "sheets-thickened", "the input encloses nothing, and its faces became walls",
+     "it is a sheet, or thinner than the grid",
+     "`--thicken` says how thick; a larger `--resolution` finds thin parts; `--flip` if reversed"},
     {a_warning, "result-unsound", "the result has open edges or faces that cross",
      "the contour could not be made sound at this resolution", "another `--resolution`"},
 });

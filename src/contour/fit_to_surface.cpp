@@ -372,7 +372,11 @@ FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const Mat
       bad[f] = fits && (bad[f] || now.dot(then) < folded * now.norm() * then.norm());
     }
     std::vector<char> back = vertices_of(bad, out.faces, n);
-    if (std::count(back.begin(), back.end(), 1) == 0) break;
+    if (std::count(back.begin(), back.end(), 1) == 0) {
+      if (asked.empty()) break;
+      asked.clear();  // one that went back may cross one that was not asked again
+      continue;
+    }
     asked = faces_of(back, out.faces);
     if (round < slides) {
       slide(cut, place, back, neighbours, out.points, bvh, 1.5 * reach);

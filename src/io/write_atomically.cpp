@@ -83,9 +83,12 @@ std::string temporary_name(const std::filesystem::path& target) {
 /// All or nothing, as files are.
 void write_to_standard_output(const std::filesystem::path& path,
                               const std::function<void(std::ostream&)>& body) {
-  std::stringstream whole;
+  std::ostringstream whole;
   body(whole);
-  std::cout << whole.rdbuf() << std::flush;
+  const std::string bytes = std::move(whole).str();
+  errno = 0;
+  // Not by operator<<, which takes a part that was written for success.
+  std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
   if (!std::cout) fail(path, errno ? errno : EIO);
 }
 

@@ -29,7 +29,7 @@ def middle(folder: Path) -> float:
 def test_the_side_of_a_mask_is_seen_or_asked_for(
     run: Run, field: Path, kind: str, reverse: bool
 ) -> None:
-    mask = np.where(BALL != reverse, 255, 0).astype(np.uint8)
+    mask = np.where(reverse != BALL, 255, 0).astype(np.uint8)
     if kind == "npy":
         np.save(field / "m.npy", mask)
     else:

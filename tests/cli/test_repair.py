@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import Run
 
@@ -37,14 +38,58 @@ def test_lengths_in_per_cent_and_what_goes_together(run: Run, tmp_path: Path) ->
     assert "nan" in run(*words, "--error", "nan", status=2).stderr
 
 
-def test_what_has_no_inside(run: Run, tmp_path: Path) -> None:
+def test_what_has_no_inside_becomes_a_wall(run: Run, tmp_path: Path) -> None:
     (tmp_path / "sheet.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
-    found = run("repair", "sheet.obj", "-o", "out.stl", "--resolution", 24, status=2)
-    assert "no inside" in found.stderr and "thicken" in found.stderr
-    assert not (tmp_path / "out.stl").exists()
+    found = run("repair", "sheet.obj", "-o", "out.obj", "--resolution", 24)
+    assert "[sheets-thickened]" in found.stderr and "--thicken says how thick" in found.stderr
+    facts = json.loads(run("info", "out.obj", "--json").stdout)
+    assert facts["watertight"] and facts["self_intersecting_triangles"] == 0
+    low, high = facts["bounding_box"][2], facts["bounding_box"][5]
+    thickness = high - low
+    assert 0 < thickness < 0.2 and low == pytest.approx(-high, abs=0.01)
+    assert f"{thickness:.2g}" in found.stderr  # the thickness that was said
+
+
+def double_planes() -> str:
+    """Three squares across each other, each triangle twice with both orientations."""
+    points = "v 0 0 0\n" + "".join(
+        f"v {x} {y} {z}\n"
+        for x, y, z in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1))
+    )
+    rings = ((2, 3, 5, 6), (2, 4, 5, 7), (3, 4, 6, 7))
+    faces = [(r[i], r[(i + 1) % 4]) for r in rings for i in range(4)]
+    return points + "".join(f"f 1 {a} {b}\nf 1 {b} {a}\n" for a, b in faces)
+
+
+SHEETS = {
+    "double planes": double_planes(),
+    "one triangle": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "three at an edge": "v 0 0 0\nv 0 0 1\nv 1 0 0\nv -1 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
+}
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_sheets_of_any_kind_become_sound_walls(run: Run, tmp_path: Path, name: str) -> None:
+    (tmp_path / "sheet.obj").write_text(SHEETS[name])
+    run("repair", "sheet.obj", "-o", "out.obj", "--resolution", 20)
+    facts = json.loads(run("info", "out.obj", "--json").stdout)
+    assert facts["watertight"] and facts["components"] == 1
+    assert facts["self_intersecting_triangles"] == facts["nonmanifold_vertices"] == 0
 
 
 @pytest.mark.parametrize(("name", "status"), [("x.csv", 2), ("no/such/x.stl", 1)])
 def test_outputs_are_checked_first(run: Run, tmp_path: Path, name: str, status: int) -> None:
     (tmp_path / "open.obj").write_text(CUBE)
     assert name in run("repair", "open.obj", "-o", name, status=status).stderr
+
+
+def test_what_goes_back_in_the_fit_is_asked_again(run: Run, tmp_path: Path) -> None:
+    """Triangles through each other, where vertices that went back met others that had not."""
+    rng = np.random.default_rng(1)
+    centres = rng.uniform(-1, 1, (110, 1, 3))
+    corners = (centres + rng.uniform(-1.2, 1.2, (110, 3, 3))).reshape(-1, 3)
+    text = "".join(f"v {x:.4f} {y:.4f} {z:.4f}\n" for x, y, z in corners)
+    text += "".join(f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(110))
+    (tmp_path / "soup.obj").write_text(text)
+    words = ("repair", "soup.obj", "-o", "out.obj", "--resolution", 32, "--json")
+    assert json.loads(run(*words).stdout)["sizes"]["result: self intersecting triangles"] == 0

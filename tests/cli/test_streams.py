@@ -3,12 +3,14 @@
 import gzip
 import json
 import os
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, Run
+from conftest import PROGRAM, Run, square, wait_for_handler
 
 
 def piped(folder: Path, given: bytes, *words: str) -> subprocess.CompletedProcess[bytes]:
@@ -141,3 +143,49 @@ def test_faces_of_text_may_have_more_than_their_head_says(run: Run, mesh: Path) 
     assert "faces: 1\n" in run("info", "a.ply").stdout
     (mesh.parent / "a.ply").write_text(head + points.replace("1 0 0", "1 0 0 7") + "3 0 1 2\n")
     assert "a.ply:11: unexpected '7'" in run("info", "a.ply", status=2).stderr
+
+
+def writing_much(folder: Path, *words: str) -> subprocess.Popen[bytes]:
+    """A run whose result is larger than a pipe holds; nobody reads it yet."""
+    (folder / "fine.obj").write_text(square(100))
+    run = (PROGRAM, "distance", "fine.obj", "--vertex=0", "-o", "a.ply", "-o", "csv:-", *words)
+    return subprocess.Popen(
+        run, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True
+    )
+
+
+def left_in(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_reader_that_ends_early_ends_the_program_quietly(tmp_path: Path) -> None:
+    with writing_much(tmp_path) as program:
+        assert program.stdout and program.stderr
+        assert program.stdout.read(6) == b"vertex"
+        program.stdout.close()
+        assert program.wait(timeout=30) == -signal.SIGPIPE  # as other programs end
+        assert program.stderr.read() == b""
+    assert left_in(tmp_path) == ["a.ply", "fine.obj"]  # whole, as it was written before
+
+
+@pytest.mark.parametrize("to", ["> /dev/full", "| head -c 6"])
+def test_a_stream_that_takes_only_a_part_is_an_error(tmp_path: Path, to: str) -> None:
+    command = f"trap '' PIPE; {PROGRAM} distance fine.obj --vertex=0 -o csv:- {to}"
+    (tmp_path / "fine.obj").write_text(square(100))
+    shell = ["bash", "-c", command + '; exit "${PIPESTATUS[0]}"']
+    done = subprocess.run(shell, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "littoral: error: cannot write csv:-: " in done.stderr
+    assert done.stderr.endswith(" [cannot-write]\n")
+
+
+def test_ctrl_c_ends_a_write_that_nobody_reads(tmp_path: Path) -> None:
+    with writing_much(tmp_path) as program:
+        wait_for_handler(program.pid, signal.SIGINT)
+        while not (tmp_path / "a.ply").exists():
+            time.sleep(0.01)
+        time.sleep(0.3)  # the pipe is full
+        program.send_signal(signal.SIGINT)
+        assert program.wait(timeout=5) == 130
+        assert program.stderr and b"interrupted" in program.stderr.read()
+    assert left_in(tmp_path) == ["a.ply", "fine.obj"]

@@ -33,6 +33,7 @@ constexpr int samples = 20000;     // on each surface, for distances
 constexpr double missed = 0.5;     // spacings: input farther from the result is not part of it;
                                    // twice that where edges are cut off
 constexpr double missed_share = 0.01;
+constexpr double usual_wall = 3;  // spacings: thickness of sheets that nobody gave one
 
 void check(const RepairOptions& options, bool is_cloud) {
   for (const auto& [name, value] : {std::pair("error", options.error),
@@ -86,6 +87,7 @@ SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceReq
 
 Made contoured(const PolygonSoup& input, const RepairOptions& options, const SpaceRequest& request,
                const GridOptions& grid, Task task, Report& report) {
+  const Report before = report;
   Made made;
   GridOptions wide = grid;
   if (!grid.bounds && options.thicken > 0) {
@@ -110,12 +112,25 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
                                      options.thicken + 2 * h, task.stage(0.1, "walls"));
     values = values.cwiseMin((to_input.cwiseAbs().array() - options.thicken / 2).matrix());
   }
-  if (!(values.array() < 0).any())
+  if (const bool empty = !(values.array() < 0).any();
+      empty && input.n_faces() > 0 && options.thicken == 0) {
+    report = before;
+    RepairOptions walls = options;
+    walls.thicken = usual_wall * h;
+    made = contoured(input, walls, request, grid, task.stage(1, "walls"), report);
+    report.status = "uncertain";
+    report.warn("sheets-thickened",
+                "no node of the grid lies inside of the input: its faces became walls " +
+                    rounded_text(walls.thicken) +
+                    " thick; option thicken says how thick, a larger option resolution finds thin "
+                    "parts, and if all of it is reversed, say option flip");
+    return made;
+  } else if (empty) {
     throw InputError(
-        "the input has no inside: no node of the grid lies in it. Sheets become walls with option "
-        "thicken; thin parts need a larger option resolution; if all of it is reversed, say option "
-        "flip",
+        "the input has no inside: no node of the grid lies in it. Thin parts need a larger option "
+        "resolution; if all of it is reversed, say option flip",
         "no-inside");
+  }
   // Nodes that lie on a sheet have the value zero: they are not inside.
   made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                             task.stage(0.1, "contour"));

@@ -32,7 +32,9 @@ void needs_triangles(const std::string& kind, const std::string& option) {
 void check_options(const std::string& kind, const SignedHeat& options) {
   if (options.sharpen != Sharpening::off && options.discontinuous)
     throw InputError(
-        "option sharpen makes a continuous distance and does not go with option discontinuous", "options-conflict" if (options.discontinuous) needs_triangles(kind, "discontinuous");
+        "option sharpen makes a continuous distance and does not go with option discontinuous",
+        "options-conflict");
+  if (options.discontinuous) needs_triangles(kind, "discontinuous");
   if (options.discontinuous && options.constraint == Constraint::level_sets)
     throw UnsupportedError("option discontinuous goes with constraint zero-set or none",
                            "options-conflict");

@@ -1,4 +1,4 @@
-"""Every code of docs/guides/messages.md, provoked by the program; those it cannot, with the reason."""
+"""Every code of docs/guides/messages.md, provoked by the program, or the reason why not."""
 
 import math
 import os

@@ -64,7 +64,8 @@ def double_planes() -> str:
 SHEETS = {
     "double planes": double_planes(),
     "one triangle": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-    "three at an edge": "v 0 0 0\nv 0 0 1\nv 1 0 0\nv -1 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
+    "three at an edge": "v 0 0 0\nv 0 0 1\nv 1 0 0\nv -1 1 0\nv -1 -1 0\n"
+    + "f 1 2 3\nf 1 2 4\nf 1 2 5\n",
 }
 
 

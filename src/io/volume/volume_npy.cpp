@@ -52,6 +52,8 @@ std::size_t bytes_of_type(const std::string& type) {
 
 /// Records: [('x', '<f8'), ('normal', '<f4', (3,))].
 bool read_fields(std::string_view descr, NpyHeader& npy) {
+  constexpr std::int64_t most_numbers = 1'000'000;       // of a field
+  constexpr std::size_t largest_record = 1'000'000'000;  // bytes
   descr.remove_prefix(1);
   while (true) {
     skip(descr, " ,");
@@ -71,7 +73,7 @@ bool read_fields(std::string_view descr, NpyHeader& npy) {
       for (skip(descr, "( ,"); !descr.starts_with(')'); skip(descr, " ,")) {
         std::int64_t n = 0;
         const auto [stop, code] = std::from_chars(descr.data(), descr.data() + descr.size(), n);
-        if (code != std::errc() || n < 1 || n > 1'000'000 || field.count > 1'000'000) return false;
+        if (code != std::errc() || n < 1 || n > most_numbers / field.count) return false;
         field.count *= n;
         descr.remove_prefix(static_cast<std::size_t>(stop - descr.data()));
       }
@@ -84,6 +86,7 @@ bool read_fields(std::string_view descr, NpyHeader& npy) {
     if (size == 0) return false;
     field.at = npy.record;
     npy.record += size * static_cast<std::size_t>(field.count);
+    if (npy.record > largest_record) return false;
     npy.fields.push_back(std::move(field));
   }
 }

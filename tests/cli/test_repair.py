@@ -1,6 +1,7 @@
 """littoral repair: what comes out is closed, and says what was done."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -47,7 +48,8 @@ def test_what_has_no_inside_becomes_a_wall(run: Run, tmp_path: Path) -> None:
     low, high = facts["bounding_box"][2], facts["bounding_box"][5]
     thickness = high - low
     assert 0 < thickness < 0.2 and low == pytest.approx(-high, abs=0.01)
-    assert f"{thickness:.2g}" in found.stderr  # the thickness that was said
+    said = re.search(r"walls ([\d.]+) thick", found.stderr)
+    assert said and thickness == pytest.approx(float(said[1]), rel=0.02)
 
 
 def double_planes() -> str:

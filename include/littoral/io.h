@@ -3,6 +3,7 @@
 // are written beside their target and renamed. docs/reference/formats.md lists the formats.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "littoral/field.h"
@@ -31,15 +32,32 @@ void write(const Field& field, const std::filesystem::path& path);
 void write(const Regions& regions, const std::filesystem::path& path);
 void write(const Mesh& mesh, const std::filesystem::path& path);
 void write(const PolygonSoup& soup, const std::filesystem::path& path);
+/// By extension: files of volumes, .html a page, .png a picture.
 void write(const Volume& volume, const std::filesystem::path& path);
+/// By extension: .vtk .vtu tets with the field, .csv .npy .txt values, .ply .obj .vtp the boundary
+/// with the field, .html a page, .png a picture.
 void write(const TetField& field, const std::filesystem::path& path);
+
+/// A plane across an axis.
+struct Section {
+  int axis = 2;         // 0, 1, 2
+  double position = 0;  // along it [length]
+};
 
 /// A self-contained page to turn the result in, offline. Throws UnsupportedError where the library
 /// was built without the viewer.
 void write_page(const Field& field, const std::filesystem::path& path);
 void write_page(const Regions& regions, const std::filesystem::path& path);
+void write_page(const Volume& volume, const std::filesystem::path& path);
+/// The boundary, cut open at a plane: where none is given in the middle if the field has one value
+/// all over the boundary, else nowhere. Throws InputError for a plane that misses the tets.
+void write_page(const TetField& field, const std::filesystem::path& path,
+                const std::optional<Section>& cut = {});
 /// A picture, without a display.
 void write_picture(const Field& field, const std::filesystem::path& path);
 void write_picture(const Regions& regions, const std::filesystem::path& path);
+void write_picture(const Volume& volume, const std::filesystem::path& path);
+void write_picture(const TetField& field, const std::filesystem::path& path,
+                   const std::optional<Section>& cut = {});
 
 }  // namespace littoral

@@ -185,7 +185,9 @@ void bind_distance(nb::module_& m) {
       .def("report", [](const Field& field) { return as_dict(field.report); })
       .def("write", [](const Field& field, const std::string& path) { write(field, path); })
       .def("write_page",
-           [](const Field& field, const std::string& path) { write_page(field, path); });
+           [](const Field& field, const std::string& path) { write_page(field, path); })
+      .def("write_picture",
+           [](const Field& field, const std::string& path) { write_picture(field, path); });
   m.def("isolines", isolines);
   m.def(
       "distance",
@@ -257,7 +259,9 @@ void bind_winding(nb::module_& m) {
       .def("report", [](const Regions& regions) { return as_dict(regions.report); })
       .def("write", [](const Regions& regions, const std::string& path) { write(regions, path); })
       .def("write_page",
-           [](const Regions& regions, const std::string& path) { write_page(regions, path); });
+           [](const Regions& regions, const std::string& path) { write_page(regions, path); })
+      .def("write_picture",
+           [](const Regions& regions, const std::string& path) { write_picture(regions, path); });
   m.def(
       "winding",
       [](const Mesh& mesh, const Sources& curves, const std::string& method,

@@ -5,6 +5,11 @@
 
 namespace littoral::python {
 
+static std::optional<Section> cut(int axis, std::optional<double> position) {
+  if (!position) return {};
+  return Section{axis, *position};
+}
+
 void bind_tets(nb::module_& m) {
   nb::class_<TetMesh>(m, "TetMesh")
       .def(
@@ -39,7 +44,17 @@ void bind_tets(nb::module_& m) {
           "values",
           [](nb::handle self) { return view(nb::cast<const TetField&>(self).values, self); })
       .def("report", [](const TetField& field) { return as_dict(field.report); })
-      .def("write", [](const TetField& field, const std::string& path) { write(field, path); });
+      .def("write", [](const TetField& field, const std::string& path) { write(field, path); })
+      .def(
+          "write_page",
+          [](const TetField& field, const std::string& path, int axis,
+             std::optional<double> position) { write_page(field, path, cut(axis, position)); },
+          nb::arg("path"), nb::arg("axis"), nb::arg("position").none())
+      .def(
+          "write_picture",
+          [](const TetField& field, const std::string& path, int axis,
+             std::optional<double> position) { write_picture(field, path, cut(axis, position)); },
+          nb::arg("path"), nb::arg("axis"), nb::arg("position").none());
   nb::class_<TetDistanceSolver>(m, "TetDistanceSolver")
       .def(
           "__init__",

@@ -33,7 +33,7 @@ class Page:
 
 
 def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
-    """The self-contained page of a field or of regions, to turn and measure in.
+    """The self-contained page of a field, regions or a volume, to turn and measure in.
 
     In a notebook it becomes the cell's output; with `path` it is written there, and otherwise it is
     opened in the browser. Raises TypeError for anything else, UnsupportedError where littoral was
@@ -42,9 +42,9 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
     >>> import littoral
     >>> littoral.show("a text")
     Traceback (most recent call last):
-    TypeError: expected a littoral.Field or Regions, got str
+    TypeError: expected a littoral.Field, TetField, Regions or Volume, got str
     """
-    write = _writer(result, "write_page")
+    write = _writer(result, "_write_page")
     if path is not None:
         write(os.fspath(path))
         return Path(path)
@@ -61,15 +61,15 @@ def show(result: Any, path: str | os.PathLike[str] | None = None) -> Any:
 
 
 def _writer(result: Any, name: str) -> Any:
-    core = getattr(result, "_handle", None)
-    if not hasattr(core, name):
-        raise TypeError(f"expected a littoral.Field or Regions, got {type(result).__name__}")
-    return getattr(core, name)
+    if not hasattr(result, name):
+        kind = type(result).__name__
+        raise TypeError(f"expected a littoral.Field, TetField, Regions or Volume, got {kind}")
+    return getattr(result, name)
 
 
 def picture(result: Any) -> bytes:
-    """A PNG of a field or of regions by littoral's renderer, without a display."""
-    write = _writer(result, "write")
+    """A PNG of a field, regions or a volume by littoral's renderer, without a display."""
+    write = _writer(result, "_write_picture")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "picture.png"
         write(os.fspath(path))

@@ -14,13 +14,13 @@ from ._errors import InputError, UnsupportedError
 from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
-from ._results import Shown, method_takes_kind, takes_kind
+from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
 
 
-class Field(Shown):
+class Field(Reported, Shown):
     """Distance at the vertices of a surface, and what the computation says about itself.
 
     `values`: vertices [length], signed for signed curves, +inf where no source reaches.

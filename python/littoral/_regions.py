@@ -11,13 +11,13 @@ from ._errors import InputError
 from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
-from ._results import Shown, takes_kind
+from ._results import Reported, Shown, takes_kind
 from ._settings import Progress, settings
 from ._sources import make_sources, sources_state
 from ._surfaces import Surface
 
 
-class Regions(Shown):
+class Regions(Reported, Shown):
     """Winding numbers on a surface, and which curves bound.
 
     `region`: faces, integers: the winding number of the larger part of each face. `bounding`,

@@ -30,8 +30,10 @@ class Reported:
         return self.report.warnings
 
 
-class Shown(Reported):
-    """What also has a page and a picture."""
+class Shown:
+    """What has a page and a picture."""
+
+    _handle: Any
 
     def show(self, path: str | os.PathLike[str] | None = None) -> Any:
         """The page to turn it in: in a notebook, or opened in the browser (`littoral.show`)."""
@@ -40,6 +42,12 @@ class Shown(Reported):
     def plot(self, ax: Any = None) -> Any:
         """A picture by littoral's renderer in matplotlib axes: in `ax` or new ones, returned."""
         return _display.plot(self, ax)
+
+    def _write_page(self, path: str) -> None:
+        self._handle.write_page(path)
+
+    def _write_picture(self, path: str) -> None:
+        self._handle.write_picture(path)
 
     def _repr_png_(self) -> bytes:
         return _display.picture(self)

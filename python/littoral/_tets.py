@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, _display
 from ._arrays import (
     Array,
     Floats,
@@ -24,7 +24,7 @@ from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
-from ._results import Reported, method_takes_kind, takes_kind
+from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 
 
@@ -80,7 +80,7 @@ class TetMesh:
         return f"<littoral.TetMesh: {self.n_vertices} vertices, {self.n_tets} tets>"
 
 
-class TetField(Reported):
+class TetField(Reported, Shown):
     """Distance at the vertices of a tet mesh: `values` [length], +inf where no source reaches.
 
     `report`: the method's `Report`.
@@ -98,8 +98,34 @@ class TetField(Reported):
         self.report = Report(**core.report())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension, .vtk or .vtu; UnsupportedError for others, IoError."""
+        """Writes by extension: .vtk .vtu the tets, .ply .obj .vtp their boundary, .csv .npy .txt
+        values, .html .png as `show` and `plot`; UnsupportedError for others, IoError."""
         self._handle.write(os.fspath(path))
+
+    def show(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        axis: str = "z",
+        slice: float | None = None,
+    ) -> Any:
+        """The page of the boundary, as `littoral.show`.
+
+        Cut open at the coordinate `slice` across an axis "x", "y" or "z"; without one in the middle
+        of z if the boundary has one value all over, as distance from it has, else nowhere. Raises
+        InputError for another axis, and for a plane that misses the tets.
+        """
+        return _display.show(_Cut(self, axis, slice), path)
+
+    def plot(self, ax: Any = None, *, axis: str = "z", slice: float | None = None) -> Any:
+        """The same as a picture in matplotlib axes: in `ax` or new ones, returned; raises as it."""
+        return _display.plot(_Cut(self, axis, slice), ax)
+
+    def _write_page(self, path: str) -> None:
+        _Cut(self)._write_page(path)
+
+    def _write_picture(self, path: str) -> None:
+        _Cut(self)._write_picture(path)
 
     def _parts(self) -> tuple[Any, ...]:
         return "tets", self.mesh.points, self.mesh.tets, {"distance": self.values}
@@ -115,6 +141,22 @@ class TetField(Reported):
             f"<littoral.TetField: {len(self.values)} vertices, by {self.report.method}, "
             f"{self.report.status}>"
         )
+
+
+class _Cut(Shown):
+    """A field cut open, to be shown."""
+
+    def __init__(self, field: TetField, axis: str = "z", slice: float | None = None) -> None:
+        if axis not in ("x", "y", "z"):
+            raise InputError(f"axis: expected 'x', 'y' or 'z', got {axis!r}")
+        self._handle = field._handle
+        self._at = "xyz".index(axis), None if slice is None else float(slice)
+
+    def _write_page(self, path: str) -> None:
+        self._handle.write_page(path, *self._at)
+
+    def _write_picture(self, path: str) -> None:
+        self._handle.write_picture(path, *self._at)
 
 
 def _tet_field_from(mesh: TetMesh, values: Floats, report: dict[str, Any]) -> TetField:

@@ -11,13 +11,15 @@ import numpy as np
 from . import _core
 from ._arrays import Floats, as_array, contiguous
 from ._errors import InputError
-from ._results import method_takes_kind
+from ._results import Shown, method_takes_kind
 from ._settings import settings
 from ._surfaces import Mesh, Surface, triple
 
 
-class Volume:
+class Volume(Shown):
     """Values at the nodes of a grid, linear along each axis between them.
+
+    `show` and `plot` draw its zero set and the layer of nodes in the middle of z.
 
     values: nx x ny x nz. Node i, j, k lies at origin + (i, j, k) * spacing [length]. Raises
     TypeError and InputError for another shape, and for spacings that are not positive.
@@ -90,7 +92,10 @@ class Volume:
         return Mesh._of(core)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes by extension, .vti .vdb .nrrd .npy; UnsupportedError for others, IoError."""
+        """Writes by extension: .vti .vdb .nrrd .npy .npz, and .html .png as `show` and `plot`.
+
+        Raises UnsupportedError for others, IoError.
+        """
         self._handle.write(os.fspath(path))
 
     def _parts(self) -> tuple[Any, ...]:

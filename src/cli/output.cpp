@@ -58,12 +58,9 @@ void write_result(const std::string& file, const PolygonSoup& result, const std:
 void write_tet_result(const std::string& file, const TetMesh& mesh, const VecX& values,
                       const std::string& input, const Report& report) {
   const std::string field = "distance";
-  if (io::is_written_as(file, {Kind::tets})) return io::write_tets(file, mesh, values, field);
-  if (io::is_written_as(file, {Kind::table}))
-    return io::write_table(file, {{field}, values, "vertex"});
   const io::TetFile result{mesh, {}, {{field, values}}};
-  const bool is_drawn = io::is_written_as(file, {Kind::picture, Kind::page});
-  write_result(file, is_drawn ? drawn_surface(result) : boundary_of(result), field, input, report);
+  if (!io::is_written_as(file, {Kind::picture, Kind::page})) return write_tet_values(file, result);
+  write_result(file, drawn_surface(result), field, input, report);
 }
 
 void finish(const std::vector<std::string>& files, const Task& task, Session& session,

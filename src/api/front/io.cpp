@@ -1,11 +1,13 @@
 #include "littoral/io.h"
 
 #include "api/surface/surface_domain.h"
+#include "api/tet/tet_boundary.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/render/discs.h"
 #include "io/render/picture.h"
 #include "io/render/scene.h"
+#include "io/render/volume_scene.h"
 #include "io/surface/write_winding.h"
 #include "io/tet/tets.h"
 #include "io/volume/read_voxels.h"
@@ -17,6 +19,10 @@
 namespace littoral {
 
 namespace {
+
+bool is_shown(const std::filesystem::path& path) {
+  return io::is_written_as(path, {io::Kind::page, io::Kind::picture});
+}
 
 PolygonSoup surface_of(const Field& field) {
   if (field.refined) return *field.refined;
@@ -40,6 +46,16 @@ io::Scene scene_of(const Regions& regions) {
   for (const MatX3& line : regions.bounding) scene.curves.push_back({line, true});
   for (const MatX3& line : regions.nonbounding) scene.curves.push_back({line, false});
   io::describe(scene, regions.report.method, regions.report);
+  return scene;
+}
+
+io::Scene scene_of(const TetField& field, const std::optional<Section>& cut) {
+  if (cut && (cut->axis < 0 || cut->axis > 2))
+    throw InputError("option axis: there are 0, 1 and 2, for x, y and z", "option-value");
+  const io::TetFile file{field.mesh, {}, {{"distance", field.values}}};
+  io::Scene scene =
+      io::make_scene(cut ? cut_open(file, cut->axis, cut->position) : drawn_surface(file));
+  io::describe(scene, field.report.method, field.report);
   return scene;
 }
 
@@ -68,8 +84,7 @@ Volume read_volume(const std::filesystem::path& path) { return io::read_volume(p
 TetMesh read_tets(const std::filesystem::path& path) { return io::read_tets(path).mesh; }
 
 void write(const Field& field, const std::filesystem::path& path) {
-  if (io::is_written_as(path, {io::Kind::page, io::Kind::picture}))
-    return io::write_scene(path, scene_of(field));
+  if (is_shown(path)) return io::write_scene(path, scene_of(field));
   if (field.mesh.n_faces() > 0) return io::write_field(path, surface_of(field));
   PolygonSoup cloud = field.mesh.soup();  // without the triangles that show it
   cloud.scalars.clear();
@@ -78,8 +93,7 @@ void write(const Field& field, const std::filesystem::path& path) {
 }
 
 void write(const Regions& regions, const std::filesystem::path& path) {
-  if (io::is_written_as(path, {io::Kind::page, io::Kind::picture}))
-    return io::write_scene(path, scene_of(regions));
+  if (is_shown(path)) return io::write_scene(path, scene_of(regions));
   if (io::is_written_as(path, {io::Kind::table}))
     return io::write_table(path, {{"region"}, regions.region.cast<double>(), "face"});
   if (io::has_extension(path, ".obj"))
@@ -94,10 +108,12 @@ void write(const PolygonSoup& soup, const std::filesystem::path& path) {
   io::write_surface(path, soup);
 }
 void write(const Volume& volume, const std::filesystem::path& path) {
+  if (is_shown(path)) return io::write_scene(path, io::make_volume_scene(volume));
   io::write_volume(path, volume);
 }
 void write(const TetField& field, const std::filesystem::path& path) {
-  io::write_tets(path, field.mesh, field.values);
+  if (is_shown(path)) return io::write_scene(path, scene_of(field, {}));
+  write_tet_values(path, {field.mesh, {}, {{"distance", field.values}}});
 }
 
 void write_page(const Field& field, const std::filesystem::path& path) {
@@ -106,11 +122,25 @@ void write_page(const Field& field, const std::filesystem::path& path) {
 void write_page(const Regions& regions, const std::filesystem::path& path) {
   io::write_page(path, scene_of(regions));
 }
+void write_page(const Volume& volume, const std::filesystem::path& path) {
+  io::write_page(path, io::make_volume_scene(volume));
+}
+void write_page(const TetField& field, const std::filesystem::path& path,
+                const std::optional<Section>& cut) {
+  io::write_page(path, scene_of(field, cut));
+}
 void write_picture(const Field& field, const std::filesystem::path& path) {
   io::write_picture(path, scene_of(field));
 }
 void write_picture(const Regions& regions, const std::filesystem::path& path) {
   io::write_picture(path, scene_of(regions));
+}
+void write_picture(const Volume& volume, const std::filesystem::path& path) {
+  io::write_picture(path, io::make_volume_scene(volume));
+}
+void write_picture(const TetField& field, const std::filesystem::path& path,
+                   const std::optional<Section>& cut) {
+  io::write_picture(path, scene_of(field, cut));
 }
 
 }  // namespace littoral

@@ -1,16 +1,23 @@
 #include "api/tet/tet_boundary.h"
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "contour/isosurface.h"
 #include "domain/tet/tet_locator.h"
+#include "io/formats.h"
+#include "io/write.h"
+#include "io/write_table.h"
 #include "littoral/error.h"
 #include "littoral/report.h"
 
 namespace littoral {
 
 namespace {
+
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// The boundary of tets on one side of a plane across an axis, in a soup that shares its points.
 class CutBoundary {
@@ -60,8 +67,11 @@ class CutBoundary {
   /// Of the point a share t of the way along an edge.
   int number(const std::pair<int, int>& edge, double t) {
     const auto [at, is_new] = number_of_.try_emplace(edge, static_cast<int>(points_.size()));
-    if (is_new) add_point((1 - t) * with_value(edge.first) + t * with_value(edge.second));
-    return at->second;
+    if (!is_new) return at->second;
+    const Eigen::Vector4d a = with_value(edge.first), b = with_value(edge.second);
+    Eigen::Vector4d point = (1 - t) * a + t * b;
+    if (std::isinf(a[3]) || std::isinf(b[3])) point[3] = unreached;
+    return add_point(point);
   }
 
   const TetMesh& mesh_;
@@ -113,8 +123,12 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
   for (int v = 0; v < section.n_vertices(); ++v) {
     const TetPoint p = locator.locate(section.points.row(v));
     double value = 0;
-    for (int k = 0; k < 4 && p.tet >= 0; ++k)
-      value += p.barycentric[static_cast<std::size_t>(k)] * values[mesh.tets(p.tet, k)];
+    for (int k = 0; k < 4 && p.tet >= 0; ++k) {
+      const double at_corner = values[mesh.tets(p.tet, k)];
+      value = std::isinf(value) || std::isinf(at_corner)
+                  ? unreached
+                  : value + p.barycentric[static_cast<std::size_t>(k)] * at_corner;
+    }
     number.push_back(p.tet < 0 ? -1
                                : out.add_point({section.points(v, 0), section.points(v, 1),
                                                 section.points(v, 2), value}));
@@ -149,6 +163,15 @@ PolygonSoup drawn_surface(const io::TetFile& file) {
   for (Eigen::Index t = 0; t < tets.rows(); ++t)
     if (passes(t)) return cut_open(file, axis, middle);
   return boundary;
+}
+
+void write_tet_values(const std::filesystem::path& path, const io::TetFile& file) {
+  const auto& [field, values] = *file.scalars.begin();
+  if (io::is_written_as(path, {io::Kind::table}))
+    return io::write_table(path, {{field}, values, "vertex"});
+  if (io::is_written_as(path, {io::Kind::field}))
+    return io::write_field(path, boundary_of(file), field);
+  io::write_tets(path, file.mesh, values, field);
 }
 
 }  // namespace littoral

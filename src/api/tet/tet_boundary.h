@@ -19,4 +19,8 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position);
 /// as distance from it has.
 PolygonSoup drawn_surface(const io::TetFile& file);
 
+/// Writes tets with their only field by extension: all of it, a table of its values, or the
+/// boundary with it. Throws UnsupportedError for other extensions, IoError.
+void write_tet_values(const std::filesystem::path& path, const io::TetFile& file);
+
 }  // namespace littoral

@@ -33,6 +33,8 @@ class Field(Reported, Shown):
     (25, 1.414214, [])
     """
 
+    _handle: _core.Field
+
     def __init__(self, core: _core.Field, mesh: Surface) -> None:
         self._handle = core
         self.mesh = mesh

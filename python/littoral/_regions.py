@@ -30,6 +30,8 @@ class Regions(Reported, Shown):
     (<littoral.Regions: 32 faces, winding numbers 0, 1>, 1, 0)
     """
 
+    _handle: _core.Regions
+
     def __init__(self, core: _core.Regions, mesh: Surface) -> None:
         self._handle = core
         self.mesh = mesh

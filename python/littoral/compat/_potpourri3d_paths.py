@@ -33,10 +33,8 @@ class EdgeFlipGeodesicSolver:
     ) -> Floats:
         """A shortest path between vertices: nodes x 3 [length]; none where there is no path.
 
-        Limits of the shortening are not supported: nothing is shortened.
+        The limits have no effect: no path is made shorter step by step.
         """
-        if max_iterations is not None or max_relative_length_decrease is not None:
-            unsupported("shortening of paths step by step", "leave out the limits of it")
         n = self._paths.mesh.n_vertices
         start = one_index(v_start, n, "v_start", "vertices")
         return self._paths.trace(start, one_index(v_end, n, "v_end", "vertices"))[::-1].copy()

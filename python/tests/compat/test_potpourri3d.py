@@ -231,13 +231,14 @@ def test_what_is_missing_says_so(square):
         lambda: polygons.extend_scalar([0], [1.0]),
         lambda: polygons.get_tangent_frames(),
         lambda: polygons.transport_tangent_vectors([0], [[1, 0]]),
-        lambda: flips.find_geodesic_path(0, 1, max_iterations=3),
         lambda: flips.find_geodesic_path_poly([0, 1, 2]),
         lambda: flips.find_geodesic_loop([0, 1, 2]),
     ):
         with pytest.raises(littoral.UnsupportedError, match=r"littoral has no .*; "):
             call()
     path = flips.find_geodesic_path(v_start=0, v_end=80)
+    limited = flips.find_geodesic_path(0, 80, max_iterations=3, max_relative_length_decrease=0.5)
+    np.testing.assert_array_equal(limited, path)
     np.testing.assert_allclose(path[[0, -1]], V[[0, 80]])
     assert np.linalg.norm(np.diff(path, axis=0), axis=1).sum() == pytest.approx(2**0.5)
 

@@ -150,11 +150,12 @@ stage_sanitize_package() {
       PYTHONPATH="$PWD/build/asan/python" "$venv/python" -W ignore fuzz/arrays.py 3000
 }
 
-# Batches on local clusters of Ray and Dask, one of whose workers is killed.
+# Batches on local clusters of Ray and Dask, one of whose workers is killed, and in an object store.
 stage_clusters() {
   build_release && python3 -m venv build/clusters &&
     build/clusters/bin/pip install --quiet -r requirements-dev.txt -r requirements-clusters.txt &&
-    PYTHONPATH="$PWD/build/release/python" build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py python/tests/test_samples.py
+    LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$PWD/build/release/python" \
+      build/clusters/bin/python -m pytest -q -rs python/tests/test_batch.py python/tests/test_samples.py
 }
 
 # Batches of damaged inputs for an hour, or SOAK_SECONDS: nothing is lost, memory stays flat.

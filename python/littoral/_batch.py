@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import glob
 import hashlib
 import json
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _core
+from ._batch_status import status_folder
 from ._batch_verb import batch_of_verb
 from ._errors import Error, InputError, IoError, SolveError, UnsupportedError
 from ._settings import Progress, settings, told
@@ -190,7 +192,8 @@ def _outcome(call: Callable[[], Any]) -> tuple[str, str, str]:
     except SolveError as error:
         return "solve", str(error), ""
     except OSError as error:
-        return "io", str(error), ""
+        is_memory = error.errno == errno.ENOMEM or getattr(error, "code", "") == "too-large"
+        return "memory" if is_memory else "io", str(error), ""
     except BaseException as error:
         kind = "internal" if not isinstance(error, Error) else "failed"
         return kind, f"{type(error).__name__}: {error}", ""
@@ -304,8 +307,9 @@ def batch(
     time_limit, more bytes than memory_limit are a line in `out`/status.jsonl. Results are moved
     into `out` when they are whole; with the same options and content an item is done once, by all
     runs together. shard: (3, 8) is the third of eight parts. Paths and out may be URLs of fsspec;
-    where out is one, the status is in the local folder `state`. Raises InputError for no items and
-    for two of one name, IoError where `out` cannot be written to.
+    where out is one, the status is put there when the batch ends, and until then is in the local
+    folder `state` or a temporary one. Raises InputError for no items and for two of one name,
+    IoError where `out` cannot be written to.
 
     >>> import json, tempfile, littoral
     >>> def area(path, output):
@@ -320,10 +324,10 @@ def batch(
     given = dict(options or {})
     place = os.fspath(out)
     remote = place if _is_url(place) else ""
-    if bool(remote) != (state is not None):
-        raise InputError(f"state: a local folder for status.jsonl goes with an out that is a URL, "
-                         f"not with {place}" if state is not None else
-                         f"state: a local folder for status.jsonl goes with {place}")  # fmt: skip
+    if state is not None and not remote:
+        raise InputError(
+            f"state: a folder for status.jsonl goes with an out that is a URL, not with {place}"
+        )
     if not isinstance(items, (str, os.PathLike, Mapping)):
         items = list(items)
     if isinstance(work, str):
@@ -357,7 +361,7 @@ def batch(
         "time_limit": float(time_limit), "memory_limit": float(memory_limit),
     }  # fmt: skip
     jobs = [(item.label, item.name, words) for item in listed]
-    folder = os.fspath(state) if state is not None else place
-    made = _core.batch(jobs, job.run, job.hash, folder, how, settings(None, progress))
+    with status_folder(place, bool(remote), state, shard) as folder:
+        made = _core.batch(jobs, job.run, job.hash, folder, how, settings(None, progress))
     made["failures"] = tuple(BatchFailures(*each) for each in made["failures"])
     return BatchSummary(**made)

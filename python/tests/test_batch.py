@@ -6,10 +6,11 @@ import faulthandler
 import hashlib
 import json
 import os
+import shutil
 import signal
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -153,8 +154,67 @@ def test_paths_of_object_stores(tmp_path: Path, sphere) -> None:
     [written] = (tmp_path / "results").rglob("a.txt")
     assert written.read_text() == str(sphere.n_vertices)
     assert not list((tmp_path / "results").rglob("*.part"))
+    assert (tmp_path / "results/status.jsonl").read_bytes() == (
+        tmp_path / "state/status.jsonl"
+    ).read_bytes()
+    for state in (None, tmp_path / "new"):  # what is done is known from there
+        done = littoral.batch(both, work, f"{url}/results", to=".txt", state=state)
+        assert (done.done, done.unchanged, done.failed) == (0, 1, 1)
     with pytest.raises(littoral.InputError, match="state"):
-        littoral.batch(both, work, f"{url}/results")
+        littoral.batch(both, work, tmp_path / "local", state=tmp_path / "state")
+
+
+@pytest.fixture(scope="module")
+def bucket() -> Iterator[str]:
+    """The URL of an empty bucket in an object store of this machine."""
+    pytest.importorskip("s3fs")
+    moto = pytest.importorskip("moto.server")
+    server = moto.ThreadedMotoServer(ip_address="127.0.0.1", port=0)
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY"):
+            patch.setenv(name, "none")
+        server.start()
+        host, port = server.get_host_and_port()
+        patch.setenv("AWS_ENDPOINT_URL_S3", f"http://{host}:{port}")
+        import fsspec
+
+        fsspec.filesystem("s3").mkdir("littoral-tests")
+        yield "s3://littoral-tests"
+        server.stop()
+
+
+@pytest.mark.parametrize("work", ["thickness", "convert"])
+def test_an_object_store(bucket: str, tmp_path: Path, sphere, work: str) -> None:
+    """Inputs, results and status of functions and verbs, in parts that know of each other."""
+    if work == "convert" and shutil.which(os.environ.get("LITTORAL", "littoral")) is None:
+        pytest.skip("needs the program littoral")
+    import fsspec
+
+    fs = fsspec.filesystem("s3")
+    sphere.save(tmp_path / "ball.obj")
+    (tmp_path / "bad.obj").write_text("nothing")
+    folder = f"{bucket}/{work}"
+    for name, path in (("a/x", "ball"), ("y", "ball"), ("z", "bad")):
+        fs.put_file(str(tmp_path / f"{path}.obj"), f"{folder}/in/{name}.obj")
+
+    def thickness(path: str, output: str) -> float:
+        volume = littoral.SDF(littoral.read(path)).sample(8)
+        volume.save(output)
+        return float(volume.values.min())
+
+    what, to = (thickness, ".npz") if work == "thickness" else ("convert", ".ply")
+    made = [littoral.batch(f"{folder}/in", what, f"{folder}/out", to=to, shard=(k, 2))
+            for k in (1, 2)]  # fmt: skip
+    assert [(s.jobs, s.done, s.failed) for s in made] == [(2, 1, 1), (1, 1, 0)]
+    whole = littoral.batch(f"{folder}/in", what, f"{folder}/out", to=to)
+    assert (whole.done, whole.unchanged, whole.failed) == (0, 2, 1)
+    names = [path.partition("/out/")[2] for path in fs.find(f"{folder}/out")]
+    results = [f"a/x{to}", "status.1-of-2.jsonl", "status.2-of-2.jsonl", "status.jsonl", f"y{to}"]
+    assert sorted(names) == sorted(results)
+    lines = [json.loads(x) for n in names if n.startswith("status") for x in
+             fs.cat_file(f"{folder}/out/{n}").splitlines()]  # fmt: skip
+    by_input = {line["input"].rpartition("/in/")[2]: line["status"] for line in lines}
+    assert by_input == {"a/x.obj": "done", "y.obj": "done", "z.obj": "input"}
 
 
 def counting() -> Callable[[int, str], int]:

@@ -15,6 +15,8 @@ import littoral
 program = shutil.which(os.environ.get("LITTORAL", "littoral"))
 pytestmark = pytest.mark.skipif(program is None, reason="needs the program littoral")
 
+FACE = ",".join(str(v) for v in littoral.examples.sphere(3).faces[0][[0, 1, 2, 0]])
+
 # Options that make the verb short, and what it writes by itself.
 VERBS: dict[str, tuple[dict[str, object], list[str]]] = {
     "sdf": ({"resolution": 8}, ["ball.npz"]),
@@ -24,6 +26,13 @@ VERBS: dict[str, tuple[dict[str, object], list[str]]] = {
     "repair": ({"resolution": 8}, ["ball.ply"]),
     "convert": ({"triangulate": True}, ["ball.off"]),
     "info": ({}, []),
+    "contour": ({"level": "0.5,1"}, ["ball.ply"]),
+    "winding": ({"curve_vertices": FACE}, ["ball.obj"]),
+    "query": ({"points": "points.csv"}, ["ball.csv"]),
+    "pairs": ({"vertex": [0, 5]}, ["ball.npy"]),
+    "fit-tori": ({}, ["ball.ply"]),
+    "view": ({}, ["ball.html"]),
+    "render": ({"width": 64, "height": 48}, ["ball.png"]),
 }
 
 
@@ -31,6 +40,9 @@ VERBS: dict[str, tuple[dict[str, object], list[str]]] = {
 def scans(tmp_path: Path, sphere, monkeypatch) -> Path:
     (tmp_path / "in").mkdir()
     sphere.save(tmp_path / "in/ball.obj")
+    (tmp_path / "fields").mkdir()
+    littoral.distance(sphere, points=0).save(tmp_path / "fields/ball.ply")
+    (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n2,0,0\n")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -39,7 +51,8 @@ def scans(tmp_path: Path, sphere, monkeypatch) -> Path:
 def test_each_verb_is_as_in_the_program(scans: Path, verb: str) -> None:
     options, outputs = VERBS[verb]
     to = ".off" if verb == "convert" else ""
-    done = littoral.batch("in", verb, "out", to=to, options=options)
+    items = "fields" if verb == "contour" else "in"
+    done = littoral.batch(items, verb, "out", to=to, options=options)
     assert (done.jobs, done.done, done.failed) == (1, 1, 0), done.failures
     [line] = map(json.loads, (scans / "out/status.jsonl").read_text().splitlines())
     assert line["outputs"] == outputs
@@ -48,7 +61,7 @@ def test_each_verb_is_as_in_the_program(scans: Path, verb: str) -> None:
     words = [str(x) for x in line["options"][1:]]
     assert program is not None
     again = subprocess.run(
-        [program, "batch", "in", "--verb", verb, *words, "-o", "out", "--json"],
+        [program, "batch", items, "--verb", verb, *words, "-o", "out", "--json"],
         capture_output=True, text=True,
     )  # fmt: skip
     assert json.loads(again.stdout)["unchanged"] == 1, "the program knows what Python has done"

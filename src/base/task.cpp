@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <memory>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -72,15 +74,22 @@ void run_abandonable(const Task& task, std::function<void()> call) {
     return;
   }
   abandoned();  // constructed before, hence destroyed after, whatever the call constructs
-  std::packaged_task<void()> job(
-      [call = std::move(call), threads = thread_count(), limit = memory_limit()] {
+  const auto job = std::make_shared<std::packaged_task<void()>>(
+      [call, threads = thread_count(), limit = memory_limit()] {
         set_thread_count(threads);
         set_memory_limit(limit);
         flush_subnormals();
         call();
       });
-  auto done = job.get_future();
-  std::thread thread(std::move(job));
+  auto done = job->get_future();
+  std::thread thread;
+  try {
+    thread = std::thread([job] { (*job)(); });
+  } catch (const std::system_error&) {  // no place for a thread
+    call();
+    task.checkpoint();
+    return;
+  }
   while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
     if (task.cancelled()) {
       abandoned().keep(std::move(thread));

@@ -7,6 +7,7 @@
 
 #include "base/option_table.h"
 #include "base/parallel.h"
+#include "base/platform/memory.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
@@ -55,7 +56,8 @@ int run_job(Session& session) {
   } catch (const OutputError& e) {
     return say(session, failed, "io", e.code(), e.what());
   } catch (const IoError& e) {
-    return say(session, session.reading ? bad_input : failed, "io", e.code(), e.what());
+    return say(session, session.reading ? bad_input : failed,
+               is_about_memory(e) ? "memory" : "io", e.code(), e.what());
   } catch (const SolveError& e) {
     return say(session, failed, "solve", e.code(), e.what());
   } catch (const std::bad_alloc&) {

@@ -28,7 +28,8 @@ Grid grid_of(const Call& call, const json& grid) {
     out.n[static_cast<std::size_t>(a)] = static_cast<int>(n[a]);
   }
   if (n.prod() > 1 << 30)  // counted in 32 bits
-    throw IoError("a grid of " + std::to_string(n.prod()) + " nodes does not fit into memory");
+    throw IoError("a grid of " + std::to_string(n.prod()) + " nodes does not fit into memory",
+                  "too-large");
   return out;
 }
 

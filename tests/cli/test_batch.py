@@ -230,10 +230,30 @@ def test_memory_limit(scans: Path) -> None:
     made = batch(scans, "in/a/x.obj", "--resolution", "300", "--memory-limit", "150MB", "-o", "out")
     assert made.returncode == 1
     [line] = lines(scans / "out")
-    assert line["status"] in ("memory", "io"), line
+    assert line["status"] == "memory", line
     assert "memory" in line["message"]
     assert line["peak_memory"] < 400e6
     assert files(scans / "out") == ["status.jsonl"]
+
+
+def test_memory_that_is_foreseen_not_to_suffice(scans: Path) -> None:
+    made = batch(scans, "in/a/x.obj", "--resolution", "900", "--memory-limit", "150MB", "-o", "out")
+    assert made.returncode == 1
+    [line] = lines(scans / "out")
+    assert line["status"] == "memory" and "a grid of" in line["message"], line
+    made = batch(scans, "in/a/x.obj", "--verb", "info", "--memory-limit", "4MB", "-o", "little")
+    assert made.returncode == 0, lines(scans / "little")
+
+
+def test_threads_that_do_not_fit_are_done_without(scans: Path) -> None:
+    """Stacks of 64 threads are 512 MB."""
+    (scans / "large.obj").write_text(square(100))
+    arguments = ("--verb", "distance", "--vertex", "0", "--method", "signed-heat")
+    made = batch(scans, "large.obj", *arguments, "--threads", "64", "--memory-limit", "200MB",
+                 "-o", "out")  # fmt: skip
+    assert made.returncode == 0, lines(scans / "out")
+    batch(scans, "large.obj", *arguments, "-o", "one")
+    assert (scans / "out/large.ply").read_bytes() == (scans / "one/large.ply").read_bytes()
 
 
 def test_vanished_inputs_and_pipes(scans: Path) -> None:

@@ -19,9 +19,11 @@
 #include "base/option_table.h"
 #include "base/platform/child_process.h"
 #include "base/platform/fork_server.h"
+#include "base/platform/memory.h"
 #include "base/platform/process.h"
 #include "base/sha256.h"
 #include "littoral/error.h"
+#include "solve/direct/dense_kernels.h"
 
 namespace littoral {
 
@@ -69,7 +71,7 @@ BatchOutcome outcome_of(const Call& call) {
   } catch (const UnsupportedError& e) {
     return failure("unsupported", e.what());
   } catch (const IoError& e) {
-    return failure("io", e.what());
+    return failure(is_about_memory(e) ? "memory" : "io", e.what());
   } catch (const SolveError& e) {
     return failure("solve", e.what());
   } catch (const std::bad_alloc&) {
@@ -365,6 +367,7 @@ struct Batch::Impl {
 };
 
 Batch::Batch(BatchWork work) : impl_(std::make_unique<Impl>()) {
+  dense::use_one_thread();
   const ForkServer::Hooks hooks{work.before_fork, work.after_fork_in_parent,
                                 work.after_fork_in_child};
   impl_->server = std::make_unique<ForkServer>(

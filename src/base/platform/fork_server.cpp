@@ -25,6 +25,7 @@
 #include <utility>
 
 #include "base/platform/child_start.h"
+#include "base/platform/memory.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -274,7 +275,7 @@ class Server {
       ::close(other.printed);
     }
     if (!begin_child(self.printed)) ::_exit(1);
-    limit_memory(MemoryKind::data, limits.memory);
+    limit_memory(MemoryKind::data, limits.memory > 0 ? limits.memory + writable_memory() : 0);
     call(hooks_.in_child);
     const auto tell = [&](std::string_view bytes) { write_all(self.told, bytes); };
     const double began = now();

@@ -14,7 +14,7 @@ namespace littoral {
 /// What a piece of work may take; 0: no limit.
 struct ForkLimits {
   double seconds = 0;  // by the clock
-  double memory = 0;   // that it can write to [bytes]
+  double memory = 0;   // that it can write to beyond what the server can [bytes]
 };
 
 /// How a piece of work ended. Without `signal`, `timed_out` and `not_started` it did so by itself.

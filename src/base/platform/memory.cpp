@@ -35,6 +35,7 @@ double bytes_at(const char* file, const std::string& line, double otherwise) {
 #endif
 
 thread_local double limit_of_thread = 0;
+constexpr const char* too_large = "too-large";
 
 }  // namespace
 
@@ -50,6 +51,7 @@ void return_freed_memory() {
 #if defined(__EMSCRIPTEN__)
 
 double peak_memory() { return static_cast<double>(emscripten_get_heap_size()); }
+double writable_memory() { return 0; }
 
 double available_memory() {
   return static_cast<double>(emscripten_get_heap_max()) -
@@ -59,6 +61,7 @@ double available_memory() {
 #else
 
 double peak_memory() { return bytes_at("/proc/self/status", "VmHWM:", 0); }
+double writable_memory() { return bytes_at("/proc/self/status", "VmData:", 0); }
 
 double available_memory() {
   double bytes = bytes_at("/proc/meminfo", "MemAvailable:", std::numeric_limits<double>::max());
@@ -80,7 +83,9 @@ void check_memory(double bytes, const std::string& what, const std::string& reme
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",
                 bytes / 1e9, available / 1e9);
-  throw IoError(what + numbers + remedy, "too-large");
+  throw IoError(what + numbers + remedy, too_large);
 }
+
+bool is_about_memory(const IoError& error) { return error.code() == too_large; }
 
 }  // namespace littoral

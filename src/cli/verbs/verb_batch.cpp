@@ -47,7 +47,7 @@ bool has_option(const CLI::App& verb, const std::string& name) {
 void check_verb(const CLI::App& verb) {
   int inputs = 0;
   for (const CLI::Option* option : verb.get_options())
-    if (option->get_positional()) ++inputs;
+    if (option->get_positional() && option->get_required()) ++inputs;
   if (inputs == 1 && verb.get_name() != "help" && verb.get_name() != "completion" &&
       verb.get_name() != batch_verb)
     return;

@@ -48,17 +48,6 @@ ConstView<Scalar> view(const Scalar* A, int m, int n, int lda) {
 }
 
 #if LITTORAL_BLAS
-/// One thread of BLAS: results then do not depend on how many cores there are, and most blocks are
-/// small. Independent blocks run side by side instead.
-void use_one_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    using Setter = void (*)(int);
-    if (void* symbol = loaded_symbol("openblas_set_num_threads"))
-      reinterpret_cast<Setter>(symbol)(1);
-  });
-}
-
 template <class Scalar>
 struct Blas;
 template <>
@@ -124,6 +113,17 @@ void subtract_adjoint_small(int m, int n, const Scalar* A, int lda, const Scalar
 #endif
 
 }  // namespace
+
+void use_one_thread() {
+#if LITTORAL_BLAS
+  static std::once_flag once;
+  std::call_once(once, [] {
+    using Setter = void (*)(int);
+    if (void* symbol = loaded_symbol("openblas_set_num_threads"))
+      reinterpret_cast<Setter>(symbol)(1);
+  });
+#endif
+}
 
 template <class Scalar>
 bool cholesky(int n, Scalar* A, int lda) {

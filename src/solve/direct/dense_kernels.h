@@ -6,6 +6,11 @@
 
 namespace littoral::dense {
 
+/// One thread of BLAS: results then do not depend on how many cores there are, and most blocks are
+/// small. Independent blocks run side by side instead. All below do it; before a process is forked
+/// it keeps OpenBLAS from starting its threads again in the child.
+void use_one_thread();
+
 /// A = L L^*, n x n, in place. Returns false if a pivot is not positive and finite.
 template <class Scalar>
 bool cholesky(int n, Scalar* A, int lda);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr int first_inner = 12;
+constexpr double rounding = 1e-9;  // relative, of sums of squares
 
 class Spanner {
  public:
@@ -39,7 +40,8 @@ class Spanner {
   static bool on_common_face(int e, int f) { return (edges()[e].faces & edges()[f].faces) != 0; }
   void add(int a, int b, int c) { patch_.triangles.push_back({a, b, c}); }
 
-  // Shortest sum of squared diagonals: best[i][j] spans the nodes i..j of the loop.
+  // Shortest sum of squared diagonals: best[i][j] spans the nodes i..j of the loop. Of equal ones,
+  // as in rectangles, the first: rounding, which differs between machines, has no say.
   void disc(int loop) {
     const int n = loops_.size(loop);
     if (n == 3) return add(node(loop, 0), node(loop, 1), node(loop, 2));
@@ -54,7 +56,7 @@ class Spanner {
         const double own = is_diagonal ? squared_distance(node(loop, i), node(loop, j)) : 0;
         for (int k = i + 1; k < j; ++k) {
           const double total = own + best[i][k] + best[k][j];
-          if (total < best[i][j]) {
+          if (total < (1 - rounding) * best[i][j]) {
             best[i][j] = total;
             middle[i][j] = k;
           }

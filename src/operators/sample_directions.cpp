@@ -14,7 +14,7 @@ namespace {
 
 constexpr float tolerance = 0.01f;
 constexpr std::size_t grain = 256;
-constexpr std::size_t cells_between_checkpoints = 65536;
+constexpr std::size_t cells_between_checkpoints = 65536, nodes_between_checkpoints = 65536;
 
 // Nodes low .. high (both included) along each axis; owns low .. high - 1, and high at the end of
 // the grid, so that every node belongs to exactly one cell.
@@ -27,11 +27,20 @@ class Sampler {
   Sampler(const Grid& grid, const std::function<Vec3(const Vec3&, double&)>& sample)
       : grid_(grid),
         sample_(sample),
-        Y(Directions::Zero(grid.n_nodes(), 3)),
-        known_(grid.n_nodes(), 0),
-        distance_(grid.n_nodes(), 0) {}
+        Y(grid.n_nodes(), 3),
+        known_(grid.n_nodes()),
+        distance_(grid.n_nodes()) {}
 
   void run(const Task& task) {
+    // The system hands out memory when it is first written to, which takes a while for all of it.
+    parallel_for(known_.size(), nodes_between_checkpoints, [&](std::size_t begin, std::size_t end) {
+      task.checkpoint();
+      const auto from = static_cast<Eigen::Index>(begin),
+                 n = static_cast<Eigen::Index>(end - begin);
+      Y.middleRows(from, n).setZero();
+      known_.segment(from, n).setZero();
+      distance_.segment(from, n).setZero();
+    });
     const int longest = *std::max_element(grid_.n.begin(), grid_.n.end());
     stride_ = 1;
     while (stride_ * 8 < longest) stride_ *= 2;
@@ -174,8 +183,8 @@ class Sampler {
   Directions Y;
 
  private:
-  std::vector<char> known_;  // evaluated, not interpolated
-  std::vector<float> distance_;
+  Eigen::Array<char, Eigen::Dynamic, 1> known_;  // evaluated, not interpolated
+  Eigen::ArrayXf distance_;
   std::size_t evaluated_ = 0;
   int stride_ = 1;
 };

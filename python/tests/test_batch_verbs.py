@@ -97,7 +97,8 @@ def test_urls_are_fetched_for_verbs(scans: Path) -> None:
         done = littoral.batch(f"{url}/in", "sdf", f"{url}/results", options={"resolution": 8},
                               state="state")  # fmt: skip
         assert (done.done, done.unchanged, done.failed) == (n, 1 - n, 1), done.failures
-    assert [p.name for p in (scans / "results").iterdir()] == ["ball.npz"]
+    names = sorted(p.name for p in (scans / "results").iterdir())
+    assert names == ["ball.npz", "status.jsonl"]
 
 
 def test_functions_get_the_files_and_names_of_the_program(scans: Path) -> None:

@@ -95,11 +95,11 @@ void parallel_forest(const std::vector<int>& parent, Walk walk,
     for (int i; (i = nodes.take()) >= 0;) {
       try {
         body(i);
-      } catch (...) {
+        nodes.finish(i);
+      } catch (...) {  // the others must not wait for what will not come
         nodes.stop(std::current_exception());
         return;
       }
-      nodes.finish(i);
     }
   });
   nodes.rethrow();

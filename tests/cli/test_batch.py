@@ -245,17 +245,6 @@ def test_memory_that_is_foreseen_not_to_suffice(scans: Path) -> None:
     assert made.returncode == 0, lines(scans / "little")
 
 
-def test_threads_that_do_not_fit_are_done_without(scans: Path) -> None:
-    """Stacks of 64 threads are 512 MB."""
-    (scans / "large.obj").write_text(square(100))
-    arguments = ("--verb", "distance", "--vertex", "0", "--method", "signed-heat")
-    made = batch(scans, "large.obj", *arguments, "--threads", "64", "--memory-limit", "200MB",
-                 "-o", "out")  # fmt: skip
-    assert made.returncode == 0, lines(scans / "out")
-    batch(scans, "large.obj", *arguments, "-o", "one")
-    assert (scans / "out/large.ply").read_bytes() == (scans / "one/large.ply").read_bytes()
-
-
 def test_vanished_inputs_and_pipes(scans: Path) -> None:
     os.mkfifo(scans / "pipe.obj")
     (scans / "list.txt").write_text("gone.obj\npipe.obj\nin/a/x.obj\n")

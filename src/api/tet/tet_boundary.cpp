@@ -17,7 +17,7 @@ namespace littoral {
 
 namespace {
 
-constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double no_way = std::numeric_limits<double>::infinity();
 
 /// The boundary of tets on one side of a plane across an axis, in a soup that shares its points.
 class CutBoundary {
@@ -70,7 +70,7 @@ class CutBoundary {
     if (!is_new) return at->second;
     const Eigen::Vector4d a = with_value(edge.first), b = with_value(edge.second);
     Eigen::Vector4d point = (1 - t) * a + t * b;
-    if (std::isinf(a[3]) || std::isinf(b[3])) point[3] = unreached;
+    if (std::isinf(a[3]) || std::isinf(b[3])) point[3] = no_way;
     return add_point(point);
   }
 
@@ -126,7 +126,7 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
     for (int k = 0; k < 4 && p.tet >= 0; ++k) {
       const double at_corner = values[mesh.tets(p.tet, k)];
       value = std::isinf(value) || std::isinf(at_corner)
-                  ? unreached
+                  ? no_way
                   : value + p.barycentric[static_cast<std::size_t>(k)] * at_corner;
     }
     number.push_back(p.tet < 0 ? -1

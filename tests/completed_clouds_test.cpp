@@ -134,7 +134,7 @@ TEST(ThinParts, AreNamedWithTheResolutionThatHoldsThem) {
   EXPECT_GT(size_of(lost, "share of the area at parts thinner than a spacing"), 0.8);
   // 2.4 / 0.04 cells are as thick as the plate.
   const std::string text = lost.warnings.back().text;
-  const int resolution = std::stoi(text.substr(text.find("Resolution ") + 11));
+  const int resolution = std::stoi(text.substr(text.find("option resolution ") + 18));
   EXPECT_GE(resolution, 61);
   EXPECT_LE(resolution, 90);
   EXPECT_THAT(warned(plate, resolution, 0.013).warnings, IsEmpty());

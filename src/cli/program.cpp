@@ -56,8 +56,8 @@ int run_job(Session& session) {
   } catch (const OutputError& e) {
     return say(session, failed, "io", e.code(), e.what());
   } catch (const IoError& e) {
-    return say(session, session.reading ? bad_input : failed,
-               is_about_memory(e) ? "memory" : "io", e.code(), e.what());
+    const std::string kind = is_about_memory(e) ? "memory" : "io";
+    return say(session, session.reading ? bad_input : failed, kind, e.code(), e.what());
   } catch (const SolveError& e) {
     return say(session, failed, "solve", e.code(), e.what());
   } catch (const std::bad_alloc&) {

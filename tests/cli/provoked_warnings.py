@@ -1,5 +1,6 @@
 """An input and a call for each code of a warning."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -293,6 +294,25 @@ def _(folder: Path) -> Words:
     points = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n5 5 5 0\n"
     (folder / "t.mesh").write_text(head + points + "Tetrahedra\n1\n1 2 3 4 0\nEnd\n")
     return ["distance", "t.mesh", "--vertex=0,4", "-o", "a.txt"]
+
+
+@provokes("tets-folded")
+def _(folder: Path) -> Words:
+    # An L of cubes in six tets each; one vertex inside is moved through a neighbouring cube.
+    n = 4
+    at = np.array(list(itertools.product(range(n + 1), repeat=3)), float)
+    tets = []
+    for corner in itertools.product(range(n), repeat=3):
+        if min(corner[:2]) < n // 2:
+            for order in itertools.permutations(range(3)):
+                ways = np.cumsum([corner, *np.eye(3, dtype=int)[list(order)]], axis=0)
+                tets.append(ways @ ((n + 1) ** 2, n + 1, 1) + 1)
+    at[31] += (1.4, 0, 0)  # 1, 1, 1
+    rows = [f"{x} {y} {z} 0" for x, y, z in at] + ["Tetrahedra", str(len(tets))]
+    rows += [" ".join(map(str, tet)) + " 0" for tet in tets]
+    head = f"MeshVersionFormatted 1\nDimension 3\nVertices\n{len(at)}\n"
+    (folder / "t.mesh").write_text(head + "\n".join([*rows, "End\n"]))
+    return ["distance", "t.mesh", f"--vertex={n * (n + 1) ** 2}", "-o", "a.txt"]
 
 
 @provokes("sign-uncertain")

@@ -7,6 +7,8 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace littoral {
 
 namespace {
 thread_local int requested_threads = 0;
+std::atomic<int> most_threads{std::numeric_limits<int>::max()};
 thread_local bool inside_parallel = false;
 }  // namespace
 
@@ -25,11 +28,12 @@ void set_thread_count(int threads) { requested_threads = std::max(0, threads); }
 
 int requested_thread_count() { return requested_threads; }
 
+void set_most_threads(int threads) { most_threads = std::max(1, threads); }
+
 int thread_count() {
   if (!has_threads) return 1;
-  if (requested_threads > 0) return requested_threads;
   static const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  return cores;
+  return std::min(requested_threads > 0 ? requested_threads : cores, most_threads.load());
 }
 
 /// A loop that several threads share. Each works as the one that made it would.
@@ -72,6 +76,17 @@ class SharedLoop {
   std::size_t failed_ = std::numeric_limits<std::size_t>::max();
 };
 
+/// Fewer where the system has no place for more: the work is the same, whoever does it.
+template <class Work>
+void add_threads(std::vector<std::thread>& threads, std::size_t n, const Work& work) {
+  threads.reserve(n);
+  try {
+    for (std::size_t w = 0; w < n; ++w) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {
+  }
+}
+
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
@@ -87,7 +102,7 @@ void parallel_for(std::size_t n, std::size_t grain,
   }
   SharedLoop loop(pieces, piece);
   std::vector<std::thread> threads;
-  for (std::size_t w = 1; w < workers; ++w) threads.emplace_back([&] { loop.work(); });
+  add_threads(threads, workers - 1, [&] { loop.work(); });
   loop.work();
   for (auto& thread : threads) thread.join();
   loop.rethrow();
@@ -107,7 +122,8 @@ struct ThreadCrew::Shared {
     changed.wait(lock, done);
   }
   void start() {
-    for (int w = 1; w < n_threads; ++w) threads.emplace_back([this] { help(); });
+    started = true;
+    add_threads(threads, static_cast<std::size_t>(n_threads - 1), [this] { help(); });
   }
   void help() {
     for (std::uint64_t seen = 0;;) {
@@ -146,6 +162,7 @@ struct ThreadCrew::Shared {
 
   const int n_threads = inside_parallel ? 1 : thread_count();
   std::vector<std::thread> threads;
+  bool started = false;
   std::mutex mutex;  // of all that follows; two of it are read without
   std::condition_variable begun, ended;
   std::atomic<std::uint64_t> round{0};
@@ -169,7 +186,7 @@ void ThreadCrew::run(std::size_t n, const std::function<void(std::size_t)>& body
     for (std::size_t i = 0; i < n; ++i) body(i);
     return;
   }
-  if (shared_->threads.empty()) shared_->start();
+  if (!shared_->started) shared_->start();
   SharedLoop loop(n, body);
   shared_->begin(&loop);
   loop.work();

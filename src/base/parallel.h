@@ -12,6 +12,8 @@ namespace littoral {
 /// Threads used by calls made from this thread (0 = all cores); the default is all.
 void set_thread_count(int threads);
 int thread_count();
+/// Nobody in this process uses more, whatever was set; for what has no room for more.
+void set_most_threads(int threads);
 int requested_thread_count();  // as it was set: 0 = all cores
 
 /// Calls body(begin, end) over [0, n) cut into pieces of `grain`; pieces may run at the same time.

@@ -245,6 +245,15 @@ def test_memory_that_is_foreseen_not_to_suffice(scans: Path) -> None:
     assert made.returncode == 0, lines(scans / "little")
 
 
+def test_no_more_threads_than_the_memory_limit_has_room_for(scans: Path) -> None:
+    """OpenBLAS waits for ever where it cannot reserve its 128 MB for a thread."""
+    (scans / "square.obj").write_text(square(60))
+    words = ("--verb", "distance", "--vertex", "0", "--method", "signed-heat", "--threads", "64")
+    limits = ("--memory-limit", "200MB", "--time-limit", "20")
+    made = batch(scans, "square.obj", *words, *limits, "-o", "out")
+    assert made.returncode == 0, lines(scans / "out")
+
+
 def test_vanished_inputs_and_pipes(scans: Path) -> None:
     os.mkfifo(scans / "pipe.obj")
     (scans / "list.txt").write_text("gone.obj\npipe.obj\nin/a/x.obj\n")

@@ -17,6 +17,7 @@
 #include "api/batch/batch_text.h"
 #include "api/front/running.h"
 #include "base/option_table.h"
+#include "base/parallel.h"
 #include "base/platform/child_process.h"
 #include "base/platform/fork_server.h"
 #include "base/platform/memory.h"
@@ -83,6 +84,8 @@ BatchOutcome outcome_of(const Call& call) {
 
 /// In the child: tells the hash first, so that it is known whatever happens after it.
 void do_job(const BatchWork& work, const std::string& request, const ForkServer::Tell& tell) {
+  const double room = available_memory() / dense::bytes_of_a_thread();  // for threads beside this
+  set_most_threads(1 + static_cast<int>(std::min(room, 1e6)));
   const std::vector<std::string> texts = separated(request);
   const fs::path folder = texts.at(0);
   const std::string& known = texts.at(1);

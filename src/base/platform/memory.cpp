@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "littoral/error.h"
 
@@ -65,13 +66,14 @@ double writable_memory() { return bytes_at("/proc/self/status", "VmData:", 0); }
 
 double available_memory() {
   double bytes = bytes_at("/proc/meminfo", "MemAvailable:", std::numeric_limits<double>::max());
-  for (const int resource : {RLIMIT_AS, RLIMIT_DATA}) {
+  for (const auto& [resource, used] :
+       {std::pair(RLIMIT_AS, "VmSize:"), std::pair(RLIMIT_DATA, "VmData:")}) {
     rlimit limit{};
-    if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) == 0 &&
-        limit.rlim_cur != RLIM_INFINITY)
-      bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+    if (getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      bytes = std::min(
+          bytes, static_cast<double>(limit.rlim_cur) - bytes_at("/proc/self/status", used, 0));
   }
-  return bytes;
+  return std::max(0.0, bytes);
 }
 
 #endif

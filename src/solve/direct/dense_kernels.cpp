@@ -125,6 +125,11 @@ void use_one_thread() {
 #endif
 }
 
+double bytes_of_a_thread() {
+  constexpr double stack = 8 << 20, buffer = LITTORAL_BLAS ? 136 << 20 : 0;
+  return stack + buffer;
+}
+
 template <class Scalar>
 bool cholesky(int n, Scalar* A, int lda) {
   constexpr int panel = 48;

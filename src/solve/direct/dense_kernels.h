@@ -11,6 +11,10 @@ namespace littoral::dense {
 /// it keeps OpenBLAS from starting its threads again in the child.
 void use_one_thread();
 
+/// What a thread that calls these reserves [bytes]: its stack and OpenBLAS's buffer, little of
+/// which is touched. OpenBLAS waits for ever where it cannot have it.
+double bytes_of_a_thread();
+
 /// A = L L^*, n x n, in place. Returns false if a pivot is not positive and finite.
 template <class Scalar>
 bool cholesky(int n, Scalar* A, int lda);

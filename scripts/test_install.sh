@@ -30,7 +30,8 @@ expect "100 %" "$here/build/offset" "$mesh" "$out"
 expect "overlap" "$here/build/clearance" "$mesh" "$mesh"
 expect "from pole to pole" "$here/build/cloud"
 expect "from its boundary" "$here/build/tets"
-for file in distance.ply distance.png regions.txt shell.ply difference.ply distance.nrrd; do
+expect "inside, nearest face" "$here/build/from_cgal" "$mesh" "$out/closed.ply"
+for file in distance.ply distance.png regions.txt shell.ply closed.ply difference.ply distance.nrrd; do
   [ -s "$out/$file" ] || { echo "the examples did not write $file" >&2; exit 1; }
 done
 "$prefix/bin/littoral" --help >/dev/null

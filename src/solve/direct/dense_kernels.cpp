@@ -126,8 +126,11 @@ void use_one_thread() {
 }
 
 double bytes_of_a_thread() {
-  constexpr double stack = 8 << 20, buffer = LITTORAL_BLAS ? 136 << 20 : 0;
-  return stack + buffer;
+  double bytes = 8 << 20;
+#if LITTORAL_BLAS
+  bytes += 136 << 20;
+#endif
+  return bytes;
 }
 
 template <class Scalar>

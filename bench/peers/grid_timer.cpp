@@ -4,10 +4,8 @@
 //        fastest
 // Prints processor and clock seconds of what is prepared, and of the nodes.
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <optional>
 
@@ -15,21 +13,9 @@
 #include "io/read.h"
 #include "methods/implicit/completed.h"
 #include "spatial/triangulate.h"
-
-namespace {
+#include "timed.h"
 
 using namespace littoral;
-
-template <class Body>
-void timed(const Body& body) {
-  const auto begin = std::chrono::steady_clock::now();
-  const std::clock_t cpu = std::clock();
-  body();
-  std::printf("%.6f %.6f\n", double(std::clock() - cpu) / CLOCKS_PER_SEC,
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-}
-
-}  // namespace
 
 int main(int count, char** words) {
   if (count != 5) {

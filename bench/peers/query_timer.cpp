@@ -5,10 +5,8 @@
 // numbers, winding numbers.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <memory>
 
@@ -18,21 +16,9 @@
 #include "spatial/morton_order.h"
 #include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
-
-namespace {
+#include "timed.h"
 
 using namespace littoral;
-
-template <class Body>
-void timed(const Body& body) {
-  const auto begin = std::chrono::steady_clock::now();
-  const std::clock_t cpu = std::clock();
-  body();
-  std::printf("%.6f %.6f\n", double(std::clock() - cpu) / CLOCKS_PER_SEC,
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-}
-
-}  // namespace
 
 int main(int count, char** words) {
   if (count != 5) {

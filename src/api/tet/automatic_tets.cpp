@@ -112,14 +112,14 @@ class AutomaticThroughTets {
   TetPathResult paths(const TetPathSources& from, bool all_seen, const SideOf& side,
                       const Task& task, Report& report) const {
     TetPathResult found = tet_paths(mesh_, sight_, ops_.component, from, all_seen, side, task);
-    if (const int folded = folded_tets(mesh_, sight_); folded > 0 && found.bent > 0)
+    if (found.bent == 0) return found;
+    if (const int folded = folded_tets(mesh_, sight_); folded > 0)
       report.warn("tets-folded",
                   std::to_string(folded) +
                       " times a tet lies on the same side of a face as its neighbour there, folded "
                       "over it: ways round the boundary may be wrong near such tets");
-    if (found.bent > 0)
-      report.sizes.emplace_back("share of vertices out of sight",
-                                static_cast<double>(found.bent) / mesh_.n_vertices());
+    report.sizes.emplace_back("share of vertices out of sight",
+                              static_cast<double>(found.bent) / mesh_.n_vertices());
     return found;
   }
 

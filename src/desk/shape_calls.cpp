@@ -47,10 +47,6 @@ class Named {
   std::vector<std::string> known_;
 };
 
-Orientation orientation_of(const Call& call, std::size_t k) {
-  return {call.flag(k), call.flag(k + 1)};
-}
-
 json repaired(Call& call) {
   RepairOptions options;
   Named named(call[5]);
@@ -66,7 +62,7 @@ json repaired(Call& call) {
   named.read("fit", options.fit);
   named.check();
   Repaired made = repair(call.object<Mesh>(0).soup(), options, call.method(1, 2),
-                         orientation_of(call, 3), call.context());
+                         {call.flag(3), call.flag(4)}, call.context());
   json out = made_surface(call, std::move(made.surface));
   out["report"] = report_json(made.report);
   return out;
@@ -104,7 +100,7 @@ json sampled_shape(Call& call) {
   if (name.ends_with(".zarr"))
     throw UnsupportedError(name + " would be a folder: samples are given as .npz or .tar");
   const Samples made = sample(call.object<Mesh>(0).soup(), sample_options(call, call[5]),
-                              call.method(1, 2), orientation_of(call, 3), call.context());
+                              call.method(1, 2), {call.flag(3), call.flag(4)}, call.context());
   json out{{"centre", {made.centre[0], made.centre[1], made.centre[2]}},
            {"halfSide", made.half_side},
            {"surfacePoints", call.put(made.surface_points)},

@@ -11,8 +11,8 @@ fi
 here=$(cd "$(dirname "$0")" && pwd)
 build=$(cd "$1" && pwd)
 export here build seconds="$2"
-targets="obj off ply stl glb gltf 3mf pc xyz pcd npy_cloud npz_cloud vti nrrd npy npz vol mesh tet vtk msh
-  vtu sources"
+targets="obj off ply stl glb gltf 3mf pc xyz pcd npy_cloud npz_cloud vtp vtk_surface vti nrrd npy npz
+  vtk_volume vol mesh tet vtk msh vtu sources"
 # A case of `methods` takes a tenth of a second: in a short run the seeds of MethodCases see more.
 if [ "$2" -ge 60 ]; then targets="$targets methods"; fi
 # Each prints when it is done, so that the outputs do not mix.

@@ -141,7 +141,8 @@ TEST(TetFiles, ErrorsNameFileLineAndElement) {
          "cell 0 of type 12 must have 8 corners, it has 4");
   expect(replaced(vtk, "10\n5", "24\n5"), ".vtk", "cell 0 is of type 24");
   expect(replaced(vtk, "CELL_TYPES 2\n10\n5", "CELL_TYPES 1\n10"), ".vtk", "2 cells and 1 cell");
-  expect(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA"), ".vtk", "only UNSTRUCTURED_GRID");
+  expect(replaced(vtk, "UNSTRUCTURED_GRID", "STRUCTURED_GRID"), ".vtk",
+         "POLYDATA and STRUCTURED_POINTS");
   expect(replaced(vtk, "SCALARS depth float", "SCALARS depth bit"), ".vtk", "of type 'bit'");
   expect(replaced(modern, "0 4 7", "0 9 7"), ".vtk", "offset of cell 1 is out of order");
   expect(medit, ".meshb", "possible: .mesh .tet .vtk .msh .vtu");

@@ -118,8 +118,6 @@ def test_cells_of_meshio(run: Run, tmp_path: Path, name: str, options: dict[str,
         run("convert", name, "--field", "depth", "-o", "b.vtk")
         read = meshio.read(tmp_path / "b.vtk").point_data["depth"].ravel()
         assert read == pytest.approx(values["depth"])
-    if name not in ("a.msh", "a.vtu"):
-        return
     # Inside and outside of the solid.
     (tmp_path / "at.csv").write_text("x,y,z\n.5,.5,.5\n2,.5,.5\n")
     run("query", name, "--points", "at.csv", "-o", "out.csv")
@@ -127,7 +125,7 @@ def test_cells_of_meshio(run: Run, tmp_path: Path, name: str, options: dict[str,
     assert [float(row.split(",")[-1]) for row in rows] == pytest.approx([-0.5, 1])
 
 
-@pytest.mark.parametrize("name", ["a.msh", "a.vtu"])
+@pytest.mark.parametrize("name", ["a.msh", "a.vtu", "a.vtk", "a.mesh"])
 def test_flat_cells_are_a_surface(run: Run, tmp_path: Path, name: str) -> None:
     flat = meshio.Mesh(CUBE, [("quad", [[0, 1, 3, 2], [0, 1, 5, 4]])])
     meshio.write(tmp_path / name, flat, **({"file_format": "gmsh"} if name == "a.msh" else {}))

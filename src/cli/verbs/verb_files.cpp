@@ -236,7 +236,7 @@ void add_contour(CLI::App& program, Session& session) {
       program, session, arguments, "contour",
       "lines on a surface, or surfaces in a volume, where a field takes given values", contour);
   add_input_option(verb, "FIELD", arguments->in,
-                   "a surface with values: .ply, or .obj with texture; " +
+                   "a surface with values: .ply .vtp .vtk, or .obj with texture; " +
                        kinds_help({Kind::volume, Kind::tets}) + " with values");
   verb.add_option("--level", arguments->levels,
                   "the values, separated by commas [unit of the field; distance on a surface or in "

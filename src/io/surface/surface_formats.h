@@ -36,6 +36,9 @@ PolygonSoup read_gltf_beside(std::string_view bytes, const std::filesystem::path
 /// extensions than that and materials are UnsupportedErrors.
 PolygonSoup read_3mf(std::string_view bytes, const std::string& name);
 
+/// VTK polygon data as XML: polygons, strips, lines, normals ("Normals") and values at points.
+PolygonSoup read_vtp(std::string_view bytes, const std::string& name);
+
 /// STL, ascii or binary: told apart by the size that the triangle count asks for, not by the first
 /// word. Corners at the same position are merged; facet normals are ignored.
 PolygonSoup read_stl(std::string_view bytes, const std::string& name);

@@ -103,6 +103,10 @@ void CellMesh::add(std::size_t number, int kind, std::span<const int> c) {
   }
 }
 
+void CellMesh::add_line(std::span<const int> corners) {
+  if (corners.size() > 1) faces.lines.emplace_back(corners.begin(), corners.end());
+}
+
 void CellMesh::add_cone(std::span<const int> corners, std::span<const std::array<int, 4>> sides) {
   const int tip = *std::ranges::min_element(corners);
   for (const std::array<int, 4>& side : sides) {

@@ -37,11 +37,13 @@ struct CellMesh {
   MatX3 points{0, 3};
   std::map<std::string, VecX> scalars;
   std::vector<int> tets;  // four a tet
-  PolygonSoup faces;      // polygons alone
+  PolygonSoup faces;      // polygons, lines and normals alone
 
   /// A cell by its place in the file. Corners are in range. Throws InputError for a wrong number of
   /// corners, UnsupportedError for kinds that are not read.
   void add(std::size_t number, int kind, std::span<const int> corners);
+  /// A polyline of the surface; one of a single point is left out.
+  void add_line(std::span<const int> corners);
   /// A corner as read. Throws InputError unless a point has this number.
   int corner(std::size_t number, double vertex) const;
 

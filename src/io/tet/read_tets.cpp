@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/any_formats.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/tet/cell_mesh.h"
@@ -101,9 +102,7 @@ void skip_section(WordScanner& scan, const std::string& keyword) {
   scan.fail("unknown section " + in_quotes(keyword));
 }
 
-}  // namespace
-
-TetFile read_medit(std::string_view bytes, const std::string& name) {
+CellMesh medit_cells(std::string_view bytes, const std::string& name) {
   WordScanner scan(bytes, name);
   if (scan.word() != "MeshVersionFormatted") scan.fail("expected MeshVersionFormatted");
   scan.integer([] { return std::string("the version"); });
@@ -127,7 +126,19 @@ TetFile read_medit(std::string_view bytes, const std::string& name) {
       skip_section(scan, keyword);
     }
   }
-  return cells.as_tets();
+  return cells;
+}
+
+}  // namespace
+
+TetFile read_medit_tets(std::string_view bytes, const std::string& name) {
+  return medit_cells(bytes, name).as_tets();
+}
+PolygonSoup read_medit_surface(std::string_view bytes, const std::string& name) {
+  return medit_cells(bytes, name).as_surface();
+}
+Content read_medit(std::string_view bytes, const std::string& name, const std::string&) {
+  return medit_cells(bytes, name).as_what_it_is();
 }
 
 TetFile read_tet(std::string_view bytes, const std::string& name) {

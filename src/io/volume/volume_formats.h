@@ -19,6 +19,12 @@ Volume read_npy_volume(std::string_view bytes, const std::string& name, const st
 /// 1 where there are voxels, 0 elsewhere.
 Volume read_vol(std::string_view bytes, const std::string& name, const std::string& field);
 
+Volume read_vtk_volume(std::string_view bytes, const std::string& name, const std::string& field);
+/// Which of a file's fields is meant: the wanted one, or without one "distance" or the only one.
+/// Throws InputError "file: ..." where that is none.
+std::size_t chosen_field(const std::vector<std::string>& names, const std::string& wanted,
+                         const std::string& file);
+
 void write_vti(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 void write_nrrd(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);
 void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions& options);

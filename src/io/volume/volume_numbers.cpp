@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "io/binary.h"
 #include "io/volume/volume_formats.h"
 #include "littoral/error.h"
@@ -30,9 +31,7 @@ double half_precision(int bits) {
   const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
   double value =
       exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
-  if (exponent == 31)
-    value = mantissa == 0 ? std::numeric_limits<double>::infinity()
-                          : std::numeric_limits<double>::quiet_NaN();
+  if (exponent == 31) value = mantissa == 0 ? infinity : std::numeric_limits<double>::quiet_NaN();
   return bits >> 15 ? -value : value;
 }
 

@@ -5,7 +5,7 @@
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
-#include "io/vtk_xml.h"
+#include "io/vtk/vtk_xml.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -99,17 +99,9 @@ class VtiReader {
   }
 
   const Array& chosen() const {
-    for (const Array& array : arrays_)
-      if (!wanted_.empty() && array.name == wanted_) return array;
-    const std::string known = listed(arrays_, &Array::name);
-    if (!wanted_.empty())
-      fail("there is no field " + in_quotes(wanted_) +
-           "; it has: " + (known.empty() ? "none" : known));
-    for (const Array& array : arrays_)
-      if (array.name == "distance") return array;
-    if (arrays_.empty()) fail("there is no field with one value per node");
-    if (arrays_.size() > 1) fail("it has the fields " + known + ": choose one with option field");
-    return arrays_.front();
+    std::vector<std::string> names;
+    for (const Array& array : arrays_) names.push_back(array.name);
+    return arrays_[chosen_field(names, wanted_, xml_.name())];
   }
 
   VtkXml xml_;

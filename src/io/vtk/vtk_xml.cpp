@@ -1,4 +1,4 @@
-#include "io/vtk_xml.h"
+#include "io/vtk/vtk_xml.h"
 
 #include <algorithm>
 

@@ -74,10 +74,86 @@ TEST(IoPcd, TextAndBinaryAgree) {
   EXPECT_EQ(text.normals(0, 1), 0.5);
 }
 
+/// LZF: at each place the longest copy of what came before, or else bytes as they are.
+std::string packed_lzf(const std::string& bytes) {
+  std::string out, plain;
+  const auto flush = [&] {
+    for (std::size_t at = 0; at < plain.size(); at += 32) {
+      const std::string piece = plain.substr(at, 32);
+      out += static_cast<char>(piece.size() - 1);
+      out += piece;
+    }
+    plain.clear();
+  };
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::size_t best = 0, back = 0;
+    for (std::size_t d = 1; d <= std::min<std::size_t>(at, 8192); ++d) {
+      std::size_t n = 0;
+      while (n < 264 && at + n < bytes.size() && bytes[at + n] == bytes[at + n - d]) ++n;
+      if (n > best) best = n, back = d;
+    }
+    if (best < 3) {
+      plain += bytes[at++];
+      continue;
+    }
+    flush();
+    const std::size_t length = best - 2, far = back - 1;
+    out += static_cast<char>(std::min<std::size_t>(length, 7) << 5 | far >> 8);
+    if (length >= 7) out += static_cast<char>(length - 7);
+    out += static_cast<char>(far & 255);
+    at += best;
+  }
+  flush();
+  return out;
+}
+
+std::string with_sizes(const std::string& packed, std::size_t unpacked) {
+  std::string out;
+  for (const std::size_t size : {packed.size(), unpacked})
+    for (int k = 0; k < 4; ++k) out += static_cast<char>(size >> 8 * k & 255);
+  return out + packed;
+}
+
+TEST(IoPcd, CompressedFieldsFollowEachOther) {
+  // 200 points on a line, so that there are copies longer than 8 bytes, and single bytes.
+  const int n = 200;
+  std::string body;
+  const auto add = [&](auto value) {
+    body.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (int r = 0; r < n; ++r) add(0.1f * static_cast<float>(r));
+  for (int r = 0; r < n; ++r) add(2.0f);
+  for (int r = 0; r < n; ++r) add(static_cast<float>(r % 3));
+  body.append(2 * n, '\xff');
+  for (int k = 0; k < 3; ++k)
+    for (int r = 0; r < n; ++r) add(k == 1 ? 0.5 * r : 0.0);
+  const std::string packed = packed_lzf(body);
+  EXPECT_LT(packed.size(), body.size() / 2);
+  const std::string file = pcd("binary_compressed\n" + with_sizes(packed, body.size()), n);
+  const PolygonSoup cloud = read(file, ".pcd");
+  ASSERT_EQ(cloud.points.rows(), n);
+  for (int r = 0; r < n; ++r) {
+    EXPECT_EQ(Vec3(cloud.points.row(r)), Vec3(0.1f * static_cast<float>(r), 2, r % 3));
+    EXPECT_EQ(Vec3(cloud.normals.row(r)), Vec3(0, 0.5 * r, 0));
+  }
+  EXPECT_THAT(error_of(file.substr(0, file.size() - 1), ".pcd"), HasSubstr("the file ends within"));
+  const auto damaged = [&](const std::string& bytes) {
+    return error_of(pcd("binary_compressed\n" + with_sizes(bytes, body.size()), n), ".pcd");
+  };
+  EXPECT_THAT(damaged(packed.substr(0, packed.size() - 1)), HasSubstr("damaged"));
+  EXPECT_THAT(damaged(packed + packed), HasSubstr("damaged"));
+  EXPECT_THAT(damaged("\x20"), HasSubstr("damaged"));  // the distance is missing
+  EXPECT_THAT(damaged(std::string("\x20\x00", 2)), HasSubstr("damaged"));  // nothing came before
+  EXPECT_THAT(damaged("\x1f!"), HasSubstr("damaged"));                     // 32 bytes, there is one
+}
+
 TEST(IoPcd, SaysWhatIsWrong) {
   EXPECT_THAT(error_of(pcd("ascii\n1 2 3 9 9 0 .5 1\n", 2), ".pcd"), HasSubstr("2 points"));
   EXPECT_THAT(error_of(pcd("binary\nabc", 2000000000), ".pcd"), HasSubstr("promises"));
-  EXPECT_THAT(error_of(pcd("binary_compressed\n", 2), ".pcd"), HasSubstr("not supported"));
+  EXPECT_THAT(error_of(pcd("gzip\n", 2), ".pcd"), HasSubstr("'gzip' is not known"));
+  EXPECT_THAT(error_of(pcd("binary_compressed\n", 2), ".pcd"), HasSubstr("before the sizes"));
+  EXPECT_THAT(error_of(pcd("binary_compressed\n" + with_sizes("", 7), 2), ".pcd"),
+              HasSubstr("promise 7 bytes, the points take 76"));
   EXPECT_THAT(error_of("FIELDS x y\nPOINTS 0\nDATA ascii\n", ".pcd"), HasSubstr("no x, y and z"));
   EXPECT_THAT(error_of("FIELDS x y z\nPOINTS 0\nDATA ascii\n", ".pcd"), HasSubstr("no points"));
   EXPECT_THAT(error_of("FIELDS x y z\n", ".pcd"), HasSubstr("ends before DATA"));

@@ -1,8 +1,10 @@
 // Point Cloud Data (.pcd), the format of the Point Cloud Library.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,12 @@ struct Field {
   char type = 'F';
 };
 
+enum class PcdData { ascii, binary, compressed };
+
 struct Header {
   std::vector<Field> fields;
   std::int64_t points = -1;
-  bool binary = false;
+  PcdData data = PcdData::ascii;
   std::size_t body_line = 1;
 };
 
@@ -69,9 +73,12 @@ Header read_header(LineScanner& scan) {
       header.points = integer(std::string(scan.word()), 0, std::numeric_limits<int>::max());
     } else if (key == "DATA") {
       const std::string_view data = scan.word();
-      if (data != "ascii" && data != "binary")
-        scan.fail("DATA " + in_quotes(data) + " is not supported, only ascii and binary");
-      header.binary = data == "binary";
+      constexpr std::array<std::string_view, 3> known{"ascii", "binary", "binary_compressed"};
+      const auto found = std::ranges::find(known, data);
+      if (found == known.end())
+        scan.fail("DATA " + in_quotes(data) +
+                  " is not known; ascii, binary, binary_compressed are");
+      header.data = static_cast<PcdData>(found - known.begin());
       if (header.fields.empty()) scan.fail("no FIELDS before DATA");
       if (header.points < 0) header.points = width < 0 ? -1 : width * height;
       if (header.points < 0) scan.fail("neither POINTS nor WIDTH before DATA");
@@ -91,6 +98,52 @@ double load_field(const char* from, const Field& f, const std::string& name) {
   if (is('F', 8)) return load<double>(from, little);
   throw InputError(name + ": field " + in_quotes(f.name) + " is not of type F and size 4 or 8",
                    "bad-file");
+}
+
+/// What a packed run of bytes holds (LZF): pieces as they are, of up to 32 bytes, and copies of
+/// what came up to 8192 bytes before. Nothing where that is not `size` bytes.
+std::optional<std::string> unpack_lzf(std::string_view packed, std::size_t size) {
+  constexpr std::size_t most_per_byte = 88;  // three bytes say at most 264
+  if (size / most_per_byte > packed.size()) return std::nullopt;
+  std::string out;
+  out.reserve(size);
+  std::size_t at = 0;
+  const auto byte = [&] { return static_cast<unsigned char>(packed[at++]); };
+  while (at < packed.size()) {
+    const unsigned control = byte();
+    if (control < 32) {
+      if (control + 1 > std::min(packed.size() - at, size - out.size())) return std::nullopt;
+      out.append(packed.substr(at, control + 1));
+      at += control + 1;
+      continue;
+    }
+    std::size_t length = (control >> 5) + 2;
+    if (packed.size() - at < (length == 9 ? 2u : 1u)) return std::nullopt;
+    if (length == 9) length += byte();
+    const std::size_t back = ((control & 31u) << 8 | byte()) + 1;
+    if (back > out.size() || length > size - out.size()) return std::nullopt;
+    for (std::size_t k = 0; k < length; ++k) out.push_back(out[out.size() - back]);
+  }
+  if (out.size() != size) return std::nullopt;
+  return out;
+}
+
+/// The values of a compressed body, one field of all points after the other.
+std::string compressed_fields(std::string_view body, std::uint64_t size, const std::string& name) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(name + ": " + what, "bad-file");
+  };
+  if (body.size() < 8) fail("the file ends before the sizes of its compressed data");
+  const auto packed = load<std::uint32_t>(body.data(), std::endian::little);
+  const auto unpacked = load<std::uint32_t>(body.data() + 4, std::endian::little);
+  if (unpacked != size)
+    fail("the compressed data promise " + std::to_string(unpacked) + " bytes, the points take " +
+         std::to_string(size));
+  if (packed > body.size() - 8)
+    fail("the file ends within " + std::to_string(packed) + " bytes of compressed data");
+  const std::optional<std::string> out = unpack_lzf(body.substr(8, packed), size);
+  if (!out) fail("the compressed data are damaged");
+  return *out;
 }
 
 /// First byte after the line that starts with DATA.
@@ -125,10 +178,15 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
   if (where[0] < 0 || where[1] < 0 || where[2] < 0)
     throw InputError(name + ": FIELDS has no x, y and z", "bad-file");
   const bool normals = where[3] >= 0 && where[4] >= 0 && where[5] >= 0;
+  const auto points = static_cast<std::uint64_t>(header.points);
+  std::string unpacked;
+  if (header.data == PcdData::compressed)
+    unpacked =
+        compressed_fields(bytes.substr(body), points * static_cast<std::uint64_t>(stride), name);
   // Every value takes a byte in a binary file and two in a text.
-  const std::uint64_t needed = static_cast<std::uint64_t>(header.points) *
-                               static_cast<std::uint64_t>(header.binary ? stride : 2 * per_row - 1);
-  if (needed > bytes.size() - body + 1)
+  const bool text = header.data == PcdData::ascii;
+  const std::uint64_t needed = points * static_cast<std::uint64_t>(text ? 2 * per_row - 1 : stride);
+  if (needed > std::max(bytes.size() - body + 1, unpacked.size()))
     throw InputError(name + ": the header promises " + std::to_string(header.points) +
                          " points, the file has " + std::to_string(bytes.size()) + " bytes",
                      "bad-file");
@@ -140,12 +198,15 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
   const auto put = [&](std::int64_t r, int k, double value) {
     (k < 3 ? cloud.points(r, k) : cloud.normals(r, k - 3)) = value;
   };
-  if (header.binary) {
+  if (!text) {
     for (std::int64_t r = 0; r < header.points; ++r)
       for (int k = 0; k < n_wanted; ++k) {
         const auto i = static_cast<std::size_t>(where[static_cast<std::size_t>(k)]);
-        const char* at = bytes.data() + body + r * stride + offset[i];
-        put(r, k, load_field(at, header.fields[i], name));
+        const Field& field = header.fields[i];
+        const char* at = header.data == PcdData::binary
+                             ? bytes.data() + body + r * stride + offset[i]
+                             : unpacked.data() + header.points * offset[i] + r * field.size;
+        put(r, k, load_field(at, field, name));
       }
     return cloud;
   }

@@ -110,6 +110,7 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(error("v 1e400 0 0\n"), "a.obj:5: expected a coordinate, found '1e400'");
   EXPECT_EQ(error("v 0x1p1 0 0\n"), "a.obj:5: expected a coordinate, found '0x1p1'");
   EXPECT_EQ(error(std::string("v 1 2\0 3\n", 9)), "a.obj:5: NUL byte in a text file");
+  EXPECT_EQ(error(std::string("# \0\nv 1 x 2\n", 12)), "a.obj:6: expected a coordinate, found 'x'");
   EXPECT_EQ(error_of("", ".obj"), "a.obj: no vertices");
   EXPECT_EQ(error_of("f 1 2 3\n", ".obj"), "a.obj: no vertices");
   EXPECT_EQ(error_of("\xFF\xFEv", ".obj"),

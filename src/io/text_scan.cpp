@@ -5,6 +5,7 @@
 #include <limits>
 #include <system_error>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -46,7 +47,6 @@ std::optional<double> parse_windows_special(std::string_view word) {
   word.remove_prefix(3);
   while (word.ends_with('0')) word.remove_suffix(1);
   if (word == "INF") {
-    const double infinity = std::numeric_limits<double>::infinity();
     return negative ? -infinity : infinity;
   }
   if (word == "IND" || word == "QNAN" || word == "SNAN") {
@@ -134,11 +134,10 @@ bool LineScanner::next() {
     bool goes_on = true;
     while (goes_on) {
       std::string_view piece = physical_line();
-      if (piece.find('\0') != std::string_view::npos) {
-        fail_at(next_line_ - 1, "NUL byte in a text file");
-      }
       const std::size_t comment = find_comment(piece, comment_);
       if (comment != std::string_view::npos) piece = piece.substr(0, comment);
+      if (piece.find('\0') != std::string_view::npos)
+        fail_at(next_line_ - 1, "NUL byte in a text file");
       // A backslash inside a comment (a Windows path, say) continues nothing.
       goes_on = continuation_ && comment == std::string_view::npos && piece.ends_with('\\') &&
                 at_ < bytes_.size();

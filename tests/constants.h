@@ -1,12 +1,13 @@
 #pragma once
 // Numbers that many tests name.
 
-#include <limits>
 #include <numbers>
+
+#include "base/index.h"
 
 namespace littoral::test {
 
 inline constexpr double pi = std::numbers::pi;
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
+using littoral::infinity;
 
 }  // namespace littoral::test

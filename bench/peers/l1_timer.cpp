@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <limits>
 #include <numbers>
 #include <random>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/winding/jump_laplace.h"
@@ -21,7 +21,6 @@
 namespace {
 
 using namespace littoral;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

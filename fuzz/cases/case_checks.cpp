@@ -4,7 +4,6 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <queue>
 
@@ -13,6 +12,7 @@
 #include "api/surface/surface_domain.h"
 #include "api/surface/winding.h"
 #include "api/tet/tet_domain.h"
+#include "base/index.h"
 #include "base/task.h"
 #include "littoral/distance.h"
 #include "littoral/space.h"
@@ -21,8 +21,6 @@
 namespace littoral::fuzz {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A context whose call is stopped when it has used up its processor time or its checkpoints: a
 /// clock on the wall would blame the call for what else the machine does.

@@ -1,12 +1,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "api/space/volume_meaning.h"
 #include "api/surface/mesh_info.h"
 #include "api/surface/surface_advice.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "domain/tet/tet_locator.h"
 #include "littoral/error.h"
@@ -82,7 +82,7 @@ std::string recommendation_for(const Volume& volume) {
 std::vector<InfoEntry> info_of(const Volume& volume) {
   const Grid& grid = volume.grid;
   const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = infinity, high = -low;
   double not_finite = 0, negative = 0;
   for (const double value : volume.values) {
     if (value < 0) ++negative;
@@ -111,7 +111,7 @@ std::vector<InfoEntry> info_of(const io::TetFile& file) {
   const TetMesh& mesh = file.mesh;
   double flat = 0, inverted = 0, volume = 0, not_finite = 0;
   std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices()), 0);
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const auto& tet : mesh.tets.rowwise()) {
     Eigen::Matrix3d edges;
     for (int k = 0; k < 3; ++k)

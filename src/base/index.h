@@ -1,9 +1,13 @@
 #pragma once
-// Sizes as signed integers, for arithmetic and comparisons with them. A subscript needs neither.
+// Sizes as signed integers, for arithmetic and comparisons with them (a subscript needs neither),
+// and infinity.
 
 #include <Eigen/Core>
+#include <limits>
 
 namespace littoral {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr Eigen::Index index(auto n) { return static_cast<Eigen::Index>(n); }
 

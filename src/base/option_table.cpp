@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -21,6 +22,12 @@ std::string rounded_text(double value) {
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
   return number_text(unit >= 1 ? std::round(value / unit) * unit
                                : std::round(value / unit) / std::round(1 / unit));
+}
+
+std::string percent_text(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
+  return text;
 }
 
 std::string OptionInfo::range() const {

@@ -22,6 +22,8 @@ bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
 /// A measured value in a sentence: four digits.
 std::string rounded_text(double value);
+/// "2.5 %" of .025, two digits below a tenth.
+std::string percent_text(double share);
 /// Throws InputError unless the number is in [low, high].
 void check_option_range(const OptionInfo& info, double value);
 /// "; did you mean 'time-scale'?" where a known name is but a few letters away, otherwise nothing.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/index.h"
 
@@ -10,7 +9,6 @@ namespace littoral::cell {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr int first_inner = 12;
 constexpr double rounding = 1e-9;  // relative, of sums of squares
 
@@ -50,7 +48,7 @@ class Spanner {
     for (int length = 2; length < n; ++length) {
       for (int i = 0; i + length < n; ++i) {
         const int j = i + length;
-        best[i][j] = inf;
+        best[i][j] = infinity;
         const bool is_diagonal = length < n - 1;
         if (is_diagonal && on_common_face(node(loop, i), node(loop, j))) continue;
         const double own = is_diagonal ? squared_distance(node(loop, i), node(loop, j)) : 0;
@@ -63,7 +61,7 @@ class Spanner {
         }
       }
     }
-    if (!(best[0][n - 1] < inf)) return fan(loop);
+    if (!(best[0][n - 1] < infinity)) return fan(loop);
     const auto emit = [&](const auto& self, int i, int j) -> void {
       if (j - i < 2) return;
       const int k = middle[i][j];
@@ -88,7 +86,7 @@ class Spanner {
     const int n = loops_.size(first), m = loops_.size(second);
     const auto b = [&](int j) { return node(second, 2 * m - j % m); };
     // Shortest ribbon over all starts: step along the first loop or the second.
-    double least = inf;
+    double least = infinity;
     std::vector<std::pair<int, int>> ribbon, trial;
     for (int start = 0; start < m; ++start) {
       const double length = shortest_ribbon(first, second, start, trial);
@@ -126,14 +124,14 @@ class Spanner {
                          std::vector<std::pair<int, int>>& steps) const {
     const int n = loops_.size(first), m = loops_.size(second);
     std::array<std::array<double, 13>, 13> best;
-    for (auto& row : best) row.fill(inf);
+    for (auto& row : best) row.fill(infinity);
     const auto cost = [&](int i, int j) {
       return squared_distance(node(first, i), node(second, 2 * m - (start + j) % m));
     };
     for (int i = 0; i <= n; ++i) {
       for (int j = 0; j <= m; ++j) {
         if ((i == 0 && j > 0) || (i == n && j == 0) || (i < n && j == m)) continue;
-        double before = i + j == 0 ? 0 : inf;
+        double before = i + j == 0 ? 0 : infinity;
         if (i > 0) before = std::min(before, best[i - 1][j]);
         if (j > 0) before = std::min(before, best[i][j - 1]);
         best[i][j] = before + cost(i, j);

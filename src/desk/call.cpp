@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/index.h"
 #include "base/platform/temporary_folder.h"
 
 namespace littoral::desk {
@@ -69,8 +70,8 @@ double Call::number_of(const json& value) {
   if (value.is_number()) return value.get<double>();
   if (value.is_object() && value.contains("$number")) {
     const json& word = value["$number"];
-    if (word == "Infinity") return std::numeric_limits<double>::infinity();
-    if (word == "-Infinity") return -std::numeric_limits<double>::infinity();
+    if (word == "Infinity") return infinity;
+    if (word == "-Infinity") return -infinity;
     if (word == "NaN") return std::numeric_limits<double>::quiet_NaN();
   }
   throw InputError(std::string("expected a number, not ") + value.type_name());

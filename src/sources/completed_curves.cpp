@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
+#include "base/index.h"
 #include "contour/isolines.h"
 #include "sources/surface_points.h"
 
 namespace littoral {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool any_signed(const PlacedSources& sources) {
   return std::any_of(sources.pieces.begin(), sources.pieces.end(),

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/index.h"
 
 namespace littoral {
 
@@ -14,7 +15,7 @@ int SourceNodes::id(const SurfacePoint& p) {
   if (added) {
     points.push_back(p);
     weight.push_back(0);
-    value.push_back(std::numeric_limits<double>::infinity());
+    value.push_back(infinity);
     joined_.add();
   }
   return it->second;

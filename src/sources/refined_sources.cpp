@@ -1,8 +1,8 @@
 #include "sources/refined_sources.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "base/index.h"
 #include "sources/surface_points.h"
 #include "spatial/closest_on_triangle.h"
 
@@ -28,7 +28,7 @@ SurfacePoint refined_point(const SurfaceMesh& input, const SurfaceMesh& refined,
   for (const int v : input.face(p.element))
     size = std::max(size, (input.point(v) - x).cwiseAbs().maxCoeff());
   if (!(size > 0)) size = 1;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   SurfacePoint out;
   for (int f = first; f < last; ++f) {
     const auto c = refined.face(f);

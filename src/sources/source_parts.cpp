@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
+
+#include "base/index.h"
 
 namespace littoral {
 
@@ -45,7 +46,7 @@ std::vector<std::vector<int>> touching(const IntrinsicTriangulation& T,
                                        const std::vector<PartStart>& starts, int n_parts) {
   std::vector<std::pair<int, int>> pairs;
   const Neighbours around = along_edges(T);
-  std::vector<double> distance(T.n_vertices, std::numeric_limits<double>::infinity());
+  std::vector<double> distance(T.n_vertices, infinity);
   std::vector<int> owner(T.n_vertices, -1);
   // Ties go to the lower part: the numbers of vertices decide nothing.
   std::priority_queue<std::tuple<double, int, int>, std::vector<std::tuple<double, int, int>>,

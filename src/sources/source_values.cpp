@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <map>
 #include <queue>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 class RangeOfValues {
  public:
@@ -24,7 +23,7 @@ class RangeOfValues {
   ValueRange range() const { return range_.low <= range_.high ? range_ : ValueRange{}; }
 
  private:
-  ValueRange range_{inf, -inf};
+  ValueRange range_{infinity, -infinity};
 };
 
 /// Of a point of a triangle from its corners.
@@ -71,7 +70,7 @@ VecX reach_along_edges(const IntrinsicTriangulation& T, const TriangleSources& s
       around[a].emplace_back(b, T.length(f, k));
       around[b].emplace_back(a, T.length(f, k));
     }
-  VecX reach = VecX::Constant(T.n_vertices, inf);
+  VecX reach = VecX::Constant(T.n_vertices, infinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto offer = [&](int v, double at) {
@@ -116,7 +115,7 @@ void warn_of_shadowed(const IntrinsicTriangulation& T, const TriangleSources& so
       look(points->vertex_source[i], reach[points->vertices[i]]);
     for (std::size_t i = 0; i < points->inside.size(); ++i) {
       const auto far = from_corners(T, points->inside[i]);
-      double least = inf;
+      double least = infinity;
       for (int k = 0; k < 3; ++k)
         least = std::min(least, reach[T.faces(points->inside[i].face, k)] + far[k]);
       look(points->inside_source[i], least);

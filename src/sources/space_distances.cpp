@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
+#include "base/index.h"
 #include "operators/grid.h"
 #include "solve/direct/definite.h"
 #include "sources/surface_in_tets.h"
@@ -78,7 +78,7 @@ NearestSource::NearestSource(const PolygonSoup& triangles, const OrientedPoints&
 Vec3 NearestSource::operator()(const Vec3& x) const {
   if (triangles_) return triangles_->closest_point(x).point;
   std::array<Neighbour, discs_tried> found;
-  Vec3 best = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 best = Vec3::Constant(infinity);
   const int n = centres_->nearest(x, discs_tried, found.data());
   for (int i = 0; i < n; ++i) {
     const int p = found[i].point;
@@ -139,8 +139,8 @@ std::map<int, TetNodeDistance> distances_around(const TetMesh& mesh, const TetLo
   std::optional<NearestSource> in_tets;
   for (const int t : holding)
     for (std::size_t i = 0; i < local.size(); ++i) {
-      const auto [known, fresh] = at.try_emplace(
-          node(t, i), TetNodeDistance{t, local[i], std::numeric_limits<double>::infinity()});
+      const auto [known, fresh] =
+          at.try_emplace(node(t, i), TetNodeDistance{t, local[i], infinity});
       if (!fresh) continue;
       Vec3 x = Vec3::Zero();
       for (int k = 0; k < 4; ++k) x += local[i][k] * mesh.points.row(mesh.tets(t, k)).transpose();

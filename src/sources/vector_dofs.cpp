@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -138,13 +137,12 @@ void add_samples(const IntrinsicTriangulation& T, const Samples& samples, Source
 /// for each point whether it is in.
 std::vector<char> add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources, SourceSystem& system) {
-  constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<char> by_curve(T.n_vertices, 0);
   for (const CurvePiece& piece : sources.pieces)
     for (int k = 0; k < 3; ++k)
       if (piece.edge < 0 || piece.a[k] > 0 || piece.b[k] > 0)
         by_curve[mesh.face(piece.face)[k]] = 1;
-  system.d0 = VecX::Constant(T.n_vertices, none);
+  system.d0 = VecX::Constant(T.n_vertices, infinity);
   std::vector<char> in(sources.points.size(), 0);
   for (std::size_t i = 0; i < sources.points.size(); ++i) {
     const auto where = triangles_around(mesh, T, sources.points[i]);
@@ -165,7 +163,7 @@ std::vector<char> add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation
   }
   std::sort(system.near.begin(), system.near.end());
   system.near.erase(std::unique(system.near.begin(), system.near.end()), system.near.end());
-  system.d0 = (system.d0.array() < none).select(system.d0, 0.0);
+  system.d0 = (system.d0.array() < infinity).select(system.d0, 0.0);
   return in;
 }
 

@@ -1,15 +1,14 @@
 #include "spatial/bound_node.h"
 
 #include <cmath>
-#include <limits>
 
 #include "base/dense_decompositions.h"
+#include "base/index.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_with_disk = 2048;
 
 /// Returns the largest coordinate of a point from the centre.

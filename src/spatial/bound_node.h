@@ -2,8 +2,8 @@
 // Nodes of trees with eight children: lower bounds of the distances to what is in each of them.
 
 #include <bit>
-#include <limits>
 
+#include "base/index.h"
 #include "littoral/types.h"
 
 namespace littoral {
@@ -84,8 +84,7 @@ inline int push_children(const BoundNode& node, const double* squared, double bo
                          BoundEntry* stack, int top) {
   unsigned near = 0;
   for (int c = 0; c < bound_lanes; ++c)
-    near |= (squared[c] <= bound && squared[c] < std::numeric_limits<double>::infinity() ? 1u : 0u)
-            << c;
+    near |= (squared[c] <= bound && squared[c] < infinity ? 1u : 0u) << c;
   return push_children(node.child, squared, near, stack, top);
 }
 

@@ -1,7 +1,6 @@
 #include "spatial/cluster_tree.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "base/index.h"
@@ -32,7 +31,7 @@ ClusterTree cluster(const MatX3& centres, int leaf_size) {
   for (std::size_t at = 0; at < tree.clusters.size(); ++at) {
     const auto [begin, end, none] = tree.clusters[at];
     if (end - begin <= leaf_size) continue;
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    Vec3 low = Vec3::Constant(infinity), high = -low;
     for (int i = begin; i < end; ++i) {
       const Vec3 c = centres.row(tree.order[i]);
       low = low.cwiseMin(c);

@@ -18,8 +18,7 @@ constexpr float beyond_floats = std::numeric_limits<float>::infinity();
 
 /// The axis along which rays meet the fewest triangles.
 int clearest_axis(const std::vector<CrossingNumber::Triangle>& triangles) {
-  Vec3 shadow = Vec3::Zero(), low = Vec3::Constant(std::numeric_limits<double>::infinity()),
-       high = -low;
+  Vec3 shadow = Vec3::Zero(), low = Vec3::Constant(infinity), high = -low;
   for (const auto& [a, b, c] : triangles) {
     shadow += (b - a).cross(c - a).cwiseAbs();
     low = low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
@@ -142,7 +141,7 @@ int CrossingNumber::add_node(const ClusterTree& tree, const std::vector<Triangle
   for (std::size_t l = 0; l < members.size(); ++l) {
     const Cluster& c = tree.clusters[members[l]];
     Point low, high;
-    low.fill(std::numeric_limits<double>::infinity());
+    low.fill(infinity);
     high.fill(-low[0]);
     for (int i = c.begin; i < c.end; ++i)
       for (const Vec3& corner : triangles[i]) {

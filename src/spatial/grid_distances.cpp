@@ -15,7 +15,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double beyond_all = std::numeric_limits<double>::infinity();
 constexpr int root_side = 32;       // of the blocks that threads take, in nodes
 constexpr int leaf_nodes = 64;      // at most, of blocks whose triangles are all looked at
 constexpr int few_triangles = 12;   // are looked at without dividing the block further
@@ -221,7 +220,7 @@ class TriangleBvh::BlockSearch {
   NearNodes start(int n) {
     const int end = (n + nearest_lanes - 1) / nearest_lanes * nearest_lanes;
     for (int i = n; i < end; ++i) x_[i] = x_[0], y_[i] = y_[0], z_[i] = z_[0];
-    std::fill_n(squared_.data(), end, beyond_all);
+    std::fill_n(squared_.data(), end, infinity);
     return {x_.data(), y_.data(), z_.data(), end, squared_.data(), nearest_.data()};
   }
   void look_at(int triangle, int n, const NearNodes& nodes) {

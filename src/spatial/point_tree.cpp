@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <numeric>
 
 #include "base/index.h"
@@ -12,7 +11,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double far_away = std::numeric_limits<double>::infinity();
 using Order = std::vector<int>;  // place in the tree -> point
 
 /// Halves a range of places along its longest side, `levels` times or until it is a leaf; appends
@@ -23,7 +21,7 @@ void split(const MatX3& points, Order& order, int begin, int end, int levels, in
     cuts.push_back(end);
     return;
   }
-  Vec3 low = Vec3::Constant(far_away), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (int i = begin; i < end; ++i) {
     low = low.cwiseMin(points.row(order[i]).transpose());
     high = high.cwiseMax(points.row(order[i]).transpose());
@@ -66,7 +64,7 @@ int PointTree::build(const MatX3& points, Order& order, int begin, int end) {
         for (int i = 0; i < leaf_size; ++i) {
           leaf.point[i] = i < leaf.size ? order[from + i] : -1;
           for (int d = 0; d < 3; ++d)
-            leaf.x[d][i] = i < leaf.size ? points(leaf.point[i], d) : far_away;
+            leaf.x[d][i] = i < leaf.size ? points(leaf.point[i], d) : infinity;
         }
       } else {
         child = build(points, order, from, to);
@@ -122,7 +120,7 @@ int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
   k = std::min(k, size());
   if (k <= 0) return 0;
   int n = 0;
-  double bound = far_away;
+  double bound = infinity;
   search(q, bound, [&](const Leaf& leaf, const double* squared, unsigned near) {
     for (; near != 0; near &= near - 1) {
       const int i = std::countr_zero(near);

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/cluster_tree.h"
 #include "spatial/exact_signs.h"
@@ -117,7 +117,7 @@ bool meet(Triangle s, Triangle t) {
 }
 
 struct Bounds {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   void include(const Bounds& b) {
     low = low.cwiseMin(b.low);
     high = high.cwiseMax(b.high);

@@ -17,7 +17,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double beyond_all = std::numeric_limits<double>::infinity();
 constexpr int bins = 12;
 constexpr int deepest_by_area = 48;  // below, splits by count: depth never exceeds 48 + 31
 constexpr int stack_size = 8 * 80;
@@ -174,8 +173,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
       };
       std::array<int, bins> number{};
       std::array<Box, bins> bin;
-      const double inf = std::numeric_limits<double>::infinity();
-      bin.fill({Vec3::Constant(inf), Vec3::Constant(-inf)});
+      bin.fill({Vec3::Constant(infinity), Vec3::Constant(-infinity)});
       for (int i = job.begin; i < job.end; ++i) {
         const int b = bin_of(order[i]);
         ++number[b];
@@ -185,7 +183,7 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
       // Cost of cutting after bin b: (triangles x area) on the left plus the same on the right.
       std::array<double, bins> left_cost{};
       auto sweep = [&](bool from_left) {
-        Box sum{Vec3::Constant(inf), Vec3::Constant(-inf)};
+        Box sum{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
         int total = 0;
         std::array<double, bins> cost{};
         for (int s = 0; s < bins; ++s) {
@@ -193,14 +191,14 @@ std::vector<TriangleBvh::Split> TriangleBvh::split(const std::vector<Box>& boxes
           total += number[b];
           sum.low = sum.low.cwiseMin(bin[b].low);
           sum.high = sum.high.cwiseMax(bin[b].high);
-          cost[b] = total ? total * half_area(sum.low, sum.high) : inf;
+          cost[b] = total ? total * half_area(sum.low, sum.high) : infinity;
         }
         return cost;
       };
       left_cost = sweep(true);
       const std::array<double, bins> right_cost = sweep(false);
       int cut = -1;
-      double cheapest = inf;
+      double cheapest = infinity;
       for (int b = 0; b + 1 < bins; ++b) {
         const double cost = left_cost[b] + right_cost[b + 1];
         if (cost < cheapest) {
@@ -276,7 +274,7 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   const int shift = std::max(0, query_exponent - exponent_ - farthest_exponent);
   const Vec3 q = scaled(query, -exponent_ - shift);
 
-  double best = beyond_all;
+  double best = infinity;
   TriangleFoot best_foot;
   int best_at = -1;
   const auto look_at = [&](int i) {

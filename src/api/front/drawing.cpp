@@ -1,7 +1,6 @@
 #include "littoral/drawing.h"
 
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "api/front/prepared.h"
@@ -10,6 +9,7 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/surface/surface_domain.h"
+#include "base/index.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/render/scene_style.h"
@@ -30,7 +30,7 @@ Triangulation triangulation(const PolygonSoup& surface) {
 }
 
 bool z_is_up(const MatX3& points) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const auto& x : points.rowwise()) {
     if (!x.allFinite()) continue;
     low = low.cwiseMin(x.transpose());

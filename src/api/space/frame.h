@@ -3,8 +3,8 @@
 // computed.
 
 #include <cmath>
-#include <limits>
 
+#include "base/index.h"
 #include "littoral/types.h"
 #include "littoral/volume.h"
 #include "methods/tori/torus.h"
@@ -13,7 +13,7 @@ namespace littoral {
 
 /// The smallest axis-aligned box of some points; empty at first.
 struct Box {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 low = Vec3::Constant(infinity);
   Vec3 high = -low;
   Vec3 size() const { return high - low; }
   void add(const Vec3& p) {

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "api/space/space_input.h"
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -123,9 +123,8 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
 WindingOfInput::WindingOfInput(const PolygonSoup& input, const Orientation& orientation, Task task,
                                Report& report)
     : frame_(bounding_box(input)), flipped_(orientation.flip) {
-  const SpaceInput local =
-      make_input({input, orientation.flip, orientation.estimate_normals}, frame_,
-                 std::numeric_limits<double>::infinity(), task, report);
+  const SpaceInput local = make_input({input, orientation.flip, orientation.estimate_normals},
+                                      frame_, infinity, task, report);
   const OrientedPoints& s = local.samples;
   if (local.is_cloud()) {
     winding_ = std::make_unique<const WindingNumber>(s.points, s.normals, s.areas);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "api/space/frame.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
+#include "base/index.h"
 #include "domain/mesh/face_orientation.h"
 #include "domain/mesh/surface_mesh.h"
 #include "methods/implicit/settled_sides.h"
@@ -88,9 +88,8 @@ std::optional<int> turn_of(const MatX3& points, const Corners& widest, const Set
   const Vec3 centre =
       (points.row(widest[0]) + points.row(widest[1]) + points.row(widest[2])).transpose() / 3;
   const Vec3 step = beside * shape.height * shape.normal;
-  const double exactly = std::numeric_limits<double>::infinity();
-  const double front = sides.inside(centre + step, exactly);
-  const double behind = sides.inside(centre - step, exactly);
+  const double front = sides.inside(centre + step, infinity);
+  const double behind = sides.inside(centre - step, infinity);
   if (std::abs(front) < sure || std::abs(behind) < sure) return std::nullopt;
   return (behind > 0) - (front > 0);
 }

@@ -8,7 +8,6 @@
 #include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
-#include "methods/implicit/settled_sides.h"
 
 namespace littoral {
 

@@ -1,11 +1,11 @@
 #include "api/space/traced_scene.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "api/space/sampled_distance.h"
 #include "api/space/tori_cloud.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "io/render/volume_scene.h"
 #include "littoral/error.h"
@@ -126,7 +126,7 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
     options.tolerance = std::max(part_of_pixel * pixel, 1e-7 * size);
     const TraceHit hit = sphere_trace(*sketch, origin, direction, from, to, options);
     normal = hit.normal;
-    return hit.found ? hit.t : std::numeric_limits<double>::infinity();
+    return hit.found ? hit.t : infinity;
   };
   if (view.for_page) pack_tori(used.all.front().surface.points, tori, *trace);
   scene.trace = std::move(trace);

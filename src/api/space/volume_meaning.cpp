@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "contour/isosurface.h"
 #include "littoral/error.h"
-#include "methods/implicit/settled_sides.h"
 
 namespace littoral {
 
@@ -20,7 +19,7 @@ constexpr double more_than_within = 1.1;
 
 /// What is seen of values without knowing what they are.
 struct ValueTraits {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = infinity, high = -low;
   bool zero_and_another = true;  // no other values than 0 and one more
   double zero_slope = 0;         // median over the cells that the zero set passes
   double near_one = 0;           // share of the cells that are not flat, with a slope near 1
@@ -47,7 +46,7 @@ void look_at_values(const Volume& volume, ValueTraits& seen) {
 /// where a corner is not finite.
 std::optional<std::pair<double, bool>> cell_slope(const Volume& volume, int i, int j, int k) {
   Vec3 slope = Vec3::Zero();
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = infinity, high = -low;
   for (int c = 0; c < 8; ++c) {
     const int a[3] = {c & 1, c >> 1 & 1, c >> 2};
     const double value =

@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "domain/mesh/face_orientation.h"
 #include "sources/pieces.h"
@@ -17,8 +17,6 @@
 namespace littoral {
 
 namespace {
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 bool has_finite_corners(const PolygonSoup& soup, int f) {
   for (int v : soup.face(f))
@@ -132,7 +130,7 @@ int count_coincident_vertices(const MatX3& points) {
 
 struct FaceShapes {
   int degenerate = 0;
-  double smallest_angle = unbounded;  // degrees
+  double smallest_angle = infinity;  // degrees
   double mean_edge = 0;
 };
 
@@ -173,7 +171,7 @@ FaceShapes shapes_of(const SurfaceMesh& mesh, double diagonal) {
 std::vector<std::pair<std::string, std::vector<double>>> scalar_ranges(const PolygonSoup& soup) {
   std::vector<std::pair<std::string, std::vector<double>>> out;
   for (const auto& [name, values] : soup.scalars) {
-    double low = unbounded, high = -unbounded;
+    double low = infinity, high = -infinity;
     for (double value : values) {
       if (std::isnan(value)) continue;
       low = std::min(low, value);
@@ -217,7 +215,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
 
   std::vector<char> used(static_cast<std::size_t>(soup.n_vertices()), 0);
   for (int v : soup.corners) used[v] = 1;
-  Vec3 low = Vec3::Constant(unbounded), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   int n_bad = 0, n_used = 0;
   for (int v = 0; v < soup.n_vertices(); ++v) {
     n_used += !mesh.vertex_faces(v).empty();

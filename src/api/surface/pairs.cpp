@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <mutex>
 #include <numeric>
 
 #include "base/component_values.h"
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
@@ -17,8 +17,6 @@
 namespace littoral {
 
 namespace {
-
-constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// The faces of one component, and the vertices they use.
 std::pair<PolygonSoup, std::vector<int>> component_of(const SurfaceMesh& mesh, int component) {
@@ -81,7 +79,7 @@ bool has_triangle(const SurfaceMesh& mesh) {
 
 /// All rows, component by component (Alg. 2).
 MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Report& report) {
-  MatX D = MatX::Constant(mesh.n_vertices(), mesh.n_vertices(), unreached);
+  MatX D = MatX::Constant(mesh.n_vertices(), mesh.n_vertices(), infinity);
   D.diagonal().setZero();
   const Stopwatch watch(report, "solve");
   std::vector<std::pair<int, Report>> of_components;
@@ -199,7 +197,7 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
     const bool at_vertex = p.on == SurfacePoint::On::vertex;
     VecX values;
     if (at_vertex && mesh.n_faces() > 0 && mesh.vertex_component()[p.element] < 0)
-      values.setConstant(mesh.n_vertices(), unreached);  // in no face
+      values.setConstant(mesh.n_vertices(), infinity);  // in no face
     else
       values = solver.solve(Sources(p), stage, one).values;
     if (at_vertex) values[p.element] = 0;

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "api/surface/discretization.h"
 #include "api/surface/subdivided.h"
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "io/surface/read_directions.h"
@@ -150,7 +150,7 @@ class RegularizedTriangles {
       answer.shown =
           subdivided(mesh, *T_, options.subdivide, answer.values, [&](int triangle, const Vec3& b) {
             const double d = elements_->value(u, triangle, b);
-            return std::isfinite(d) ? std::max(0.0, d) : std::numeric_limits<double>::infinity();
+            return std::isfinite(d) ? std::max(0.0, d) : infinity;
           });
     return answer;
   }

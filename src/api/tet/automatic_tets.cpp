@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "api/tet/tet_domain.h"
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "contour/isosurface.h"
@@ -29,7 +29,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double near_source = 0.5;  // mean edges: the zero set there is the source itself
 constexpr double longer = 1 + 1e-3;  // than a surface between two vertices allows: their distances
 constexpr double contradicting = 0.01;  // share of the sign changes

@@ -1,10 +1,10 @@
 #include "api/tet/tet_boundary.h"
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "base/index.h"
 #include "contour/isosurface.h"
 #include "domain/tet/tet_locator.h"
 #include "io/formats.h"
@@ -16,8 +16,6 @@
 namespace littoral {
 
 namespace {
-
-constexpr double no_way = std::numeric_limits<double>::infinity();
 
 /// The boundary of tets on one side of a plane across an axis, in a soup that shares its points.
 class CutBoundary {
@@ -70,7 +68,7 @@ class CutBoundary {
     if (!is_new) return at->second;
     const Eigen::Vector4d a = with_value(edge.first), b = with_value(edge.second);
     Eigen::Vector4d point = (1 - t) * a + t * b;
-    if (std::isinf(a[3]) || std::isinf(b[3])) point[3] = no_way;
+    if (std::isinf(a[3]) || std::isinf(b[3])) point[3] = infinity;
     return add_point(point);
   }
 
@@ -126,7 +124,7 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
     for (int k = 0; k < 4 && p.tet >= 0; ++k) {
       const double at_corner = values[mesh.tets(p.tet, k)];
       value = std::isinf(value) || std::isinf(at_corner)
-                  ? no_way
+                  ? infinity
                   : value + p.barycentric[static_cast<std::size_t>(k)] * at_corner;
     }
     number.push_back(p.tet < 0 ? -1

@@ -1,11 +1,11 @@
 // Signed heat through tets that are given.
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "api/tet/tet_domain.h"
+#include "base/index.h"
 #include "base/lazy.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/signed_heat_tets.h"
@@ -98,7 +98,7 @@ class HeatThroughTets {
     const TetOperators& ops = *problem.ops;
     const std::vector<char> reached = problem.reached();
     Task solving = task.stage(options.sharpen ? 0.4 : 0.9, "distance");
-    VecX phi = VecX::Constant(mesh.n_vertices(), std::numeric_limits<double>::infinity());
+    VecX phi = VecX::Constant(mesh.n_vertices(), infinity);
     for (int c = 0; c < ops.n_components; ++c) {
       const Task stage = solving.stage(1.0 / ops.n_components, "distance");
       if (reached[static_cast<std::size_t>(c)] == 0) {

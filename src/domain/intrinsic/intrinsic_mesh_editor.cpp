@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/index.h"
 
@@ -55,7 +54,7 @@ int IntrinsicMeshEditor::longest_edge(int f) const {
 
 double IntrinsicMeshEditor::delaunay_sum(int e) const {
   const Edge& edge = edges[e];
-  if (edge.faces.empty()) return std::numeric_limits<double>::infinity();
+  if (edge.faces.empty()) return infinity;
   double sum = 0;
   for (int f : edge.faces) sum += shape(f).cot[(side_of(f, e) + 2) % 3];
   return sum;

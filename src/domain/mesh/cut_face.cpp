@@ -75,11 +75,11 @@ int FaceTriangulation::insert(const Vec2& x, double tolerance) {
   if ((points_[nearest] - x).norm() <= tolerance) return nearest;
   // The triangle in which the least barycentric coordinate is largest holds the point.
   int best = 0, side = 0;
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -infinity;
   points_.push_back(x);
   const int added = int_size(points_) - 1;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     int at = 0;
     for (int k = 0; k < 3; ++k) {
       const int p = triangles_[t][k], q = triangles_[t][(k + 1) % 3];

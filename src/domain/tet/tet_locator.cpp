@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+
+#include "base/index.h"
 
 namespace littoral {
 
@@ -40,7 +41,6 @@ TetLocator::TetLocator(const TetMesh& mesh) : mesh_(mesh) {
     centres.row(i) = sum;
   }
   tree_ = cluster(centres, leaf_size);
-  const double infinity = std::numeric_limits<double>::infinity();
   boxes_.assign(tree_.clusters.size(), {Vec3::Constant(infinity), Vec3::Constant(-infinity)});
   // Children stand behind their parents.
   for (std::size_t c = tree_.clusters.size(); c-- > 0;) {

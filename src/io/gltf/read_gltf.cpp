@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "io/gltf/gltf_file.h"
 #include "io/surface/most_copies.h"
@@ -174,10 +175,8 @@ class GltfReader {
                  GltfFile::text(file_.item("accessors", number), "type") == "SCALAR") {
         const VecX values = file_.numbers(number, "SCALAR").col(0);
         same_count(values.size(), key);
-        out.scalars[lower_case(key.substr(1))] = values.unaryExpr([](double x) {
-          return x >= std::numeric_limits<float>::max() ? std::numeric_limits<double>::infinity()
-                                                        : x;
-        });
+        out.scalars[lower_case(key.substr(1))] = values.unaryExpr(
+            [](double x) { return x >= std::numeric_limits<float>::max() ? infinity : x; });
       }
     }
     read_indices(primitive, where, out);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 
 namespace littoral::io {
@@ -93,7 +94,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
   Openness out = Openness::Zero(points.rows(), 4);
   out.col(3).setOnes();
   std::vector<char> used(n, 0);
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 p = points.row(triangles(t, k));

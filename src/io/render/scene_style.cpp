@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+
+#include "base/index.h"
 
 namespace littoral::io {
 
@@ -123,7 +124,7 @@ void widen(FieldStyle& style, double value) {
 
 FieldStyle empty_style() {
   FieldStyle style;
-  style.low = std::numeric_limits<double>::infinity();
+  style.low = infinity;
   style.high = -style.low;
   style.discrete = true;
   return style;
@@ -237,7 +238,7 @@ double nice_spacing(double low, double high, double count) {
   const double raw = high / count - low / count;
   if (!(count >= 1) || !(raw > std::numeric_limits<double>::min()) || !std::isfinite(raw)) return 0;
   const double magnitude = std::pow(10, std::floor(std::log10(raw)));
-  double best = 0, miss = std::numeric_limits<double>::infinity();
+  double best = 0, miss = infinity;
   for (const double step : {1.0, 2.0, 2.5, 5.0, 10.0}) {
     const double off = std::abs(std::log(step * magnitude / raw));
     if (off < miss) {

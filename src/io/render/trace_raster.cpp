@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "base/index.h"
 
 namespace littoral::io {
 
@@ -19,7 +20,7 @@ TraceRaster::Seen TraceRaster::look(double x, double y) const {
   const Vec3 to = camera_.unproject(x, y, 1) - eye;  // per unit of w
   const double length = to.norm();
   const Vec3 direction = to / length;
-  double from = 0, end = std::numeric_limits<double>::infinity();
+  double from = 0, end = infinity;
   for (int a = 0; a < 3; ++a) {
     const double one = (trace_->low[a] - eye[a]) / direction[a];
     const double two = (trace_->high[a] - eye[a]) / direction[a];

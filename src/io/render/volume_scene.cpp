@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "contour/isosurface.h"
 #include "littoral/error.h"
@@ -48,7 +48,7 @@ std::shared_ptr<SceneVolume> describe(const Volume& volume, const VolumeView& vi
     if (grid.n[a] < 2)
       throw InputError("volume: a grid needs two nodes along each axis", "option-value");
   auto known = std::make_shared<SceneVolume>();
-  known->low = std::numeric_limits<double>::infinity();
+  known->low = infinity;
   known->high = -known->low;
   for (Eigen::Index v = 0; v < volume.values.size(); ++v) {
     const double value = volume.values[v];

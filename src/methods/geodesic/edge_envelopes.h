@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
 #include "methods/geodesic/polyhedral_window.h"
 
 namespace littoral {
 
 /// The windows of an edge.
 struct WindowList {
-  std::vector<Window> windows;                           // from tail to head, do not overlap
-  double due = std::numeric_limits<double>::infinity();  // when the open ones are to go on
-  bool none_open = false;  // all have gone on, whatever they say themselves
+  std::vector<Window> windows;  // from tail to head, do not overlap
+  double due = infinity;        // when the open ones are to go on
+  bool none_open = false;       // all have gone on, whatever they say themselves
 };
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
@@ -52,7 +53,7 @@ class EdgeEnvelopes {
 
   /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is.
   double take(WindowList& list, std::vector<Window>&& batch, double length) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     if (batch.empty()) return least;
     close(list);
     std::vector<Window>& all = list.windows;
@@ -95,7 +96,7 @@ class EdgeEnvelopes {
   }
 
   static double least_open(const WindowList& list) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     if (list.none_open) return least;
     for (const Window& w : list.windows)
       if (w.open) least = std::min(least, w.least());
@@ -302,7 +303,7 @@ class EdgeEnvelopes {
 
   /// Puts the pieces in the place of the windows they were cut from.
   double replace(std::vector<Window>& all, Range range, const Window& w, double narrow) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     bool taken = false;
     for (const Piece& p : pieces_) taken |= p.old < 0 && p.b1 - p.b0 > narrow;
     if (!taken) return least;

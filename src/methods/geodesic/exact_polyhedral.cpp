@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <sstream>
 #include <utility>
 
+#include "base/index.h"
 #include "base/thread_crew.h"
 #include "methods/geodesic/ray_crossing.h"
 #include "methods/heat/finalize.h"
@@ -16,7 +16,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 /// How many triangles paths run straight through after each time the limit on windows is met.
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
 constexpr double most_held = 3e7;  // windows, 2 GB
@@ -93,7 +92,7 @@ class Front {
   bool offer(const RayCrossing::Offer& better) {
     const auto& [v, distance, source, arrival] = better;
     if (!(distance < search_.distance[v])) return false;
-    if (search_.distance[v] == inf) ++n_reached_;
+    if (search_.distance[v] == infinity) ++n_reached_;
     search_.distance[v] = distance;
     search_.nearest[v] = source;
     search_.arrival[v] = arrival;
@@ -104,7 +103,7 @@ class Front {
   /// the rest by much. The number of windows.
   double collect() {
     together_.clear();
-    double load = 0, until = inf;
+    double load = 0, until = infinity;
     while (!queue_.empty() && queue_.front().key <= until && load < most_together) {
       const auto [key, id] = queue_.front();
       std::pop_heap(queue_.begin(), queue_.end());
@@ -114,7 +113,7 @@ class Front {
         for (const int side : search_.pages.around(-1 - id))
           until = std::min(until, key + together_share * wait_of(T_.side_edge(side / 3, side % 3)));
       } else {
-        search_.lists[id].due = inf;
+        search_.lists[id].due = infinity;
         load += double(search_.lists[id].windows.size());
         until = std::min(until, key + together_share * wait_of(id));
       }
@@ -165,7 +164,7 @@ class Front {
     for (std::size_t part = 0; part < parts; ++part)
       for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {
         const RayCrossing::Batch& batch = crew_[part]->batch(i);
-        if (batch.least < inf && search_.lists[batch.edge].due == inf)
+        if (batch.least < infinity && search_.lists[batch.edge].due == infinity)
           wait(batch.edge, batch.least);
       }
   }
@@ -186,7 +185,7 @@ class Front {
       const int id = gone_on_.front();
       gone_on_.pop_front();
       WindowList& list = search_.lists[id];
-      if (list.windows.empty() || list.due < inf) continue;  // it will go on again
+      if (list.windows.empty() || list.due < infinity) continue;  // it will go on again
       const PolyhedralPages::Edge& edge = search_.pages.edges[id];
       const double ends = search_.distance[edge.tail] + search_.distance[edge.head];
       if (0.5 * (ends + edge.length) < now)
@@ -203,11 +202,11 @@ class Front {
     budget_ += most_windows_;
     std::fill(search_.pages.bends.begin(), search_.pages.bends.end(), PolyhedralPages::anywhere);
     for (int v = 0; v < T_.n_vertices; ++v)
-      if (search_.distance[v] < inf) push({search_.distance[v], -1 - v});
+      if (search_.distance[v] < infinity) push({search_.distance[v], -1 - v});
   }
   /// What is nearer has its shortest path.
   double least_open() const {
-    double least = inf;
+    double least = infinity;
     for (const auto [key, id] : queue_) {
       if (id >= 0)
         least = std::min(least, EdgeEnvelopes::least_open(search_.lists[id]));
@@ -222,7 +221,7 @@ class Front {
   const double most_windows_;
   double budget_ = most_windows_;
   std::size_t relaxed_ = 0;  // times the limit was met
-  double exact_within_ = inf;
+  double exact_within_ = infinity;
   std::vector<Entry> queue_;   // a heap
   std::vector<int> together_;  // `Entry::id` of what goes on now
   std::deque<int> gone_on_;    // edges, nearly in order
@@ -242,7 +241,7 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
   front.run(starts, task);
   report.iterations.emplace_back("windows", front.windows());
   const double exact_within = (front.exact_within() + least) * T.unit;
-  if (exact_within < inf) {
+  if (exact_within < infinity) {
     std::ostringstream text;
     text
         << "exact distance met its limit of " << most_windows << " windows: values up to "

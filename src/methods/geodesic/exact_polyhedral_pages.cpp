@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "base/index.h"
 
 namespace littoral {
 
@@ -49,8 +50,8 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
 
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     : edges(T.n_edges()), bends(T.n_vertices, never), corner_offsets(T.n_vertices + 1, 0) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < T.n_edges(); ++e) edges[e] = {inf, inf, T.edges(e, 0), T.edges(e, 1), 0, 0};
+  for (int e = 0; e < T.n_edges(); ++e)
+    edges[e] = {infinity, infinity, T.edges(e, 0), T.edges(e, 1), 0, 0};
   const std::vector<char> is_first = first_of_its_edges(T);
   for (int f = 0; f < T.n_faces(); ++f)
     for (int k = 0; k < 3; ++k) {

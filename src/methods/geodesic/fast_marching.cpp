@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <span>
 #include <string>
@@ -14,8 +13,6 @@
 namespace littoral {
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
@@ -111,16 +108,16 @@ double arrival(const Stencil& s, double ta, double tb) {
   const double a = sum_a + sum_b, half_b = sum_a * ta + sum_b * tb;
   const double c = s.bb * ta * ta - 2 * s.ab * ta * tb + s.aa * tb * tb - det;
   const double discriminant = half_b * half_b - a * c;
-  if (!(discriminant >= 0) || !(a > 0)) return inf;
+  if (!(discriminant >= 0) || !(a > 0)) return infinity;
   const double p = (half_b + std::sqrt(discriminant)) / a;
   const double qa = s.bb * (p - ta) - s.ab * (p - tb), qb = s.aa * (p - tb) - s.ab * (p - ta);
-  return qa >= 0 && qb >= 0 ? p : inf;
+  return qa >= 0 && qb >= 0 ? p : infinity;
 }
 
 class Front {
  public:
   Front(const IntrinsicTriangulation& T, const TriangleSources& sources)
-      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, inf)) {
+      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);

@@ -5,11 +5,12 @@
 #include <numbers>
 #include <utility>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
 
 constexpr double bend_slack = 1e-6;  // of a bend of half a turn; costs 1e-12 of a path
@@ -32,10 +33,10 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
     : T(triangulation),
       pages(T),
       lists(T.n_edges()),
-      distance(VecX::Constant(T.n_vertices, inf)),
+      distance(VecX::Constant(T.n_vertices, infinity)),
       nearest(VecXi::Constant(T.n_vertices, -1)),
       arrival(T.n_vertices),
-      winner(3 * std::size_t(T.n_faces()), {inf, 0}) {}
+      winner(3 * std::size_t(T.n_faces()), {infinity, 0}) {}
 
 void RayCrossing::clear() {
   offers_.clear();

@@ -1,12 +1,12 @@
 #include "methods/geodesic/tet_paths.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <queue>
 #include <set>
 #include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "methods/geodesic/tet_paths_taut.h"
 #include "spatial/closest_on_triangle.h"
@@ -16,7 +16,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
 constexpr std::size_t ways_kept = 2;  // at a vertex, for its neighbours to try
 constexpr double better = 1 - 1e-12;
 
@@ -51,7 +50,7 @@ class Bending {
         tried_(mesh.n_vertices()),
         fixed_(mesh.n_vertices(), 0) {
     for (int v = 0; v < mesh.n_vertices(); ++v) {
-      if (!(seen[v].length() < never)) continue;
+      if (!(seen[v].length() < infinity)) continue;
       fixed_[v] = 1;
       ways_[v].push_back(std::move(seen[v]));
     }
@@ -96,10 +95,10 @@ class Bending {
     return out;
   }
 
-  double best(int w) const { return ways_[w].empty() ? never : ways_[w].front().length(); }
+  double best(int w) const { return ways_[w].empty() ? infinity : ways_[w].front().length(); }
   /// Longer ways are not worth a look.
   double bound(int w) const {
-    return ways_[w].size() < ways_kept ? never : ways_[w].back().length();
+    return ways_[w].size() < ways_kept ? infinity : ways_[w].back().length();
   }
 
   /// From v on to its neighbour w.
@@ -163,7 +162,7 @@ TetPathResult tet_paths(const TetMesh& mesh, const TetSight& sight,
   std::map<int, TriangleBvh> nearest;
   for (const auto& [c, faces] : faces_of)
     nearest.try_emplace(c, sources.points, MatX3i(sources.faces(faces, Eigen::all)));
-  std::vector<Way> seen(n, Way{1, {-1, -1, Vec3::Zero(), {}, never}});
+  std::vector<Way> seen(n, Way{1, {-1, -1, Vec3::Zero(), {}, infinity}});
   const auto source_vertex = [&](int face) {
     const auto f = sources.faces.row(face);
     return sources.of_mesh && f[0] == f[1] && f[0] == f[2] ? f[0] : -1;
@@ -190,7 +189,7 @@ TetPathResult tet_paths(const TetMesh& mesh, const TetSight& sight,
   for (std::size_t f = 0; f < sources.component.size(); ++f)
     if (const int v = source_vertex(static_cast<int>(f)); v >= 0 && sources.component[f] >= 0)
       seen[v] = {1, {static_cast<int>(f), v, mesh.points.row(v), {}, 0}};
-  TetPathResult out{VecX::Constant(n, never), VecX::Ones(n), 0};
+  TetPathResult out{VecX::Constant(n, infinity), VecX::Ones(n), 0};
   const auto put = [&](int v, const Way& way) {
     out.distance[v] = way.length();
     out.side[v] = way.side;
@@ -198,8 +197,8 @@ TetPathResult tet_paths(const TetMesh& mesh, const TetSight& sight,
   bool complete = true;
   for (int v = 0; v < n; ++v) {
     put(v, seen[v]);
-    complete = complete &&
-               (seen[v].length() < never || component[v] < 0 || faces_of.count(component[v]) == 0);
+    complete = complete && (seen[v].length() < infinity || component[v] < 0 ||
+                            faces_of.count(component[v]) == 0);
   }
   if (complete) return out;
   const SourceFoot foot = [&](int face, const Vec3& x, bool of_all) -> std::pair<int, Vec3> {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/index.h"
@@ -11,7 +10,7 @@
 namespace littoral {
 
 CellField no_field(Eigen::Index cells) {
-  return {VecX::Zero(2 * cells), VecX::Constant(cells, -std::numeric_limits<double>::infinity())};
+  return {VecX::Zero(2 * cells), VecX::Constant(cells, -infinity)};
 }
 
 CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {

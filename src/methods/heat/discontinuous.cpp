@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "base/disjoint_sets.h"
@@ -152,8 +151,7 @@ void flow(const JumpCalculus& J, DiscontinuousField& field, int n, const HeldSou
 }  // namespace
 
 VecX edge_curl(const JumpCalculus& J, const VecX& Y) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  VecX least = VecX::Constant(J.n_edges, none), largest = VecX::Constant(J.n_edges, -none);
+  VecX least = VecX::Constant(J.n_edges, infinity), largest = VecX::Constant(J.n_edges, -infinity);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {
       const int e = J.edge(f, k);
@@ -161,7 +159,7 @@ VecX edge_curl(const JumpCalculus& J, const VecX& Y) {
       least[e] = std::min(least[e], along);
       largest[e] = std::max(largest[e], along);
     }
-  return (least.array() < none).select(largest - least, 0.0);
+  return (least.array() < infinity).select(largest - least, 0.0);
 }
 
 DiscontinuousField integrate_discontinuous(const JumpCalculus& J, const MatX3i& vertex,

@@ -1,8 +1,9 @@
 #include "methods/heat/finalize.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
+
+#include "base/index.h"
 
 namespace littoral {
 
@@ -33,7 +34,7 @@ void set_unreached(VecX& phi, const std::vector<int>& component, const std::vect
                    Report& report) {
   for (Eigen::Index i = 0; i < phi.size(); ++i) {
     const int c = component[i];
-    if (c < 0 || !reached[c]) phi[i] = std::numeric_limits<double>::infinity();
+    if (c < 0 || !reached[c]) phi[i] = infinity;
   }
   for (std::size_t c = 0; c < reached.size(); ++c)
     if (!reached[c]) report.unreachable_components.push_back(c);

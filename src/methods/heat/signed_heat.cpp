@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/heat/finalize.h"
@@ -216,7 +216,7 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
   std::vector<char> node_reached(phi.size(), 0);
   for (const Pinch& pinch : V.pinches)
     if (reached[pinch.piece]) node_reached[pinch.node] = 1;
-  std::vector<double> nearest(V.n_pieces, std::numeric_limits<double>::infinity());
+  std::vector<double> nearest(V.n_pieces, infinity);
   for (const Pinch& pinch : V.pinches)
     if (!reached[pinch.piece] && node_reached[pinch.node])
       nearest[pinch.piece] = std::min(nearest[pinch.piece], std::abs(phi[pinch.node]));

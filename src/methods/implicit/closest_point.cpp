@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "methods/implicit/grid_signs.h"
 #include "spatial/point_tree.h"
@@ -57,8 +57,7 @@ class ToTriangles : public PointwiseDistance {
     Task stages = task;
     VecX values = bvh_->distances(grid, stages.stage(0.7, "distance"));
     set_signs(
-        grid, std::numeric_limits<double>::infinity(),
-        [&](const Vec3& x) { return (*winding_)(x, sign_accuracy) > 0.5; },
+        grid, infinity, [&](const Vec3& x) { return (*winding_)(x, sign_accuracy) > 0.5; },
         stages.stage(0.3, "sign"), values);
     return values;
   }

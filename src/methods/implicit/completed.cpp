@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/implicit/grid_signs.h"

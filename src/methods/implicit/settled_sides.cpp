@@ -1,10 +1,10 @@
 #include "methods/implicit/settled_sides.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "methods/implicit/orient_soup.h"
 #include "spatial/boundary_edges.h"
@@ -64,12 +64,6 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
 }
 
 }  // namespace
-
-std::string percent_text(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
-  return text;
-}
 
 SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_given,
                            const Task& task, Report& report) {

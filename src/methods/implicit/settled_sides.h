@@ -2,7 +2,6 @@
 // Which side of a surface in space is inside, as far as its faces tell.
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "base/task.h"
@@ -30,8 +29,5 @@ struct SettledSides {
 /// as_given: inside is behind the normals even where the surface encloses the other side.
 SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_given,
                            const Task& task, Report& report);
-
-/// "2.5 %", two digits below a tenth.
-std::string percent_text(double share);
 
 }  // namespace littoral

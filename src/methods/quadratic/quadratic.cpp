@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "base/component_values.h"
@@ -55,7 +54,7 @@ const OptionTable<TetQuadratic>& tet_quadratic_options() {
 template <int D>
 double QuadraticField<D>::distance(int element, const typename P2Shape<D>::Point& b) const {
   const auto local = elements->gather(u, element);
-  if (!local.allFinite()) return std::numeric_limits<double>::infinity();
+  if (!local.allFinite()) return infinity;
   const double length = unit[elements->component[elements->node[element][0]]];
   return length * std::sqrt(std::max(0.0, P2Shape<D>::values(b).dot(local)));
 }
@@ -106,7 +105,7 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   const P2Elements<D>& E = *elements_;
   QuadraticField<D> field;
   field.elements = elements_;
-  field.u = VecX::Constant(E.n_nodes(), std::numeric_limits<double>::infinity());
+  field.u = VecX::Constant(E.n_nodes(), infinity);
   if (E.mollified > 0)
     report.warn("degenerate-faces",
                 std::to_string(E.mollified) +

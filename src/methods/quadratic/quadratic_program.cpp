@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include "base/index.h"
@@ -11,8 +10,6 @@
 namespace littoral {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Squared length of a vector given by differences of barycentrics, from the edge lengths.
 template <int D>

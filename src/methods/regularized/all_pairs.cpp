@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/index.h"
 #include "base/parallel.h"
@@ -89,7 +88,7 @@ class AllPairs {
   }
 
   MatX run(Report& report) {
-    double worst = std::numeric_limits<double>::infinity();
+    double worst = infinity;
     // Needles can leave round-off above the tolerance, which no number of iterations gets below.
     constexpr int least_iterations = 10'000;
     double least = worst;
@@ -367,8 +366,8 @@ MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task,
   U *= ops.unit;
   for (Eigen::Index i = 0; i < U.rows(); ++i)
     if (C.component[i] < 0) {
-      U.row(i).setConstant(std::numeric_limits<double>::infinity());
-      U.col(i).setConstant(std::numeric_limits<double>::infinity());
+      U.row(i).setConstant(infinity);
+      U.col(i).setConstant(infinity);
       U(i, i) = 0;
     }
   return U;

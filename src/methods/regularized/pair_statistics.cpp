@@ -2,7 +2,6 @@
 // 11 and 12, table 3).
 
 #include <cmath>
-#include <limits>
 
 #include "base/index.h"
 #include "base/parallel.h"
@@ -20,7 +19,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double a = D(i, j), b = D(j, i);
       const bool finite = std::isfinite(a) && std::isfinite(b);
-      S(i, j) = finite ? 0.5 * (a + b) : std::numeric_limits<double>::infinity();
+      S(i, j) = finite ? 0.5 * (a + b) : infinity;
       if (!finite || i == j) continue;
       out.largest_asymmetry = std::max(out.largest_asymmetry, std::abs(a - b) / root);
       sum += std::abs(a - b) / root;
@@ -43,7 +42,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
         const double d = S(i, j);
         if (!std::isfinite(d)) continue;
         int violated = 0, reached = -2;  // k = i and k = j do not count
-        double least = std::numeric_limits<double>::infinity();
+        double least = infinity;
         const double* a = S.col(i).data();
         const double* b = S.col(j).data();
         for (Eigen::Index k = 0; k < n; ++k) {

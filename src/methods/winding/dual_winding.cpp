@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "solve/network/l1_integration.h"
 #include "solve/poisson/poisson.h"
@@ -148,7 +148,7 @@ void take_out_nonbounding(const JumpCalculus& D, const VecX& gamma, const Surfac
   problem.n = D.n_faces;
   problem.c = gamma;
   problem.w.resize(m);
-  problem.lo = VecX::Constant(m, -std::numeric_limits<double>::infinity());
+  problem.lo = VecX::Constant(m, -infinity);
   problem.hi = -problem.lo;
   for (Eigen::Index a = 0; a < m; ++a) {
     const DualEdge& e = edges[a];

@@ -1,10 +1,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 
+#include "base/index.h"
 #include "methods/winding/residual.h"
 
 namespace littoral {
@@ -74,8 +74,6 @@ class Search {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   void reach(int i, double d, int via, Front& front) {
     if (distance_[i] == infinity) touched_.push_back(i);
     distance_[i] = d;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "methods/winding/residual.h"
 
@@ -132,7 +133,7 @@ void WindingSolver::decompose(WindingNumbers& result, const SurfaceWinding& opti
   // Step 3: v with the shortest jumps, least of all on the curve, and there at most those of u.
   const Stopwatch watch(report, "residual function");
   VecX weight = J.length;
-  VecX lo = VecX::Constant(J.n_edges, -std::numeric_limits<double>::infinity()), hi = -lo;
+  VecX lo = VecX::Constant(J.n_edges, -infinity), hi = -lo;
   for (int e = 0; e < J.n_edges; ++e) {
     if (result.curve[e] == 0) continue;
     weight[e] *= options.curve_weight;

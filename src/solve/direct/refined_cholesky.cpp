@@ -1,6 +1,6 @@
-#include <limits>
 #include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 
@@ -26,7 +26,7 @@ bool RefinedCholesky::factor(SpMat lower, const std::shared_ptr<const Eliminatio
 
 VecX RefinedCholesky::solve(const VecX& rhs, double allowed, const Task& task) const {
   VecX x = factor_->solve(rhs);
-  double last = std::numeric_limits<double>::infinity();
+  double last = infinity;
   for (int k = 0; k < 5; ++k) {
     task.checkpoint();
     const VecX residual = rhs - lower_.selfadjointView<Eigen::Lower>() * x;

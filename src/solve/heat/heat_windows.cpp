@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -21,7 +20,6 @@ constexpr double longest_overlap = 120;
 constexpr double around_prescribed =
     18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The same with several layers made one where the range of numbers allows it.
 template <class Scalar>
 ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "solve/direct/cholesky.h"
 #include "solve/optimization/paraboloid_rows.h"
@@ -14,7 +14,6 @@ namespace littoral {
 namespace {
 using namespace paraboloid;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t elements_at_once = 256;  // elements per piece of a parallel loop
 
 /// One run of the interior-point method.

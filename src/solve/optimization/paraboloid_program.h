@@ -7,10 +7,10 @@
 // each row touching only the unknowns of one element e. Solved by an interior-point method.
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include "base/index.h"
 #include "base/task.h"
 #include "littoral/report.h"
 #include "littoral/types.h"
@@ -65,7 +65,7 @@ struct ParaboloidResult {
   int iterations = 0;
   double objective = 0;  // c^T x
   // s^T z / objective: a bound of what is missing where both residuals are 0.
-  double gap = std::numeric_limits<double>::infinity();
+  double gap = infinity;
   double primal_residual = gap;  // largest |s - g(x)|, relative to tau
   double dual_residual = gap;    // |r^T x| / objective, r what the dual constraints lack
   std::size_t samples = 0;       // in the end, with those that were inserted

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/index.h"
@@ -62,12 +61,12 @@ struct RowAt {
 /// The largest step that keeps a slack s >= 0 on its way s + t b - t^2 bend, bend >= 0.
 inline double step_to_zero(double s, double b, double bend) {
   const double down = std::sqrt(b * b + 4 * bend * s) - b;
-  return down > 0 ? 2 * s / down : std::numeric_limits<double>::infinity();
+  return down > 0 ? 2 * s / down : infinity;
 }
 
 /// How far a direction may be followed, and what becomes of s^T z.
 struct Steps {
-  double to_primal = std::numeric_limits<double>::infinity(), to_dual = to_primal;
+  double to_primal = infinity, to_dual = to_primal;
   double s_dz = 0, ds_z = 0, ds_dz = 0;
 
   // What is taken: not all of the way to the boundary.

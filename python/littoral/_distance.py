@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
+from ._tets import TetDistanceSolver, TetField, TetMesh, tet_distance
 
 
 class Field(Reported, Shown):
@@ -121,10 +122,11 @@ def _field_from(mesh: Surface, state: tuple[Any, ...]) -> Field:
 class DistanceSolver:
     """A method prepared for one surface: what does not depend on the sources is computed once.
 
-    mesh: a littoral surface, or what `as_surface` takes (pyvista, trimesh, open3d, meshio, (V, F)).
-    method: a name of `littoral.methods()`, None for the library's choice; options as keywords. May
-    be used from several threads at once. Raises InputError for an unknown method or option, naming
-    the nearest known one, and UnsupportedError for a method that does not run on such a surface.
+    mesh: a littoral surface, or what `as_surface` takes (pyvista, trimesh, open3d, meshio, (V, F));
+    of a `TetMesh` a `TetDistanceSolver` is made. method: a name of `littoral.methods()`, None for
+    the library's choice; options as keywords. May be used from several threads at once. Raises
+    InputError for an unknown method or option, naming the nearest known one, and UnsupportedError
+    for a method that does not run on such a surface.
 
     >>> import littoral
     >>> solver = DistanceSolver(littoral.examples.square(8), method="signed-heat", time_scale=1)
@@ -132,6 +134,11 @@ class DistanceSolver:
     >>> bool(near < far)
     True
     """
+
+    def __new__(cls, mesh: Any, method: str | None = None, **keywords: Any) -> Any:
+        if isinstance(mesh, TetMesh):
+            return TetDistanceSolver(mesh, method, **keywords)
+        return super().__new__(cls)
 
     def __init__(
         self,
@@ -179,6 +186,33 @@ def _solver_from(mesh: Surface, method: str | None, options: dict[str, Any]) -> 
     return DistanceSolver(mesh, method, **options)
 
 
+def _through_tets(
+    mesh: TetMesh, curves: Any, points: Any, signed: Any, values: Any, **keywords: Any
+) -> TetField:
+    """`tet_distance` with the arguments of `distance`: what stands second is the surface."""
+    if signed is not None or values is not None:
+        name = "values" if signed is None else "signed"
+        raise UnsupportedError(
+            f"{name}: distance through tets counts from 0, signed from surfaces and clouds and "
+            "unsigned from vertices; leave it out"
+        )
+    if curves is not None:
+        if isinstance(curves, (list, np.ndarray)):
+            raise InputError(
+                "curves: distance through tets is from a surface, from vertices (points=) or from "
+                "the boundary (boundary=True)"
+            )
+        if "surface" in keywords:
+            raise TypeError("surface: given twice, by position and by name")
+        keywords["surface"] = curves
+    if points is not None:
+        if "vertices" in keywords:
+            raise TypeError("points and vertices: give one of them; here they mean the same")
+        keywords["vertices"] = points
+    field: TetField = tet_distance(mesh, **keywords)
+    return field
+
+
 @takes_kind
 def distance(
     mesh: Any,
@@ -202,13 +236,18 @@ def distance(
     as_: "pyvista", "trimesh" or "meshio" for the surface as that library's object, with
     "distance" at its vertices, instead of a `Field`; InputError for another name.
     Raises what `DistanceSolver` does, InputError without a source, IndexOutOfRange for one that is
-    not there. `littoral.methods()` names each method's paper.
+    not there. `littoral.methods()` names each method's paper. On a `TetMesh` it is `tet_distance`:
+    the second argument is a surface, `points` are vertices and the result is a `TetField`.
 
     >>> import littoral
     >>> field = littoral.distance(littoral.examples.square(4), curves=[2, 7, 12, 17, 22])
     >>> field.values[:5].tolist()
     [0.5, 0.25, 0.0, -0.25, -0.5]
     """
+    if isinstance(mesh, TetMesh):
+        options.update(method=method, threads=threads, progress=progress)
+        of_tets: Any = _through_tets(mesh, curves, points, signed, values, **options)
+        return cast(Field, of_tets)
     surface = as_surface(mesh)
     sources = make_sources(surface, curves, points, signed, values)
     core = _core.distance(
@@ -230,13 +269,17 @@ def distance_matrix(
     """Distances between points of a surface: sources x targets, or x vertices without targets.
 
     Both are vertices, (element, [barycentric]) pairs or `SurfacePoint`s; one solve for each source
-    on shared factors. +inf between components [length]. Raises IndexOutOfRange for points that are
-    not there, UnsupportedError and InputError as `DistanceSolver`.
+    on shared factors. +inf between components [length]. On a `TetMesh` both are vertices. Raises
+    IndexOutOfRange for points that are not there, UnsupportedError and InputError as
+    `DistanceSolver`.
 
     >>> import littoral
     >>> littoral.distance_matrix(littoral.examples.square(4), [0, 4], [4, 20]).round(6).tolist()
     [[1.0, 1.0], [0.0, 1.414214]]
     """
+    if isinstance(mesh, TetMesh):
+        solver = TetDistanceSolver(mesh, method, threads=threads, progress=progress, **options)
+        return solver._matrix(sources, targets, threads, progress)
     surface = as_surface(mesh)
     values, _ = _core.distance_matrix(
         surface._handle,
@@ -294,5 +337,5 @@ def offset_curves(
     >>> line[:, 0].round(6).tolist()[0]
     0.4
     """
-    field: Field = distance(mesh, curves, signed=signed, method=method, **options)
+    field: Field = distance(as_surface(mesh), curves, signed=signed, method=method, **options)
     return field.isolines(distances)

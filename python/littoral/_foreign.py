@@ -125,6 +125,11 @@ def as_surface(value: Any) -> Surface:
         if len(value) != 1:
             raise InputError(f"mesh: expected a batch of one mesh, got {len(value)}")
         return Mesh(value.verts_packed(), value.faces_packed())
+    if hasattr(value, "tets"):
+        raise TypeError(
+            f"mesh: a {type(value).__name__} is no surface; littoral.tet_distance and "
+            "TetDistanceSolver measure through it, and their results show() and plot() cuts"
+        )
     raise TypeError(
         "mesh: expected a littoral surface, a pair (V, F) or a mesh of pyvista, trimesh, open3d or "
         f"meshio, got {type(value).__module__}.{type(value).__name__}"
@@ -134,7 +139,7 @@ def as_surface(value: Any) -> Surface:
 def as_cloud_or_surface(V: Any, F: Any = None) -> Surface:
     """V, F: a surface where F holds integers, a cloud with normals where it holds real numbers."""
     if F is None:
-        if isinstance(V, (Surface, tuple)) or _library(V):
+        if isinstance(V, (Surface, tuple)) or _library(V) or hasattr(V, "tets"):
             return as_surface(V)
         return PointCloud(V)
     second = as_array(F, "F")

@@ -73,6 +73,21 @@ class TetMesh:
         """Tets."""
         return len(self.tets)
 
+    def _vertices(self, chosen: Any, name: str) -> Ints:
+        """Vertices by number, checked; none for None."""
+        if chosen is None:
+            return np.empty(0, np.int32)
+        try:
+            array = np.atleast_1d(as_array(chosen, name))
+        except InputError:
+            raise TypeError(f"{name}: expected vertices of the tets, got {chosen!r}") from None
+        if array.dtype.kind not in "iu" and array.size:
+            raise TypeError(
+                f"{name}: expected vertices of the tets, as integers, got {array.dtype}"
+            )
+        check_range(array, self.n_vertices, name, "vertices")
+        return narrowed(array.ravel().astype(np.int64), name)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return TetMesh, (like(np.array(self.points), self._dtype), np.array(self.tets))
 
@@ -203,27 +218,37 @@ class TetDistanceSolver:
         boundary: bool = False,
         flip: bool = False,
         estimate_normals: bool = False,
+        points: Any = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> TetField:
         """Distance from a surface or cloud (signed), from vertices, or from the boundary.
 
-        flip reverses the normals; estimate_normals makes those of a cloud. as_: "pyvista" or
-        "meshio" for the tets as that library's object, with "distance". Raises InputError where
-        no source lies in a tet, IndexOutOfRange.
+        points: `vertices` by the name that `DistanceSolver` has for them. flip reverses the
+        normals; estimate_normals makes those of a cloud. as_: "pyvista" or "meshio" for the tets as
+        that library's object, with "distance". Raises InputError where no source lies in a tet,
+        IndexOutOfRange.
         """
-        given: Ints = np.empty(0, np.int32)
-        if vertices is not None:
-            array = np.atleast_1d(as_array(vertices, "vertices"))
-            if array.dtype.kind not in "iu" and array.size:
-                raise TypeError(f"vertices: expected integers, got {array.dtype}")
-            check_range(array, self.mesh.n_vertices, "vertices", "vertices")
-            given = narrowed(array.ravel().astype(np.int64), "vertices")
+        if points is not None and vertices is not None:
+            raise TypeError("points and vertices: give one of them; here they mean the same")
+        given = self.mesh._vertices(points if vertices is None else vertices, "vertices")
         shape = None if surface is None else as_cloud_or_surface(surface)._handle
         sources = _core.TetSources(
             shape, given.tolist(), bool(boundary), bool(flip), bool(estimate_normals)
         )
         return TetField(self._handle.solve(sources, settings(threads, progress)), self.mesh)
+
+    def _matrix(
+        self, sources: Any, targets: Any, threads: int | None, progress: Progress | None
+    ) -> Array:
+        """sources x targets, or x vertices: one solve for each source [length]."""
+        rows = self.mesh._vertices(sources, "sources")
+        chosen = range(self.mesh.n_vertices) if targets is None else targets
+        columns = self.mesh._vertices(chosen, "targets")
+        out = np.empty((len(rows), len(columns)), self.mesh._dtype)
+        for row, source in zip(out, rows, strict=True):
+            row[:] = self.solve(vertices=source, threads=threads, progress=progress).values[columns]
+        return out
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _tet_solver_from, (self.mesh, *self._choice)

@@ -181,6 +181,52 @@ def test_tets():
         littoral.TetMesh(V, T[:, :3])
 
 
+def test_calls_on_surfaces_take_tets(cube):
+    """`distance`, `DistanceSolver` and `distance_matrix` measure through tets as `tet_distance`."""
+    V = np.array([[-1.0, -1, -1], [4, -1, -1], [-1, 4, -1], [-1, -1, 4], [4, 4, 4]])
+    tets = littoral.TetMesh(V, [[0, 1, 2, 3], [1, 2, 3, 4]])
+    from_first = littoral.tet_distance(tets, vertices=0, method="quadratic").values
+    np.testing.assert_allclose(from_first[1:4], 5, atol=1e-3)
+    for given in ({"points": 0}, {"vertices": [0]}):
+        field = littoral.distance(tets, method="quadratic", **given)
+        assert isinstance(field, littoral.TetField)
+        np.testing.assert_array_equal(field.values, from_first)
+    np.testing.assert_array_equal(
+        littoral.distance(tets, cube).values, littoral.tet_distance(tets, cube).values
+    )
+    np.testing.assert_array_equal(
+        littoral.distance(tets, boundary=True).values,
+        littoral.tet_distance(tets, boundary=True).values,
+    )
+    solver = littoral.DistanceSolver(tets, "quadratic")
+    assert isinstance(solver, littoral.TetDistanceSolver)
+    np.testing.assert_array_equal(solver.solve(points=0).values, from_first)
+    matrix = littoral.distance_matrix(tets, [0, 1], [1, 2, 3], method="quadratic")
+    np.testing.assert_allclose(matrix, [[5, 5, 5], [0, 50**0.5, 50**0.5]], atol=1e-3)
+    assert littoral.distance_matrix(tets, 0, method="quadratic").shape == (1, 5)
+
+    with pytest.raises(littoral.UnsupportedError, match="signed: distance through tets"):
+        littoral.distance(tets, points=0, signed=True)
+    with pytest.raises(ValueError, match="from a surface, from vertices"):
+        littoral.distance(tets, [0, 1])
+    with pytest.raises(TypeError, match="give one of them"):
+        littoral.distance(tets, points=0, vertices=0)
+    with pytest.raises(TypeError, match="given twice"):
+        littoral.distance(tets, cube, surface=cube)
+    with pytest.raises(TypeError, match="give one of them"):
+        solver.solve(points=0, vertices=0)
+    with pytest.raises(TypeError, match="sources: expected vertices of the tets"):
+        littoral.distance_matrix(tets, [(0, [0.5])])
+    for call, more in (
+        (littoral.isolines, [np.zeros(5)]),
+        (littoral.offset_curves, [[0], 1]),
+        (littoral.winding, [[0, 1, 2]]),
+        (littoral.SDF, []),
+    ):
+        with pytest.raises(TypeError, match="a TetMesh is no surface"):
+            call(tets, *more)
+
+
 def test_many_queries_are_answered_block_by_block(cube):
     sdf = littoral.SDF(cube)
     x = np.random.default_rng(2).uniform(-1, 2, (300_000, 3))

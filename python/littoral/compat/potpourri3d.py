@@ -41,6 +41,7 @@ from ._arguments import (
     vertex_curves,
 )
 from ._marching_triangles import level_lines
+from ._potpourri3d_checks import validate_mesh, validate_points
 from ._potpourri3d_files import (
     read_mesh,
     read_point_cloud,
@@ -76,6 +77,8 @@ __all__ = [
     "read_mesh",
     "read_point_cloud",
     "read_polygon_mesh",
+    "validate_mesh",
+    "validate_points",
     "vertex_areas",
     "write_mesh",
     "write_point_cloud",

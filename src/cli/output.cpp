@@ -22,6 +22,19 @@ void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds
   }
 }
 
+void check_holds_confidence(const std::string& file) {
+  if (io::is_written_as(file, {Kind::table, Kind::page, Kind::picture})) return;
+  if (io::is_written_as(file, {Kind::field}) &&
+      io::format_to_write(file, {Kind::field}).more_values)
+    return;
+  std::string able;
+  for (const io::Format& format : io::formats())
+    if (format.write_table || (format.write_field && format.more_values))
+      able.append(" ").append(format.extension);
+  throw InputError(file + " holds one number a vertex: confidence is written to" + able,
+                   "options-conflict");
+}
+
 void add_output_option(CLI::App& verb, std::string& file, const std::string& help) {
   verb.add_option("-o,--output", file, help)->required()->type_name("OUT");
 }

@@ -25,6 +25,9 @@ class OutputError : public IoError {
 /// its folder is not there or cannot be written to.
 void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds);
 
+/// Throws InputError where confidence beside a field at vertices could not be written to a file.
+void check_holds_confidence(const std::string& file);
+
 /// Adds -o for one file, which must be given.
 void add_output_option(CLI::App& verb, std::string& file, const std::string& help);
 /// Adds -o, which must be given and may be several times.

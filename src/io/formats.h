@@ -35,7 +35,7 @@ struct Format {
   std::string_view about;
   bool lines = false;        // a surface's lines are kept, so that it can hold sources
   bool no_box = false;       // of a volume, origin and spacing are not kept
-  bool more_values = false;  // of a volume, several values at each node are written
+  bool more_values = false;  // of volumes and surfaces, several values at each node are written
 
   PolygonSoup (*read_surface)(std::string_view bytes, const std::string& name) = nullptr;
   PolygonSoup (*read_cloud)(std::string_view bytes, const std::string& name) = nullptr;
@@ -52,7 +52,7 @@ struct Format {
                           std::optional<int> index_base) = nullptr;
   PointTable (*read_table)(std::string_view bytes, const std::string& name) = nullptr;
 
-  // Clouds are written with any values at their points, fields with one.
+  // Clouds and, by `more_values`, fields are written with all values at their points.
   void (*write_surface)(std::ostream& out, const PolygonSoup& soup,
                         const std::string& field) = nullptr;
   void (*write_cloud)(std::ostream& out, const PolygonSoup& soup,

@@ -120,6 +120,25 @@ def test_confidence_stands_beside_the_distance(run: Run, mesh: Path, tmp_path: P
     header = (tmp_path / "a.ply").read_bytes().split(b"end_header")[0].decode()
     assert "distance" in header
     assert "confidence" in header
+    columns = []
+    for name in ("distance", "confidence"):
+        run("convert", "a.ply", "--field", name, "-o", "one.txt")
+        columns.append(values(tmp_path / "one.txt"))
+    table = list(zip(*columns, strict=True))
+    assert all(0 <= sure <= 1 for sure in columns[1])
+    run(*CURVE, "--confidence", "-o", "a.csv", "-o", "a.txt", "-o", "a.npy", "-o", "a.vtp")
+    head, *rows = (tmp_path / "a.csv").read_text().split()
+    assert head == "vertex,distance,confidence"
+    assert [tuple(map(float, row.split(",")[1:])) for row in rows] == table
+    lines = (tmp_path / "a.txt").read_text().splitlines()
+    assert [tuple(map(float, line.split())) for line in lines] == table
+    data = (tmp_path / "a.npy").read_bytes()
+    assert b"'fortran_order': True, 'shape': (121, 2)" in data
+    assert list(memoryview(data[-16 * 121 :]).cast("d")) == columns[0] + columns[1]
+    assert b'Name="confidence"' in (tmp_path / "a.vtp").read_bytes()
+    said = run(*CURVE, "--confidence", "-o", "a.obj", status=2).stderr
+    assert "a.obj holds one number a vertex: confidence is written to .ply" in said
+    run(*CURVE, "--confidence=off", "-o", "a.obj")
 
 
 def test_clouds_are_measured_exactly_and_have_confidence(
@@ -129,7 +148,7 @@ def test_clouds_are_measured_exactly_and_have_confidence(
     (tmp_path / "c.xyz").write_text("".join(f"{x} {y} {z} 0 0 1\n" for _, x, y, z in lines))
     cloud = ("distance", "c.xyz", "--sources", "curve.txt", "--confidence")
     run(*cloud, "-o", "a.txt")
-    for (_, x, _, _), distance in zip(lines, values(tmp_path / "a.txt"), strict=True):
+    for (_, x, _, _), distance in zip(lines, values(tmp_path / "a.txt")[::2], strict=True):
         assert abs(distance - (0.5 - float(x))) < 1e-9
     run(*cloud, "-o", "a.ply")
     assert b"property double confidence" in (tmp_path / "a.ply").read_bytes()

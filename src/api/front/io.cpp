@@ -24,12 +24,15 @@ bool is_shown(const std::filesystem::path& path) {
   return io::is_written_as(path, {io::Kind::page, io::Kind::picture});
 }
 
-PolygonSoup surface_of(const Field& field) {
-  if (field.refined) return *field.refined;
-  PolygonSoup soup = field.mesh.soup();
-  soup.scalars.clear();
-  soup.scalars["distance"] = field.values;
+/// A soup over the vertices of the mesh with the values there.
+PolygonSoup with_values(PolygonSoup soup, const Field& field) {
+  soup.scalars = {{"distance", field.values}};
+  if (field.confidence.size() > 0) soup.scalars["confidence"] = field.confidence;
   return soup;
+}
+
+PolygonSoup surface_of(const Field& field) {
+  return field.refined ? *field.refined : with_values(field.mesh.soup(), field);
 }
 
 io::Scene scene_of(const Field& field) {
@@ -85,11 +88,9 @@ TetMesh read_tets(const std::filesystem::path& path) { return io::read_tets(path
 
 void write(const Field& field, const std::filesystem::path& path) {
   if (is_shown(path)) return io::write_scene(path, scene_of(field));
-  if (field.mesh.n_faces() > 0) return io::write_field(path, surface_of(field));
-  PolygonSoup cloud = field.mesh.soup();  // without the triangles that show it
-  cloud.scalars.clear();
-  cloud.scalars["distance"] = field.values;
-  io::write_field(path, cloud);
+  // Tables are of the mesh's own vertices; clouds go without the triangles that show them.
+  const bool of_mesh = field.mesh.n_faces() == 0 || io::is_written_as(path, {io::Kind::table});
+  io::write_field(path, of_mesh ? with_values(field.mesh.soup(), field) : surface_of(field));
 }
 
 void write(const Regions& regions, const std::filesystem::path& path) {

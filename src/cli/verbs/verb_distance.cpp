@@ -93,6 +93,9 @@ template <class D, class Read, class MakeDomain, class Write>
 void measure(const DistanceArguments& arguments, const io::Kinds& outputs, Session& session,
              Read read, MakeDomain domain, Write write) {
   check_outputs(arguments.out, outputs);
+  if (const auto given = arguments.method.options.find("confidence");
+      given != arguments.method.options.end() && given->second != "off")
+    for (const std::string& file : arguments.out) check_holds_confidence(file);
   const AnyMethod method = arguments.method.method();
   check_method<D>(method);
   const auto [input, sources] = [&] {

@@ -72,6 +72,8 @@ void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& ses
   if (arguments.triangulate) soup = triangulate(soup);
   session.reading = false;
   session.task().checkpoint();
+  if (io::is_written_as(arguments.out, {Kind::table}))  // the field that was chosen, alone
+    std::erase_if(soup.scalars, [&](const auto& each) { return each.first != field; });
   if (field_only)
     io::write_field(arguments.out, soup, field);
   else

@@ -101,9 +101,13 @@ void check_field(const SdfArguments& arguments) {
     throw InputError("option smoothing goes with --field winding", "options-conflict");
 }
 
-bool holds_confidence(const std::string& file) {
-  if (!io::is_written_as(file, {Kind::volume})) return io::is_written_as(file, {Kind::field});
-  return io::format_to_write(file, {Kind::volume}).more_values;
+void check_confidence(const std::string& file) {
+  if (!io::is_written_as(file, {Kind::volume})) return check_holds_confidence(file);
+  if (!io::format_to_write(file, {Kind::volume}).more_values)
+    throw InputError(file +
+                         " holds one number a node: confidence is written to VTK image data, "
+                         "and with the surface at --level to formats with numbers at vertices",
+                     "options-conflict");
 }
 
 void run_sdf(SdfArguments& arguments, Session& session) {
@@ -112,12 +116,7 @@ void run_sdf(SdfArguments& arguments, Session& session) {
     if (arguments.domain != "tets" && io::is_written_as(file, {Kind::tets}))
       throw InputError(file + " holds tets: they are there with --domain tets", "options-conflict");
   for (const std::string& file : arguments.out)
-    if (arguments.confidence && !holds_confidence(file))
-      throw InputError(
-          file +
-              " holds one number a node: confidence is written to VTK image data, and with "
-              "the surface at --level to formats with numbers at vertices",
-          "options-conflict");
+    if (arguments.confidence) check_confidence(file);
   if (arguments.tets != "lattice" && arguments.domain != "tets")
     throw InputError("option tets goes with --domain tets", "options-conflict");
   if (arguments.clip && arguments.domain == "tets")

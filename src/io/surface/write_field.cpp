@@ -29,6 +29,17 @@ const VecX& find_field(const std::filesystem::path& path, const PolygonSoup& sou
                    "cannot-write");
 }
 
+/// The field and, where there is one, its confidence.
+Table table_of(const std::filesystem::path& path, const PolygonSoup& soup,
+               const std::string& field) {
+  const VecX& values = find_field(path, soup, field);
+  if (field == "confidence" || !soup.scalars.contains("confidence"))
+    return {{field}, values, "vertex"};
+  Table table{{field, "confidence"}, Eigen::MatrixXd(values.size(), 2), "vertex"};
+  table.columns << values, find_field(path, soup, "confidence");
+  return table;
+}
+
 // Offsets (running ends) and corners of a set of cells, as VTK stores them.
 struct Cells {
   std::vector<std::int64_t> connectivity, ends;
@@ -69,7 +80,6 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   Cells faces, lines;
   for (int f = 0; f < soup.n_faces(); ++f) faces.add(soup.face(f));
   for (const auto& line : soup.lines) lines.add(line);
-  const VecX& values = soup.scalars.at(field);
 
   AppendedArrays arrays(out);
   const auto cells = [&](const char* element, const Cells& set) {
@@ -85,7 +95,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
       << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << soup.n_faces()
       << "\">\n<PointData Scalars=\"" << xml_text(field) << "\">\n";
   const auto points = static_cast<std::size_t>(soup.n_vertices());
-  arrays.announce("Float64", field, 1, 8 * points);
+  for (const auto& [name, values] : soup.scalars) arrays.announce("Float64", name, 1, 8 * points);
   out << "</PointData>\n<Points>\n";
   arrays.announce("Float64", "Points", 3, 24 * points);
   out << "</Points>\n";
@@ -97,7 +107,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
     store_little(out, static_cast<std::uint64_t>(8 * count));
     for (std::size_t i = 0; i < count; ++i) store_little(out, data[i]);
   };
-  block(values.data(), points);
+  for (const auto& [name, values] : soup.scalars) block(values.data(), points);
   block(soup.points.data(), 3 * points);
   for (const Cells* set : {&lines, &faces}) {
     block(set->connectivity.data(), set->connectivity.size());
@@ -108,9 +118,10 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
 
 void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
                  const std::string& field) {
-  const VecX& values = find_field(path, soup, field);
+  find_field(path, soup, field);
+  for (const auto& [name, values] : soup.scalars) find_field(path, soup, name);
   const Format& format = format_to_write(path, {Kind::field});
-  if (format.write_table) return write_table(path, {{field}, values, "vertex"});
+  if (format.write_table) return write_table(path, table_of(path, soup, field));
   if (format.write_surface) return write_surface(path, soup, field);
   write_atomically(path, [&](std::ostream& out) { format.write_field(out, soup, field); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
@@ -70,8 +71,9 @@ std::string extension_to_read(const std::filesystem::path& path) {
 
 std::string read_bytes(const std::filesystem::path& path) {
   if (is_standard_stream(path)) {
-    static const std::string bytes = all_of(stdin, path);  // there is one, and it is read once
-    return bytes;
+    static std::atomic<bool> read = false;  // not kept: it may be large
+    if (read.exchange(true)) cannot_read(path, "standard input was read before");
+    return all_of(stdin, path);
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) cannot_read(path, "it is a directory");

@@ -217,6 +217,28 @@ TEST(Repair, SheetsBecomeWalls) {
   EXPECT_NEAR(volume_of(out.surface.soup()), steiner, 0.01 * steiner);
 }
 
+TEST(Repair, MeasuresSheetsOnce) {
+  // On the grid that showed them to have no inside; where it leaves no room for walls, on a wider
+  // one.
+  const PolygonSoup sheet = test::grid_soup(4, 4);
+  for (const double padding : {0.1, 0.0}) {
+    RepairOptions options;
+    options.grid.resolution = 48;
+    options.grid.padding = padding;
+    int measured = 0;
+    std::string last;
+    Context context;
+    context.progress = [&](double, const std::string& stage) {
+      measured += stage == "sign" && stage != last;
+      last = stage;
+    };
+    const Repaired out = repair(sheet, options, {}, {}, context);
+    EXPECT_EQ(measured, padding > 0 ? 1 : 2);
+    expect_watertight(out.surface);
+    EXPECT_EQ(size_named(out.report, "parts"), 1);
+  }
+}
+
 TEST(Repair, WarnsOfWhatItMisses) {
   // A box with a large fin that has no inside.
   const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
@@ -239,6 +261,22 @@ TEST(Repair, RefinesUntilTheErrorIsMet) {
   const Repaired out = repair(sphere, options);
   EXPECT_EQ(out.report.status, "converged");
   EXPECT_LE(size_named(out.report, "result to input and closure: largest"), 0.004);
+}
+
+TEST(Repair, StopsWhereRefiningDoesNotLowerTheError) {
+  // Walls about a sheet are three spacings thick where the sheet has an inside nowhere; given
+  // their thickness, their surface stays half of it away, however fine the grid.
+  const PolygonSoup sheet = test::grid_soup(2, 2);
+  RepairOptions options;
+  options.thicken = 0.2;
+  options.error = 1e-9;
+  const Repaired out = repair(sheet, options);
+  EXPECT_EQ(out.report.status, "uncertain");
+  ASSERT_FALSE(out.report.warnings.empty());
+  EXPECT_EQ(out.report.warnings.back().code, "accuracy-missed");
+  EXPECT_NE(out.report.warnings.back().text.find("finer grids do not lower it"), std::string::npos);
+  EXPECT_NEAR(size_named(out.report, "result to input and closure: largest"), 0.1, 0.01);
+  EXPECT_LT(size_named(out.report, "nodes"), 1e6);  // 6.6 million on the finest grid
 }
 
 TEST(Repair, RefusesWhatMakesNoSense) {

@@ -27,6 +27,18 @@ def test_standard_input_and_output_are_files_of_a_format(run: Run, mesh: Path) -
         assert json.loads(done.stderr)["outputs"] == [f"{name}:-"]  # the report stands aside
 
 
+def test_standard_input_is_not_kept(mesh: Path) -> None:
+    """Beside what is made of it, as much of it is in memory as of a file."""
+    given = (square(250) + "# " + 8_000_000 * ".").encode()
+    (mesh.parent / "large.obj").write_bytes(given)
+    peak = []
+    for name in ("large.obj", "obj:-"):
+        words = ("distance", name, "--vertex=0", "--method=fast-marching", "--json", "-o=a.npy")
+        done = piped(mesh.parent, given, *words)
+        peak.append(json.loads(done.stdout)["peak_memory_mb"])
+    assert peak[1] - peak[0] < 0.6 * len(given) / 2**20
+
+
 def test_a_failure_leaves_standard_output_to_results(mesh: Path) -> None:
     words = ("distance", "obj:-", "--vertex=999", "--json", "-o", "ply:-")
     failed = piped(mesh.parent, mesh.read_bytes(), *words)

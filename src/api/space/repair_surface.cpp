@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/kept_surface.h"
+#include "api/space/space_input.h"
 #include "api/space/surface_difference.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
@@ -33,6 +35,8 @@ constexpr int samples = 20000;     // on each surface, for distances
 constexpr double missed = 0.5;     // spacings: input farther from the result is not part of it;
                                    // twice that where edges are cut off
 constexpr double missed_share = 0.01;
+constexpr double lowered = 0.9;   // of the least error: what counts as lower
+constexpr int most_in_vain = 2;   // grids one after the other that do not lower the error
 constexpr double usual_wall = 3;  // spacings: thickness of sheets that nobody gave one
 
 void check(const RepairOptions& options, bool is_cloud) {
@@ -89,53 +93,56 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
                const GridOptions& grid, Task task, Report& report) {
   const Report before = report;
   Made made;
-  GridOptions wide = grid;
-  if (!grid.bounds && options.thicken > 0) {
-    Box box;
-    for (const auto& point : input.points.rowwise()) box.add(point.transpose());
-    wide.padding += options.thicken / box.size().maxCoeff();
+  const Box box = bounding_box(input);
+  const double side = box.size().maxCoeff();
+  SpaceAnswer answer;
+  const auto measure = [&](double wall) {
+    report = before;
+    GridOptions wide = grid;
+    if (!grid.bounds && wall > 0) wide.padding += wall / side;
+    answer =
+        answered(input, wide, request, made.distance.grid, task.stage(0.5, "distance"), report);
+  };
+  measure(options.thicken);
+  double h = made.distance.grid.spacing.minCoeff();
+  const auto is_empty = [&] { return !(answer.at_nodes.array() < 0).any(); };
+  const bool sheets = is_empty() && input.n_faces() > 0 && options.thicken == 0;
+  const double thicken = sheets ? usual_wall * h : options.thicken;
+  if (sheets) {
+    const bool room = (box.low - made.distance.grid.origin).minCoeff() >= thicken / 2 + h;
+    if (!room && !grid.bounds) measure(thicken);
+    h = made.distance.grid.spacing.minCoeff();
+    report.status = "uncertain";
+    report.warn("sheets-thickened",
+                "no node of the grid lies inside of the input: its faces became walls " +
+                    rounded_text(thicken) +
+                    " thick; option thicken says how thick, a larger option resolution finds thin "
+                    "parts, and if all of it is reversed, say option flip");
   }
-  SpaceAnswer answer =
-      answered(input, wide, request, made.distance.grid, task.stage(0.5, "distance"), report);
-  const double h = made.distance.grid.spacing.minCoeff();
   made.distance.values = std::move(answer.at_nodes);
+  VecX& values = made.distance.values;
   const JoinedTriangles target = join_triangles(input, answer.completion);
   made.target = soup_of(target.points, target.triangles);
-  VecX& values = made.distance.values;
-  if (options.thicken > 0) {
-    if (options.thicken < 2 * h)
-      report.warn("wall-thin", "walls of thickness " + rounded_text(options.thicken) +
+  if (thicken > 0) {
+    if (thicken < 2 * h)
+      report.warn("wall-thin", "walls of thickness " + rounded_text(thicken) +
                                    " are thinner than two cells of the grid (" +
                                    rounded_text(2 * h) +
                                    "): they may have holes; raise option resolution");
     const VecX to_input = redistance(made.distance.grid, values, 0, triangulate(input),
-                                     options.thicken + 2 * h, task.stage(0.1, "walls"));
-    values = values.cwiseMin((to_input.cwiseAbs().array() - options.thicken / 2).matrix());
+                                     thicken + 2 * h, task.stage(0.1, "walls"));
+    values = values.cwiseMin((to_input.cwiseAbs().array() - thicken / 2).matrix());
   }
-  if (const bool empty = !(values.array() < 0).any();
-      empty && input.n_faces() > 0 && options.thicken == 0) {
-    report = before;
-    RepairOptions walls = options;
-    walls.thicken = usual_wall * h;
-    made = contoured(input, walls, request, grid, task.stage(1, "walls"), report);
-    report.status = "uncertain";
-    report.warn("sheets-thickened",
-                "no node of the grid lies inside of the input: its faces became walls " +
-                    rounded_text(walls.thicken) +
-                    " thick; option thicken says how thick, a larger option resolution finds thin "
-                    "parts, and if all of it is reversed, say option flip");
-    return made;
-  } else if (empty) {
+  if (!(values.array() < 0).any())
     throw InputError(
         "the input has no inside: no node of the grid lies in it. Thin parts need a larger option "
         "resolution; if all of it is reversed, say option flip",
         "no-inside");
-  }
   // Nodes that lie on a sheet have the value zero: they are not inside.
   made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                             task.stage(0.1, "contour"));
   untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
-  if (!options.fit || options.thicken > 0 || input.n_faces() == 0) return made;
+  if (!options.fit || thicken > 0 || input.n_faces() == 0) return made;
   const FittedSurface fitted =
       fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
                      target.triangles, h, task.stage(0.6, "fitting"));
@@ -304,19 +311,33 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
     return std::move(made.surface);
   };
   if (options.error == 0) return once(options.grid, task);
-  PolygonSoup surface;
+  PolygonSoup best;
+  Report of_best;
+  double least = std::numeric_limits<double>::infinity();
+  int nodes = 0, in_vain = 0;
   for (const int n : resolutions) {
     GridOptions grid = options.grid;
     grid.spacing = {};
     grid.resolution = n;
-    surface = once(grid, task.stage(n / 1632.0, "surface"));
-    if (largest_error(report) <= options.error) return surface;
+    PolygonSoup surface = once(grid, task.stage(n / 1632.0, "surface"));
+    const double error = largest_error(report);
+    if (error <= options.error) return surface;
+    in_vain = error < lowered * least ? 0 : in_vain + 1;
+    if (error < least) {
+      best = std::move(surface);
+      of_best = report;
+      least = error;
+      nodes = n;
+    }
+    if (in_vain == most_in_vain) break;
   }
+  report = of_best;
   report.status = "uncertain";
-  report.warn("accuracy-missed", "the largest error is " + rounded_text(largest_error(report)) +
-                                     " with " + std::to_string(resolutions.back()) +
-                                     " nodes, not " + rounded_text(options.error));
-  return surface;
+  report.warn("accuracy-missed",
+              "the largest error is " + rounded_text(least) + " with " + std::to_string(nodes) +
+                  " nodes, not " + rounded_text(options.error) +
+                  (in_vain == most_in_vain ? "; finer grids do not lower it" : ""));
+  return best;
 }
 
 }  // namespace littoral

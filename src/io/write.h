@@ -26,7 +26,8 @@ void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
 
 /// Writes one scalar per vertex, which may be +inf: .csv ("vertex,FIELD", 0-based), .npy (float64),
 /// .txt (%.17g a line), .vtp (with points, faces, lines and all scalars), or what write_surface
-/// takes except .off and .stl. A scalar "confidence" is a second column. Throws InputError where the soup has no such scalar, otherwise as write_surface.
+/// takes except .off and .stl. A scalar "confidence" is a second column. Throws InputError where
+/// the soup has no such scalar, otherwise as write_surface.
 void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
                  const std::string& field = "distance");
 

@@ -41,23 +41,6 @@ UP = [(9 * j + 4, []) for j in range(9)]  # of the square of 8 x 8, where x = 1/
 # ------------------------------------------------------------------ without the real package
 
 
-CORNERS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-TWO_FACES = np.array([[0, 1, 2], [1, 2, 3]])
-
-
-def test_arguments_are_checked():
-    assert pp3d.validate_points(CORNERS.tolist()) is None
-    assert pp3d.validate_mesh(CORNERS, [[0, 1, 2], [0, 1, 2, 3]], test_indices=True) is None
-    with pytest.raises(IndexError, match=r"F\[1, 2\] is 4: there are 4 vertices"):
-        pp3d.validate_mesh(CORNERS, TWO_FACES + np.array([[0], [1]]), test_indices=True)
-    with pytest.raises(IndexError, match=r"F\[1\]\[3\] is -1"):
-        pp3d.validate_mesh(CORNERS, [[0, 1, 2], [0, 1, 2, -1]], test_indices=True)
-    with pytest.raises(ValueError, match=r"F\[1\]: expected triangles, got 4 corners"):
-        pp3d.validate_mesh(CORNERS, [[0, 1, 2], [0, 1, 2, 3]], force_triangular=True)
-    with pytest.raises(TypeError, match="V: expected real numbers"):
-        pp3d.validate_points(CORNERS.astype(complex))
-
-
 def test_signs_and_values_on_a_square(square):
     V, F = arrays(square)
     left = 0.5 - V[:, 0]
@@ -404,40 +387,3 @@ def test_files_side_by_side(real, tmp_path, spot):
         for name in ("a.ply", "b.ply"):
             np.testing.assert_array_equal(module.read_point_cloud(str(tmp_path / name)), V)
         np.testing.assert_array_equal(module.read_mesh(str(tmp_path / "a.obj"))[1], F)
-
-
-@pytest.mark.parametrize(
-    ("V", "F", "options"),
-    [
-        (CORNERS, TWO_FACES, {}),
-        (CORNERS.astype(np.float32), TWO_FACES.astype(np.uint8), {"force_triangular": True}),
-        (CORNERS.astype(int), TWO_FACES, {"test_indices": True}),
-        (CORNERS, [[0, 1, 2], [0, 1, 2, 3]], {}),
-        (CORNERS, np.array([[0, 1, 2, 3]]), {}),
-        (CORNERS, np.array([[0, 1, 2, 3]]), {"force_triangular": True}),
-        (CORNERS, TWO_FACES[:, :2], {}),
-        (CORNERS, TWO_FACES.ravel(), {}),
-        (CORNERS[:, :2], TWO_FACES, {}),
-        (CORNERS.ravel(), TWO_FACES, {}),
-        (CORNERS[None], TWO_FACES, {}),
-        (CORNERS * np.nan, TWO_FACES, {}),
-        (CORNERS[:0], TWO_FACES[:0], {}),
-    ],
-)
-def test_the_real_one_refuses_the_same_arguments(real, V, F, options):
-    def refuses(call, *arguments):
-        try:
-            assert call(*arguments) is None
-        except ValueError:
-            return True
-        return False
-
-    assert refuses(lambda: pp3d.validate_mesh(V, F, **options)) == refuses(
-        lambda: real.validate_mesh(V, F, **options)
-    )
-    assert refuses(pp3d.validate_points, V) == refuses(real.validate_points, V)
-    for name in ("validate_mesh", "validate_points"):
-        theirs, ours = (inspect.signature(getattr(m, name)).parameters for m in (real, pp3d))
-        assert [(p.name, p.default) for p in theirs.values()] == [
-            (p.name, p.default) for p in ours.values()
-        ]

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
+#include "sources/pieces.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -101,6 +102,59 @@ TEST(HeatExact, LatitudeOnSpheres) {
       EXPECT_EQ(a.wrong_signs, 0) << level;
       EXPECT_LT(a.mean, level == 3 ? 0.05 : 0.025) << level;
     }
+}
+
+/// How far values along curves are from 0 or, `by_curve`, from each curve's mean: root mean square
+/// and largest.
+std::pair<double, double> off_level(const SurfaceMesh& mesh, const Sources& sources,
+                                    const VecX& phi, bool by_curve) {
+  Report report;
+  const PlacedSources placed = place_sources(mesh, sources, report);
+  VecX value(static_cast<Eigen::Index>(placed.pieces.size())), length = value, off = value;
+  for (Eigen::Index i = 0; i < value.size(); ++i) {
+    const CurvePiece& piece = placed.pieces[static_cast<std::size_t>(i)];
+    value[i] = 0;
+    length[i] = piece.length;
+    for (std::size_t k = 0; k < 3; ++k)
+      value[i] += phi[mesh.face(piece.face)[k]] * (piece.a[k] + piece.b[k]) / 2;
+  }
+  off = value;
+  for (int c = 0; c < placed.n_curves && by_curve; ++c) {
+    double sum = 0, total = 0;
+    const auto on = [&](Eigen::Index i) {
+      return placed.pieces[static_cast<std::size_t>(i)].curve == c;
+    };
+    for (Eigen::Index i = 0; i < value.size(); ++i)
+      if (on(i)) {
+        sum += length[i] * value[i];
+        total += length[i];
+      }
+    for (Eigen::Index i = 0; i < value.size(); ++i)
+      if (on(i)) off[i] -= sum / total;
+  }
+  return {std::sqrt(length.dot(off.cwiseAbs2()) / length.sum()), off.cwiseAbs().maxCoeff()};
+}
+
+// Rows hold means over stretches of a curve through faces. Between them a linear function cannot
+// follow the curve; what is left is of second order.
+TEST(HeatExact, ValuesAlongCurvesThroughFacesAreHeldToSecondOrder) {
+  Sources circles = test::space_curve(test::circle(0.5, 0.5, 0, 0.15, 256));
+  circles.add(test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 256)));
+  const Sources circle = test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 256));
+  for (const bool levels : {false, true}) {
+    std::vector<double> rms;
+    for (const int n : {12, 24, 48, 96}) {
+      const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.3));
+      const Sources& sources = levels ? circles : circle;
+      const Constraint constraint = levels ? Constraint::level_sets : Constraint::zero_set;
+      Report report;
+      const VecX phi = test::signed_heat(mesh, sources, {16, constraint}, report);
+      const auto [mean, largest] = off_level(mesh, sources, phi, levels);
+      EXPECT_LT(largest, 0.1 / n);
+      rms.push_back(mean);
+    }
+    EXPECT_GT(std::log2(rms.front() / rms.back()) / 3, 1.8) << levels;
+  }
 }
 
 }  // namespace

@@ -202,6 +202,7 @@ void check_values(const MethodCase& given, const Mesh& mesh, const VecX& values,
     if (std::isfinite(b)) size = std::max(size, b);
   const bool is_positive = is_unsigned(given.sources);
   const bool leaves_curves_out = has_option(given, "bounding-only", "on");
+  const double rounding = 1e-12 * mesh.points().cwiseAbs().maxCoeff();
   const double excess = excess_of(given, report, size, edge);
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     const std::string at = " at vertex " + std::to_string(v);
@@ -216,7 +217,7 @@ void check_values(const MethodCase& given, const Mesh& mesh, const VecX& values,
       for (const SurfacePoint& p : given.sources.points)
         straight =
             std::min(straight, (mesh.position(p) - mesh.points().row(v).transpose()).stableNorm());
-      out.require(values[v] >= straight * (1 - 1e-6) - 1e-6 * size,
+      out.require(values[v] >= straight * (1 - 1e-6) - 1e-6 * size - rounding,
                   "shorter than the straight line" + at);
     }
     if (out.list.size() > 3) return;
@@ -307,8 +308,12 @@ void check_tets(const MethodCase& given, double seconds, Failures& out) {
   const TetField field = distance(given.tets, given.tet_sources, given.choice(), budget.context());
   out.require(field.values.size() == given.tets.n_vertices(), "not one value for each vertex");
   out.require(!field.values.array().isNaN().any(), "a value that is not a number");
-  if (!given.tet_sources.vertices.empty() && given.method != "signed-heat")
-    out.require((field.values.array() >= 0).all(), "negative from vertices");
+  if (!given.tet_sources.vertices.empty() && given.method != "signed-heat") {
+    double least = given.tet_sources.values.empty() ? 0 : infinity;
+    for (const double value : given.tet_sources.values) least = std::min(least, value);
+    out.require((field.values.array() >= least - 1e-9).all(),
+                "from vertices less than the least value");
+  }
   check_report(given, field.report, out);
 }
 

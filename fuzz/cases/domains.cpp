@@ -314,6 +314,14 @@ TetSources random_tet_sources(Choices& choose, const TetMesh& mesh) {
   }
   sources.flip = choose.chance(0.2);
   sources.estimate_normals = choose.chance(0.2);
+  if (choose.chance(0.25)) {
+    const PolygonSoup& surface = sources.surface;
+    int n = surface.n_faces() > 0 ? surface.n_faces() : surface.n_vertices();
+    if (n == 0) n = static_cast<int>(sources.vertices.size()) + (sources.boundary ? 1 : 0);
+    if (choose.chance(0.3)) n = choose.below(3);
+    for (int i = 0; i < n; ++i) sources.values.push_back(0.4 * (choose.below(3) - 1));
+    if (choose.chance(0.02)) sources.values.push_back(NAN);
+  }
   return sources;
 }
 

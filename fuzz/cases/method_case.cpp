@@ -164,6 +164,7 @@ std::string description(const MethodCase& given) {
         << (given.tet_sources.flip ? " flip" : "")
         << (given.tet_sources.estimate_normals ? " estimate-normals" : "");
     for (const int v : given.tet_sources.vertices) out << " " << v;
+    for (const double value : given.tet_sources.values) out << " value " << value;
     out << "\n";
     print(out, given.tet_sources.surface);
   }

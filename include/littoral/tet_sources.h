@@ -15,6 +15,9 @@ struct TetSources {
   bool boundary = false;
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
+  /// What distance is counted from, as for `Sources` [length]: nothing; one number; or one for each
+  /// vertex and then the boundary, for each face of the surface or for each point of the cloud.
+  std::vector<double> values{};
 };
 
 }  // namespace littoral

@@ -27,12 +27,16 @@ void bind_tets(nb::module_& m) {
       .def(
           "__init__",
           [](TetSources* self, const Mesh* surface, const std::vector<int>& vertices, bool boundary,
-             bool flip, bool estimate_normals) {
-            new (self) TetSources{surface ? surface->soup() : PolygonSoup{}, vertices, boundary,
-                                  flip, estimate_normals};
+             bool flip, bool estimate_normals, const std::vector<double>& values) {
+            new (self) TetSources{surface ? surface->soup() : PolygonSoup{},
+                                  vertices,
+                                  boundary,
+                                  flip,
+                                  estimate_normals,
+                                  values};
           },
           nb::arg("surface").none(), nb::arg("vertices"), nb::arg("boundary"), nb::arg("flip"),
-          nb::arg("estimate_normals"));
+          nb::arg("estimate_normals"), nb::arg("values"));
   nb::class_<TetField>(m, "TetField")
       .def_static(
           "of",

@@ -345,6 +345,7 @@ class TetSources:
         boundary: bool,
         flip: bool,
         estimate_normals: bool,
+        values: Sequence[float],
     ) -> None: ...
 
 class TetField:

@@ -190,11 +190,10 @@ def _through_tets(
     mesh: TetMesh, curves: Any, points: Any, signed: Any, values: Any, **keywords: Any
 ) -> TetField:
     """`tet_distance` with the arguments of `distance`: what stands second is the surface."""
-    if signed is not None or values is not None:
-        name = "values" if signed is None else "signed"
+    if signed is not None:
         raise UnsupportedError(
-            f"{name}: distance through tets counts from 0, signed from surfaces and clouds and "
-            "unsigned from vertices; leave it out"
+            "signed: distance through tets is signed from surfaces and clouds and unsigned from "
+            "vertices; leave it out"
         )
     if curves is not None:
         if isinstance(curves, (list, np.ndarray)):
@@ -209,7 +208,7 @@ def _through_tets(
         if "vertices" in keywords:
             raise TypeError("points and vertices: give one of them; here they mean the same")
         keywords["vertices"] = points
-    field: TetField = tet_distance(mesh, **keywords)
+    field: TetField = tet_distance(mesh, values=values, **keywords)
     return field
 
 

@@ -219,22 +219,33 @@ class TetDistanceSolver:
         flip: bool = False,
         estimate_normals: bool = False,
         points: Any = None,
+        values: Any = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> TetField:
         """Distance from a surface or cloud (signed), from vertices, or from the boundary.
 
         points: `vertices` by the name that `DistanceSolver` has for them. flip reverses the
-        normals; estimate_normals makes those of a cloud. as_: "pyvista" or "meshio" for the tets as
-        that library's object, with "distance". Raises InputError where no source lies in a tet,
+        normals; estimate_normals makes those of a cloud. values: what distance is counted from
+        [length], one number or one for each vertex and then the boundary, for each face of the
+        surface or for each point of the cloud. as_: "pyvista" or "meshio" for the tets as that
+        library's object, with "distance". Raises InputError where no source lies in a tet,
         IndexOutOfRange.
         """
         if points is not None and vertices is not None:
             raise TypeError("points and vertices: give one of them; here they mean the same")
         given = self.mesh._vertices(points if vertices is None else vertices, "vertices")
         shape = None if surface is None else as_cloud_or_surface(surface)._handle
+        counted: list[float] = []
+        if values is not None:
+            counted = floats(np.atleast_1d(as_array(values, "values")), "values").tolist()
         sources = _core.TetSources(
-            shape, given.tolist(), bool(boundary), bool(flip), bool(estimate_normals)
+            shape,
+            given.tolist(),
+            bool(boundary),
+            bool(flip),
+            bool(estimate_normals),
+            counted,
         )
         return TetField(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
@@ -273,6 +284,7 @@ def tet_distance(
     boundary: bool = False,
     flip: bool = False,
     estimate_normals: bool = False,
+    values: Any = None,
     method: str | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -284,6 +296,8 @@ def tet_distance(
     >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     >>> littoral.tet_distance(tets, vertices=0, method="quadratic").values.round(2).tolist()
     [0.0, 1.0, 1.0, 1.0]
+    >>> littoral.tet_distance(tets, vertices=[0, 1], values=[0, 0.5]).values.round(2).tolist()
+    [0.0, 0.5, 1.0, 1.0]
     """
     solver = TetDistanceSolver(mesh, method, threads=threads, progress=progress, **options)
     return solver.solve(
@@ -292,6 +306,7 @@ def tet_distance(
         boundary=boundary,
         flip=flip,
         estimate_normals=estimate_normals,
+        values=values,
         threads=threads,
         progress=progress,
     )

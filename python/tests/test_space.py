@@ -158,8 +158,7 @@ def test_volumes_as_shapes(cube):
     assert abs(float(again([0.5, 0.5, 0.5])) + 0.5) < 0.05
 
 
-def test_tets():
-    side = 5
+def grid_tets(side: int):
     V = np.stack(np.meshgrid(*[np.arange(side) / (side - 1)] * 3, indexing="ij"), -1).reshape(-1, 3)
     corner = np.arange(side**3).reshape(side, side, side)[:-1, :-1, :-1].ravel()
     steps = [(1, side, side**2), (1, side**2, side), (side, 1, side**2)]
@@ -167,6 +166,11 @@ def test_tets():
     T = np.concatenate(
         [np.stack([corner, corner + a, corner + a + b, corner + a + b + c], 1) for a, b, c in steps]
     )
+    return V, T
+
+
+def test_tets():
+    V, T = grid_tets(5)
     mesh = littoral.TetMesh(V, T)
     field = littoral.tet_distance(mesh, vertices=[0])
     exact = np.linalg.norm(V, axis=1)
@@ -225,6 +229,25 @@ def test_calls_on_surfaces_take_tets(cube):
     ):
         with pytest.raises(TypeError, match="a TetMesh is no surface"):
             call(tets, *more)
+
+
+def test_tet_sources_have_values() -> None:
+    grid, T = grid_tets(5)
+    mesh = littoral.TetMesh(grid, T)
+    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    planes = [np.column_stack([np.full(4, x), corners]) for x in (0.25, 0.75)]
+    slab = littoral.Mesh(np.vstack(planes), [[0, 1, 2, 3], [4, 5, 6, 7]])
+    expected = np.interp(grid[:, 0], [0, 0.25, 0.75, 1], [-0.25, 0, 0.8, 1.05])
+    field = littoral.tet_distance(mesh, slab, values=[0, 0.8], method="signed-heat")
+    np.testing.assert_allclose(field, expected, atol=4e-3)
+    both = littoral.tet_distance(mesh, vertices=0, boundary=True, values=[-1, 0.5])
+    inward = np.minimum(grid, 1 - grid).min(axis=1)
+    least = np.minimum(np.linalg.norm(grid, axis=1) - 1, inward + 0.5)
+    np.testing.assert_allclose(both, least, atol=1e-12)
+    shifted = littoral.tet_distance(mesh, vertices=0, values=2.5, method="quadratic")
+    assert shifted.values.min() == pytest.approx(2.5, abs=1e-3)
+    with pytest.raises(littoral.InputError, match="3 values for 2 sources"):
+        littoral.tet_distance(mesh, slab, values=[1, 2, 3])
 
 
 def test_many_queries_are_answered_block_by_block(cube):

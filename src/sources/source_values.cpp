@@ -62,39 +62,53 @@ Sources shifted_values(const Sources& sources, double shift) {
   return out;
 }
 
-VecX reach_along_edges(const IntrinsicTriangulation& T, const TriangleSources& sources) {
-  std::vector<std::vector<std::pair<int, double>>> around(T.n_vertices);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const int a = T.faces(f, k), b = T.faces(f, (k + 1) % 3);
-      around[a].emplace_back(b, T.length(f, k));
-      around[b].emplace_back(a, T.length(f, k));
-    }
-  VecX reach = VecX::Constant(T.n_vertices, infinity);
+EdgePaths::EdgePaths(int n_vertices)
+    : around_(n_vertices), start_(VecX::Constant(n_vertices, infinity)) {}
+
+void EdgePaths::add_edge(int a, int b, double length) {
+  around_[a].emplace_back(b, length);
+  around_[b].emplace_back(a, length);
+}
+
+void EdgePaths::start(int vertex, double value) {
+  start_[vertex] = std::min(start_[vertex], value);
+}
+
+VecX EdgePaths::lengths() const {
+  VecX reach = start_;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto offer = [&](int v, double at) {
-    if (!(at < reach[v])) return;
-    reach[v] = at;
-    queue.emplace(at, v);
-  };
-  for (const auto* points : {&sources.nodes, &sources.isolated}) {
-    for (std::size_t i = 0; i < points->vertices.size(); ++i)
-      offer(points->vertices[i], sources.value_of(points->vertex_source[i]));
-    for (std::size_t i = 0; i < points->inside.size(); ++i) {
-      const auto far = from_corners(T, points->inside[i]);
-      for (int k = 0; k < 3; ++k)
-        offer(T.faces(points->inside[i].face, k),
-              sources.value_of(points->inside_source[i]) + far[k]);
-    }
-  }
+  for (int v = 0; v < reach.size(); ++v)
+    if (reach[v] < infinity) queue.emplace(reach[v], v);
   while (!queue.empty()) {
     const auto [at, v] = queue.top();
     queue.pop();
     if (at > reach[v]) continue;
-    for (const auto& [w, length] : around[v]) offer(w, at + length);
+    for (const auto& [w, length] : around_[v]) {
+      if (!(at + length < reach[w])) continue;
+      reach[w] = at + length;
+      queue.emplace(reach[w], w);
+    }
   }
   return reach;
+}
+
+VecX reach_along_edges(const IntrinsicTriangulation& T, const TriangleSources& sources) {
+  EdgePaths paths(T.n_vertices);
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k)
+      paths.add_edge(T.faces(f, k), T.faces(f, (k + 1) % 3), T.length(f, k));
+  for (const auto* points : {&sources.nodes, &sources.isolated}) {
+    for (std::size_t i = 0; i < points->vertices.size(); ++i)
+      paths.start(points->vertices[i], sources.value_of(points->vertex_source[i]));
+    for (std::size_t i = 0; i < points->inside.size(); ++i) {
+      const auto far = from_corners(T, points->inside[i]);
+      for (int k = 0; k < 3; ++k)
+        paths.start(T.faces(points->inside[i].face, k),
+                    sources.value_of(points->inside_source[i]) + far[k]);
+    }
+  }
+  return paths.lengths();
 }
 
 void warn_of_shadowed(const IntrinsicTriangulation& T, const TriangleSources& sources,
@@ -121,13 +135,21 @@ void warn_of_shadowed(const IntrinsicTriangulation& T, const TriangleSources& so
       look(points->inside_source[i], least);
     }
   }
+  std::vector<std::pair<std::string, double>> named;
+  for (const auto& [which, most] : excess)
+    named.emplace_back(
+        (which.first ? "point source " : "curve ") + std::to_string(which.second + 1),
+        most * T.unit);
+  warn_of_shadowed(named, report);
+}
+
+void warn_of_shadowed(const std::vector<std::pair<std::string, double>>& excess, Report& report) {
   constexpr std::size_t shown = 8;
   std::size_t n = 0;
-  for (const auto& [which, most] : excess) {
+  for (const auto& [name, most] : excess) {
     if (++n > shown) break;
     std::ostringstream text;
-    text << (which.first ? "point source " : "curve ") << which.second + 1 << " has a value "
-         << most * T.unit
+    text << name << " has a value " << most
          << " above what other sources give there: it is shadowed. Values may differ by no more "
             "than the distance between their sources";
     report.warn("source-shadowed", text.str());

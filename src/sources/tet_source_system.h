@@ -16,16 +16,19 @@ struct TetSourceSystem {
   VecX weight;              // rows: area
   int outside = 0;          // samples in no tet
   std::vector<int> part{};  // rows: of the source; empty: it is one
+  VecX value;               // rows: what distance is counted from, in the mean
 };
 
 /// `places` says where each sample lies, `group` which of them share a constraint row: a row each
 /// would hold every value around them; `part`, to which part of the source each belongs (empty: it
-/// is one), which a row holds one of.
+/// is one), which a row holds one of; `value`, from what distance is counted there (empty: 0).
 TetSourceSystem tet_source_system(const TetMesh& mesh, const TetOperators& ops,
                                   const OrientedPoints& source, const std::vector<TetPoint>& places,
-                                  const std::vector<int>& group, const std::vector<int>& part = {});
+                                  const std::vector<int>& group, const std::vector<int>& part = {},
+                                  const std::vector<double>& value = {});
 
-/// Each vertex a row of its own, all of one weight; X0 is empty.
-TetSourceSystem vertex_source_system(const TetOperators& ops, std::vector<int> vertices);
+/// Each vertex a row of its own, all of one weight; X0 is empty. values: as there.
+TetSourceSystem vertex_source_system(const TetOperators& ops, std::vector<int> vertices,
+                                     std::vector<double> values = {});
 
 }  // namespace littoral

@@ -61,6 +61,27 @@ def test_distance_from_a_surface(run: Run, cube: str, tmp_path: Path) -> None:
     assert all((tmp_path / file).stat().st_size > 0 for file in out)
 
 
+def test_values_of_sources(run: Run, cube: str, tmp_path: Path) -> None:
+    def answer(*words: str) -> list[float]:
+        run("distance", cube, *words, "-o", "d.npy")
+        return np.load(tmp_path / "d.npy").tolist()
+
+    for name, x in (("low", 0.25), ("high", 0.75)):
+        corners = f"v {x} 0 0\nv {x} 1 0\nv {x} 1 1\nv {x} 0 1\n"
+        (tmp_path / f"{name}.obj").write_text(corners + "f 1 2 3 4\n")
+    slab = ("-s", "low.obj", "-s", "high.obj", "--method", "signed-heat", "--values")
+    assert answer(*slab, "0,0.8")[:5] == pytest.approx([-0.25, 0, 0.4, 0.8, 1.05], abs=2e-3)
+    assert answer(*slab, "3")[:5] == pytest.approx([2.75, 3, 3, 3, 3.25], abs=2e-3)
+    both = answer("--vertex", "0", "--boundary", "--values", "-1,0.5")
+    assert both[:3] == pytest.approx([-1, -0.75, -0.5])
+    assert both[124] == pytest.approx(0.5)
+    error = run("distance", cube, *slab, "1,2,3", "-o", "d.npy", status=2).stderr
+    assert "3 numbers for 2 sources" in error
+    (tmp_path / "one.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    words = ("one.obj", "--vertex", "0", "--values", "1", "-o", "d.npy")
+    assert "option --values is for tets" in run("distance", *words, status=2).stderr
+
+
 def test_two_sheets_are_level_sets(run: Run, cube: str, tmp_path: Path) -> None:
     def sheet(x: float) -> str:
         return "".join(f"v {x} {y} {z}\n" for y, z in ((0, 0), (1, 0), (1, 1), (0, 1)))

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "api/space/surface_difference.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "contour/fit_to_surface.h"
 #include "contour/isosurface.h"
@@ -313,7 +313,7 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
   if (options.error == 0) return once(options.grid, task);
   PolygonSoup best;
   Report of_best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   int nodes = 0, in_vain = 0;
   for (const int n : resolutions) {
     GridOptions grid = options.grid;

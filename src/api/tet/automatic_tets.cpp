@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "api/tet/tet_domain.h"
 #include "base/index.h"
@@ -66,6 +69,7 @@ class AutomaticThroughTets {
         ops_(*on_->operators()),
         sight_(mesh_, ops_.tet_faces, ops_.n_faces, ops_.gradients) {}
 
+  /// [length]
   VecX solve(const TetSources& sources, Task& task, Report& report) const {
     const TetProblem problem =
         on_->problem(sources, task.stage(0.1, "placing the sources"), report);
@@ -74,9 +78,8 @@ class AutomaticThroughTets {
       if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
     const Stopwatch watch(report, "distance");
     VecX phi = problem.vertices.empty() ? from_surface(problem, sources.flip, task, report)
-                                        : from_nodes(sources, task, report);
-    phi.array() += 0.0;  // no -0
-    return phi;
+                                        : from_nodes(problem, sources, task, report);
+    return (phi * on_->unit()).array() + problem.value;  // adding 0 leaves no -0
   }
 
  private:
@@ -85,9 +88,11 @@ class AutomaticThroughTets {
   }
 
   /// A point is a triangle whose corners are one.
-  VecX from_nodes(const TetSources& sources, Task& task, Report& report) const {
+  VecX from_nodes(const TetProblem& problem, const TetSources& sources, Task& task,
+                  Report& report) const {
     VecX phi = VecX::Constant(mesh_.n_vertices(), infinity);
-    const auto measure = [&](const MatX3i& faces, bool all_seen) {
+    int bent = 0;
+    const auto measure = [&](const MatX3i& faces, bool all_seen, double value) {
       TetPathSources from{mesh_.points, faces, {}, true};
       for (const auto& f : faces.rowwise()) {
         int c = ops_.component[static_cast<std::size_t>(f[0])];
@@ -95,31 +100,43 @@ class AutomaticThroughTets {
           if (ops_.component[static_cast<std::size_t>(v)] < 0) c = -1;
         from.component.push_back(c);
       }
-      phi = phi.cwiseMin(paths(
-                             from, all_seen, [](int, const Vec3&, const Vec3&) { return 1.0; },
-                             task.stage(0.5, "distance"), report)
-                             .distance);
+      const TetPathResult found = paths(
+          from, all_seen, [](int, const Vec3&, const Vec3&) { return 1.0; },
+          task.stage(0.5, "distance"));
+      phi = phi.cwiseMin((found.distance.array() + value).matrix());
+      bent = std::max(bent, found.bent);
     };
-    if (sources.boundary) measure(boundary_faces(mesh_), true);
-    MatX3i points(static_cast<Eigen::Index>(sources.vertices.size()), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
-      points.row(i).setConstant(sources.vertices[static_cast<std::size_t>(i)]);
-    if (points.rows() > 0) measure(points, false);
+    const auto value_of = [&](std::size_t i) {
+      return problem.values.empty() ? 0 : sources.values[i] / on_->unit();
+    };
+    if (sources.boundary) measure(boundary_faces(mesh_), true, value_of(sources.vertices.size()));
+    std::map<double, std::vector<int>> by_value;
+    for (std::size_t i = 0; i < sources.vertices.size(); ++i)
+      by_value[value_of(i)].push_back(sources.vertices[i]);
+    for (const auto& [value, vertices] : by_value) {
+      MatX3i points(static_cast<Eigen::Index>(vertices.size()), 3);
+      for (Eigen::Index i = 0; i < points.rows(); ++i)
+        points.row(i).setConstant(vertices[static_cast<std::size_t>(i)]);
+      measure(points, false, value);
+    }
+    tell_bent(bent, report);
     return phi;
   }
 
   TetPathResult paths(const TetPathSources& from, bool all_seen, const SideOf& side,
-                      const Task& task, Report& report) const {
-    TetPathResult found = tet_paths(mesh_, sight_, ops_.component, from, all_seen, side, task);
-    if (found.bent == 0) return found;
+                      const Task& task) const {
+    return tet_paths(mesh_, sight_, ops_.component, from, all_seen, side, task);
+  }
+
+  void tell_bent(int bent, Report& report) const {
+    if (bent == 0) return;
     if (const int folded = folded_tets(mesh_, sight_); folded > 0)
       report.warn("tets-folded",
                   std::to_string(folded) +
                       " times a tet lies on the same side of a face as its neighbour there, folded "
                       "over it: ways round the boundary may be wrong near such tets");
     report.sizes.emplace_back("share of vertices out of sight",
-                              static_cast<double>(found.bent) / mesh_.n_vertices());
-    return found;
+                              static_cast<double>(bent) / mesh_.n_vertices());
   }
 
   VecX from_surface(const TetProblem& problem, bool flip, Task& task, Report& report) const {
@@ -137,11 +154,30 @@ class AutomaticThroughTets {
     TetPathResult found = paths(
         from, false,
         [&](int, const Vec3& q, const Vec3& x) { return settled ? 1.0 : sides.side(q, x); },
-        task.stage(0.4, "distance"), report);
+        task.stage(0.4, "distance"));
     if (settled) set_sides(*settled, found.side);
     const VecX phi = signed_by(found.side, found.distance);
-    if (contradictions(phi).second == 0) return phi;
-    return completed(problem, &sides, from, phi, task, report);
+    if (contradictions(phi).second > 0) return completed(problem, &sides, from, phi, task, report);
+    tell_bent(found.bent, report);
+    return problem.values.empty() ? phi : from_values(problem, found.side, task);
+  }
+
+  /// The least of c + d on positive sides, the largest of c - d on negative ones.
+  VecX from_values(const TetProblem& problem, const VecX& side, Task& task) const {
+    const std::set<double> values(problem.values.begin(), problem.values.end());
+    VecX least = VecX::Constant(mesh_.n_vertices(), infinity), most = -least;
+    for (const double c : values) {
+      const TetProblem part = problem.of_value(c);
+      if (part.places.empty()) continue;  // flat
+      const VecX d = paths(
+                         in_tets(part, triangles_of(part.surface)), false,
+                         [](int, const Vec3&, const Vec3&) { return 1.0; },
+                         task.stage(0.4 / static_cast<double>(values.size()), "distance"))
+                         .distance;
+      least = least.cwiseMin((c + d.array()).matrix());
+      most = most.cwiseMax((c - d.array()).matrix());
+    }
+    return (side.array() < 0 && most.array() > -infinity).select(most, least);
   }
 
   /// Surfaces that are closed, or whose faces disagree in orientation, as in space; none of others.
@@ -209,6 +245,11 @@ class AutomaticThroughTets {
   /// the zero set alone.
   VecX completed(const TetProblem& problem, const Sides* sides, TetPathSources from, VecX phi,
                  Task& task, Report& report) const {
+    if (!problem.values.empty())
+      throw UnsupportedError(
+          "surfaces in tets of different values that are clouds or do not bound, one by one, "
+          "cannot "
+          "be completed; method signed-heat takes them as level sets of one function");
     std::vector<char> open(static_cast<std::size_t>(ops_.n_components), sides ? 0 : 1);
     if (sides) contradictions(phi, &open);
     const VecX heat = by_heat(sides ? soup_of(sides->points, sides->faces) : problem.surface,
@@ -222,7 +263,8 @@ class AutomaticThroughTets {
         [&](int, const Vec3& q, const Vec3& x) {
           return oriented && sides->tells(q) ? sides->side(q, x) : 0;
         },
-        task.stage(0.5, "distance"), report);
+        task.stage(0.5, "distance"));
+    tell_bent(found.bent, report);
     for (int v = 0; v < phi.size(); ++v) {
       const int c = ops_.component[static_cast<std::size_t>(v)];
       if (c < 0 || open[static_cast<std::size_t>(c)] == 0 || std::isinf(found.distance[v]))
@@ -321,7 +363,7 @@ std::vector<Method<TetDomain>> automatic_tet_methods() {
         const auto on = std::make_shared<const TetDiscretization>(*domain.mesh, task, report);
         return [on, method = std::make_shared<const AutomaticThroughTets>(on)](
                    const TetSources& sources, TetAutomatic&, Task& t, Report& r) -> VecX {
-          return method->solve(sources, t, r) * on->unit();
+          return method->solve(sources, t, r);
         };
       })};
 }

@@ -1,11 +1,14 @@
 #include "api/tet/tet_domain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "api/space/space_input.h"
 #include "base/platform/memory.h"
 #include "base/run_interruptible.h"
+#include "sources/tet_source_values.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 
@@ -23,6 +26,27 @@ Box box_of(const TetMesh& mesh) {
   if (!(box.size().minCoeff() >= 0) || !box.size().allFinite())
     throw InputError("the tet mesh has no volume", "empty-input");
   return box;
+}
+
+bool one_value(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&](double c) { return c == values.front(); });
+}
+
+/// One for all or one for each source.
+const std::vector<double>& checked_values(const TetSources& sources) {
+  const PolygonSoup& surface = sources.surface;
+  const int of_surface = surface.n_faces() > 0 ? surface.n_faces() : surface.n_vertices();
+  const std::size_t n = sources.vertices.empty() && !sources.boundary
+                            ? static_cast<std::size_t>(of_surface)
+                            : sources.vertices.size() + (sources.boundary ? 1 : 0);
+  const std::vector<double>& values = sources.values;
+  if (values.size() > 1 && values.size() != n)
+    throw InputError("there are " + std::to_string(values.size()) + " values for " +
+                         std::to_string(n) + " sources",
+                     "sizes-differ");
+  for (const double c : values)
+    if (!std::isfinite(c)) throw InputError("the value of a source is not finite", "not-finite");
+  return values;
 }
 
 }  // namespace
@@ -54,19 +78,42 @@ std::vector<char> TetProblem::reached() const {
 }
 
 TetSourceSystem TetProblem::terms() const {
-  if (!vertices.empty()) return vertex_source_system(*ops, vertices);
+  if (!vertices.empty()) return vertex_source_system(*ops, vertices, values);
   std::vector<int> nearest;
   for (const TetPoint& p : places) {
     const auto corner = std::max_element(p.barycentric.begin(), p.barycentric.end());
     nearest.push_back(
         p.tet < 0 ? -1 : mesh->tets(p.tet, static_cast<int>(corner - p.barycentric.begin())));
   }
-  return tet_source_system(*mesh, *ops, samples, places, nearest, part);
+  return tet_source_system(*mesh, *ops, samples, places, nearest, part, sample_values);
+}
+
+TetProblem TetProblem::of_value(double counted) const {
+  TetProblem out = *this;
+  out.values.clear();
+  out.sample_values.clear();
+  std::vector<int> faces;
+  std::vector<Eigen::Index> own;
+  for (std::size_t f = 0; f < values.size(); ++f)
+    if (values[f] == counted) faces.push_back(static_cast<int>(f));
+  out.surface = soup_of(surface.points, triangles_of(surface)(faces, Eigen::all));
+  out.places.clear();
+  for (std::size_t i = 0; i < sample_values.size(); ++i) {
+    if (sample_values[i] != counted) continue;
+    own.push_back(static_cast<Eigen::Index>(i));
+    out.places.push_back(places[i]);
+  }
+  out.samples = {samples.points(own, Eigen::all), samples.normals(own, Eigen::all),
+                 samples.areas(own)};
+  return out;
 }
 
 std::map<int, TetNodeDistance> TetProblem::known(const std::vector<Eigen::Vector4d>& local,
                                                  const std::function<int(int, int)>& node,
                                                  Around around) const {
+  if (!values.empty())
+    throw UnsupportedError(
+        "sources of different values in tets need one of the methods auto and signed-heat");
   if (!vertices.empty()) {
     std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
     for (const int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
@@ -111,25 +158,55 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   TetProblem problem;
   problem.mesh = mesh_;
   problem.ops = ops_;
+  std::vector<double> values = checked_values(sources);
+  if (one_value(values)) {  // added in the end
+    problem.value = values.empty() ? 0 : values.front();
+    values.clear();
+  }
+  for (double& c : values) c /= frame_.unit;
   std::vector<int>& vertices = problem.vertices;
   vertices = sources.vertices;
+  if (from_vertices && !values.empty()) {
+    problem.values = values;
+    problem.values.resize(vertices.size());
+  }
   if (sources.boundary) {
     const MatX3i faces = boundary_faces(*mesh_);
     vertices.insert(vertices.end(), faces.data(), faces.data() + faces.size());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    if (!values.empty()) problem.values.resize(vertices.size(), values.back());
   }
-  if (vertices.empty()) place(problem, sources, task, report);
+  if (sources.boundary || !values.empty()) merge_vertices(vertices, problem.values);
+  if (vertices.empty()) place(problem, sources, values, task, report);
   for (const int v : vertices)
     if (ops_->component[static_cast<std::size_t>(v)] < 0)
       report.warn("sources-outside",
                   "source vertex " + std::to_string(v) + " belongs to no tet and is left out");
+  if (!problem.values.empty()) warn_of_shadowed(problem, report);
   return problem;
 }
 
+void TetDiscretization::warn_of_shadowed(const TetProblem& problem, Report& report) const {
+  std::vector<ValuedPlace> sources;
+  for (std::size_t i = 0; i < problem.sample_values.size(); ++i)
+    sources.push_back({problem.places[i], problem.sample_values[i]});
+  std::map<int, double> value_at;
+  for (std::size_t i = 0; i < problem.vertices.size(); ++i)
+    value_at.emplace(problem.vertices[i], problem.values[i]);
+  for (int t = 0; t < mesh_->n_tets(); ++t)
+    for (int k = 0; k < 4 && ops_->volumes[t] > 0; ++k) {
+      const auto at = value_at.find(mesh_->tets(t, k));
+      if (at == value_at.end()) continue;
+      TetPoint corner{t, {0, 0, 0, 0}};
+      corner.barycentric[static_cast<std::size_t>(k)] = 1;
+      sources.push_back({corner, at->second});
+      value_at.erase(at);
+    }
+  littoral::warn_of_shadowed(*mesh_, *ops_, sources, frame_.unit, report);
+}
+
 /// The surface, sampled, and where the samples lie in the mesh.
-void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Task& task,
-                              Report& report) const {
+void TetDiscretization::place(TetProblem& placed, const TetSources& sources,
+                              const std::vector<double>& values, Task& task, Report& report) const {
   std::vector<int> all(static_cast<std::size_t>(mesh_->n_tets()));
   std::iota(all.begin(), all.end(), 0);
   const double max_side = mean_edge(*mesh_, all);
@@ -142,6 +219,10 @@ void TetDiscretization::place(TetProblem& placed, const TetSources& sources, Tas
   placed.samples = input.is_cloud()
                        ? input.samples
                        : sample_faces(input.surface, max_side, again, SamplesPerTriangle::three);
+  if (!values.empty()) {
+    placed.values = input.is_cloud() ? values : values_of_triangles(sources.surface, values);
+    placed.sample_values = values_of_samples(placed.surface, placed.samples, placed.values);
+  }
   placed.locator = locator_.get(
       [&] { return run_interruptible(task, [mesh = mesh_] { return TetLocator(*mesh); }); });
   int outside = 0;

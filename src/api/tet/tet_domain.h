@@ -25,7 +25,8 @@ namespace littoral {
 /// outside the tets are left out, with a warning.
 ///
 /// Errors: InputError for bad input and if no source lies in a tet, UnsupportedError for both kinds
-/// of sources together, IoError where memory will not do, Cancelled.
+/// of sources together and for values that the method does not tell apart, IoError where memory
+/// will not do, Cancelled.
 struct TetDomain {
   using Sources = TetSources;
   using Answer = VecX;
@@ -49,13 +50,18 @@ std::vector<Method<TetDomain>> quadratic_tet_methods();
 struct TetProblem {
   std::shared_ptr<const TetMesh> mesh;
   std::shared_ptr<const TetOperators> ops;
-  std::vector<int> vertices;
+  std::vector<int> vertices;                  // ascending, each once, where values differ
   PolygonSoup surface;                        // triangles, or points with normals; as flipped
   OrientedPoints samples;                     // of the surface
   std::vector<TetPoint> places;               // of the samples
   std::vector<int> part;                      // of the samples, where parts are told apart
   std::shared_ptr<const TetLocator> locator;  // of these
   double h = 0;                               // between samples
+  double value = 0;                           // [length] what all of the source is counted from
+  // What its parts are counted from where they differ, beside that: of the vertices, or of the
+  // surface's triangles or a cloud's points. Empty: all the same.
+  std::vector<double> values;
+  std::vector<double> sample_values;  // likewise
 
   /// The tets of some volume that hold sources, each once.
   std::vector<int> tets_with_sources() const;
@@ -64,8 +70,11 @@ struct TetProblem {
   /// A row for each vertex of the source or, of a surface, for each vertex next to it, of the
   /// samples nearest to that.
   TetSourceSystem terms() const;
+  /// The part of a surface with faces that is counted from this value.
+  TetProblem of_value(double counted) const;
   /// What is known around the source at nodes of tets of some volume: barycentrics of a tet's
-  /// nodes, and `node(tet, i)`, their numbers. Of vertices, 0 there and nothing else.
+  /// nodes, and `node(tet, i)`, their numbers. Of vertices, 0 there and nothing else. Throws
+  /// UnsupportedError where values differ.
   std::map<int, TetNodeDistance> known(const std::vector<Eigen::Vector4d>& local,
                                        const std::function<int(int, int)>& node,
                                        Around around) const;
@@ -83,7 +92,9 @@ class TetDiscretization {
   TetProblem problem(const TetSources& sources, Task task, Report& report) const;
 
  private:
-  void place(TetProblem& problem, const TetSources& sources, Task& task, Report& report) const;
+  void place(TetProblem& problem, const TetSources& sources, const std::vector<double>& values,
+             Task& task, Report& report) const;
+  void warn_of_shadowed(const TetProblem& problem, Report& report) const;
 
   Frame frame_;
   std::shared_ptr<const TetMesh> mesh_;
@@ -104,7 +115,7 @@ Method<TetDomain> make_tet_method(MethodInfo info, const OptionTable<S>& table, 
         return [on, solve = make(on, options)](const TetSources& sources, S& used, Task& t,
                                                Report& r) -> VecX {
           const TetProblem problem = on->problem(sources, t.stage(0.1, "placing the sources"), r);
-          return solve(problem, used, t, r) * on->unit();
+          return (solve(problem, used, t, r) * on->unit()).array() + problem.value;
         };
       });
 }

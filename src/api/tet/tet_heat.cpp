@@ -1,6 +1,5 @@
 // Signed heat through tets that are given.
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "methods/heat/sharpen.h"
 #include "methods/heat/signed_heat_tets.h"
 #include "sources/parts_of_samples.h"
+#include "sources/tet_source_values.h"
 
 namespace littoral {
 
@@ -66,15 +66,30 @@ TetProblem problem_on(const Part& part, std::shared_ptr<const TetOperators> ops,
   problem.mesh = part.mesh;
   problem.ops = std::move(ops);
   problem.vertices.clear();
-  for (const int v : whole.vertices)
-    if (const int n = part.number[static_cast<std::size_t>(v)]; n >= 0)
-      problem.vertices.push_back(n);
-  std::sort(problem.vertices.begin(), problem.vertices.end());
-  problem.vertices.erase(std::unique(problem.vertices.begin(), problem.vertices.end()),
-                         problem.vertices.end());
+  if (!whole.vertices.empty()) problem.values.clear();
+  for (std::size_t i = 0; i < whole.vertices.size(); ++i) {
+    const int n = part.number[static_cast<std::size_t>(whole.vertices[i])];
+    if (n < 0) continue;
+    problem.vertices.push_back(n);
+    if (!whole.values.empty()) problem.values.push_back(whole.values[i]);
+  }
+  merge_vertices(problem.vertices, problem.values);
   for (TetPoint& p : problem.places)
     if (p.tet >= 0) p.tet = part.tets[static_cast<std::size_t>(p.tet)];
   return problem;
+}
+
+/// Throws where values of sources differ and the options know one alone.
+void check_values(const TetProblem& problem, const SpaceSignedHeat& options) {
+  if (problem.values.empty()) return;
+  if (options.constraint == SpaceConstraint::level_sets)
+    throw InputError(
+        "option constraint: level-sets finds the values of surfaces and does not go with sources "
+        "of different values",
+        "options-conflict");
+  if (options.sharpen)
+    throw UnsupportedError("option sharpen does not go with sources of different values",
+                           "options-conflict");
 }
 
 VecX solve_on(const TetHeatSolver& heat, const TetProblem& problem, const SpaceSignedHeat& options,
@@ -142,6 +157,7 @@ std::vector<Method<TetDomain>> heat_tet_methods() {
                 const TetProblem& problem, SpaceSignedHeat& options, Task& task, Report& report) {
               options = settled(options, true);
               check_level_sets(options);
+              check_values(problem, options);
               if (options.constraint != SpaceConstraint::level_sets)
                 return heat->solve(problem, options, task, report);
               TetProblem with_parts = problem;

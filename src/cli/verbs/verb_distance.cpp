@@ -30,6 +30,7 @@ struct DistanceArguments {
   std::vector<std::string> sources, out;
   NamedSources named;
   bool boundary = false;
+  std::string values;
   MethodArguments method;
 };
 
@@ -42,6 +43,11 @@ struct DistanceArguments {
 }
 
 Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Session& session) {
+  if (!arguments.values.empty())
+    throw InputError(
+        "option values is for tets; on surfaces the files of --sources hold the values of curves "
+        "and points",
+        "options-conflict");
   Sources sources = read_all_sources(arguments.sources, mesh, session);
   sources.add(named_sources(arguments.named, mesh, arguments.domain, session));
   if (arguments.boundary) {
@@ -56,6 +62,31 @@ Sources gather(const DistanceArguments& arguments, const SurfaceMesh& mesh, Sess
     sources = io::sources_from_lines(mesh.soup(), arguments.domain);
   }
   return session.flip ? sources.reversed() : sources;
+}
+
+/// One number for all or one for each file of surfaces, each vertex and then the boundary.
+std::vector<double> tet_values(const DistanceArguments& arguments, const TetSources& sources) {
+  if (arguments.values.empty()) return {};
+  std::vector<double> values = parse_numbers("values", arguments.values);
+  if (values.size() == 1) return values;
+  const std::size_t n_named = arguments.sources.size() + sources.vertices.size() +
+                              static_cast<std::size_t>(sources.boundary);
+  if (values.size() != n_named)
+    throw InputError("option values: there are " + std::to_string(values.size()) + " numbers for " +
+                         std::to_string(n_named) +
+                         " sources; give one for all, or one for each file of --sources, each "
+                         "--vertex and --boundary",
+                     "sizes-differ");
+  if (arguments.sources.empty()) return values;
+  std::vector<double> of_elements;
+  for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
+    const PolygonSoup surface = io::read_surface(arguments.sources[i]);
+    of_elements.resize(
+        of_elements.size() + static_cast<std::size_t>(surface.n_faces() > 0 ? surface.n_faces()
+                                                                            : surface.n_vertices()),
+        values[i]);
+  }
+  return of_elements;
 }
 
 TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, Session& session) {
@@ -75,6 +106,7 @@ TetSources gather(const DistanceArguments& arguments, const io::TetFile& file, S
     if (file.triangles.rows() == 0) throw_no_sources(arguments.domain, "triangles");
     sources.surface = triangles_of(file, file.triangles);
   }
+  sources.values = tet_values(arguments, sources);
   return sources;
 }
 
@@ -181,6 +213,11 @@ void add_distance(CLI::App& program, Session& session) {
   add_named_sources(verb, arguments->named);
   verb.add_flag("--boundary", arguments->boundary,
                 "measure from the boundary of the surface or of the tets, without sign");
+  verb.add_option("--values", arguments->values,
+                  "of tets, what distance is counted from: one number, or one for each file of "
+                  "--sources, each --vertex and then --boundary; on surfaces files of sources hold "
+                  "them")
+      ->type_name("C,...");
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions(surface_outputs) + ", of tets " +
                         io::written_extensions({Kind::tets}) + ", too");

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "methods/heat/finalize.h"
@@ -58,13 +61,13 @@ VecX TetHeatSolver::integrate(const TetSourceSystem& system, const MatX3& Y, dou
           Report ignored;
           b = poisson.solve(b, ignored);
         },
-        std::move(phi), {system.A, std::move(held.softness), tolerance, std::move(held.group)},
+        std::move(phi),
+        {system.A, std::move(held.softness), tolerance, std::move(held.group), system.value},
         constrain_stage, report);
-    if (constraint == SpaceConstraint::level_sets)
-      phi.array() -= system.weight.dot(system.A * phi) / system.weight.sum();
-  } else if (system.A.rows() > 0) {
-    phi.array() -= system.weight.dot(system.A * phi) / system.weight.sum();
   }
+  if (system.A.rows() > 0 &&
+      (constraint == SpaceConstraint::none || constraint == SpaceConstraint::level_sets))
+    phi.array() -= system.weight.dot(system.A * phi - system.value) / system.weight.sum();
   set_unreached(phi, ops.component, reached, report);
   return phi;
 }
@@ -114,10 +117,22 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, d
     const auto factor = vertices_.get(t, [&] {
       return Cholesky<double>(SpMat(t * ops.L + SpMat(mass.asDiagonal())), heat_stage);
     });
-    const VecX u = factor->solve(VecX(system.A.transpose() * VecX::Ones(system.A.rows())));
-    // Step II: Y = -grad u / |grad u|.
+    // Step II: Y = -grad u / |grad u| of the sources of one value that are strongest, weakened by
+    // exp(-value / sqrt(t)).
     int zeros = 0;
-    Y = normalize_rows(-ops.gradient(u), ops.volumes, zeros);
+    VecX strongest = VecX::Constant(ops.volumes.size(), -infinity);
+    MatX3 X = MatX3::Zero(ops.volumes.size(), 3);
+    for (const double value : std::set<double>(system.value.begin(), system.value.end())) {
+      const VecX own = (system.value.array() == value).cast<double>();
+      const MatX3 slope = ops.gradient(factor->solve(VecX(system.A.transpose() * own)));
+      for (Eigen::Index i = 0; i < X.rows(); ++i) {
+        const double strength = std::log(slope.row(i).stableNorm()) - value / std::sqrt(t);
+        if (!(strength > strongest[i])) continue;
+        strongest[i] = strength;
+        X.row(i) = -slope.row(i);
+      }
+    }
+    Y = normalize_rows(std::move(X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn("direction-missing",
                   std::to_string(zeros) + " tets have no direction: too far from the sources");

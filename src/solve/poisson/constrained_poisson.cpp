@@ -28,11 +28,15 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
                        const Task& task, Report& report) {
   const auto& A = rows.A;
   if (A.rows() == 0) return x;
-  // Stationarity: L x + A^T mu = b, A x = softness mu; L x sums to zero, so mu does too (the rows
-  // of A sum to 1), and the constant part of x balances the mean of A x. Groups: A x = B c +
-  // softness mu with c free, so B^T mu = 0.
+  // Stationarity: L x + A^T mu = b, A x = c + softness mu; L x sums to zero, so mu does too (the
+  // rows of A sum to 1), and the constant part of x balances the mean of A x - c. Groups: A x = B c
+  // + softness mu with c free, so B^T mu = 0.
   VecX mu = VecX::Zero(A.rows());
-  VecX r = A * x, s(x.size());
+  const auto off = [&](VecX Ax) {
+    if (rows.value.size() > 0) Ax -= rows.value;
+    return Ax;
+  };
+  VecX r = off(A * x), s(x.size());
   // s = L^+ A^T v, in the same place each time: fresh memory of that size takes as long as the
   // sums.
   const auto spread_and_solve = [&](const VecX& v) {
@@ -72,7 +76,7 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     x -= s;
   }
   if (!rows.group.empty()) return x;
-  const VecX left = A * x - rows.softness.cwiseProduct(mu);
+  const VecX left = off(A * x) - rows.softness.cwiseProduct(mu);
   x.array() -= left.mean();
   return x;
 }

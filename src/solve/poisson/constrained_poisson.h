@@ -13,14 +13,15 @@ namespace littoral {
 /// What is asked of A x.
 struct ConstraintRows {
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& A;  // rows x unknowns; row sums 1
-  VecX softness;             // rows: 0 holds a row, s > 0 penalises it by (A x)^2 / (2 s)
-  double tolerance;          // largest root mean square of A x + softness * multiplier [as x]
-  std::vector<int> group{};  // rows: A x takes one value, unknown, along each; empty: 0 along all
+  VecX softness;             // rows: 0 holds a row, s > 0 penalises it by (A x - c)^2 / (2 s)
+  double tolerance;          // largest root mean square of A x - c + softness * multiplier [as x]
+  std::vector<int> group{};  // rows: A x takes one value, unknown, along each; empty: `value`
+  VecX value{};              // rows: c; empty: 0 along all
 };
 
-/// Minimiser of 1/2 x^T L x - b^T x subject to A x = 0 or to one value a group (or with penalties
-/// on what deviates from these), where L is positive
-/// semidefinite with the constants of one component as its null space; 1^T b = 0.
+/// Minimiser of 1/2 x^T L x - b^T x subject to A x = c or to one value a group (or with penalties
+/// on what deviates from these), where L is positive semidefinite with the constants of one
+/// component as its null space; 1^T b = 0.
 ///
 /// `solve` replaces b by L^+ b up to a constant. The multipliers solve the Schur complement
 /// A L^+ A^T by conjugate gradients over multipliers of sum zero along each group, one solve per

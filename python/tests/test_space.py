@@ -246,6 +246,8 @@ def test_tet_sources_have_values() -> None:
     np.testing.assert_allclose(both, least, atol=1e-12)
     shifted = littoral.tet_distance(mesh, vertices=0, values=2.5, method="quadratic")
     assert shifted.values.min() == pytest.approx(2.5, abs=1e-3)
+    same = littoral.distance(mesh, points=0, values=2.5, method="quadratic")
+    np.testing.assert_array_equal(same.values, shifted.values)
     with pytest.raises(littoral.InputError, match="3 values for 2 sources"):
         littoral.tet_distance(mesh, slab, values=[1, 2, 3])
 

@@ -18,6 +18,11 @@ struct Wide<4> {
   using Lanes = double __attribute__((vector_size(32)));
   using Bits = std::int64_t __attribute__((vector_size(32)));
 };
+template <>
+struct Wide<8> {
+  using Lanes = double __attribute__((vector_size(64)));
+  using Bits = std::int64_t __attribute__((vector_size(64)));
+};
 
 template <class Lanes, class Scalar>
 [[gnu::always_inline]] inline void load(Lanes& to, const Scalar* from) {

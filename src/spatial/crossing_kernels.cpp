@@ -146,9 +146,9 @@ template <int width>
         y[i + l] = v;
         z[i + l] = w;
       }
-    for (int i = 0; i < n; i += together * lanes)
-      for (int p = 0; p < parts; ++p) {
-        Lanes dens[together], nums[together], steepest = apart;
+    for (int i = 0; i < n; i += together * lanes) {
+      Lanes dens[parts][together], nums[parts][together], steepest = zero + walk.reach;
+      for (int p = 0; p < parts; ++p)
         for (int k = 0; k < together; ++k) {
           const int at = i + k * lanes + p * width;
           Lanes sa, sb, ya, yb, za, zb;
@@ -156,31 +156,35 @@ template <int width>
           load(ya, y + at), load(yb, y + at + 1);
           load(za, z + at), load(zb, z + at + 1);
           nearest = sa < nearest ? sa : nearest;
-          dens[k] = sa * sb + (ya * yb + za * zb);
-          nums[k] = za * yb - ya * zb;
-          const Lanes room = dens[k] - (Lanes)((Bits)nums[k] & ~sign);
+          const Lanes den = sa * sb + (ya * yb + za * zb), num = za * yb - ya * zb;
+          const Lanes room = den - (Lanes)((Bits)num & ~sign);
           steepest = room < steepest ? room : steepest;
+          dens[p][k] = den;
+          nums[p][k] = num;
         }
-        bool small = true;
-        for (int l = 0; l < width; ++l) small = small & (steepest[l] > 0);
+      // Of all lanes, however many there are in a register: rounding must not depend on it.
+      bool small = true;
+      for (int l = 0; l < width; ++l) small = small & (steepest[l] > 0);
+      for (int p = 0; p < parts; ++p) {
         TurnLanes<width>& so_far = angle[p];
+        const Lanes *d = dens[p], *m = nums[p];
         if (small) {
-          const auto times = [](const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
+          const auto times = [](const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& e,
                                 Lanes& re, Lanes& im) {
-            re = a * c - b * d;
-            im = a * d + b * c;
+            re = a * c - b * e;
+            im = a * e + b * c;
           };
           Lanes re1, im1, re2, im2, re, im;
-          times(dens[0], nums[0], dens[1], nums[1], re1, im1);
-          times(dens[2], nums[2], dens[3], nums[3], re2, im2);
+          times(d[0], m[0], d[1], m[1], re1, im1);
+          times(d[2], m[2], d[3], m[3], re2, im2);
           times(re1, im1, re2, im2, re, im);
           so_far.turn_by(re, im);
         } else {
           for (int k = 0; k < together; ++k) {
-            const Lanes size = (Lanes)((Bits)nums[k] & ~sign);
-            const Lanes larger = dens[k] > size ? dens[k] : size;
+            const Lanes size = (Lanes)((Bits)m[k] & ~sign);
+            const Lanes larger = d[k] > size ? d[k] : size;
             apart = larger < apart ? larger : apart;
-            so_far.turn_by(dens[k], nums[k]);
+            so_far.turn_by(d[k], m[k]);
           }
         }
         const Lanes scale =
@@ -188,6 +192,7 @@ template <int width>
         so_far.re *= scale;
         so_far.im *= scale;
       }
+    }
   }
   bool fine = true;
   for (int l = 0; l < width; ++l) fine = fine && apart[l] > 0 && nearest[l] > narrow * walk.reach;
@@ -230,6 +235,10 @@ bool walk_plain(const WalkView& walk, const double* q, WalkAngle& out) {
 }
 [[gnu::target("avx2")]] bool walk_avx2(const WalkView& walk, const double* q, WalkAngle& out) {
   return walk_of<4>(walk, q, out);
+}
+[[gnu::target(LITTORAL_AVX512)]] bool walk_avx512(const WalkView& walk, const double* q,
+                                                  WalkAngle& out) {
+  return walk_of<8>(walk, q, out);
 }
 #endif
 
@@ -274,9 +283,15 @@ double careful_angle(const double* a, const double* b) {
 }
 
 const CrossingKernels& crossing_kernels() {
-  static const CrossingKernels best =
-      LITTORAL_FASTEST((CrossingKernels{&pierced_plain, &crossings_plain, &walk_plain}),
-                       (CrossingKernels{&pierced_avx2, &crossings_avx2, &walk_avx2}));
+  static const CrossingKernels best = [] {
+    CrossingKernels kernels =
+        LITTORAL_FASTEST((CrossingKernels{&pierced_plain, &crossings_plain, &walk_plain}),
+                         (CrossingKernels{&pierced_avx2, &crossings_avx2, &walk_avx2}));
+#if defined(__x86_64__)
+    if (LITTORAL_HAS_AVX512) kernels.walk_angle = &walk_avx512;
+#endif
+    return kernels;
+  }();
   return best;
 }
 

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "base/kernel_choice.h"
+
 namespace littoral {
 
 namespace {
@@ -79,11 +81,6 @@ void plain_sum(const PointBlocks<float>::Block& b, const YukawaPlace& q, YukawaS
                                       YukawaSums& sums) {
   add(b, q, sums);
 }
-#if defined(__clang__)
-#define LITTORAL_AVX512 "avx512f,avx512dq,avx512vl"
-#else
-#define LITTORAL_AVX512 "avx512f,avx512dq,avx512vl,prefer-vector-width=512"
-#endif
 [[gnu::target(LITTORAL_AVX512)]] void avx512_sum(const PointBlocks<float>::Block& b,
                                                  const YukawaPlace& q, YukawaSums& sums) {
   add(b, q, sums);
@@ -94,7 +91,7 @@ void plain_sum(const PointBlocks<float>::Block& b, const YukawaPlace& q, YukawaS
 
 YukawaSum* yukawa_sum() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return &avx512_sum;
+  if (LITTORAL_HAS_AVX512) return &avx512_sum;
   if (__builtin_cpu_supports("avx2")) return &avx2_sum;
 #endif
   return &plain_sum;

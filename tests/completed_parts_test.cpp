@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <ctime>
 
 #include "broken_shapes.h"
 #include "methods/implicit/level_patch.h"
@@ -62,6 +64,53 @@ TEST(BoundaryEdges, AreThoseOfTheChain) {
   for (int f = 0; f < sphere.n_faces(); ++f)
     loose = joined(loose, part_of(sphere, [&](int g, const Vec3&) { return g == f; }));
   EXPECT_EQ(of(loose), 0u);
+}
+
+/// So many triangles by themselves with middles in a box about a place, and corners about these.
+PolygonSoup crowd(int n, const Vec3& place, const Vec3& box, const Vec3& size) {
+  PolygonSoup soup;
+  soup.points = 0.5 * (MatX3::Random(3 * n, 3) * size.asDiagonal());
+  const MatX3 middles = 0.5 * (MatX3::Random(n, 3) * box.asDiagonal());
+  for (int f = 0; f < n; ++f) {
+    const std::array<int, 3> corners{3 * f, 3 * f + 1, 3 * f + 2};
+    for (const int v : corners) soup.points.row(v) += middles.row(f) + place.transpose();
+    soup.add_face(corners);
+  }
+  return soup;
+}
+
+TEST(BoundaryEdges, LooseFacesInOneLineCountAsNothing) {
+  const PolygonSoup sphere = test::octasphere_soup(1);
+  const PolygonSoup strewn = joined(sphere, crowd(2000, {2, 0, 0}, {0, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(boundary_edges(strewn.points, triangles_of(strewn)).empty());
+  const WindingNumber winding(strewn.points, triangles_of(strewn));
+  EXPECT_TRUE(winding.exact());
+  EXPECT_EQ(winding({0.1, 0.2, 0.3}), 1);
+  EXPECT_EQ(winding({2, 0, 0.1}), 0);
+  const PolygonSoup line = crowd(3, {0, 0, 0}, {0, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(WindingNumber(line.points, triangles_of(line))(Vec3(0.1, 0.2, 0.3)), 0);
+  // A square whose diagonal has a corner on one side only: the face in one line closes the gap.
+  PolygonSoup square;
+  square.points.resize(5, 3);
+  square.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 0;
+  for (const std::array<int, 3>& f : {std::array{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}})
+    square.add_face(f);
+  EXPECT_EQ(boundary_edges(square.points, triangles_of(square)).size(), 4u);
+}
+
+TEST(OrientSoup, CrowdsAndFacesWithoutAreaChangeNothing) {
+  const PolygonSoup sphere = turned(test::octasphere_soup(3), [](int f) { return f < 64; });
+  const PolygonSoup line = joined(sphere, crowd(3000, {2, 0, 0}, {0, 0, 0}, {0, 0, 1})),
+                    tiny = joined(
+                        sphere, crowd(3000, {2, 0, 0}, Vec3::Constant(1e-6), Vec3::Constant(1e-8)));
+  for (const PolygonSoup& soup : {line, tiny}) {
+    const std::clock_t begin = std::clock();
+    const OrientedSoup oriented = orient_soup(soup.points, triangles_of(soup), Task());
+    // Where all are in one bin each line looks at all of them, which takes ten times as long.
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 2);
+    EXPECT_NEAR(oriented.turned, 64.0 / 512, 0.01);
+    EXPECT_NEAR(WindingNumber(soup.points, oriented.faces)(Vec3(0.1, 0, 0)), 1, 1e-4);
+  }
 }
 
 TEST(OrientSoup, LeavesOutWallsAndSheetsAndCountsWhatItTurned) {

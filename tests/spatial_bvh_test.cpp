@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "brute_force.h"
 #include "littoral/error.h"
+#include "spatial/covered_triangles.h"
 #include "spatial/grid_values.h"
 #include "spatial/nearest_kernels.h"
 #include "spatial/triangle_bvh.h"
@@ -66,10 +67,16 @@ void expect_consistent(const Soup& soup, const NearestPoint& hit, const Vec3& qu
   EXPECT_NEAR((hit.point - query).norm(), hit.distance, 1e-14 * size);
 }
 
-/// The lowest face among the nearest, each face asked on its own: the same arithmetic, no pruning.
+/// The lowest face among the nearest that others do not cover, each face asked on its own: the same
+/// arithmetic, no pruning.
 NearestPoint one_by_one(const Soup& soup, const Vec3& query) {
+  std::vector<std::array<Vec3, 3>> corners(soup.faces.rows());
+  for (int f = 0; f < soup.faces.rows(); ++f)
+    for (int k = 0; k < 3; ++k) corners[f][k] = soup.points.row(soup.faces(f, k));
+  const std::vector<bool> covered = covered_triangles(corners);
   NearestPoint best;
   for (int f = 0; f < soup.faces.rows(); ++f) {
+    if (covered[f]) continue;
     const MatX3i face = soup.faces.row(f);
     NearestPoint hit = TriangleBvh(soup.points, face).closest_point(query);
     hit.face = f;
@@ -184,6 +191,17 @@ void expect_distances_of_points(const MatX3& points, const MatX3i& faces, const 
   const VecX slow =
       grid_values(grid, Task(), [&](const Vec3& x, int&) { return bvh.closest_point(x).distance; });
   EXPECT_LE((one - slow).cwiseAbs().maxCoeff(), allowed);
+  const VecX asked = bvh.values_at_nodes(
+      grid,
+      [&](const Vec3& x, const NearestPoint& foot) {
+        Vec3 point = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) point += foot.barycentric[k] * points.row(faces(foot.face, k));
+        EXPECT_LE((point - foot.point).norm(), 1e-14);
+        EXPECT_NEAR((point - x).norm(), foot.distance, 1e-14 * (1 + foot.distance));
+        return foot.distance;
+      },
+      Task());
+  EXPECT_TRUE(asked == one);
 }
 
 TEST(SpatialBvh, DistancesAtNodesAreThoseOfTheirPoints) {

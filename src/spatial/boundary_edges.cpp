@@ -1,10 +1,10 @@
 #include "spatial/boundary_edges.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "base/index.h"
+#include "spatial/covered_triangles.h"
 
 namespace littoral {
 
@@ -24,33 +24,70 @@ std::vector<int> same_positions(const MatX3& points) {
   return first;
 }
 
-std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i& faces) {
+namespace {
+
+/// A side between two vertices, the lower first, run along so many times from the lower to the
+/// higher, less those back.
+struct CountedSide {
+  std::pair<int, int> ends;
+  int count;
+};
+
+CountedSide side_between(int a, int b) { return {std::minmax({a, b}), a < b ? 1 : -1}; }
+
+}  // namespace
+
+std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i& faces,
+                                               std::vector<char>* nothing) {
   const std::vector<int> first = same_positions(points);
-  struct Side {
-    std::pair<int, int> ends;  // the lower first
-    int count;                 // 1 from the lower to the higher, -1 back
+  std::vector<CountedSide> sides;
+  struct Flat {
+    Eigen::Index face;
+    std::array<CountedSide, 3> around;
   };
-  std::vector<Side> sides;
+  std::vector<Flat> flat;
+  if (nothing) nothing->assign(faces.rows(), 0);
   sides.reserve(3 * faces.rows());
+  const double size = points_size(points);
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    std::array<int, 3> at;
     bool finite = true;
-    for (int k = 0; k < 3; ++k) finite = finite && points.row(faces(f, k)).allFinite();
-    if (!finite) continue;
     for (int k = 0; k < 3; ++k) {
-      const int a = first[faces(f, k)], b = first[faces(f, (k + 1) % 3)];
-      if (a != b) sides.push_back({std::minmax({a, b}), a < b ? 1 : -1});
+      finite = finite && points.row(faces(f, k)).allFinite();
+      at[k] = first[faces(f, k)];
     }
+    if (!finite || at[0] == at[1] || at[1] == at[2] || at[2] == at[0]) continue;
+    const std::array<CountedSide, 3> around{side_between(at[0], at[1]), side_between(at[1], at[2]),
+                                            side_between(at[2], at[0])};
+    sides.insert(sides.end(), around.begin(), around.end());
+    if (is_flat(points.row(faces(f, 0)), points.row(faces(f, 1)), points.row(faces(f, 2)), size))
+      flat.push_back({f, around});
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return a.ends < b.ends; });
+  const auto before = [](const CountedSide& a, const CountedSide& b) { return a.ends < b.ends; };
+  std::sort(sides.begin(), sides.end(), before);
+  std::size_t n = 0;  // sums of sides that are the same
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (n > 0 && sides[n - 1].ends == sides[i].ends)
+      sides[n - 1].count += sides[i].count;
+    else
+      sides[n++] = sides[i];
+  }
+  sides.resize(n);
+  for (const auto& [face, around] : flat) {
+    std::array<int*, 3> sums;
+    for (std::size_t k = 0; k < 3; ++k)
+      sums[k] = &std::lower_bound(sides.begin(), sides.end(), around[k], before)->count;
+    bool free = true;
+    for (std::size_t k = 0; k < 3; ++k) free = free && *sums[k] * around[k].count > 0;
+    if (!free) continue;
+    for (std::size_t k = 0; k < 3; ++k) *sums[k] -= around[k].count;
+    if (nothing) (*nothing)[face] = 1;
+  }
   std::vector<std::array<int, 2>> out;
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    int sum = 0;
-    for (; end < sides.size() && sides[end].ends == sides[begin].ends; ++end)
-      sum += sides[end].count;
-    const auto [a, b] = sides[begin].ends;
-    for (; sum > 0; --sum) out.push_back({a, b});
-    for (; sum < 0; ++sum) out.push_back({b, a});
+  for (const CountedSide& side : sides) {
+    const auto [a, b] = side.ends;
+    for (int i = side.count; i > 0; --i) out.push_back({a, b});
+    for (int i = side.count; i < 0; ++i) out.push_back({b, a});
   }
   return out;
 }

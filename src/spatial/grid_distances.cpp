@@ -7,7 +7,6 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
-#include "spatial/closest_on_triangle.h"
 #include "spatial/nearest_kernels.h"
 #include "spatial/triangle_bvh.h"
 
@@ -102,8 +101,9 @@ bool set_triangle(const std::array<Vec3, 3>& corners, NearTriangle& t) {
 /// centre.
 class TriangleBvh::BlockSearch {
  public:
-  BlockSearch(const TriangleBvh& tree, const Grid& grid, const Candidates& all, double* values)
-      : tree_(tree), grid_(grid), all_(all), values_(values) {}
+  BlockSearch(const TriangleBvh& tree, const Grid& grid, const Candidates& all,
+              const NodeValue* value, double* values)
+      : tree_(tree), grid_(grid), all_(all), value_(value), values_(values) {}
 
   void visit(const Block& block) { descend(block, all_, 0); }
 
@@ -250,17 +250,20 @@ class TriangleBvh::BlockSearch {
     for (int c = 0; c < kept.n; ++c) look_at(kept.number[c], n, nodes);
     n = 0;
     for_nodes(block, [&](int i, int j, int k) {
+      const Vec3 x = grid_.point(i, j, k);
+      const int triangle = static_cast<int>(nearest_[n++]);
       values_[grid_.node(i, j, k)] =
-          tree_.distance_to(static_cast<int>(nearest_[n++]), grid_.point(i, j, k));
+          value_ ? (*value_)(x, tree_.nearest_on(triangle, x)) : tree_.distance_to(triangle, x);
     });
   }
 
   void ask_tree(const Block& block) {
     int last = -1;
     for_nodes(block, [&](int i, int j, int k) {
-      const NearestPoint foot = tree_.closest_point(grid_.point(i, j, k), last);
+      const Vec3 x = grid_.point(i, j, k);
+      const NearestPoint foot = tree_.closest_point(x, last);
       last = foot.face;
-      values_[grid_.node(i, j, k)] = foot.distance;
+      values_[grid_.node(i, j, k)] = value_ ? (*value_)(x, foot) : foot.distance;
     });
   }
 
@@ -275,6 +278,7 @@ class TriangleBvh::BlockSearch {
   const TriangleBvh& tree_;
   const Grid& grid_;
   const Candidates& all_;
+  const NodeValue* value_;
   double* values_;
   const NearestKernels& kernels_ = nearest_kernels();
   std::vector<std::unique_ptr<Candidates>> levels_;
@@ -285,6 +289,15 @@ class TriangleBvh::BlockSearch {
 };
 
 VecX TriangleBvh::distances(const Grid& grid, const Task& task) const {
+  return by_blocks(grid, nullptr, task);
+}
+
+VecX TriangleBvh::values_at_nodes(const Grid& grid, const NodeValue& value,
+                                  const Task& task) const {
+  return by_blocks(grid, &value, task);
+}
+
+VecX TriangleBvh::by_blocks(const Grid& grid, const NodeValue* value, const Task& task) const {
   VecX values(grid.n_nodes());
   Candidates all;
   if (corners_.size() <= std::size_t{most_per_node} * root_side * root_side * root_side) {
@@ -311,7 +324,7 @@ VecX TriangleBvh::distances(const Grid& grid, const Task& task) const {
       block.last[a] = std::min(block.first[a] + root_side, grid.n[a]);
       rest /= blocks[a];
     }
-    BlockSearch(*this, grid, all, values.data()).visit(block);
+    BlockSearch(*this, grid, all, value, values.data()).visit(block);
   });
   return values;
 }

@@ -11,7 +11,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "spatial/closest_on_triangle.h"
+#include "spatial/covered_triangles.h"
 
 namespace littoral {
 
@@ -78,14 +78,23 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   exponent_ = exponent_of(magnitude);
   std::vector<std::array<Vec3, 3>> corners;
   corners.reserve(faces_.size());
-  std::vector<Box> boxes;
-  boxes.reserve(faces_.size());
   for (int f : faces_) {
-    std::array<Vec3, 3> c;
+    std::array<Vec3, 3>& c = corners.emplace_back();
     for (int k = 0; k < 3; ++k) c[k] = scaled(points.row(faces(f, k)), -exponent_);
-    corners.push_back(c);
-    boxes.push_back({c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
   }
+  const std::vector<bool> covered = covered_triangles(corners);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (covered[i]) continue;
+    corners[kept] = corners[i];
+    faces_[kept++] = faces_[i];
+  }
+  corners.resize(kept);
+  faces_.resize(kept);
+  std::vector<Box> boxes;
+  boxes.reserve(kept);
+  for (const auto& c : corners)
+    boxes.push_back({c[0].cwiseMin(c[1]).cwiseMin(c[2]), c[0].cwiseMax(c[1]).cwiseMax(c[2])});
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
   const std::vector<Split> splits = split(boxes, order);
@@ -266,6 +275,25 @@ double TriangleBvh::distance_to(int stored, const Vec3& query) const {
                     exponent_);
 }
 
+NearestPoint TriangleBvh::nearest_on(int stored, const Vec3& query) const {
+  const Vec3 q = to_tree(query);
+  const auto& c = corners_[stored];
+  return point_of(stored, closest_on_triangle(c[0] - q, c[1] - q, c[2] - q), exponent_);
+}
+
+/// `exponent`: of the unit that the foot's offset is in.
+NearestPoint TriangleBvh::point_of(int stored, const TriangleFoot& foot, int exponent) const {
+  NearestPoint out;
+  out.face = faces_[stored];
+  out.barycentric = foot.barycentric;
+  Vec3 point = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) point += foot.barycentric[k] * corners_[stored][k];
+  out.point = scaled(point, exponent_);
+  out.distance =
+      std::min(std::ldexp(foot.offset.stableNorm(), exponent), std::numeric_limits<double>::max());
+  return out;
+}
+
 NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   if (!query.allFinite())
     throw InputError("the query point of a closest-point search is not finite", "not-finite");
@@ -352,16 +380,7 @@ NearestPoint TriangleBvh::closest_point(const Vec3& query, int hint) const {
   }
   look_at_candidates();
 
-  NearestPoint answer;
-  answer.face = faces_[best_at];
-  answer.barycentric = best_foot.barycentric;
-  const auto& c = corners_[best_at];
-  Vec3 point = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) point += best_foot.barycentric[k] * c[k];
-  answer.point = scaled(point, exponent_);
-  answer.distance = std::min(std::ldexp(best_foot.offset.stableNorm(), exponent_ + shift),
-                             std::numeric_limits<double>::max());
-  return answer;
+  return point_of(best_at, best_foot, exponent_ + shift);
 }
 
 }  // namespace littoral

@@ -13,10 +13,11 @@
 namespace littoral {
 
 /// Sum of signed solid angles over 4 pi: 1 inside a closed surface whose normals point outward, 0
-/// outside, in between where it is broken. Exact where the triangles' boundary has few edges or
-/// none (crossing_number.h). Otherwise far clusters are expanded to second order (Barill et al.,
-/// "Fast winding numbers for soups and clouds", 2018); near triangles count exactly (van Oosterom
-/// and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several threads.
+/// outside, in between where it is broken. Exact where the triangles' boundary has no edges or few
+/// (crossing_number.h), or where that is faster. Otherwise far clusters are expanded to second
+/// order (Barill et al., "Fast winding numbers for soups and clouds", 2018); near triangles count
+/// exactly (van Oosterom and Strackee 1983), near points as dipoles. Immutable, may be evaluated
+/// from several threads.
 class WindingNumber {
  public:
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
@@ -61,10 +62,16 @@ class WindingNumber {
   };
 
   void set_frame(const MatX3& points);
-  void build(Items items);
+  void build(const Items& items);
   int add_leaf(const Items& items, const Cluster& cluster);
   int add_node(const Items& items, const std::vector<Moments>& moments, int root);
   double leaf_sum(int leaf, const double* q) const;
+  /// What a sum over clusters looks at.
+  struct Work {
+    int nodes = 0, leaves = 0;
+  };
+  double clustered_sum(const Vec3& q, double accuracy, Work* work = nullptr) const;
+  double nanoseconds_of_clusters(const Vec3& half) const;
 
   Vec3 origin_ = Vec3::Zero();
   double unit_ = 1;

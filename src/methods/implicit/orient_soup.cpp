@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/boundary_edges.h"
+#include "spatial/covered_triangles.h"
 
 namespace littoral {
 
@@ -22,7 +25,8 @@ constexpr double least_valid = 0.1;     // share of lines that pass an odd numbe
 constexpr double least_agreeing = 0.4;  // of these, for less against
 constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
 
-/// Triangles by where lines of one direction meet them.
+/// Triangles by where lines of one direction meet them: in bins of the plane across it, and crowded
+/// bins in bins of their own.
 class LineCaster {
  public:
   LineCaster(const MatX3& points, const MatX3i& faces, const Vec3& direction) : faces_(faces) {
@@ -31,39 +35,24 @@ class LineCaster {
     turn << u.transpose(), v.transpose(), direction.transpose();
     turn_ = turn;
     points_ = points * turn.transpose();
-    low_ = points_.leftCols<2>().colwise().minCoeff();
-    const Vec2 size = points_.leftCols<2>().colwise().maxCoeff().transpose() - low_;
-    n_ = std::clamp(static_cast<int>(std::sqrt(double(faces.rows()))), 1, 512);
-    cell_ = std::max(size.maxCoeff() / n_, 1e-300);
-    begin_.assign(std::size_t(n_) * n_ + 1, 0);
-    for (const bool counting : {true, false}) {
-      for (int f = 0; f < faces.rows(); ++f) {
-        Eigen::Array2i from, to;
-        bins(f, from, to);
-        for (int j = from[1]; j <= to[1]; ++j)
-          for (int i = from[0]; i <= to[0]; ++i) {
-            const std::size_t bin = std::size_t(j) * n_ + i;
-            if (counting)
-              ++begin_[bin + 1];
-            else
-              in_bin_[begin_[bin] + filled_[bin]++] = f;
-          }
-      }
-      if (!counting) break;
-      for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
-      in_bin_.resize(begin_.back());
-      filled_.assign(begin_.size(), 0);
-    }
+    std::vector<int> all(faces.rows());
+    std::iota(all.begin(), all.end(), 0);
+    const double inf = std::numeric_limits<double>::infinity();
+    add_bins(all, {Vec2::Constant(-inf), Vec2::Constant(inf)}, 0);
   }
 
   /// How many faces but `own` the line through x passes on the side of the direction, and before.
   std::pair<int, int> passed(const Vec3& x, int own) const {
     const Vec3 q = turn_ * x;
-    const Eigen::Array2i at = bin_of(q.head<2>());
-    const std::size_t bin = std::size_t(at[1]) * n_ + at[0];
+    const Bins* bins = bins_.data();
+    std::size_t bin = bins->at(q.head<2>());
+    while (bins->finer[bin] >= 0) {
+      bins = &bins_[bins->finer[bin]];
+      bin = bins->at(q.head<2>());
+    }
     int after = 0, before = 0;
-    for (std::size_t k = begin_[bin]; k < begin_[bin + 1]; ++k) {
-      const int f = in_bin_[k];
+    for (std::size_t k = bins->begin[bin]; k < bins->begin[bin + 1]; ++k) {
+      const int f = bins->faces[k];
       if (f == own) continue;
       std::array<Vec3, 3> p;
       for (int c = 0; c < 3; ++c) p[c] = points_.row(faces_(f, c)).transpose() - q;
@@ -79,27 +68,105 @@ class LineCaster {
   }
 
  private:
-  Eigen::Array2i bin_of(const Vec2& p) const {
-    return (((p - low_) / cell_).array().floor().max(0).min(n_ - 1)).cast<int>();
-  }
-  void bins(int f, Eigen::Array2i& from, Eigen::Array2i& to) const {
-    Vec2 low = points_.row(faces_(f, 0)).head<2>(), high = low;
-    for (int c = 1; c < 3; ++c) {
-      low = low.cwiseMin(points_.row(faces_(f, c)).head<2>().transpose());
-      high = high.cwiseMax(points_.row(faces_(f, c)).head<2>().transpose());
+  static constexpr std::size_t crowded = 256;  // faces of a bin
+  static constexpr int deepest = 12;
+  static constexpr double faces_a_finer_bin = 16;  // on average
+  static constexpr double most_copies = 2;         // of a face in finer bins, on average
+  static constexpr double most_in_all = 20;        // of all faces
+
+  struct Box2 {
+    Vec2 low, high;
+  };
+  struct Bins {
+    Vec2 low;
+    double cell = 1;
+    int n = 1;                       // a side
+    std::vector<std::size_t> begin;  // of each bin's faces
+    std::vector<int> faces, finer;   // bins of a bin, or -1
+
+    Eigen::Array2i place(const Vec2& p) const {
+      return (((p - low) / cell).array().floor().max(0).min(n - 1)).cast<int>();
     }
-    from = bin_of(low);
-    to = bin_of(high);
+    std::size_t at(const Vec2& p) const {
+      const Eigen::Array2i i = place(p);
+      return std::size_t(i[1]) * n + i[0];
+    }
+  };
+
+  Box2 box_of(int f) const {
+    Box2 box{points_.row(faces_(f, 0)).head<2>(), points_.row(faces_(f, 0)).head<2>()};
+    for (int c = 1; c < 3; ++c) {
+      box.low = box.low.cwiseMin(points_.row(faces_(f, c)).head<2>().transpose());
+      box.high = box.high.cwiseMax(points_.row(faces_(f, c)).head<2>().transpose());
+    }
+    return box;
+  }
+
+  /// Bins of the faces within a part of the plane, which they reach. Returns their number, or -1
+  /// where finer bins would each have most of the faces again.
+  int add_bins(const std::vector<int>& faces, const Box2& part, int depth) {
+    Box2 box = box_of(faces[0]);
+    for (const int f : faces) {
+      const Box2 one = box_of(f);
+      box.low = box.low.cwiseMin(one.low);
+      box.high = box.high.cwiseMax(one.high);
+    }
+    Bins bins;
+    bins.low = box.low.cwiseMax(part.low);
+    const Vec2 size = box.high.cwiseMin(part.high) - bins.low;
+    const double share = depth == 0 ? 1 : faces_a_finer_bin;
+    bins.n = std::clamp(static_cast<int>(std::sqrt(double(faces.size()) / share)), 1, 512);
+    bins.cell = std::max(size.maxCoeff() / bins.n, 1e-300);
+    const auto range = [&](int f) {
+      const Box2 one = box_of(f);
+      return std::pair(bins.place(one.low), bins.place(one.high));
+    };
+    if (depth > 0) {
+      double copies = 0;
+      for (const int f : faces) {
+        const auto [from, to] = range(f);
+        copies += (to - from + 1).prod();
+      }
+      stored_ += copies;
+      if (copies > most_copies * static_cast<double>(faces.size()) ||
+          stored_ > most_in_all * static_cast<double>(faces_.rows()))
+        return -1;
+    }
+    bins.begin.assign(std::size_t(bins.n) * bins.n + 1, 0);
+    bins.finer.assign(bins.begin.size() - 1, -1);
+    const auto for_bins = [&](int f, const auto& visit) {
+      const auto [from, to] = range(f);
+      for (int j = from[1]; j <= to[1]; ++j)
+        for (int i = from[0]; i <= to[0]; ++i) visit(std::size_t(j) * bins.n + i);
+    };
+    for (const int f : faces) for_bins(f, [&](std::size_t bin) { ++bins.begin[bin + 1]; });
+    std::partial_sum(bins.begin.begin(), bins.begin.end(), bins.begin.begin());
+    bins.faces.resize(bins.begin.back());
+    std::vector<std::size_t> end(bins.begin.begin(), bins.begin.end() - 1);
+    for (const int f : faces) for_bins(f, [&](std::size_t bin) { bins.faces[end[bin]++] = f; });
+
+    const int at = int_size(bins_);
+    bins_.push_back(std::move(bins));
+    for (std::size_t bin = 0; bin < end.size() && depth < deepest; ++bin) {
+      const Bins& these = bins_[at];
+      const std::size_t count = these.begin[bin + 1] - these.begin[bin];
+      if (count <= crowded) continue;
+      const std::vector<int> inside(these.faces.begin() + these.begin[bin],
+                                    these.faces.begin() + these.begin[bin + 1]);
+      const Vec2 low = these.low + these.cell * Vec2(static_cast<double>(bin % these.n),
+                                                     static_cast<double>(bin / these.n));
+      const Box2 square{low, low.array() + these.cell};
+      const int finer = add_bins(inside, square, depth + 1);
+      bins_[at].finer[bin] = finer;
+    }
+    return at;
   }
 
   const MatX3i& faces_;
   Eigen::Matrix3d turn_;
   MatX3 points_;  // the direction is the third axis
-  Vec2 low_;
-  int n_ = 1;
-  double cell_ = 1;
-  std::vector<std::size_t> begin_, filled_;
-  std::vector<int> in_bin_;
+  std::vector<Bins> bins_;
+  double stored_ = 0;  // in finer bins
 };
 
 /// Each set of corners once, as the first face has them, without those of fewer than three.
@@ -223,11 +290,20 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
   OrientedSoup out;
   std::vector<char> turned;
   const std::vector<int> part = agreeing_parts(all, turned);
+  // Faces without area but for rounding join others, and lines do not tell their sides.
   VecX areas(all.rows());
-  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+  MatX3i solid(all.rows(), 3);
+  std::vector<int> solid_of(all.rows(), -1);
+  int n_solid = 0;
+  const double size = points_size(points);
+  for (int f = 0; f < int_size(solid_of); ++f) {
     const Vec3 a = points.row(all(f, 0)), b = points.row(all(f, 1)), c = points.row(all(f, 2));
-    areas[f] = (b - a).cross(c - a).norm() / 2;
+    areas[f] = is_flat(a, b, c, size) ? 0 : (b - a).cross(c - a).norm() / 2;
+    if (!(areas[f] > 0)) continue;
+    solid.row(n_solid) = all.row(f);
+    solid_of[f] = n_solid++;
   }
+  solid.conservativeResize(n_solid, 3);
   const double total = areas.sum();
   if (!(total > 0)) return out;
   const std::vector<Place> places = places_on(points, all, areas, part);
@@ -236,7 +312,7 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
   std::vector<std::array<signed char, directions>> votes(places.size());
   for (int d = 0; d < directions; ++d) {
     const Vec3 direction = direction_number(d);
-    const LineCaster lines(points, all, direction);
+    const LineCaster lines(points, solid, direction);
     parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
       task.checkpoint();
       for (std::size_t i = begin; i < end; ++i) {
@@ -244,7 +320,7 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
         const Vec3 a = points.row(corners[0]), b = points.row(corners[1]),
                    c = points.row(corners[2]);
         const bool along = (b - a).cross(c - a).dot(direction) > 0;
-        auto [front, behind] = lines.passed(places[i].x, places[i].face);
+        auto [front, behind] = lines.passed(places[i].x, solid_of[places[i].face]);
         if (!along) std::swap(front, behind);
         votes[i][d] = static_cast<signed char>((front + behind) % 2 == 0 ? 0 : behind % 2 * 2 - 1);
       }

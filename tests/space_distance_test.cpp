@@ -5,12 +5,15 @@
 
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "api/space/sdf.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "methods/implicit/closest_point.h"
 #include "shared_data.h"
 #include "space_helpers.h"
+#include "spatial/triangulate.h"
 
 namespace littoral {
 namespace {
@@ -65,6 +68,24 @@ TEST(SpaceDistance, ClosestPointMethodsAreExactOnClosedMeshes) {
       EXPECT_NEAR(gradients.row(i).norm(), 1, 1e-9);
     }
   }
+}
+
+TEST(SpaceDistance, ClosestPointMethodsOnGridsAreThemselvesNodeByNode) {
+  // Closed, and where all is open and the side is that of the nearest face.
+  PolygonSoup open = test::octasphere_soup(4);
+  MatX3i faces = triangles_of(open);
+  faces.conservativeResize(faces.rows() / 2 - 7, 3);
+  const PolygonSoup torus = triangulate(test::off_centre_torus());
+  const Grid grid = test::cube_grid(33, 1.3);
+  for (const SignRule rule : {SignRule::winding, SignRule::pseudonormal})
+    for (const auto& [points, triangles] :
+         {std::pair(open.points, faces), std::pair(torus.points, triangles_of(torus))}) {
+      const auto distance = closest_point_distance(points, triangles, rule);
+      const VecX fast = distance->on_grid(grid, Task()),
+                 slow = distance->PointwiseDistance::on_grid(grid, Task());
+      EXPECT_LE((fast.cwiseAbs() - slow.cwiseAbs()).cwiseAbs().maxCoeff(), 1e-15);
+      EXPECT_LE((fast - slow).cwiseAbs().maxCoeff(), 1e-15);
+    }
 }
 
 TEST(SpaceDistance, PseudonormalIsRightWhereFaceNormalsAreNot) {

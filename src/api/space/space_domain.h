@@ -99,7 +99,9 @@ Method<SpaceDomain> make_grid_method(MethodInfo info, const OptionTable<S>& tabl
           // exceed the grid's.
           const SpaceInput input = make_input(sources, frame, local.spacing.minCoeff(), task, r);
           Task rest = task.stage(0.95, "distance");
-          return SpaceAnswer{on_grid(input, local, options, rest, r) * frame.unit, {}, {}, {}};
+          SpaceAnswer answer{on_grid(input, local, options, rest, r), {}, {}, {}};
+          answer.at_nodes *= frame.unit;
+          return answer;
         };
       });
 }

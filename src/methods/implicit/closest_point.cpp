@@ -53,7 +53,13 @@ class ToTriangles : public PointwiseDistance {
     return is_inside(x, foot) ? -foot.distance : foot.distance;
   }
   VecX on_grid(const Grid& grid, const Task& task) const override {
-    if (!winding_) return PointwiseDistance::on_grid(grid, task);
+    if (!winding_)
+      return bvh_->values_at_nodes(
+          grid,
+          [&](const Vec3& x, const NearestPoint& foot) {
+            return is_inside(x, foot) ? -foot.distance : foot.distance;
+          },
+          task);
     Task stages = task;
     VecX values = bvh_->distances(grid, stages.stage(0.7, "distance"));
     set_signs(

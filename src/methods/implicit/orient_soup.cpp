@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,8 +37,13 @@ class LineCaster {
     points_ = points * turn.transpose();
     std::vector<int> all(faces.rows());
     std::iota(all.begin(), all.end(), 0);
-    const double inf = std::numeric_limits<double>::infinity();
-    add_bins(all, {Vec2::Constant(-inf), Vec2::Constant(inf)}, 0);
+    Box2 box = box_of(0);
+    for (const int f : all) {
+      const Box2 one = box_of(f);
+      box.low = box.low.cwiseMin(one.low);
+      box.high = box.high.cwiseMax(one.high);
+    }
+    add_bins(all, box, 0);
   }
 
   /// How many faces but `own` the line through x passes on the side of the direction, and before.
@@ -102,35 +107,28 @@ class LineCaster {
     return box;
   }
 
-  /// Bins of the faces within a part of the plane, which they reach. Returns their number, or -1
-  /// where finer bins would each have most of the faces again.
-  int add_bins(const std::vector<int>& faces, const Box2& part, int depth) {
-    Box2 box = box_of(faces[0]);
-    for (const int f : faces) {
-      const Box2 one = box_of(f);
-      box.low = box.low.cwiseMin(one.low);
-      box.high = box.high.cwiseMax(one.high);
-    }
+  /// Bins of the faces that reach a part of the plane. Returns their number, or -1 where finer bins
+  /// would each have most of the faces again.
+  int add_bins(std::span<const int> faces, const Box2& part, int depth) {
     Bins bins;
-    bins.low = box.low.cwiseMax(part.low);
-    const Vec2 size = box.high.cwiseMin(part.high) - bins.low;
+    bins.low = part.low;
     const double share = depth == 0 ? 1 : faces_a_finer_bin;
     bins.n = std::clamp(static_cast<int>(std::sqrt(double(faces.size()) / share)), 1, 512);
-    bins.cell = std::max(size.maxCoeff() / bins.n, 1e-300);
+    bins.cell = std::max((part.high - part.low).maxCoeff() / bins.n, 1e-300);
     const auto range = [&](int f) {
       const Box2 one = box_of(f);
       return std::pair(bins.place(one.low), bins.place(one.high));
     };
     if (depth > 0) {
+      const double most = std::min(most_copies * static_cast<double>(faces.size()),
+                                   most_in_all * static_cast<double>(faces_.rows()) - stored_);
       double copies = 0;
       for (const int f : faces) {
         const auto [from, to] = range(f);
         copies += (to - from + 1).prod();
+        if (copies > most) return -1;
       }
       stored_ += copies;
-      if (copies > most_copies * static_cast<double>(faces.size()) ||
-          stored_ > most_in_all * static_cast<double>(faces_.rows()))
-        return -1;
     }
     bins.begin.assign(std::size_t(bins.n) * bins.n + 1, 0);
     bins.finer.assign(bins.begin.size() - 1, -1);
@@ -151,8 +149,7 @@ class LineCaster {
       const Bins& these = bins_[at];
       const std::size_t count = these.begin[bin + 1] - these.begin[bin];
       if (count <= crowded) continue;
-      const std::vector<int> inside(these.faces.begin() + these.begin[bin],
-                                    these.faces.begin() + these.begin[bin + 1]);
+      const std::span<const int> inside(these.faces.data() + these.begin[bin], count);
       const Vec2 low = these.low + these.cell * Vec2(static_cast<double>(bin % these.n),
                                                      static_cast<double>(bin / these.n));
       const Box2 square{low, low.array() + these.cell};

@@ -160,7 +160,7 @@ void cover_along(const Line& line, std::vector<Stretch>& stretches, double most_
 }  // namespace
 
 double points_size(const MatX3& points) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (Eigen::Index v = 0; v < points.rows(); ++v) {
     if (!points.row(v).allFinite()) continue;
     low = low.cwiseMin(points.row(v).transpose());
@@ -180,7 +180,7 @@ std::vector<bool> covered_triangles(const std::vector<Triangle>& corners) {
   std::vector<bool> covered(corners.size());
   find_copies(corners, covered);
 
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const Triangle& t : corners)
     for (const Vec3& p : t) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double size = (high - low).maxCoeff();

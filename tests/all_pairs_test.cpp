@@ -165,6 +165,26 @@ TEST(AllPairs, StopsWhereRoundOffIsAboveTheTolerance) {
   EXPECT_LT(report.iterations[0].second, 200000);
 }
 
+TEST(AllPairs, StopsWhereTheResidualFallsEverMoreSlowly) {
+  // A fan of needles among wide triangles: a power of the number of iterations.
+  PolygonSoup soup;
+  soup.points.resize(12, 3);
+  soup.points.row(0).setZero();
+  for (int i = 1; i < 12; ++i) {
+    const bool wide = i == 3 || i == 4 || (i > 5 && i < 9) || i == 11;
+    soup.points.row(i) << (wide ? std::cos(i - 2.) : 1), (wide ? std::sin(i - 2.) : i * 1e-12), 0;
+    if (i > 1) test::add_triangle(soup, 0, i - 1, i);
+  }
+  Report report;
+  test::pair_distances(
+      SurfaceMesh(soup), {},
+      AnyMethod::named("symmetric", {{"tolerance", "1e-10"}, {"max-iterations", "1000000000"}}),
+      report);
+  EXPECT_EQ(report.status, "not converged");
+  ASSERT_FALSE(report.iterations.empty());
+  EXPECT_LT(report.iterations[0].second, 50000);
+}
+
 TEST(AllPairs, AgreesWithTheAuthors) {
   LITTORAL_NEEDS_SHARED("reference/rgd/allpairs_octa2");
   const auto folder = test::shared() / "reference/rgd/allpairs_octa2";

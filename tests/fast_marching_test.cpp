@@ -57,6 +57,24 @@ TEST(FastMarching, SignsAroundACircleThroughFacesAndALoopOfEdges) {
     }
 }
 
+TEST(FastMarching, ItDoesNotMatterWhichFaceIsTheFirst) {
+  const PolygonSoup soup = test::jittered_grid_soup(4, 4, 0.3);
+  Sources corner;  // from the boundary to the middle and back to it, along edges
+  corner.add(Curve::along_vertices({10, 11, 12, 17, 22}));
+  const VecX expected = test::marched(SurfaceMesh(soup), corner);
+  EXPECT_LT(expected.minCoeff(), -0.2);
+  EXPECT_GT(expected.maxCoeff(), 0.2);
+  for (int first = 1; first < soup.n_faces(); ++first) {
+    PolygonSoup turned = soup;
+    turned.corners.clear();
+    turned.face_offsets = {0};
+    for (int f = 0; f < soup.n_faces(); ++f)
+      turned.add_face(soup.face((first + f) % soup.n_faces()));
+    EXPECT_LT((test::marched(SurfaceMesh(turned), corner) - expected).cwiseAbs().maxCoeff(), 1e-12)
+        << first;
+  }
+}
+
 TEST(FastMarching, ErrorFallsWithTheEdgeLength) {
   double error[2];
   for (int i = 0; i < 2; ++i) {

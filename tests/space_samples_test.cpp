@@ -51,6 +51,17 @@ TEST(SpaceSamples, PartsOfANeedleHaveAreaOrAreLeftOut) {
   }
 }
 
+TEST(SpaceSamples, OneFaceWithoutAreaIsToldOf) {
+  PolygonSoup box = test::box_soup({1, 2, 3});
+  Report report;
+  sample_faces(box, never, report);
+  EXPECT_THAT(report.warnings, testing::IsEmpty());
+  box.add_face(std::array{0, 1, 1});
+  EXPECT_EQ(sample_faces(box, never, report).size(), 12);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0].text, HasSubstr("1 faces without area"));
+}
+
 TEST(SpaceSamples, SpacingIsTheSideOfEvenTriangles) {
   Report report;
   PolygonSoup one;
@@ -91,6 +102,9 @@ TEST(SpaceSamples, CloudAreasAreThoseOfTheirCells) {
   PolygonSoup four;
   four.points = cloud.points.replicate(4, 1);
   four.normals = cloud.normals.replicate(4, 1);
+  EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
+  // Places that differ by rounding are one.
+  four.points.bottomRows(200).col(0).array() += 1e-13;
   EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
 }
 

@@ -10,6 +10,7 @@
 
 #include "constants.h"
 #include "domain/tet/tet_locator.h"
+#include "methods/geodesic/taut_way.h"
 #include "one_call.h"
 #include "space_helpers.h"
 #include "tet_helpers.h"
@@ -293,6 +294,61 @@ TEST(WaysThroughTets, RoundTwoEdgesThatAreNotParallelAreExact) {
     if (const Vec3 x = mesh.points.row(v); x[0] > 0.75) {
       EXPECT_NEAR(phi[v], exact(x), 1e-8) << x.transpose();
     }
+}
+
+double length_by(const MatX3& points, const Vec3& start, const Vec3& end,
+                 const std::vector<EdgeTurn>& turns) {
+  double length = 0;
+  Vec3 last = start;
+  for (const EdgeTurn& turn : turns) {
+    const Vec3 at = place_of(points, turn);
+    length += (at - last).norm();
+    last = at;
+  }
+  return length + (end - last).norm();
+}
+
+// The length is a convex function of where the way turns; the best places are found one by one.
+TEST(TautWay, IsAsShortAsWaysOverTheseEdgesCanBe) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int at_ends = 0;
+  double worst = 0;
+  for (int round = 0; round < 300; ++round) {
+    MatX3 points(6, 3);
+    std::vector<EdgeTurn> turns;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 middle(i - 1.0, 0.3 * u(random), 0.3 * u(random));
+      const Vec3 half(0.2 * u(random), 0.5 * u(random), 0.5 * u(random));
+      points.row(2 * i) = middle - half;
+      points.row(2 * i + 1) = middle + half;
+      turns.push_back({2 * i, 2 * i + 1, 0.5 + 0.5 * u(random)});
+    }
+    const Vec3 start(-2, u(random), u(random)), end(2, u(random), u(random));
+    std::vector<EdgeTurn> best = turns;
+    for (int sweep = 0; sweep < 100; ++sweep)
+      for (EdgeTurn& turn : best) {
+        double low = 0, high = 1;
+        while (high - low > 1e-12) {
+          const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+          turn.t = a;
+          const double at_a = length_by(points, start, end, best);
+          turn.t = b;
+          if (at_a < length_by(points, start, end, best))
+            high = b;
+          else
+            low = a;
+        }
+        turn.t = low < 1e-11 ? 0 : high > 1 - 1e-11 ? 1 : low;
+      }
+    for (const EdgeTurn& turn : best) at_ends += turn.t == 0 || turn.t == 1;
+    make_taut(
+        points, [&](const Vec3&) { return start; }, end, turns);
+    worst =
+        std::max(worst, length_by(points, start, end, turns) - length_by(points, start, end, best));
+  }
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_GT(at_ends, 50);
 }
 
 }  // namespace

@@ -82,6 +82,37 @@ TEST(ThinTriangles, RefinementLeavesNeedlesAnArea) {
   }
 }
 
+TEST(ThinTriangles, RegularizedDistancesAreThoseOfWiderNeedles) {
+  const auto all_pairs = [](double width, const char* alpha) {
+    Report report;
+    const PairsAnswer answer =
+        test::pair_distances(SurfaceMesh(needle_fan(width)), {},
+                             AnyMethod::named("symmetric", {{"alpha", alpha}}), report);
+    EXPECT_EQ(report.status, "converged") << width << " " << alpha;
+    return answer.distances;
+  };
+  for (const char* alpha : {"0.05", "1", "40000"}) {
+    const MatX wider = all_pairs(1e-5, alpha);
+    for (const double width : {1e-8, 1e-9, 1e-12})
+      EXPECT_LT((all_pairs(width, alpha) - wider).cwiseAbs().maxCoeff(), 0.01 * wider.maxCoeff())
+          << width << " " << alpha;
+  }
+  for (const char* method : {"regularized", "belyaev-fayolle"}) {
+    const auto from = [&](double width) {
+      Report report;
+      Sources sources;
+      sources.points = {SurfacePoint::at_vertex(6), SurfacePoint::at_vertex(2)};
+      const VecX d = test::surface_distance(SurfaceMesh(needle_fan(width)), sources,
+                                            AnyMethod::named(method), report);
+      EXPECT_EQ(report.status, "converged") << method << width;
+      return d;
+    };
+    const VecX wider = from(1e-5);
+    for (const double width : {1e-8, 1e-9, 1e-12})
+      EXPECT_LT((from(width) - wider).cwiseAbs().maxCoeff(), 0.01) << method << width;
+  }
+}
+
 TEST(ThinTriangles, NormalsArePreservedBesidePolygonsWithoutArea) {
   PolygonSoup soup;
   soup.points.resize(9, 3);  // a strip of quads: the second and its neighbours have collapsed

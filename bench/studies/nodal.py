@@ -18,7 +18,7 @@ def nodal_lines(mesh: littoral.Surface, count: int) -> list[Lines]:
     """Where the first `count` eigenfunctions after the constant vanish: closed lines in space."""
     ops = littoral.operators(mesh)
     start = np.random.default_rng(7).normal(size=mesh.n_vertices)
-    _, functions = eigsh(ops.L, count + 1, diags(ops.M), sigma=-1e-8 * ops.M.sum(), v0=start)
+    _, functions = eigsh(ops.L, count + 1, diags(ops.M), sigma=-1e-3 / ops.M.sum(), v0=start)
     return [littoral.isolines(mesh, functions[:, k]) for k in range(1, count + 1)]
 
 

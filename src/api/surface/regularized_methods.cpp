@@ -8,7 +8,7 @@
 #include "api/surface/subdivided.h"
 #include "base/index.h"
 #include "base/stopwatch.h"
-#include "domain/intrinsic/intrinsic_triangulation.h"
+#include "domain/intrinsic/lengthened_sides.h"
 #include "io/surface/read_directions.h"
 #include "littoral/error.h"
 #include "methods/regularized/regularized.h"
@@ -111,7 +111,9 @@ class RegularizedTriangles {
  public:
   RegularizedTriangles(SurfaceDomain domain, const Regularized& options, const Task& task,
                        Report& report)
-      : domain_(std::move(domain)), T_(triangulation_of(domain_, report)) {
+      : domain_(std::move(domain)),
+        T_(std::make_shared<const IntrinsicTriangulation>(
+            without_needles(*triangulation_of(domain_, report), report))) {
     const Stopwatch watch(report, "factor");
     const auto regularizer = options.alpha > 0 ? options.regularizer : Regularizer::dirichlet;
     if (options.elements == Elements::quadratic) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "api/surface/edge_chains.h"
 #include "api/surface/heat_surface.h"
@@ -223,6 +225,23 @@ void WholeCurves::add_sides(const Labelled& on, const std::vector<char>& settled
   }
 }
 
+Sources WholeCurves::with_sides(const Sources& given, const PlacedSources& placed) const {
+  Sources out;
+  if (on_heat_.mesh == domain_.mesh) {  // where curves in space lie on it has been found
+    std::set<int> curves;
+    for (const CurvePiece& piece : pieces_with_sides(placed)) curves.insert(piece.curve);
+    for (const int c : curves) out.curves.push_back({placed.nodes[c]});
+    return out;
+  }
+  for (const Curve& curve : given.curves)
+    if (curve.is_signed) out.curves.push_back(curve.with_value(0));
+  for (SpaceCurve curve : given.space_curves) {
+    curve.value = 0;
+    if (curve.is_signed) out.space_curves.push_back(std::move(curve));
+  }
+  return out;
+}
+
 void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& placed,
                                    const std::vector<char>& open, WholeSources& whole, Task task,
                                    Report& report) const {
@@ -232,14 +251,7 @@ void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& pl
     return unchecked_signed_heat(on_heat_, on_heat_.mesh == domain_.mesh ? T_ : nullptr, hint_,
                                  task.stage(0.6, "factoring"), quiet);
   });
-  Sources with_sides;  // others would draw the zero set to themselves
-  for (const Curve& curve : given.curves)
-    if (curve.is_signed) with_sides.curves.push_back(curve);
-  for (const SpaceCurve& curve : given.space_curves)
-    if (curve.is_signed) with_sides.space_curves.push_back(curve);
-  for (Curve& curve : with_sides.curves) curve.value = 0;
-  for (SpaceCurve& curve : with_sides.space_curves) curve.value = 0;
-  const VecX phi = (*heat)(with_sides, task.stage(0.4, "solving"), quiet);
+  const VecX phi = (*heat)(with_sides(given, placed), task.stage(0.4, "solving"), quiet);
   PlacedSources sided = placed;
   sided.points.clear();
   sided.pieces = pieces_with_sides(placed);

@@ -42,6 +42,8 @@ class WholeCurves {
   bool straighten_completion(const Labelled& zigzag, const std::vector<char>& settled,
                              WholeSources& whole, const Task& task) const;
   void add_sides(const Labelled& on, const std::vector<char>& settled, WholeSources& whole) const;
+  /// The signed curves alone, without values: others would draw the zero set to themselves.
+  Sources with_sides(const Sources& given, const PlacedSources& placed) const;
   void complete_by_heat(const Sources& given, const PlacedSources& placed,
                         const std::vector<char>& open, WholeSources& whole, Task task,
                         Report& report) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
+#include "domain/intrinsic/lengthened_sides.h"
 #include "domain/mesh/edge_sides.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
@@ -71,23 +72,13 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
   }
   T.mean_edge_length = sum / used;
 
-  constexpr double margin = 1e-10;
-  int mollified = 0;
   T.length.resize(T.n_faces(), 3);
-  for (int f = 0; f < T.n_faces(); ++f) {
-    Eigen::Array3d l;
-    for (int k = 0; k < 3; ++k) l[k] = edge_length[T.side_edge(f, k)];
-    const double longest = l.maxCoeff() > 0 ? l.maxCoeff() : T.mean_edge_length;
-    const double slack = l.sum() - 2 * l.maxCoeff();
-    if (slack < margin * longest) {
-      l += margin * longest - slack;
-      ++mollified;
-    }
-    T.length.row(f) = l.matrix();
-  }
-  if (mollified)
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k) T.length(f, k) = edge_length[T.side_edge(f, k)];
+  const int lengthened = lengthen_sides(T, 1e-10);
+  if (lengthened > 0)
     report.warn("degenerate-faces",
-                std::to_string(mollified) +
+                std::to_string(lengthened) +
                     " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
 }
 

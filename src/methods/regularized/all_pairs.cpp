@@ -89,18 +89,24 @@ class AllPairs {
 
   MatX run(Report& report) {
     double worst = infinity;
-    // Needles can leave round-off above the tolerance, which no number of iterations gets below.
-    constexpr int least_iterations = 10'000;
-    double least = worst;
-    int k = 0, fell = 0;  // the iteration in which `worst` last fell by a tenth
+    // Needles leave round-off above the tolerance, which no number of iterations gets below, or a
+    // residual that falls ever more slowly. So at each mark it must have fallen so much since the
+    // one before that, at this pace, ten times as many iterations would do.
+    double mark = 2500, least = worst, least_at_mark = worst;
+    bool hopeful = true;
+    int k = 0;
     const int last = o_.max_iterations;
-    while (worst > 1 && k < last && (k < least_iterations || k / 4 <= fell)) {
+    while (worst > 1 && k < last && hopeful) {
       ++k;
       const bool check = k % check_every == 0 || k == last;
       const Norms norms = iterate(check);
       if (!check) continue;
       worst = check_convergence(norms, k);
-      if (worst < 0.9 * least) least = worst, fell = k;
+      least = std::min(least, worst);
+      if (k < mark) continue;
+      hopeful = 10 / 0.75 * std::log(least_at_mark / least) >= std::log(least);
+      least_at_mark = least;
+      mark *= 4;
     }
     report.iterations.emplace_back("all pairs", k);
     report.residuals.emplace_back("all pairs, over what is compared", worst * o_.tolerance);

@@ -117,6 +117,20 @@ std::vector<SpMat> split_matrix(const SpMat& lower, const std::vector<int>& comp
   return out;
 }
 
+/// Throws SolveError where the curved Hessian's energy outweighs the penalty with the wrong sign.
+ConstrainedSystem::Constrained with_hessian(const SpMat& matrix, const Calculus& C,
+                                            const Held& held, double rho, const Task& task) {
+  try {
+    return ConstrainedSystem(matrix, C.component, C.n_components, task,
+                             ConstrainedSystem::Rows::many)
+        .constrain(held.rows, task, held.give / rho);
+  } catch (const SolveError&) {
+    throw SolveError(
+        "the Hessian energy has no minimum: it is negative for functions that bend with saddles of "
+        "the surface, and option alpha is so large that nothing outweighs that");
+  }
+}
+
 LinearMap as_map(SpRows matrix) {
   LinearMap G;
   G.rows = matrix.rows();
@@ -206,9 +220,7 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
     problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
     problem.solve = [&](const VecX& b, double rho) {
       if (rho != constrained_rho) {
-        constrained = ConstrainedSystem(SpMat(alpha * W + rho * C.L), C.component, C.n_components,
-                                        task, ConstrainedSystem::Rows::many)
-                          .constrain(held.rows, task, held.give / rho);
+        constrained = with_hessian(SpMat(alpha * W + rho * C.L), C, held, rho, task);
         constrained_rho = rho;
       }
       return constrained.solve(b);

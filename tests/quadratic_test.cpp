@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "quadratic_helpers.h"
 #include "test_meshes.h"
 
@@ -333,6 +334,27 @@ TEST(QuadraticSolver, CancelsAndReportsWhenIterationsRunOut) {
   const auto field = method.solve(points, few, {}, report);
   EXPECT_EQ(report.status, "not converged");
   EXPECT_TRUE(field.u.allFinite());
+}
+
+TEST(QuadraticSolver, SamplesAreInsertedAtALooseTolerance) {
+  PolygonSoup strip = test::grid_soup(5, 1);  // and three thin triangles
+  strip.points.conservativeResize(14, 3);
+  strip.points.row(12) << -0.57, 0.71, 0.26;
+  strip.points.row(13) << 0.3, 0.5, 0;
+  test::add_triangle(strip, 4, 11, 12);
+  test::add_triangle(strip, 1, 8, 13);
+  test::add_triangle(strip, 8, 9, 2);
+  const SurfaceMesh mesh(strip);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    Report report;
+    Quadratic options;
+    options.tolerance = 0.1;
+    options.source_radius = 1.46e-7;
+    const VecX d =
+        test::surface_distance(mesh, Sources(SurfacePoint::at_vertex(v)), options, report);
+    EXPECT_TRUE(d.allFinite()) << v;
+    EXPECT_LT(d.maxCoeff(), 3) << v;
+  }
 }
 
 }  // namespace

@@ -72,6 +72,24 @@ TEST(Repair, BoxWithItsEdgesAndCorners) {
   EXPECT_EQ(size_named(with.report, "result: handles"), 0);
 }
 
+TEST(Repair, CreasesDoNotFlattenFaces) {
+  RepairOptions options;
+  options.remesh = true;
+  for (const auto& [resolution, angle] : {std::pair(12, 0.2), std::pair(20, 0.5)}) {
+    PolygonSoup box = test::box_soup(Vec3(0.5, 0.4, 0.3));
+    const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(angle, Vec3(1, 2, 3).normalized()));
+    box.points = box.points * turn.transpose();
+    options.grid.resolution = resolution;
+    const PolygonSoup out = repair(box, options).surface.soup();
+    for (int f = 0; f < out.n_faces(); ++f) {
+      const Vec3 a = out.points.row(out.face(f)[0]), b = out.points.row(out.face(f)[1]),
+                 c = out.points.row(out.face(f)[2]);
+      const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+      EXPECT_GT((b - a).cross(c - a).norm(), 1e-3 * longest * longest) << resolution << " " << f;
+    }
+  }
+}
+
 TEST(Repair, HoleTurnedFacesAndADuplicate) {
   // A sphere with a hole, some faces turned round, some twice and one piece of it beside itself.
   const PolygonSoup whole = test::octasphere_soup(4);

@@ -84,8 +84,7 @@ class Run {
       if (insert && rounds < most_rounds && (early || now.converged)) {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
-        ++rounds;
-        if (early) set_anchor();
+        if (rounds++ == 0) set_anchor();
         if (!found.empty()) {
           insert_rows(found);
           best_merit = infinity;

@@ -214,7 +214,8 @@ TEST(IoStl, TheSizeTellsBinaryFromText) {
 
 TEST(IoStl, SaysWhatIsWrong) {
   const auto error = [](const std::string& text) { return error_of(text, ".stl"); };
-  EXPECT_EQ(error(""), "a.stl: byte 0: the file ends inside the header of a binary STL");
+  EXPECT_EQ(error(""),
+            "a.stl: byte 0: the file ends inside the header of a binary STL; the file is empty");
   EXPECT_EQ(error(binary_stl("x", 4294967295u, 80)),
             "a.stl: byte 80: the header says 4294967295 triangles, the data hold 80");
   EXPECT_EQ(error(binary_stl("solid x", 40, 80)),

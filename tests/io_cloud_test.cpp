@@ -35,7 +35,7 @@ TEST(IoPc, ReadsPointsAndNormalsInterleavedOrInBlocks) {
 }
 
 TEST(IoPc, SaysWhatIsWrong) {
-  EXPECT_EQ(error_of("", ".pc"), "a.pc: no points");
+  EXPECT_EQ(error_of("", ".pc"), "a.pc: no points; the file is empty");
   EXPECT_EQ(error_of("v 1 2 3\nv 1 2 3\nvn 1 0 0", ".pc"), "a.pc: 2 points but 1 normals");
   EXPECT_THAT(error_of("v 1 2\n", ".pc"), HasSubstr("a.pc:1: "));
   EXPECT_THAT(error_of("v 1 2 3\nf 1 2 3\n", ".pc"), HasSubstr("a.pc:2: expected 'v x y z'"));
@@ -46,6 +46,13 @@ TEST(IoXyz, SixColumnsHaveNormalsAndOthersDoNot) {
   const PolygonSoup coloured = read("2\n1 2 3 117 73 49 255\n4 5 6 91 87 74 255\n", ".xyz");
   EXPECT_EQ(coloured.points.rows(), 2);
   EXPECT_EQ(coloured.normals.rows(), 0);
+  // Six columns without a minus sign: colours of bytes or of shares, normals where all are of unit
+  // length.
+  EXPECT_EQ(read("1 2 3 117 73 49\n4 5 6 255 0 0\n", ".xyz").normals.rows(), 0);
+  EXPECT_EQ(read("1 2 3 0.5 0.25 0\n4 5 6 1 0 0\n", ".xyz").normals.rows(), 0);
+  EXPECT_EQ(read("1 2 3 0.6 0 0.8\n4 5 6 0 0.8 0.6\n", ".xyz").normals.rows(), 2);
+  EXPECT_EQ(read("1 2 3 0 0 -5\n4 5 6 20 0 0\n", ".xyz").normals.rows(), 2);
+  EXPECT_EQ(read("1 2 3 0 0 2\n4 5 6 0 0 2\n", ".xyz").normals.rows(), 2);
   EXPECT_THAT(error_of("1 2 3\n1 2 3 4\n", ".xyz"), HasSubstr("a.xyz:2: a row of 4 numbers"));
   EXPECT_THAT(error_of("1 2\n", ".xyz"), HasSubstr("x y z are needed"));
   EXPECT_THAT(error_of("1 b 2\n", ".xyz"), HasSubstr("a.xyz:1: expected a number"));

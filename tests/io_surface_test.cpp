@@ -106,12 +106,14 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(error("l 1\n"), "a.obj:5: line has 1 vertices, at least 2 are needed");
   EXPECT_EQ(error("v 1 x 2\n"), "a.obj:5: expected a coordinate, found 'x'");
   EXPECT_EQ(error("v 1 2\n"), "a.obj:5: expected a coordinate, found the end of the line");
-  EXPECT_EQ(error("v 1,5 2,5 3\n"), "a.obj:5: expected a coordinate, found '1,5'");
+  EXPECT_EQ(error("v 1,5 2,5 3\n"),
+            "a.obj:5: expected a coordinate, found '1,5'; write a point, not a comma, before the "
+            "decimals");
   EXPECT_EQ(error("v 1e400 0 0\n"), "a.obj:5: expected a coordinate, found '1e400'");
   EXPECT_EQ(error("v 0x1p1 0 0\n"), "a.obj:5: expected a coordinate, found '0x1p1'");
   EXPECT_EQ(error(std::string("v 1 2\0 3\n", 9)), "a.obj:5: NUL byte in a text file");
   EXPECT_EQ(error(std::string("# \0\nv 1 x 2\n", 12)), "a.obj:6: expected a coordinate, found 'x'");
-  EXPECT_EQ(error_of("", ".obj"), "a.obj: no vertices");
+  EXPECT_EQ(error_of("", ".obj"), "a.obj: no vertices; the file is empty");
   EXPECT_EQ(error_of("f 1 2 3\n", ".obj"), "a.obj: no vertices");
   EXPECT_EQ(error_of("\xFF\xFEv", ".obj"),
             "a.obj:1: the text is UTF-16; save it as UTF-8 or ASCII");

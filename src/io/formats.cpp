@@ -4,6 +4,7 @@
 #include <array>
 
 #include "io/any_formats.h"
+#include "io/contents_hint.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
 #include "io/surface/surface_formats.h"
@@ -18,28 +19,28 @@ namespace littoral::io {
 const std::vector<Format>& formats() {
   // clang-format off
   static const std::vector<Format> all = {
-      {.extension = ".obj", .about = "Wavefront OBJ, text: points, polygons, lines, normals, a field as texture u; isolines in groups by their level", .lines = true, .read_surface = read_obj, .read_cloud = read_obj, .write_surface = write_obj, .write_field = write_obj},
-      {.extension = ".ply", .about = "Stanford PLY, text or binary (written: binary): points, polygons, lines, normals, any fields, one of them also as colours", .lines = true, .more_values = true, .read_surface = read_ply, .read_cloud = read_ply, .write_surface = write_ply, .write_cloud = write_ply, .write_field = write_ply},
-      {.extension = ".off", .about = "Geomview OFF, text or binary (written: text): points, polygons, normals", .read_surface = read_off, .read_cloud = read_off, .write_surface = write_off},
-      {.extension = ".stl", .about = "STL, text or binary (written: binary): triangles in single precision", .read_surface = read_stl, .write_surface = write_stl},
-      {.extension = ".glb", .about = "binary glTF 2.0, in single precision: triangles, lines, points of a scene, normals, any fields as attributes _NAME, one of them also as colours; no Draco", .lines = true, .more_values = true, .read_surface = read_gltf, .read_cloud = read_gltf, .write_surface = write_glb, .write_cloud = write_glb, .write_field = write_glb},
+      {.extension = ".obj", .about = "Wavefront OBJ, text: points, polygons, lines, normals, a field as texture u; isolines in groups by their level", .lines = true, .read_surface = read_obj, .read_cloud = read_obj, .write_surface = write_obj, .write_field = write_obj, .begins = {"v ", "mtllib "}},
+      {.extension = ".ply", .about = "Stanford PLY, text or binary (written: binary): points, polygons, lines, normals, any fields, one of them also as colours", .lines = true, .more_values = true, .read_surface = read_ply, .read_cloud = read_ply, .write_surface = write_ply, .write_cloud = write_ply, .write_field = write_ply, .begins = {"ply "}},
+      {.extension = ".off", .about = "Geomview OFF, text or binary (written: text): points, polygons, normals", .read_surface = read_off, .read_cloud = read_off, .write_surface = write_off, .begins = {"off ", "coff ", "noff "}},
+      {.extension = ".stl", .about = "STL, text or binary (written: binary): triangles in single precision", .read_surface = read_stl, .write_surface = write_stl, .begins = {"solid "}},
+      {.extension = ".glb", .about = "binary glTF 2.0, in single precision: triangles, lines, points of a scene, normals, any fields as attributes _NAME, one of them also as colours; no Draco", .lines = true, .more_values = true, .read_surface = read_gltf, .read_cloud = read_gltf, .write_surface = write_glb, .write_cloud = write_glb, .write_field = write_glb, .begins = {"gltf"}},
       {.extension = ".gltf", .about = "glTF 2.0 as text, with data inside or in files beside it", .lines = true, .read_surface = read_gltf, .read_cloud = read_gltf, .read_beside = read_gltf_beside},
-      {.extension = ".3mf", .about = "3MF, packed or plain (written: plain): triangles of all items on the plate, in millimetres", .read_surface = read_3mf, .write_surface = write_3mf},
-      {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc},
-      {.extension = ".xyz", .about = "rows x y z, or x y z and a normal", .read_cloud = read_xyz},
-      {.extension = ".pcd", .about = "Point Cloud Library, text or binary, also compressed: points, normals", .read_cloud = read_pcd},
-      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti},
-      {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd},
-      {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3, N x 6 with normals, or records with fields x, y, z", .no_box = true, .read_cloud = read_npy_cloud, .read_volume = read_npy_volume, .read_any = read_npy, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy},
-      {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3, with normals and values at points as arrays of their own", .read_cloud = read_npz_cloud, .read_volume = read_npz_volume, .read_any = read_npz, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz},
+      {.extension = ".3mf", .about = "3MF, packed or plain (written: plain): triangles of all items on the plate, in millimetres", .read_surface = read_3mf, .write_surface = write_3mf, .begins = {"pk\x03\x04"}},
+      {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc, .begins = {"v "}},
+      {.extension = ".xyz", .about = "rows x y z, or x y z and a normal; six columns that look like colours are not taken for it", .read_cloud = read_xyz},
+      {.extension = ".pcd", .about = "Point Cloud Library, text or binary, also compressed: points, normals", .read_cloud = read_pcd, .begins = {"# .pcd"}},
+      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti, .begins = {"<vtkfile type=\"imagedata\""}},
+      {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd, .begins = {"nrrd0"}},
+      {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3, N x 6 with normals, or records with fields x, y, z", .no_box = true, .read_cloud = read_npy_cloud, .read_volume = read_npy_volume, .read_any = read_npy, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy, .begins = {"\x93numpy"}},
+      {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3, with normals and values at points as arrays of their own", .read_cloud = read_npz_cloud, .read_volume = read_npz_volume, .read_any = read_npz, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz, .begins = {"pk\x03\x04"}},
       {.extension = ".vol", .about = "voxels of one byte, plain or packed", .read_volume = read_vol, .read_voxels = read_vol_bytes},
       {.extension = ".vdb", .about = "OpenVDB level set in single precision, where the program has that module (as read: the box of the active voxels)", .read_volume = read_vdb, .write_volume = write_vdb, .available = has_openvdb, .unless = "the module littoral_vdb.so, which needs OpenVDB to be built, is not installed with the program"},
-      {.extension = ".mesh", .about = "Medit, text: tets, hexahedra, prisms and pyramids (cut into tets), or else triangles and quads", .read_surface = read_medit_surface, .read_tets = read_medit_tets, .read_any = read_medit},
+      {.extension = ".mesh", .about = "Medit, text: tets, hexahedra, prisms and pyramids (cut into tets), or else triangles and quads", .read_surface = read_medit_surface, .read_tets = read_medit_tets, .read_any = read_medit, .begins = {"meshversionformatted"}},
       {.extension = ".tet", .about = "counts, points and tets as text", .read_tets = read_tet},
-      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons and lines, also of polygon data; points with normals; a grid of points; values at points", .lines = true, .read_surface = read_vtk_surface, .read_cloud = read_vtk_surface, .read_volume = read_vtk_volume, .read_tets = read_vtk_tets, .read_any = read_vtk, .write_tets = write_vtk},
-      {.extension = ".msh", .about = "Gmsh 2 and 4, text or binary: as .vtu, of first order", .read_surface = read_msh_surface, .read_tets = read_msh_tets, .read_any = read_msh},
-      {.extension = ".vtu", .about = "VTK unstructured grid as XML, text, base64 or appended, packed or plain (written: appended, plain): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons; values at points", .read_surface = read_vtu_surface, .read_tets = read_vtu_tets, .read_any = read_vtu, .write_tets = write_vtu},
-      {.extension = ".vtp", .about = "VTK polygon data as XML, as .vtu (written: appended, plain): points, polygons, lines, normals, values at points", .lines = true, .more_values = true, .read_surface = read_vtp, .read_cloud = read_vtp, .write_field = write_vtp},
+      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons and lines, also of polygon data; points with normals; a grid of points; values at points", .lines = true, .read_surface = read_vtk_surface, .read_cloud = read_vtk_surface, .read_volume = read_vtk_volume, .read_tets = read_vtk_tets, .read_any = read_vtk, .write_tets = write_vtk, .begins = {"# vtk datafile"}},
+      {.extension = ".msh", .about = "Gmsh 2 and 4, text or binary: as .vtu, of first order", .read_surface = read_msh_surface, .read_tets = read_msh_tets, .read_any = read_msh, .begins = {"$meshformat"}},
+      {.extension = ".vtu", .about = "VTK unstructured grid as XML, text, base64 or appended, packed or plain (written: appended, plain): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons; values at points", .read_surface = read_vtu_surface, .read_tets = read_vtu_tets, .read_any = read_vtu, .write_tets = write_vtu, .begins = {"<vtkfile type=\"unstructuredgrid\""}},
+      {.extension = ".vtp", .about = "VTK polygon data as XML, as .vtu (written: appended, plain): points, polygons, lines, normals, values at points", .lines = true, .more_values = true, .read_surface = read_vtp, .read_cloud = read_vtp, .write_field = write_vtp, .begins = {"<vtkfile type=\"polydata\""}},
       {.extension = ".csv", .about = "rows below names; points in columns x, y, z, Px, Py, Pz or Points:0, Points:1, Points:2", .read_table = read_points_text, .write_table = write_csv},
       {.extension = ".tsv", .about = "as .csv, with tabs between", .read_table = read_points_text, .write_table = write_tsv},
       {.extension = ".txt", .about = "rows of numbers; as sources, nodes by their place on a surface", .read_sources = read_sources_txt, .read_table = read_points_text, .write_table = write_txt},
@@ -212,7 +213,11 @@ bool has_extension(const std::filesystem::path& path, std::string_view extension
 Content read_content(const std::filesystem::path& path, const std::string& field) {
   const Format& format = format_to_read(extension_to_read(path), path.string(),
                                         {Kind::surface, Kind::cloud, Kind::volume, Kind::tets});
-  if (format.read_any) return format.read_any(read_bytes(path), path.string(), field);
+  if (format.read_any) {
+    const std::string bytes = read_bytes(path);
+    return read_with_hint(bytes, extension_to_read(path),
+                          [&] { return format.read_any(bytes, path.string(), field); });
+  }
   if (format.read_volume) return read_volume(path, field);
   if (format.read_tets) return read_tets(path);
   return read_surface(path);

@@ -68,6 +68,10 @@ struct Format {
   void (*write_picture)(const std::filesystem::path& path, const Scene& scene,
                         const PictureOptions& options) = nullptr;
 
+  /// How files begin after blanks, in lower case and with a blank for a line end; what begins with
+  /// '<' may stand further on.
+  std::vector<std::string_view> begins{};
+
   bool (*available)() = nullptr;  // null: in every build
   std::string_view unless = "";   // why it is not
 };

@@ -165,11 +165,20 @@ std::string_view LineScanner::word() {
   return result;
 }
 
+std::string decimal_comma_hint(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return "";
+  std::string pointed(word);
+  pointed[comma] = '.';
+  return parse_double(pointed) ? "; write a point, not a comma, before the decimals" : "";
+}
+
 double LineScanner::number(const char* what) {
   const std::string_view text = word();
   if (text.empty()) fail(std::string("expected ") + what + ", found the end of the line");
   const auto value = parse_double(text);
-  if (!value) fail(std::string("expected ") + what + ", found " + in_quotes(text));
+  if (!value)
+    fail(std::string("expected ") + what + ", found " + in_quotes(text) + decimal_comma_hint(text));
   return *value;
 }
 

@@ -16,6 +16,9 @@ std::optional<double> parse_double(std::string_view word);
 /// The whole word as an integer with an optional sign, or nothing.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
+/// What to add to a message about a word that is no number: something where it has a decimal comma.
+std::string decimal_comma_hint(std::string_view word);
+
 /// A word in quotes for a message: shortened, unprintable bytes shown as '?'.
 std::string in_quotes(std::string_view word);
 

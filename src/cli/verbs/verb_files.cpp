@@ -1,6 +1,7 @@
 // littoral info, convert and contour: files in, facts or files out.
 
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "api/report_json.h"
@@ -8,6 +9,7 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
+#include "cli/input/lengths.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
@@ -16,13 +18,14 @@
 #include "io/write.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
+#include "spatial/weld.h"
 
 namespace littoral::cli {
 
 namespace {
 
 struct FileArguments {
-  std::string in, out, mesh, field, levels, range;
+  std::string in, out, mesh, field, levels, range, weld;
   int count = 0;  // of evenly spaced levels; 0: none
   std::vector<std::string> outs;
   double band = 0;
@@ -65,10 +68,31 @@ const VecX& field_of(const io::TetFile& file, const FileArguments& arguments, st
   return file.scalars.at(name);
 }
 
+double longest_side(const MatX3& points) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& point : points.rowwise())
+    if (point.allFinite()) {
+      low = low.cwiseMin(point.transpose());
+      high = high.cwiseMax(point.transpose());
+    }
+  return (high - low).maxCoeff();
+}
+
+PolygonSoup welded(const PolygonSoup& soup, const std::string& distance, Session& session) {
+  const InputSize size = [&] { return longest_side(soup.points); };
+  Welded found = weld(soup, parse_radius("weld", distance, size));
+  if (found.n_dropped_faces > 0)
+    session.report.warn("degenerate-faces",
+                        std::to_string(found.n_dropped_faces) +
+                            " faces shrank to an edge or a point by --weld and were left out");
+  return std::move(found.soup);
+}
+
 void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& session) {
   check_outputs({arguments.out}, soup_outputs);
   const bool field_only = !io::is_written_as(arguments.out, {Kind::surface});
   const std::string field = choose_field(soup, arguments.field, arguments.in, !field_only);
+  if (!arguments.weld.empty()) soup = welded(soup, arguments.weld, session);
   if (arguments.triangulate) soup = triangulate(soup);
   session.reading = false;
   session.task().checkpoint();
@@ -88,7 +112,14 @@ void convert(FileArguments& arguments, Session& session) {
   if (to_tets && !io::is_read_as(arguments.in, {Kind::tets}))
     throw InputError(arguments.out + " holds tets, " + arguments.in + " has none",
                      "unknown-format");
+  check_lengths("weld", arguments.weld);
+  const auto check_no_weld = [&] {
+    if (!arguments.weld.empty())
+      throw InputError("option weld is for surfaces and clouds, also the boundary of tets",
+                       "options-conflict");
+  };
   const Overloaded job{[&](const Volume& volume) {
+                         check_no_weld();
                          check_outputs({arguments.out}, {Kind::volume});
                          session.reading = false;
                          session.task().checkpoint();
@@ -96,6 +127,7 @@ void convert(FileArguments& arguments, Session& session) {
                        },
                        [&](const io::TetFile& file) {
                          if (!to_tets) return convert_soup(boundary_of(file), arguments, session);
+                         check_no_weld();
                          std::string name;
                          const VecX& values = field_of(file, arguments, name);
                          session.reading = false;
@@ -229,6 +261,12 @@ void add_convert(CLI::App& program, Session& session) {
       ->check(number_between(0, 1e6))
       ->type_name("N");
   verb.add_flag("--triangulate", arguments->triangulate, "cut polygons into triangles");
+  verb.add_option(
+          "--weld", arguments->weld,
+          std::string("of a surface or cloud: join vertices that are at most this far apart; 0: "
+                      "at one place [") +
+              length_unit_text + "]")
+      ->type_name("D");
   add_field(verb, *arguments);
 }
 

@@ -54,7 +54,11 @@ PolygonSoup read_xyz(std::string_view bytes, const std::string& name) {
     row.clear();
     for (std::string_view word; !(word = scan.word()).empty();) {
       const auto number = parse_double(word);
-      if (!number) scan.fail("expected a number, found " + in_quotes(word));
+      if (!number)
+        scan.fail("expected a number, found " + in_quotes(word) +
+                  (decimal_comma_hint(word).empty()
+                       ? "; rows are x y z with blanks between, without names above them"
+                       : decimal_comma_hint(word)));
       row.push_back(*number);
     }
     if (row.size() == 1 && points.empty() && columns == 0) continue;  // a count of points
@@ -65,10 +69,22 @@ PolygonSoup read_xyz(std::string_view bytes, const std::string& name) {
     if (columns < 3)
       scan.fail("a row of " + std::to_string(columns) + " numbers, x y z are needed");
     points.insert(points.end(), row.begin(), row.begin() + 3);
-    // Six columns are points and normals; any other number of further ones is colour or the like.
+    // Six columns are points and normals, or colours; any other number of further ones is the like.
     if (columns == 6) normals.insert(normals.end(), row.begin() + 3, row.end());
   }
+  if (are_colours(rows_of(normals))) normals.clear();
   return cloud_of(points, normals, name);
+}
+
+bool are_colours(const MatX3& columns) {
+  constexpr double unit = 1e-2;  // how far from 1 a unit normal's length may be by rounding
+  constexpr double dark = 16;    // of bytes: the largest is above it
+  if (columns.rows() == 0 || !columns.allFinite() || (columns.array() < 0).any()) return false;
+  const bool bytes = columns.maxCoeff() >= dark && columns.maxCoeff() <= 255 &&
+                     (columns.array() == columns.array().round()).all();
+  const bool shares =
+      columns.maxCoeff() <= 1 && ((columns.rowwise().norm().array() - 1).abs() > unit).any();
+  return bytes || shares;
 }
 
 }  // namespace littoral::io

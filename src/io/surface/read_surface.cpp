@@ -1,5 +1,6 @@
 // The choice of a surface reader.
 
+#include "io/contents_hint.h"
 #include "io/formats.h"
 #include "io/read.h"
 
@@ -8,7 +9,9 @@ namespace littoral::io {
 PolygonSoup read_surface_bytes(std::string_view bytes, const std::string& extension,
                                const std::string& name) {
   const Format& format = format_to_read(extension, name, {Kind::surface, Kind::cloud});
-  return (format.read_surface ? format.read_surface : format.read_cloud)(bytes, name);
+  return read_with_hint(bytes, extension, [&] {
+    return (format.read_surface ? format.read_surface : format.read_cloud)(bytes, name);
+  });
 }
 
 PolygonSoup read_surface(const std::filesystem::path& path) {

@@ -48,8 +48,13 @@ PolygonSoup read_stl(std::string_view bytes, const std::string& name);
 PolygonSoup read_pc(std::string_view bytes, const std::string& name);
 
 /// Point cloud of rows "x y z" or "x y z nx ny nz"; further columns are ignored where there are not
-/// six. A first line with one number is taken for a count.
+/// six, or where they are colours. A first line with one number is taken for a count.
 PolygonSoup read_xyz(std::string_view bytes, const std::string& name);
+
+/// Three numbers a point without a name: colours (whole numbers up to 255, or shares up to 1)
+/// rather than normals, none of which is negative only where all face one way, and mostly of unit
+/// length then.
+bool are_colours(const MatX3& columns);
 
 /// Point cloud of the Point Cloud Library, ascii or uncompressed binary: x y z, normal_x normal_y
 /// normal_z.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/any_formats.h"
+#include "io/contents_hint.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/tet/cell_mesh.h"
@@ -172,7 +173,8 @@ TetFile read_tet(std::string_view bytes, const std::string& name) {
 
 TetFile read_tets_bytes(std::string_view bytes, const std::string& extension,
                         const std::string& name) {
-  TetFile file = format_to_read(extension, name, {Kind::tets}).read_tets(bytes, name);
+  const Format& format = format_to_read(extension, name, {Kind::tets});
+  TetFile file = read_with_hint(bytes, extension, [&] { return format.read_tets(bytes, name); });
   if (file.mesh.n_tets() == 0) throw InputError(name + ": the file has no tets", "bad-file");
   return file;
 }

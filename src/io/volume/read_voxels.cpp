@@ -106,7 +106,7 @@ VoxelMask read_voxels(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const Format& format = format_to_read(extension_to_read(path), path.string(), {Kind::voxels});
   if (format.read_voxels) return format.read_voxels(read_bytes(path), name);
-  const Volume volume = format.read_volume(read_bytes(path), name, "");
+  const Volume volume = read_volume(path);
   if (!volume.values.allFinite())
     throw InputError(name + ": a mask needs finite values, 0 outside", "bad-file");
   if (volume.values.minCoeff() < 0 && volume.values.maxCoeff() > 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/option_table.h"
+#include "io/contents_hint.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/text_scan.h"
@@ -15,7 +16,8 @@ namespace littoral::io {
 Volume read_volume_bytes(std::string_view bytes, const std::string& extension,
                          const std::string& name, const std::string& field) {
   const Format& format = format_to_read(extension, name, {Kind::volume});
-  Volume volume = format.read_volume(bytes, name, field);
+  Volume volume =
+      read_with_hint(bytes, extension, [&] { return format.read_volume(bytes, name, field); });
   if (!field.empty() && field != volume.name)
     throw InputError(name + ": there is no field " + in_quotes(field) + ", only " + volume.name,
                      "unknown-name");

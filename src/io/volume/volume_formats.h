@@ -56,6 +56,7 @@ struct NpyArray {
   std::vector<std::int64_t> shape;
   bool fortran = false;  // the first axis runs fastest
   VecX numbers;
+  bool of_records = false;  // whose fields have names
 };
 /// Records with fields x, y, z, or one of three numbers, are an array of N x 3; with nx, ny, nz too
 /// of N x 6. Throws InputError and UnsupportedError naming the file.

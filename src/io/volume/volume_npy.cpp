@@ -6,6 +6,7 @@
 
 #include "io/any_formats.h"
 #include "io/binary.h"
+#include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
 #include "io/write_table.h"
@@ -199,6 +200,7 @@ NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
     fields.push_back(std::move(field));
   const std::size_t rows = checked_count(header, bytes.size(), header.record, name);
   NpyArray points;
+  points.of_records = true;
   const auto columns = static_cast<std::int64_t>(fields.size());
   points.shape = {static_cast<std::int64_t>(rows), columns};
   points.numbers.resize(static_cast<Eigen::Index>(rows * fields.size()));
@@ -280,7 +282,8 @@ PolygonSoup npy_cloud(const NpyArray& array, const std::string& name) {
       npy_rows(array, "points are an array of N x 3, or N x 6 with normals", {3, 6}, name);
   PolygonSoup cloud;
   cloud.points = rows.leftCols(3);
-  if (rows.cols() == 6) cloud.normals = rows.rightCols(3);
+  if (rows.cols() == 6 && (array.of_records || !are_colours(rows.rightCols(3))))
+    cloud.normals = rows.rightCols(3);
   return cloud;
 }
 

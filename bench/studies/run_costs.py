@@ -1,6 +1,6 @@
 """What runs cost: the constants of src/cli/plan/run_costs.cpp, from which --dry-run estimates.
 
-usage: run_costs.py PROGRAM
+usage: run_costs.py PROGRAM [VERB...]
 
 Runs each method of `distance`, `pairs`, `winding`, `sdf`, `query` and `repair` on bumpy spheres of
 two sizes, on one thread, and prints rows for the table: seconds of the processor as
@@ -24,7 +24,7 @@ SURFACE += ["regularized", "belyaev-fayolle"]
 SPACE = ["auto", "winding", "closest-point", "tori", "signed-heat", "regularized"]
 SPACE += ["belyaev-fayolle", "hopf-cole", "planar", "log-sum-exp"]
 LIMIT = 480.0  # seconds of one run
-START, PROGRAM = 0.02, 15 << 20  # seconds and bytes of a run without work
+START, PROGRAM = 0.007, 13 << 20  # seconds and bytes of a run without work
 
 
 def sphere(n: int, path: Path) -> int:
@@ -93,41 +93,37 @@ def main() -> None:
         around = [72, 200][k]
         ring = [loop[k] + j for j in range(around)] + [loop[k]]
         Path(file).write_text("signed_curve\n" + "".join(f"v {v}\n" for v in ring))
-    for method in SURFACE:
-        source = ["-s", "{}.txt"] if method not in ("exact", "quadratic") else ["--vertex", "7"]
-        runs = [
-            run(
-                "distance",
-                f,
-                "--method",
-                method,
-                *[w.format(f.stem) for w in source],
-                "-o",
-                "a.npy",
-            )
-            for f in files
-        ]
-        print(f'{{"distance", "{method}", {fitted(n, runs)}}},', flush=True)
-    runs = [run("winding", f, "-s", f.stem + ".txt", "-o", "a.txt") for f in files]
-    print(f'{{"winding", "", {fitted(n, runs)}}},', flush=True)
+    chosen = sys.argv[2:] or ["distance", "winding", "pairs", "sdf", "query", "repair"]
+    if "distance" in chosen:
+        for method in SURFACE:
+            source = ["-s", "{}.txt"] if method not in ("exact", "quadratic") else ["--vertex", "7"]
+            words = ("--method", method, "-o", "a.npy")
+            runs = [run("distance", f, *(w.format(f.stem) for w in source), *words) for f in files]
+            print(f'{{"distance", "{method}", {fitted(n, runs)}}},', flush=True)
+    if "winding" in chosen:
+        runs = [run("winding", f, "-s", f.stem + ".txt", "-o", "a.txt") for f in files]
+        print(f'{{"winding", "", {fitted(n, runs)}}},', flush=True)
     tiny = [Path("tiny0.obj"), Path("tiny1.obj")]
     m = [sphere(12, tiny[0]), sphere(24, tiny[1])]
-    for method in ("exact", "signed-heat", "unsigned-heat", "regularized", "fast-marching"):
-        runs = [run("pairs", f, "--method", method, "-o", "a.npy") for f in tiny]
-        print(f'{{"pairs", "{method}", {fitted([float(i) for i in m], runs, 2)}}},', flush=True)
-    for method in SPACE:
-        runs = [
-            run("sdf", small, "--method", method, "--resolution", r, "-o", "a.npy")
-            for r in (32, 96)
-        ]
-        print(f'{{"sdf", "{method}", {fitted([32.0**3, 96.0**3], runs)}}},', flush=True)
-    for method in SPACE[:4] + SPACE[7:]:
-        runs = [
-            run("query", small, "--method", method, "--points", f, "-o", "a.npy") for f in files
-        ]
-        print(f'{{"query", "{method}", {fitted([float(i) for i in n], runs)}}},', flush=True)
-    runs = [run("repair", small, "--resolution", r, "-o", "a.ply") for r in (32, 96)]
-    print(f'{{"repair", "", {fitted([32.0**3, 96.0**3], runs)}}},', flush=True)
+    if "pairs" in chosen:
+        for method in ("exact", "signed-heat", "unsigned-heat", "regularized", "fast-marching"):
+            runs = [run("pairs", f, "--method", method, "-o", "a.npy") for f in tiny]
+            print(f'{{"pairs", "{method}", {fitted([float(i) for i in m], runs, 2)}}},', flush=True)
+    cubes = [32.0**3, 96.0**3]
+    if "sdf" in chosen:
+        for method in SPACE:
+            words = ("--method", method, "-o", "a.npy")
+            runs = [run("sdf", small, "--resolution", r, *words) for r in (32, 96)]
+            print(f'{{"sdf", "{method}", {fitted(cubes, runs)}}},', flush=True)
+    if "query" in chosen:
+        for method in SPACE[:4] + SPACE[7:]:
+            words = ("--method", method, "-o", "a.npy")
+            runs = [run("query", small, "--points", f, *words) for f in files]
+            print(f'{{"query", "{method}", {fitted([float(i) for i in n], runs)}}},', flush=True)
+    if "repair" in chosen:
+        words = ("--remesh", "-o", "a.ply")
+        runs = [run("repair", small, "--resolution", r, *words) for r in (32, 96)]
+        print(f'{{"repair", "", {fitted(cubes, runs)}}},', flush=True)
 
 
 if __name__ == "__main__":

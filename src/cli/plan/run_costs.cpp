@@ -9,8 +9,8 @@ namespace littoral::cli {
 namespace {
 
 constexpr double unit = 1e4;          // elements
-constexpr double program = 15 << 20;  // bytes without any
-constexpr double start = 0.02;        // seconds
+constexpr double program = 13 << 20;  // bytes without any
+constexpr double start = 0.007;       // seconds
 
 /// seconds (elements / unit)^power of one processor, and bytes for each element, of pairs for each
 /// pair.
@@ -21,33 +21,33 @@ struct Row {
 
 // Of two runs each by bench/studies/run_costs.py.
 constexpr std::array rows = std::to_array<Row>({
-    {"distance", "auto", 0.171, 1.00, 1.43e+03},
-    {"distance", "signed-heat", 0.188, 1.03, 5.98e+03},
-    {"distance", "unsigned-heat", 0.153, 1.00, 4.29e+03},
-    {"distance", "exact", 0.138, 1.19, 741},
-    {"distance", "fast-marching", 0.0444, 1.23, 1.06e+03},
-    {"distance", "quadratic", 6.73, 1.46, 1.21e+04},
-    {"distance", "regularized", 0.221, 1.00, 2.59e+03},
-    {"distance", "belyaev-fayolle", 0.299, 1.00, 2.59e+03},
-    {"winding", "", 0.133, 1.04, 3.02e+03},
-    {"pairs", "exact", 551, 2.03, 14.6},
-    {"pairs", "signed-heat", 256, 2.44, 17.1},
-    {"pairs", "unsigned-heat", 95.1, 2.01, 17.1},
-    {"pairs", "regularized", 1.37e+03, 2.09, 16.3},
-    {"pairs", "fast-marching", 128, 1.85, 13.7},
-    {"sdf", "auto", 0.00611, 1.00, 13},
-    {"sdf", "winding", 0.0061, 1.00, 14.2},
-    {"sdf", "closest-point", 0.0062, 1.00, 13},
-    {"sdf", "tori", 0.0296, 1.00, 54.5},
-    {"sdf", "signed-heat", 0.0439, 1.00, 35.6},
-    {"query", "auto", 0.0297, 1.00, 318},
-    {"query", "winding", 0.0291, 1.00, 318},
-    {"query", "closest-point", 0.0265, 1.00, 318},
-    {"query", "tori", 0.166, 1.00, 2118},
-    {"query", "hopf-cole", 0.983, 1.00, 635},
-    {"query", "planar", 0.495, 1.00, 688},
-    {"query", "log-sum-exp", 0.515, 1.00, 1642},
-    {"repair", "", 0.0312, 1.00, 69},
+    {"distance", "auto", 0.0562, 1.09, 1.32e+03},
+    {"distance", "signed-heat", 0.109, 1.07, 6.09e+03},
+    {"distance", "unsigned-heat", 0.0885, 1.03, 4.4e+03},
+    {"distance", "exact", 0.0497, 1.11, 794},
+    {"distance", "fast-marching", 0.0207, 1.01, 1.16e+03},
+    {"distance", "quadratic", 4.63, 1.52, 1.22e+04},
+    {"distance", "regularized", 0.134, 1.15, 2.7e+03},
+    {"distance", "belyaev-fayolle", 0.192, 1.22, 2.7e+03},
+    {"winding", "", 0.0654, 1.05, 3.12e+03},
+    {"pairs", "exact", 456, 2.19, 16.3},
+    {"pairs", "signed-heat", 111, 2.31, 18.9},
+    {"pairs", "unsigned-heat", 101, 2.28, 18.9},
+    {"pairs", "regularized", 962, 2.15, 18},
+    {"pairs", "fast-marching", 211, 2.34, 15.4},
+    {"sdf", "auto", 0.0034, 1.00, 16.6},
+    {"sdf", "winding", 0.00374, 1.00, 18.1},
+    {"sdf", "closest-point", 0.0035, 1.00, 16.6},
+    {"sdf", "tori", 0.0213, 1.00, 65.2},
+    {"sdf", "signed-heat", 0.0186, 1.00, 39.1},
+    {"query", "auto", 0.0209, 1.00, 424},
+    {"query", "winding", 0.0208, 1.00, 477},
+    {"query", "closest-point", 0.0187, 1.00, 424},
+    {"query", "tori", 0.11, 1.00, 2.28e+03},
+    {"query", "hopf-cole", 0.637, 1.00, 794},
+    {"query", "planar", 0.343, 1.00, 794},
+    {"query", "log-sum-exp", 0.317, 1.00, 1.8e+03},
+    {"repair", "", 0.011, 1.00, 46.2},
 });
 
 }  // namespace

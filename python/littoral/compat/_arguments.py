@@ -19,6 +19,12 @@ from .._surfaces import Mesh, Surface
 Indices = npt.NDArray[np.int64]
 
 
+def missing(module: str, package: str, instead: dict[str, str], name: str) -> AttributeError:
+    """What a module's `__getattr__` raises: which name it lacks, and what to use for it."""
+    use = instead.get(name, f"what {package} has of that name, {package} itself offers")
+    return AttributeError(f"{module} has no {name}; {use}", name=name)
+
+
 def unsupported(what: str, instead: str) -> NoReturn:
     """Raises UnsupportedError: what is missing, and what to use."""
     raise UnsupportedError(f"littoral has no {what}; {instead}")

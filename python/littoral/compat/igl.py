@@ -31,6 +31,7 @@ from ._arguments import (
     Indices,
     answer,
     indices,
+    missing,
     own,
     positive,
     space_points,
@@ -57,6 +58,22 @@ __all__ = [
     "signed_distance",
     "winding_number",
 ]
+
+_INSTEAD = {
+    "AABB": "littoral.SDF(V, F).closest(X) finds nearest points",
+    "cotmatrix": "-littoral.operators((V, F)).L is that matrix",
+    "grad": "littoral.operators((V, F)).G is that matrix",
+    "hausdorff": "the command littoral compare measures it",
+    "isolines": "littoral.isolines((V, F), values, level) has them as lines",
+    "marching_cubes": "littoral.Volume(values, spacing, origin).isosurface() makes surfaces",
+    "massmatrix": "littoral.operators((V, F)).M has the areas of vertices",
+    "offset_surface": "littoral.offset((V, F), distance) makes it",
+}
+
+
+def __getattr__(name: str) -> Any:
+    raise missing(__name__, "libigl", _INSTEAD, name)
+
 
 _PAIRS = 4_000_000  # of points and queries at once
 

@@ -25,11 +25,22 @@ import numpy.typing as npt
 from .._arrays import Floats, as_array, floats
 from .._space import SDF
 from .._surfaces import PointCloud
+from ._arguments import missing
 from ._nearest import Nearest, prepared
 
 _MERGE = 1e-8  # trimesh.tol.merge
 
 Ids = npt.NDArray[np.int64]
+
+
+_INSTEAD = {
+    "NearestQueryResult": "closest_point returns points, distances and triangles",
+    "closest_point_naive": "closest_point has the same answers",
+}
+
+
+def __getattr__(name: str) -> Any:
+    raise missing(__name__, "trimesh", _INSTEAD, name)
 
 
 def _points(points: Any) -> Floats:

@@ -266,3 +266,16 @@ def test_geodesics_side_by_side(real, name, shapes):
             print(f"{name}, heat, intrinsic {intrinsic}, t {time}: {error:.2g}")
             assert error < 0.02
             assert (ours.shape, ours.dtype) == (theirs.shape, theirs.dtype)
+
+
+def test_names_that_are_missing_say_what_to_use(real):
+    with pytest.raises(AttributeError, match=r"no cotmatrix; -littoral.operators\(\(V, F\)\).L"):
+        _ = igl.cotmatrix
+    with pytest.raises(AttributeError, match="what libigl has of that name"):
+        _ = igl.boundary_loop
+    assert not hasattr(igl, "massmatrix")
+    cube = littoral.examples.cube()
+    V, F = np.array(cube.points), np.array(cube.faces)
+    np.testing.assert_allclose(
+        real.cotmatrix(V, F).toarray(), -littoral.operators((V, F)).L.toarray(), atol=1e-12
+    )

@@ -192,3 +192,10 @@ def test_tracks_changes_of_a_trimesh():
     assert ours.contains(mesh, [[0.4, 0.4, 0.4]]).all()
     mesh.apply_scale(0.5)
     assert not ours.contains(mesh, [[0.4, 0.4, 0.4]]).any()
+
+
+def test_names_that_are_missing_say_what_to_use():
+    with pytest.raises(AttributeError, match="has no closest_point_naive; closest_point has"):
+        _ = ours.closest_point_naive
+    with pytest.raises(AttributeError, match="has no thickness; what trimesh has"):
+        _ = ours.thickness

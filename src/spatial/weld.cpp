@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/index.h"
+
 namespace littoral {
 
 namespace {
@@ -29,7 +31,7 @@ struct CellHash {
 
 /// The vertex that each one becomes, itself where it is kept.
 std::vector<int> kept_vertices(const MatX3& points, double distance) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const auto& point : points.rowwise())
     if (point.allFinite()) {
       low = low.cwiseMin(point.transpose());

@@ -1,7 +1,6 @@
 // littoral info, convert and contour: files in, facts or files out.
 
 #include <iostream>
-#include <limits>
 #include <memory>
 
 #include "api/report_json.h"
@@ -9,6 +8,7 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
+#include "base/index.h"
 #include "cli/input/lengths.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
@@ -69,7 +69,7 @@ const VecX& field_of(const io::TetFile& file, const FileArguments& arguments, st
 }
 
 double longest_side(const MatX3& points) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const auto& point : points.rowwise())
     if (point.allFinite()) {
       low = low.cwiseMin(point.transpose());

@@ -92,7 +92,8 @@ class AllPairs {
     // Needles leave round-off above the tolerance, which no number of iterations gets below, or a
     // residual that falls ever more slowly. So at each mark it must have fallen so much since the
     // one before that, at this pace, ten times as many iterations would do.
-    double mark = 2500, least = worst, least_at_mark = worst;
+    constexpr double further = 1.5;  // from mark to mark
+    double mark = 10'000 / further, least = worst, least_at_mark = worst;
     bool hopeful = true;
     int k = 0;
     const int last = o_.max_iterations;
@@ -104,9 +105,9 @@ class AllPairs {
       worst = check_convergence(norms, k);
       least = std::min(least, worst);
       if (k < mark) continue;
-      hopeful = 10 / 0.75 * std::log(least_at_mark / least) >= std::log(least);
+      hopeful = 10 / (1 - 1 / further) * std::log(least_at_mark / least) >= std::log(least);
       least_at_mark = least;
-      mark *= 4;
+      mark *= further;
     }
     report.iterations.emplace_back("all pairs", k);
     report.residuals.emplace_back("all pairs, over what is compared", worst * o_.tolerance);

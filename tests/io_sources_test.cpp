@@ -162,7 +162,7 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   EXPECT_EQ(error_of_sources("#offset 2\nv 1\n"), "a.txt:1: expected 0 or 1 after #offset");
   EXPECT_EQ(error_of_sources("v 1\n", ".abc"),
             "a.abc: cannot be read as sources: the extension is '.abc'; possible: .obj .ply "
-            ".glb .gltf .txt .json");
+            ".glb .gltf .vtk .vtp .txt .json");
 }
 
 TEST(IoSources, PutsRoundingInBarycentricsRight) {

@@ -120,7 +120,7 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(
       error_of(square, ".xyz9"),
       "a.xyz9: cannot be read as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
-      ".off .stl .glb .gltf .3mf .pc .xyz .pcd .npy .npz .msh .vtu");
+      ".off .stl .glb .gltf .3mf .pc .xyz .pcd .npy .npz .mesh .vtk .msh .vtu .vtp");
 }
 
 const std::string off_body = "0 0 0\n1 0 0\n0 1 0\n";

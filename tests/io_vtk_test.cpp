@@ -184,7 +184,7 @@ TEST(VtkFiles, ErrorsSayWhatIsWrong) {
 
   std::string text = vtp;
   text.replace(text.find("NumberOfPolys=\"2\""), 17, "NumberOfPolys=\"3\"");
-  EXPECT_THAT(test::error_of(text, ".vtp"), HasSubstr("offsets"));
+  EXPECT_THAT(test::error_of(text, ".vtp"), HasSubstr("fewer numbers than the 3"));
   EXPECT_THAT(test::message_of([&] { test::read(vtp, ".vtu"); }), HasSubstr("'PolyData'"));
 }
 

@@ -40,10 +40,10 @@ def test_rows_of_the_table(run: Run) -> None:
 
 
 def test_messages_say_what_is_possible(run: Run, mesh: Path, tmp_path: Path) -> None:
-    (tmp_path / "a.vtp").write_text("")
+    (tmp_path / "a.html").write_text("")
     for arguments, said in (
         (("info", "a.what"), "a.what: cannot be read as a surface, cloud, volume or tets"),
-        (("info", "a.vtp"), "a.vtp: cannot be read as a surface, cloud, volume or tets"),
+        (("info", "a.html"), "a.html: cannot be read as a surface, cloud, volume or tets"),
         (("distance", "square.obj", "-o", "a.tet"), "cannot write a.tet as a field, page"),
         (("sdf", "square.obj", "-o", "a.pcd"), "cannot write a.pcd as a volume, tets"),
         (("query", "square.obj", "--points", "square.obj", "-o", "a.vti"), "as a table or cloud"),

@@ -278,6 +278,44 @@ TEST(FrontTets, ASolverServesManySources) {
   EXPECT_THAT([&] { solver.solve(from); }, ThrowsMessage<InputError>(HasSubstr("7")));
 }
 
+TEST(FrontTets, TetsAroundAnInputAreSmallNearIt) {
+  const PolygonSoup input = cube();  // [0, 1]^3
+  const TetMesh tets = tets_around(input, {.resolution = 17, .padding = 0.5});
+  // They fill the cube on the grid, right-handed: a volume of 2^3.
+  double volume = 0, least_near = 1, least_far = 1;
+  for (int t = 0; t < tets.n_tets(); ++t) {
+    const auto at = [&](int k) { return Vec3(tets.points.row(tets.tets(t, k))); };
+    const double six = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
+    EXPECT_GT(six, 0);
+    volume += six / 6;
+    const Vec3 centre = (at(0) + at(1) + at(2) + at(3)) / 4, q = (centre.array() - 0.5).abs();
+    double& least = std::abs(q.maxCoeff() - 0.5) < 0.06 ? least_near : least_far;
+    if (&least == &least_near || q.maxCoeff() > 0.9) least = std::min(least, six / 6);
+  }
+  EXPECT_NEAR(volume, 8, 1e-9);
+  EXPECT_LT(3 * least_near, least_far);
+  EXPECT_GT(tets_around(input, {.resolution = 33, .padding = 0.5}).n_tets(), 3 * tets.n_tets());
+
+  // A cloud will do, with normals or without.
+  PolygonSoup points;
+  points.points = input.points;
+  EXPECT_GT(tets_around(points, {.resolution = 9}).n_tets(), 100);
+  EXPECT_THROW(tets_around(input, {.resolution = 1}), InputError);
+  EXPECT_THROW(tets_around({}, {.resolution = 9}), InputError);
+}
+
+TEST(FrontTets, AnIsosurfaceOfDistanceThroughTets) {
+  const PolygonSoup input = cube();
+  TetSources from;
+  from.surface = input;
+  const TetField d = distance(tets_around(input, {.resolution = 17, .padding = 0.5}), from);
+  const Mesh inner = isosurface(d, -0.25);  // the cube shrunk by as much, with sharp edges
+  EXPECT_NEAR(inner.points().minCoeff(), 0.25, 1e-9);
+  EXPECT_NEAR(inner.points().maxCoeff(), 0.75, 1e-9);
+  EXPECT_THAT([&] { isosurface(d, 5); }, ThrowsMessage<InputError>(HasSubstr("no tet takes")));
+  EXPECT_THROW(isosurface({d.mesh, d.values.head(3), {}}), InputError);
+}
+
 TEST(FrontFiles, WriteAndRead) {
   const auto folder =
       std::filesystem::temp_directory_path() /

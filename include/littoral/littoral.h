@@ -3,7 +3,7 @@
 //
 //   surfaces   Mesh, Sources, distance, DistanceSolver, distance_matrix, winding
 //   space      Sdf, signed_distance, winding_number, Grid, Volume, isosurface, offset
-//   tets       TetMesh, TetDistanceSolver
+//   tets       TetMesh, tets_around, TetDistanceSolver
 //   matrices   surface_operators, Factorization
 //   files      read_mesh, read_soup, read_sources, read_volume, read_tets, write, write_page
 //   drawing    triangulation, path_through, offset_curves, parse_sources, sources_text

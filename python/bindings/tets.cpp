@@ -22,7 +22,16 @@ void bind_tets(nb::module_& m) {
           "points",
           [](nb::handle self) { return view(nb::cast<const TetMesh&>(self).points, self); })
       .def_prop_ro("tets",
-                   [](nb::handle self) { return view(nb::cast<const TetMesh&>(self).tets, self); });
+                   [](nb::handle self) { return view(nb::cast<const TetMesh&>(self).tets, self); })
+      .def(
+          "isosurface",
+          [](const TetMesh& mesh, Numbers values, double level, const Settings* settings) {
+            const TetField field{mesh, values, {}};
+            return released(settings, [&](const Context& context) {
+              return isosurface(field, level, context);
+            });
+          },
+          nb::arg("values"), nb::arg("level"), nb::arg("settings").none());
   nb::class_<TetSources>(m, "TetSources")
       .def(
           "__init__",
@@ -76,6 +85,16 @@ void bind_tets(nb::module_& m) {
                             [&](const Context& context) { return self.solve(sources, context); });
           },
           nb::arg("sources"), nb::arg("settings").none());
+  m.def(
+      "tets_around",
+      [](const Mesh& surface, std::optional<int> resolution, std::optional<double> spacing,
+         std::optional<std::array<double, 6>> bounds, double padding, const Settings* settings) {
+        return released(settings, [&](const Context& context) {
+          return tets_around(surface.soup(), {resolution, spacing, bounds, padding}, context);
+        });
+      },
+      nb::arg("surface"), nb::arg("resolution").none(), nb::arg("spacing").none(),
+      nb::arg("bounds").none(), nb::arg("padding"), nb::arg("settings").none());
   m.def("read_tets", [](const std::string& path) { return read_tets(path); });
 }
 

@@ -336,6 +336,12 @@ class TetMesh:
     def points(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]: ...
     @property
     def tets(self) -> Annotated[NDArray[numpy.int32], dict(writable=False)]: ...
+    def isosurface(
+        self,
+        values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", writable=False)],
+        level: float,
+        settings: Settings | None,
+    ) -> Mesh: ...
 
 class TetSources:
     def __init__(
@@ -372,6 +378,14 @@ class TetDistanceSolver:
     ) -> None: ...
     def solve(self, sources: TetSources, settings: Settings | None) -> TetField: ...
 
+def tets_around(
+    surface: Mesh,
+    resolution: int | None,
+    spacing: float | None,
+    bounds: Sequence[float] | None,
+    padding: float,
+    settings: Settings | None,
+) -> TetMesh: ...
 def read_tets(arg: str, /) -> TetMesh: ...
 
 class SurfaceOperators:

@@ -9,14 +9,13 @@ import numpy as np
 
 from . import _core
 from ._arrays import Array, Floats, Ints, as_array, floats, like, result_type
-from ._errors import InputError
 from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, method_takes_kind, takes_kind
 from ._settings import Progress, settings
 from ._surfaces import Mesh, PointCloud, Surface
-from ._volumes import Volume
+from ._volumes import Volume, nodes_and_box
 
 
 class Closest(NamedTuple):
@@ -140,14 +139,8 @@ class SDF(Reported):
         """
         nodes = None if grid is None else _volume(grid, "grid")._handle.grid
         if nodes is None:
-            if resolution is not None and int(resolution) != resolution:
-                raise InputError(f"resolution: expected a whole number of nodes, got {resolution}")
-            box = None if bounds is None else list(floats(bounds, "bounds"))
-            if box is not None and len(box) != 6:
-                raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
-            nodes = _core.Grid.around(
-                self._handle, None if resolution is None else int(resolution), spacing, box, padding
-            )
+            longest, box = nodes_and_box(resolution, bounds)
+            nodes = _core.Grid.around(self._handle, longest, spacing, box, padding)
         return Volume._of(self._handle.sample(nodes, settings(threads, progress)))
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,8 @@ from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, Shown, method_takes_kind, takes_kind
 from ._settings import Progress, settings
+from ._surfaces import Mesh, Surface
+from ._volumes import nodes_and_box
 
 
 class TetMesh:
@@ -45,6 +48,38 @@ class TetMesh:
         check_range(tets, len(points), "T", "vertices")
         self._handle = _core.TetMesh(points, tets)
         self._dtype: Any = result_type(V)
+
+    @classmethod
+    def around(
+        cls,
+        surface: Any,
+        *,
+        resolution: int | None = None,
+        spacing: float | None = None,
+        bounds: Sequence[float] | None = None,
+        padding: float = 0.25,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> TetMesh:
+        """Tets that fill a cube about a surface or cloud, small near it and larger far from it.
+
+        resolution: cells along the cube's side if all were as small as near the surface, to a power
+        of two (64), or spacing, their side [length]. bounds: x0 y0 z0 x1 y1 z1, whose longest side
+        is the cube's; without, a margin of `padding` longest sides. Thesis 4.5. Raises InputError
+        for a box without extent and for more than 2^26 tets, IoError where memory will not do.
+
+        >>> import littoral
+        >>> cube = littoral.examples.cube()
+        >>> tets = littoral.TetMesh.around(cube, resolution=17)
+        >>> phi = littoral.distance(tets, cube)
+        >>> phi.isosurface(-0.25).points.min(axis=0).round(3).tolist()
+        [0.25, 0.25, 0.25]
+        """
+        nodes, box = nodes_and_box(resolution, bounds)
+        handle = as_cloud_or_surface(surface)._handle
+        return cls._of(
+            _core.tets_around(handle, nodes, spacing, box, padding, settings(threads, progress))
+        )
 
     @classmethod
     def _of(cls, core: _core.TetMesh) -> TetMesh:
@@ -72,6 +107,22 @@ class TetMesh:
     def n_tets(self) -> int:
         """Tets."""
         return len(self.tets)
+
+    @method_takes_kind
+    def isosurface(self, values: Any, level: float = 0.0, *, threads: int | None = None) -> Surface:
+        """The surface on which values at the vertices are the level, larger ones outside.
+
+        Closed unless it meets the boundary of the tets. as_: "pyvista", "trimesh" or "meshio" for
+        that library's object. Raises InputError where the level is met nowhere and for values that
+        are not finite.
+
+        >>> import littoral
+        >>> tets = littoral.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+        >>> tets.isosurface([0, 1, 1, 1], 0.5)
+        <littoral.Mesh: 3 vertices, 1 faces>
+        """
+        numbers = floats(np.ravel(as_array(values, "values")), "values", finite=False)
+        return Mesh._of(self._handle.isosurface(numbers, float(level), settings(threads)))
 
     def _vertices(self, chosen: Any, name: str) -> Ints:
         """Vertices by number, checked; none for None."""
@@ -111,6 +162,11 @@ class TetField(Reported, Shown):
         self.mesh = mesh
         self.values: Array = like(core.values, mesh._dtype)
         self.report = Report(**core.report())
+
+    @method_takes_kind
+    def isosurface(self, level: float = 0.0, *, threads: int | None = None) -> Surface:
+        """The surface on which the distance is the level; raises as `TetMesh.isosurface`."""
+        return self.mesh.isosurface(self.values, level, threads=threads)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes by extension: .vtk .vtu the tets, .ply .obj .vtp their boundary, .csv .npy .txt

@@ -9,11 +9,23 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import Floats, as_array, contiguous
+from ._arrays import Floats, as_array, contiguous, floats
 from ._errors import InputError
 from ._results import Shown, method_takes_kind
 from ._settings import settings
 from ._surfaces import Mesh, Surface, triple
+
+
+def nodes_and_box(
+    resolution: int | None, bounds: Sequence[float] | None
+) -> tuple[int | None, list[float] | None]:
+    """The words for a grid, checked: nodes along the longest side, x0 y0 z0 x1 y1 z1."""
+    if resolution is not None and int(resolution) != resolution:
+        raise InputError(f"resolution: expected a whole number of nodes, got {resolution}")
+    box: list[float] | None = None if bounds is None else floats(bounds, "bounds").ravel().tolist()
+    if box is not None and len(box) != 6:
+        raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
+    return None if resolution is None else int(resolution), box
 
 
 class Volume(Shown):

@@ -14,12 +14,14 @@ TypeError or IndexError.
 
 The grid solver has the same nodes as signedheat3d's, and zero in every cell that the input meets,
 whatever level_set_constraint says, as there.
-The tet solver differs in its tets: signedheat3d cuts the box by tetgen along the input; here
-the box is cut into equal tets, with `resolution[0]` nodes along its longest side. So vertices
-differ in number and place, `get_vertices` says where they are, and the zero set is met up to the
-size of a tet. Its level_set_constraint "Multiple" raises littoral.UnsupportedError.
+The tet solver differs in its tets: signedheat3d cuts the box by tetgen along the input, whose
+vertices and faces are then some of the tets'; here tets are about as small as the input's faces
+near it, or as `resolution[0]` nodes along the box's longest side are apart, and larger far from it.
+So vertices differ in number and place, `get_vertices` says where they are, and the zero set is met
+up to a part of a tet. In a box that is no cube they reach beyond its shorter sides by less than a
+tet. Its level_set_constraint "Multiple" raises littoral.UnsupportedError.
 
-A solver keeps its grid or tets while box and resolution stay, and what it made of the input while
+A solver keeps its grid while box and resolution stay, its tets and what it made of the input while
 that stays as well. verbose: a line on the standard error for every distance.
 """
 
@@ -27,7 +29,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from itertools import permutations
 from types import MappingProxyType
 from typing import Any
 
@@ -43,6 +44,7 @@ from .._volumes import Volume
 
 _KNOWN = ("level_set_constraint", "t_coef", "bbox_min", "bbox_max", "resolution", "verbose")
 _DEFAULTS: Mapping[str, Any] = MappingProxyType({})
+_MOST_PIECES = 12_000  # that tets are made for: some hundred thousands of them
 _CONSTRAINTS = {"zeroset": "zero-set", "none": "none"}
 
 
@@ -212,26 +214,24 @@ class SignedHeatGridSolver:
         return values
 
 
-def _lattice(box: Floats, longest: int) -> tuple[tuple[int, ...], Floats, TetMesh]:
-    """Nodes by axis, their spacing, and the tets: six a cell, x fastest."""
-    sides = box[1] - box[0]
-    cells = np.maximum(np.round(sides / sides.max() * (longest - 1)), 1).astype(int)
-    n, spacing = cells + 1, sides / cells
-    axes = [box[0][a] + spacing[a] * np.arange(n[a]) for a in range(3)]
-    nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    step = np.array([1, n[0], n[0] * n[1]])
-    corner = sum(
-        step[a] * c for a, c in enumerate(np.meshgrid(*map(np.arange, cells), indexing="ij"))
-    )
-    tets = []
-    for order in permutations(range(3)):
-        path = np.concatenate([[0], np.cumsum(step[list(order)])])
-        if np.linalg.det(np.eye(3)[list(order)]) < 0:
-            path = path[[0, 1, 3, 2]]
-        tets.append(np.ravel(corner)[:, None] + path)
-    points = nodes.transpose(2, 1, 0, 3).reshape(-1, 3)
-    T = np.stack(tets, axis=1).reshape(-1, 4).astype(np.int32)
-    return tuple(int(k) for k in n), spacing, TetMesh(points, T)
+def _tets_about(surface: Surface, box: Floats, longest: int) -> TetMesh:
+    """Tets that meet the box, near the surface about as small as its faces.
+
+    So the zero set follows the input whatever the resolution is, as with tets cut along it.
+    """
+    low, high = surface.points.min(axis=0), surface.points.max(axis=0)
+    x, y, z = high - low
+    pieces = len(surface.points) if isinstance(surface, PointCloud) else surface.n_faces
+    # A square for each two pieces on the box about the input.
+    side = np.sqrt(4 * (x * y + y * z + z * x) / min(pieces, _MOST_PIECES))
+    spacing = min(side, (box[1] - box[0]).max() / (longest - 1))
+    tets = TetMesh.around(surface, spacing=float(spacing), bounds=box.ravel().tolist())
+    within = ((tets.points >= box[0]) & (tets.points <= box[1])).all(axis=1)
+    if within.all():
+        return tets
+    kept = tets.tets[within[tets.tets].any(axis=1)]
+    used, T = np.unique(kept, return_inverse=True)
+    return TetMesh(tets.points[used], T.reshape(-1, 4))
 
 
 class SignedHeatTetSolver:
@@ -242,16 +242,14 @@ class SignedHeatTetSolver:
     >>> cube = littoral.examples.cube()
     >>> phi = solver.compute_distance_to_mesh(cube.points, cube.faces, {"resolution": [7, 7, 7]})
     >>> phi.shape, solver.get_vertices().shape
-    ((343,), (343, 3))
+    ((415,), (415, 3))
     """
 
     def __init__(self, verbose: bool = True) -> None:
         self._verbose = bool(verbose)
         self._longest = 32
-        self._box: Floats = np.zeros((2, 3))
-        self._nodes: tuple[int, ...] = (0, 0, 0)
-        self._spacing: Floats = np.zeros(3)
         self._tets: TetMesh | None = None
+        self._kept = _Kept()
         self._solvers: dict[tuple[float, str], TetDistanceSolver] = {}
 
     def get_vertices(self) -> Floats:
@@ -277,10 +275,12 @@ class SignedHeatTetSolver:
     def _solve(self, surface: Surface, options: _Options) -> Floats:
         box = _box_around(surface.points) if options.box is None else options.box
         longest = self._longest if options.resolution is None else int(options.resolution[0])
-        if self._tets is None or longest != self._longest or not np.array_equal(box, self._box):
-            self._nodes, self._spacing, self._tets = _lattice(box, longest)
-            self._longest, self._box = longest, box
-            self._solvers = {}
+        self._longest = longest
+        tets = self._kept.get(
+            surface, (longest, *box.ravel()), lambda: _tets_about(surface, box, longest)
+        )
+        if tets is not self._tets:
+            self._tets, self._solvers = tets, {}
         choice = options.time_scale, options.constraint
         if choice not in self._solvers:
             self._solvers[choice] = TetDistanceSolver(
@@ -300,8 +300,5 @@ class SignedHeatTetSolver:
         if self._tets is None or len(values) != self._tets.n_vertices:
             count = 0 if self._tets is None else self._tets.n_vertices
             raise InputError(f"phi: expected {count} values, one a vertex, got {len(values)}")
-        volume = Volume(
-            values.reshape(self._nodes, order="F"), self._spacing.tolist(), self._box[0].tolist()
-        )
-        surface = volume.isosurface(isoval)
+        surface = self._tets.isosurface(values, isoval)
         return np.array(surface.points), np.asarray(surface.faces).tolist()

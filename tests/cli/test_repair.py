@@ -96,3 +96,17 @@ def test_what_goes_back_in_the_fit_is_asked_again(run: Run, tmp_path: Path) -> N
     (tmp_path / "soup.obj").write_text(text)
     words = ("repair", "soup.obj", "-o", "out.obj", "--resolution", 32, "--json")
     assert json.loads(run(*words).stdout)["sizes"]["result: self intersecting triangles"] == 0
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e-150, 1e200])
+def test_neither_info_nor_repair_depends_on_the_unit(run: Run, tmp_path: Path, size: float) -> None:
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    for name, scale in (("one.obj", 1.0), ("sized.obj", size)):
+        rows = [f"v {x * scale!r} {y * scale!r} {z * scale!r}" for x, y, z in corners]
+        (tmp_path / name).write_text("\n".join([*rows, "f 1 3 2", "f 1 2 4", "f 2 3 4", "f 1 4 3"]))
+    one, sized = (json.loads(run("info", f"{n}.obj", "--json").stdout) for n in ("one", "sized"))
+    for key in ("thickness_5_percent", "thickness_median"):
+        assert sized[key] / size == pytest.approx(one[key], rel=1e-9)
+    assert sized["watertight"] is True
+    report = json.loads(run("repair", "sized.obj", "-o", "kept.obj", "--json").stdout)
+    assert "triangles of the input turned, share" in report["sizes"], "kept as they are"

@@ -54,12 +54,15 @@ KeptTriangle shape_of(const MatX3& points, const Corners& v) {
 MatX3i cleaned(const PolygonSoup& input) {
   MatX3i triangles = triangles_of(triangulate(input));
   const std::vector<int> first = same_positions(input.points);
+  Box box;
+  for (const auto& p : input.points.rowwise()) box.add(p.transpose());
+  const MatX3 points = input.points / Frame(box).unit;  // exactly: a power of two
   std::set<Corners> seen;
   Eigen::Index n = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     const Corners v{first[triangles(f, 0)], first[triangles(f, 1)], first[triangles(f, 2)]};
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    if (shape_of(input.points, v).flat) return MatX3i(0, 3);
+    if (shape_of(points, v).flat) return MatX3i(0, 3);
     Corners sorted = v;
     std::sort(sorted.begin(), sorted.end());
     if (seen.insert(sorted).second) triangles.row(n++) << v[0], v[1], v[2];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "api/space/frame.h"
 #include "api/space/input_queries.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
@@ -19,9 +20,13 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   const auto corner = [&](int f, int k) -> Vec3 {
     return triangles.points.row(triangles.face(f)[static_cast<std::size_t>(k)]);
   };
-  for (int f = 0; f < triangles.n_faces(); ++f)
-    sum.push_back(sum.back() +
-                  (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm() / 2);
+  Box box;
+  for (const int v : triangles.corners) box.add(triangles.points.row(v));
+  const double unit = Frame(box).unit;  // areas in squared lengths could overflow or vanish
+  for (int f = 0; f < triangles.n_faces(); ++f) {
+    const Vec3 u = (corner(f, 1) - corner(f, 0)) / unit, v = (corner(f, 2) - corner(f, 0)) / unit;
+    sum.push_back(sum.back() + u.cross(v).norm() / 2);
+  }
   if (!(sum.back() > 0)) throw InputError("the surface has no area", "empty-input");
   constexpr double first_step = 0.7548776662466927, second_step = 0.5698402909980532;
   MatX3 points(n, 3);

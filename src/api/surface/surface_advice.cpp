@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/space/frame.h"
 #include "api/space/surface_difference.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "spatial/triangle_bvh.h"
@@ -49,9 +51,12 @@ double ball_diameter(const TriangleBvh& surface, const Vec3& x, const Vec3& inwa
 
 std::vector<double> inner_ball_diameters(const PolygonSoup& triangles, int samples) {
   const MatX3i faces = triangles_of(triangles);
-  const MatX3& points = triangles.points;
+  Box box;
+  for (const int v : faces.reshaped()) box.add(triangles.points.row(v).transpose());
+  const double unit = Frame(box).unit;  // squares of lengths could overflow or vanish
+  const MatX3 points = triangles.points / unit;
   const TriangleBvh surface(points, faces);
-  const MatX3 at = spread_over(triangles, samples);
+  const MatX3 at = spread_over(triangles, samples) / unit;
   const Vec3 low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
   const double most = (high - low).norm() / 2;
   const double inside = signed_volume(points, faces, (low + high) / 2) < 0 ? 1 : -1;
@@ -67,6 +72,7 @@ std::vector<double> inner_ball_diameters(const PolygonSoup& triangles, int sampl
   });
   std::erase_if(found, [](double diameter) { return !(diameter > 0); });
   std::sort(found.begin(), found.end());
+  for (double& diameter : found) diameter *= unit;
   return found;
 }
 

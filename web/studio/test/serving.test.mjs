@@ -92,7 +92,7 @@ test("a link that is copied carries no token, and the address keeps it", async (
   await shown.close();
 });
 
-test("a file that is dropped is computed by the program too", async () => {
+test("an example is computed by the program too", async () => {
   const shown = await openStudio({ url: served.address, example: "ring" }), { page } = shown;
   await page.click("#mode-point");
   const [place] = await ring(page, 12, 0.3);

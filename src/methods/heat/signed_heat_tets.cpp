@@ -123,6 +123,7 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, d
     VecX strongest = VecX::Constant(ops.volumes.size(), -infinity);
     MatX3 X = MatX3::Zero(ops.volumes.size(), 3);
     for (const double value : std::set<double>(system.value.begin(), system.value.end())) {
+      heat_stage.checkpoint();  // each value takes a solve
       const VecX own = (system.value.array() == value).cast<double>();
       const MatX3 slope = ops.gradient(factor->solve(VecX(system.A.transpose() * own)));
       for (Eigen::Index i = 0; i < X.rows(); ++i) {

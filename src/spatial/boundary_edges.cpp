@@ -5,6 +5,7 @@
 
 #include "base/index.h"
 #include "spatial/covered_triangles.h"
+#include "spatial/finite_box.h"
 
 namespace littoral {
 

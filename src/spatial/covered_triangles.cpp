@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "base/index.h"
+#include "base/numbers_hash.h"
 
 namespace littoral {
 
@@ -89,16 +90,6 @@ Side longest_side(const Triangle& t) {
 /// A line, to a millionth: its direction and its nearest point to the centre. What is one line but
 /// for rounding nearly always gets the same numbers.
 using Line = std::array<std::int64_t, 6>;
-struct LineHash {
-  std::size_t operator()(const Line& line) const {
-    std::uint64_t h = 0;
-    for (const std::int64_t k : line) {
-      h = (h ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-};
 
 Line line_of(const Side& s, const Vec3& centre, double size) {
   constexpr double fine = 1e6, no_component = 1e-3;
@@ -159,16 +150,6 @@ void cover_along(const Line& line, std::vector<Stretch>& stretches, double most_
 
 }  // namespace
 
-double points_size(const MatX3& points) {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  for (Eigen::Index v = 0; v < points.rows(); ++v) {
-    if (!points.row(v).allFinite()) continue;
-    low = low.cwiseMin(points.row(v).transpose());
-    high = high.cwiseMax(points.row(v).transpose());
-  }
-  return std::max(0.0, (high - low).maxCoeff());
-}
-
 bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c, double size) {
   if (!(size > 0)) return true;
   const Vec3 u = (b - a) / size, v = (c - a) / size;
@@ -186,7 +167,7 @@ std::vector<bool> covered_triangles(const std::vector<Triangle>& corners) {
   const double size = (high - low).maxCoeff();
   const Vec3 centre = (low + high) / 2;
 
-  std::unordered_map<Line, std::vector<Stretch>, LineHash> lines;
+  std::unordered_map<Line, std::vector<Stretch>, NumbersHash> lines;
   std::map<Place, int> at_point;  // the first triangle that is this point
   std::vector<int> with_area, sides;
   for (int i = 0; i < int_size(corners); ++i) {

@@ -9,9 +9,6 @@
 
 namespace littoral {
 
-/// The longest side of the box of points, those left out that are not finite.
-double points_size(const MatX3& points);
-
 /// Whether three corners are in one line or at one point, to the rounding of points in a box of
 /// that size.
 bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c, double size);

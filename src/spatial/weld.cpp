@@ -8,7 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/index.h"
+#include "base/numbers_hash.h"
+#include "spatial/finite_box.h"
 
 namespace littoral {
 
@@ -18,28 +19,12 @@ constexpr double finest_cell = 1e-12;  // of the longest side
 
 using Cell = std::array<std::int64_t, 3>;
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    std::uint64_t h = 0;
-    for (const std::int64_t k : cell) {
-      h = (h ^ static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h);
-  }
-};
-
 /// The vertex that each one becomes, itself where it is kept.
 std::vector<int> kept_vertices(const MatX3& points, double distance) {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  for (const auto& point : points.rowwise())
-    if (point.allFinite()) {
-      low = low.cwiseMin(point.transpose());
-      high = high.cwiseMax(point.transpose());
-    }
-  const double side = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+  const Vec3 low = finite_box(points).min();
+  const double side = std::max(points_size(points), std::numeric_limits<double>::min());
   const double cell = std::max(distance, finest_cell * side);
-  std::unordered_map<Cell, std::vector<int>, CellHash> kept;
+  std::unordered_map<Cell, std::vector<int>, NumbersHash> kept;
   std::vector<int> out(static_cast<std::size_t>(points.rows()));
   for (int v = 0; v < points.rows(); ++v) {
     out[v] = v;

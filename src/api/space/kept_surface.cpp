@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/space/frame.h"
+#include "api/space/space_input.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
 #include "base/index.h"
@@ -54,9 +55,7 @@ KeptTriangle shape_of(const MatX3& points, const Corners& v) {
 MatX3i cleaned(const PolygonSoup& input) {
   MatX3i triangles = triangles_of(triangulate(input));
   const std::vector<int> first = same_positions(input.points);
-  Box box;
-  for (const auto& p : input.points.rowwise()) box.add(p.transpose());
-  const MatX3 points = input.points / Frame(box).unit;  // exactly: a power of two
+  const MatX3 points = input.points / Frame(bounding_box(input)).unit;  // exactly: a power of two
   std::set<Corners> seen;
   Eigen::Index n = 0;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {

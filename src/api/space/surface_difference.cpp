@@ -7,6 +7,7 @@
 
 #include "api/space/frame.h"
 #include "api/space/input_queries.h"
+#include "api/space/space_input.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
 
@@ -20,9 +21,8 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   const auto corner = [&](int f, int k) -> Vec3 {
     return triangles.points.row(triangles.face(f)[static_cast<std::size_t>(k)]);
   };
-  Box box;
-  for (const int v : triangles.corners) box.add(triangles.points.row(v));
-  const double unit = Frame(box).unit;  // areas in squared lengths could overflow or vanish
+  const double unit =
+      Frame(bounding_box(triangles)).unit;  // areas in squared lengths could overflow or vanish
   for (int f = 0; f < triangles.n_faces(); ++f) {
     const Vec3 u = (corner(f, 1) - corner(f, 0)) / unit, v = (corner(f, 2) - corner(f, 0)) / unit;
     sum.push_back(sum.back() + u.cross(v).norm() / 2);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/space/frame.h"
+#include "api/space/space_input.h"
 #include "api/space/surface_difference.h"
 #include "base/index.h"
 #include "base/option_table.h"
@@ -51,9 +52,8 @@ double ball_diameter(const TriangleBvh& surface, const Vec3& x, const Vec3& inwa
 
 std::vector<double> inner_ball_diameters(const PolygonSoup& triangles, int samples) {
   const MatX3i faces = triangles_of(triangles);
-  Box box;
-  for (const int v : faces.reshaped()) box.add(triangles.points.row(v).transpose());
-  const double unit = Frame(box).unit;  // squares of lengths could overflow or vanish
+  const double unit =
+      Frame(bounding_box(triangles)).unit;  // squares of lengths could overflow or vanish
   const MatX3 points = triangles.points / unit;
   const TriangleBvh surface(points, faces);
   const MatX3 at = spread_over(triangles, samples) / unit;

@@ -8,7 +8,6 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
-#include "base/index.h"
 #include "cli/input/lengths.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
@@ -17,6 +16,7 @@
 #include "contour/isosurface.h"
 #include "io/write.h"
 #include "littoral/error.h"
+#include "spatial/finite_box.h"
 #include "spatial/triangulate.h"
 #include "spatial/weld.h"
 
@@ -68,18 +68,8 @@ const VecX& field_of(const io::TetFile& file, const FileArguments& arguments, st
   return file.scalars.at(name);
 }
 
-double longest_side(const MatX3& points) {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  for (const auto& point : points.rowwise())
-    if (point.allFinite()) {
-      low = low.cwiseMin(point.transpose());
-      high = high.cwiseMax(point.transpose());
-    }
-  return (high - low).maxCoeff();
-}
-
 PolygonSoup welded(const PolygonSoup& soup, const std::string& distance, Session& session) {
-  const InputSize size = [&] { return longest_side(soup.points); };
+  const InputSize size = [&] { return points_size(soup.points); };
   Welded found = weld(soup, parse_radius("weld", distance, size));
   if (found.n_dropped_faces > 0)
     session.report.warn("degenerate-faces",

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/numbers_hash.h"
 #include "littoral/types.h"
 
 namespace littoral::io {
@@ -29,17 +30,7 @@ class PointMerger {
 
  private:
   static std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); }
-  struct Hash {
-    std::size_t operator()(const std::array<std::uint64_t, 4>& key) const {
-      std::uint64_t h = 0;
-      for (std::uint64_t k : key) {
-        h = (h ^ k) * 0x9E3779B97F4A7C15u;
-        h ^= h >> 32;
-      }
-      return static_cast<std::size_t>(h);
-    }
-  };
-  std::unordered_map<std::array<std::uint64_t, 4>, int, Hash> numbers_;
+  std::unordered_map<std::array<std::uint64_t, 4>, int, NumbersHash> numbers_;
   std::vector<double> coordinates_;
 };
 

@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/covered_triangles.h"
+#include "spatial/finite_box.h"
 
 namespace littoral {
 

@@ -10,6 +10,7 @@
 #include "methods/heat/convolve.h"
 #include "methods/heat/signed_heat_grid.h"
 #include "solve/multigrid/cosine_transform.h"
+#include "solve/multigrid/grid_multipliers.h"
 #include "solve/poisson/constrained_poisson.h"
 #include "space_helpers.h"
 
@@ -212,6 +213,27 @@ TEST(HeldPoisson, OneValueAlongEachGroupAgreesWithTheSaddlePointSystem) {
   VecX exact = VecX(K.fullPivLu().solve(rhs)).head(n);  // up to a constant
   exact.array() += x[0] - exact[0];
   EXPECT_LT((x - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.cwiseAbs().maxCoeff());
+}
+
+TEST(HeldPoisson, BlocksOfCellsSaveMostIterationsAndChangeNothing) {
+  const Grid grid = test::cube_grid(33, 1.2);
+  const OrientedPoints sphere = test::sphere_samples(5);
+  const GridRows rows = grid_rows(grid, sphere.points, sphere.areas);
+  const double softness = grid.spacing.prod() * 0.02;
+  const ConstraintRows held{rows.A, softness * rows.weight.cwiseInverse(), 1e-8};
+  const GridPoisson<> poisson{grid.n, grid.spacing};
+  const auto solve = [&poisson](VecX& v) { poisson.solve(v, Task()); };
+  VecX x = VecX::Random(index(grid.n_nodes()));
+  x.array() -= x.mean();
+  solve(x);
+  const GridMultipliers blocks(grid.n, grid.spacing, rows.A, rows.weight, held.softness);
+  Report plain, report;
+  const VecX expected = solve_constrained(solve, x, held, Task(), plain);
+  const VecX found = solve_constrained(solve, x, held, Task(), report,
+                                       [&](const VecX& r) { return blocks(r, Task()); });
+  EXPECT_EQ(report.status, "converged");
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
+  EXPECT_LT(report.iterations[0].second, plain.iterations[0].second / 2);
 }
 
 TEST(Convolution, FarDirectionIsThatOfTheNearestSampleAndNeverUnderflows) {

@@ -1,6 +1,8 @@
 #include "methods/heat/signed_heat_grid.h"
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <utility>
 
 #include "base/parallel.h"
@@ -8,13 +10,15 @@
 #include "littoral/error.h"
 #include "methods/heat/convolve.h"
 #include "solve/multigrid/cosine_transform.h"
+#include "solve/multigrid/grid_multipliers.h"
 #include "solve/poisson/constrained_poisson.h"
 
 namespace littoral {
 
 namespace {
 constexpr double zero_set_tolerance = 1e-2;  // in grid spacings, root mean square
-}
+constexpr Eigen::Index least_rows_for_blocks = 2000;
+}  // namespace
 
 const OptionTable<SpaceSignedHeat>& space_heat_options() {
   using O = SpaceSignedHeat;
@@ -116,6 +120,9 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   const ConstraintRows constraints{rows.A, std::move(held.softness),
                                    zero_set_tolerance * grid.spacing.minCoeff(),
                                    std::move(held.group)};
+  // Rows that are held exactly nearly depend on one another, which blocks do not help.
+  const bool by_blocks =
+      constraint == SpaceConstraint::soft && rows.A.rows() >= least_rows_for_blocks;
   // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
   // speed.
   const GridPoisson<float> poisson(grid.n, grid.spacing);
@@ -133,7 +140,16 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
     poisson.solve(single, constrain_stage);
     convert(single, b);
   };
-  phi = solve_constrained(solve, std::move(phi), constraints, constrain_stage, report);
+  std::function<VecX(const VecX&)> precondition;
+  if (by_blocks) {
+    const auto blocks = std::make_shared<GridMultipliers>(grid.n, grid.spacing, rows.A, rows.weight,
+                                                          constraints.softness);
+    precondition = [blocks, &constrain_stage](const VecX& r) {
+      return (*blocks)(r, constrain_stage);
+    };
+  }
+  phi =
+      solve_constrained(solve, std::move(phi), constraints, constrain_stage, report, precondition);
   if (constraint == SpaceConstraint::level_sets) shift_to_mean_zero();
   return phi;
 }

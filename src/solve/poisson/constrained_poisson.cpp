@@ -22,33 +22,27 @@ void remove_means(const std::vector<int>& group, VecX& v) {
   }
   for (Eigen::Index r = 0; r < v.size(); ++r) v[r] -= sum[group[r]] / count[group[r]];
 }
+/// s = L^+ A^T v, in the same place each time: fresh memory of that size takes as long as the sums.
+void spread_and_solve(const std::function<void(VecX&)>& solve,
+                      const Eigen::SparseMatrix<double, Eigen::RowMajor>& A, const VecX& v,
+                      const Task& task, VecX& s) {
+  s.setZero();
+  s.noalias() += A.transpose() * v;
+  task.checkpoint();
+  solve(s);
+  task.checkpoint();
+}
 }  // namespace
 
-VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
-                       const Task& task, Report& report) {
+VecX constraint_multipliers(const std::function<void(VecX&)>& solve, const ConstraintRows& rows,
+                            VecX r, const Task& task, Report& report,
+                            const std::function<VecX(const VecX&)>& precondition) {
   const auto& A = rows.A;
-  if (A.rows() == 0) return x;
-  // Stationarity: L x + A^T mu = b, A x = c + softness mu; L x sums to zero, so mu does too (the
-  // rows of A sum to 1), and the constant part of x balances the mean of A x - c. Groups: A x = B c
-  // + softness mu with c free, so B^T mu = 0.
-  VecX mu = VecX::Zero(A.rows());
-  const auto off = [&](VecX Ax) {
-    if (rows.value.size() > 0) Ax -= rows.value;
-    return Ax;
-  };
-  VecX r = off(A * x), s(x.size());
-  // s = L^+ A^T v, in the same place each time: fresh memory of that size takes as long as the
-  // sums.
-  const auto spread_and_solve = [&](const VecX& v) {
-    s.setZero();
-    s.noalias() += A.transpose() * v;
-    task.checkpoint();
-    solve(s);
-    task.checkpoint();
-  };
+  VecX mu = VecX::Zero(A.rows()), s(A.cols());
   remove_means(rows.group, r);
-  VecX p = r;
-  double rr = r.squaredNorm();
+  VecX z = precondition ? precondition(r) : r;
+  VecX p = z;
+  double rr = r.squaredNorm(), rz = r.dot(z);
   const double start = std::sqrt(rr / static_cast<double>(A.rows()));
   int iteration = 0;
   const auto residual = [&] { return std::sqrt(rr / static_cast<double>(A.rows())); };
@@ -56,23 +50,50 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     // Residuals fall geometrically: their logarithm is the progress.
     const double done = std::log(start / residual()) / std::log(start / rows.tolerance);
     task.checkpoint(std::min(1.0, std::max(0.0, done)));
-    spread_and_solve(p);
+    spread_and_solve(solve, A, p, task, s);
     VecX q = A * s + rows.softness.cwiseProduct(p);
     remove_means(rows.group, q);
     const double curvature = p.dot(q);
     if (!(curvature > 0)) break;
-    const double step = rr / curvature;
+    const double step = rz / curvature;
     mu += step * p;
-    r -= step * q;
-    const double before = rr;
-    rr = r.squaredNorm();
-    p = r + (rr / before) * p;
+    const double before = rz;
+    if (precondition) {
+      // Flexible: a preconditioner that iterates itself is another one each time.
+      const VecX old = r;
+      r -= step * q;
+      z = precondition(r);
+      rr = r.squaredNorm();
+      rz = r.dot(z);
+      p = z + (rz - old.dot(z)) / before * p;
+    } else {
+      r -= step * q;
+      rr = rz = r.squaredNorm();
+      p = r + (rz / before) * p;
+    }
   }
   report.iterations.emplace_back("constraint", iteration);
   report.residuals.emplace_back("constraint", start > 0 ? residual() / start : 0);
   if (residual() > rows.tolerance) report.status = "not converged";
-  if (iteration > 0) {
-    spread_and_solve(mu);
+  return mu;
+}
+
+VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
+                       const Task& task, Report& report,
+                       const std::function<VecX(const VecX&)>& precondition) {
+  const auto& A = rows.A;
+  if (A.rows() == 0) return x;
+  // Stationarity: L x + A^T mu = b, A x = c + softness mu; L x sums to zero, so mu does too (the
+  // rows of A sum to 1), and the constant part of x balances the mean of A x - c. Groups: A x = B c
+  // + softness mu with c free, so B^T mu = 0.
+  const auto off = [&](VecX Ax) {
+    if (rows.value.size() > 0) Ax -= rows.value;
+    return Ax;
+  };
+  const VecX mu = constraint_multipliers(solve, rows, off(A * x), task, report, precondition);
+  if (!mu.isZero(0)) {
+    VecX s(x.size());
+    spread_and_solve(solve, A, mu, task, s);
     x -= s;
   }
   if (!rows.group.empty()) return x;

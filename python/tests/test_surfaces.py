@@ -73,7 +73,10 @@ def test_distance_is_counted_from_values(square):
         np.testing.assert_allclose(counted.values, np.abs(x) + 2, atol=1e-12)
     both = littoral.distance(square, [line], 0, signed=False, values=[2, 1.75])
     np.testing.assert_allclose(both.values, np.minimum(np.abs(x) + 2, to(0) + 1.75), atol=1e-12)
-    with pytest.raises(littoral.InputError, match="values: there are 1 for 1 curves and 1 points"):
+    with pytest.raises(
+        littoral.InputError,
+        match="values: expected one number or one for each of 1 curve and 1 point, got 1",
+    ):
         littoral.distance(square, [line], 0, values=[2])
     with pytest.raises(littoral.UnsupportedError, match="one value"):
         littoral.distance(square, points=[0, 40], values=[0, 0.1], method="quadratic")
@@ -225,6 +228,26 @@ def test_other_surfaces(square):
     box = littoral.Voxels(np.pad(np.ones((4, 4, 4), bool), 1), spacing=0.25, origin=(1, 2, 3))
     assert box.kind == "voxel surface"
     assert littoral.distance(box, points=0).values.max() > 1
+
+
+def test_welded_surfaces_are_connected(sphere):
+    soup = littoral.Mesh(
+        sphere.points[sphere.faces.ravel()], np.arange(3 * sphere.n_faces).reshape(-1, 3)
+    )
+    assert soup.n_components == soup.n_faces
+    whole = soup.welded()
+    assert isinstance(whole, littoral.Mesh)
+    assert (whole.n_vertices, whole.n_components) == (sphere.n_vertices, 1)
+    assert np.isinf(littoral.distance(soup, points=0).values).any()
+    assert np.isfinite(littoral.distance(whole, points=0).values).all()
+    assert len(pickle.loads(pickle.dumps(whole)).points) == sphere.n_vertices
+    cloud = littoral.PointCloud([[0, 0, 0], [1, 0, 0], [1, 0, 1e-6]])
+    assert cloud.welded(1e-3).n_vertices == 2
+    for distance in (-1, float("nan")):
+        with pytest.raises(littoral.InputError, match="finite and not negative"):
+            soup.welded(distance)
+    with pytest.raises(littoral.UnsupportedError, match="nothing to weld"):
+        littoral.Voxels(np.ones((2, 2, 2))).welded()
 
 
 def test_progress_is_told_and_can_stop(sphere):

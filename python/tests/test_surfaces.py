@@ -327,7 +327,7 @@ def test_errors_and_warnings_have_codes(square):
     field = littoral.distance(littoral.Mesh(points, square.faces), points=0)
     (warning,) = field.warnings
     assert warning.code == "isolated-vertices"
-    assert "belong to no face" in warning
+    assert "belongs to no face" in warning
     kept = pickle.loads(pickle.dumps(field)).warnings
     assert [(w, w.code) for w in kept] == [(warning, warning.code)]
     assert field.report.as_dict()["warnings"] == [{"code": warning.code, "message": str(warning)}]

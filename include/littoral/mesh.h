@@ -55,9 +55,9 @@ class Mesh {
   double interpolate(const VecX& values, const SurfacePoint& point) const;
 
   /// With one vertex for those that are close together: in their order, vertices no farther than
-  /// `distance` [length] from the nearest of those kept before become that one; 0 joins those at one
-  /// place. Faces with fewer than three corners left are dropped. Throws InputError for a distance
-  /// that is negative or not finite.
+  /// `distance` [length] from the nearest of those kept before become that one; 0 joins those at
+  /// one place. Faces with fewer than three corners left are dropped. Throws InputError for a
+  /// distance that is negative or not finite.
   Mesh welded(double distance = 0) const;
 
   /// For the library's own layers.

@@ -72,7 +72,8 @@ TEST(FrontMesh, RefusesWhatIsNoMeshNamingTheElement) {
   Eigen::MatrixXi F = square.F;
   F(1, 2) = 9;
   EXPECT_THAT([&] { Mesh(square.V, F); },
-              ThrowsMessage<InputError>(HasSubstr("face 1 refers to vertex 9, there are 4")));
+              ThrowsMessage<InputError>(
+                  HasSubstr("face 1 refers to vertex 9; there are 4 vertices, counted from 0")));
   F(1, 2) = -2;
   EXPECT_THROW(Mesh(square.V, F), InputError);
   Eigen::MatrixXd V = square.V;

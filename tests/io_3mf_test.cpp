@@ -117,7 +117,7 @@ TEST(ThreeMf, ErrorsNameTheElement) {
   }
   EXPECT_THAT(error(printed(doubled, "<item objectid=\"59\"/>")), HasSubstr("copies"));
   EXPECT_THAT(error(archive_of({{"x", "y"}})), HasSubstr("no part '/3D/3dmodel.model'"));
-  EXPECT_THAT(error("solid"), HasSubstr("the archive is damaged"));
+  EXPECT_THAT(error("solid"), HasSubstr("no zip archive, or a damaged one"));
   EXPECT_THAT(error(archive_of({{"3D/3dmodel.model", "<a/>"}})), HasSubstr("element model"));
   const std::string whole = printed(object_1, "<item objectid=\"1\"/>");
   for (std::size_t cut = 0; cut < whole.size(); cut += 7)

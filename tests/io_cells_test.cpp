@@ -368,7 +368,11 @@ TEST(Vtu, ErrorsNameTheElement) {
   expect("NumberOfPoints=\"5\"", "NumberOfPoints=\"500000000000\"", "promises 500000000000");
   expect("NumberOfCells=\"2\"", "NumberOfCells=\"-2\"", "no NumberOfCells");
   expect("\"types\"", "\"kinds\"", "there is no array 'types'");
-  expect("UnstructuredGrid\" v", "PolyData\" v", "VTK data of type 'PolyData'");
+  expect(
+      "UnstructuredGrid\" v", "PolyData\" v",
+      "VTK data of type 'PolyData', not UnstructuredGrid as its extension says; its contents look "
+      "like .vtp: name it so");
+  expect("UnstructuredGrid\" v", "RectilinearGrid\" v", "save it as UnstructuredGrid");
   expect("0.5 0.5 1<", "0.5 0.5<", "fewer numbers than the 15 expected");
 }
 

@@ -36,7 +36,7 @@ TEST(IoPc, ReadsPointsAndNormalsInterleavedOrInBlocks) {
 
 TEST(IoPc, SaysWhatIsWrong) {
   EXPECT_EQ(error_of("", ".pc"), "a.pc: no points; the file is empty");
-  EXPECT_EQ(error_of("v 1 2 3\nv 1 2 3\nvn 1 0 0", ".pc"), "a.pc: 2 points but 1 normals");
+  EXPECT_EQ(error_of("v 1 2 3\nv 1 2 3\nvn 1 0 0", ".pc"), "a.pc: 2 points but 1 normal");
   EXPECT_THAT(error_of("v 1 2\n", ".pc"), HasSubstr("a.pc:1: "));
   EXPECT_THAT(error_of("v 1 2 3\nf 1 2 3\n", ".pc"), HasSubstr("a.pc:2: expected 'v x y z'"));
 }
@@ -53,9 +53,30 @@ TEST(IoXyz, SixColumnsHaveNormalsAndOthersDoNot) {
   EXPECT_EQ(read("1 2 3 0.6 0 0.8\n4 5 6 0 0.8 0.6\n", ".xyz").normals.rows(), 2);
   EXPECT_EQ(read("1 2 3 0 0 -5\n4 5 6 20 0 0\n", ".xyz").normals.rows(), 2);
   EXPECT_EQ(read("1 2 3 0 0 2\n4 5 6 0 0 2\n", ".xyz").normals.rows(), 2);
-  EXPECT_THAT(error_of("1 2 3\n1 2 3 4\n", ".xyz"), HasSubstr("a.xyz:2: a row of 4 numbers"));
-  EXPECT_THAT(error_of("1 2\n", ".xyz"), HasSubstr("x y z are needed"));
+  EXPECT_THAT(error_of("1 2 3\n1 2 3 4\n", ".xyz"),
+              HasSubstr("a.xyz:2: expected 3 columns as in the first row, found 4"));
+  EXPECT_THAT(error_of("1 2\n", ".xyz"), HasSubstr("'1 2', has 2 columns; x, y and z are needed"));
   EXPECT_THAT(error_of("1 b 2\n", ".xyz"), HasSubstr("a.xyz:1: expected a number"));
+}
+
+TEST(IoXyz, TakesNamesAndWhatSeparatesCells) {
+  const MatX3 places = (MatX3(2, 3) << 1, 2, 3, 4, 5, 6).finished();
+  const MatX3 normals = (MatX3(2, 3) << 0, 0, 1, 0, 1, 0).finished();
+  for (const char* text :
+       {"1,2,3,0,0,1\n4,5,6,0,1,0\n", "2\n1; 2; 3; 0; 0; 1\n4; 5; 6; 0; 1; 0\n",
+        "x,y,z,nx,ny,nz\n1,2,3,0,0,1\n4,5,6,0,1,0\n", "nz ny z x y nx\n1 0 3 1 2 0\n0 1 6 4 5 0\n",
+        "\"id\"\t\"X [m]\"\tY\tZ\tNormal_X\tNormal_Y\tNormal_Z\n"
+        "a\t1\t2\t3\t0\t0\t1\nb\t4\t5\t6\t0\t1\t0\n"})
+    for (const char* extension : {".xyz", ".asc"}) {
+      const PolygonSoup cloud = read(text, extension);
+      EXPECT_EQ(cloud.points, places) << text;
+      EXPECT_EQ(cloud.normals, normals) << text;
+    }
+  const PolygonSoup coloured = read("//X Y Z R G B\n1 2 3 0 0 1\n4 5 6 0 1 0\n", ".asc");
+  EXPECT_EQ(coloured.points, places);
+  EXPECT_EQ(coloured.normals.rows(), 0);
+  EXPECT_THAT(error_of("a b c\n1 2 3\n", ".xyz"), HasSubstr("names no columns x, y and z"));
+  EXPECT_THAT(error_of("0,5 1,2 3,4\n", ".xyz"), HasSubstr("write a point, not a comma"));
 }
 
 std::string pcd(const std::string& data, int points) {

@@ -143,7 +143,7 @@ TEST(IoData, CollectedFilesHaveTheListedSizes) {
       {"formats/OutOfMemory.off", "the header promises 353535235358 vertices"},
       {"formats/box_UTF16BE.obj", "the text is UTF-16"},
       {"formats/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply", "inside the header"},
-      {"formats/invalid-face-definition.obj", "face has 1 corners"},
+      {"formats/invalid-face-definition.obj", "face has 1 corner"},
       {"formats/invalid-relative-vertex-index.obj", "only 0 come before it"},
       {"formats/invalid.off", "face has 0 corners"},
       {"formats/issue-140-zero-face-idx.obj", "but OBJ counts from 1"},

@@ -126,7 +126,7 @@ TEST(IoSources, SaysWhatIsWrongInText) {
   const auto error = [](const std::string& node) {
     return error_of_sources("signed_curve\nv 1\n" + node);
   };
-  EXPECT_EQ(error(""), "a.txt:1: signed_curve has 1 nodes, at least 2 are needed");
+  EXPECT_EQ(error(""), "a.txt:1: signed_curve has 1 node, at least 2 are needed");
   EXPECT_EQ(error_of_sources("unsigned_point\n"),
             "a.txt:1: unsigned_point has 0 nodes, at least 1 is needed");
   EXPECT_EQ(error_of_sources("signed_curve 2\nv 1\nv 2\n"),
@@ -209,7 +209,7 @@ TEST(IoSources, SaysWhatIsWrongInJson) {
   EXPECT_EQ(node("{\"e\":[0],\"t\":0}"), "a.json: points[0]: expected an array of 2 numbers");
   EXPECT_EQ(node("{\"e\":[0,1],\"t\":\"x\"}"), "a.json: points[0]: expected a number");
   EXPECT_EQ(curve("{\"nodes\":[{\"v\":1}]}"),
-            "a.json: curves[0]: the curve has 1 nodes, at least 2 are needed");
+            "a.json: curves[0]: the curve has 1 node, at least 2 are needed");
   EXPECT_EQ(curve("{\"nodes\":[{\"v\":1},{\"v\":9}]}"),
             "a.json: curves[0].nodes[1]: node refers to vertex 9, the mesh has 8 (counted from 0)");
   EXPECT_EQ(curve("{}"),

@@ -103,7 +103,7 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(error("f 1 2/x 3\n"), "a.obj:5: expected a texture index, found 'x'");
   EXPECT_EQ(error("f 1 2\n"), "a.obj:5: face has 2 corners, at least 3 are needed");
   EXPECT_EQ(error("f\n"), "a.obj:5: face has 0 corners, at least 3 are needed");
-  EXPECT_EQ(error("l 1\n"), "a.obj:5: line has 1 vertices, at least 2 are needed");
+  EXPECT_EQ(error("l 1\n"), "a.obj:5: line has 1 vertex, at least 2 are needed");
   EXPECT_EQ(error("v 1 x 2\n"), "a.obj:5: expected a coordinate, found 'x'");
   EXPECT_EQ(error("v 1 2\n"), "a.obj:5: expected a coordinate, found the end of the line");
   EXPECT_EQ(error("v 1,5 2,5 3\n"),
@@ -120,7 +120,7 @@ TEST(IoObj, SaysWhatIsWrong) {
   EXPECT_EQ(
       error_of(square, ".xyz9"),
       "a.xyz9: cannot be read as a surface or cloud: the extension is '.xyz9'; possible: .obj .ply "
-      ".off .stl .glb .gltf .3mf .pc .xyz .pcd .npy .npz .mesh .vtk .msh .vtu .vtp");
+      ".off .stl .glb .gltf .3mf .pc .xyz .asc .pcd .npy .npz .mesh .vtk .msh .vtu .vtp");
 }
 
 const std::string off_body = "0 0 0\n1 0 0\n0 1 0\n";

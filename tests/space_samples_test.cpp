@@ -59,7 +59,7 @@ TEST(SpaceSamples, OneFaceWithoutAreaIsToldOf) {
   box.add_face(std::array{0, 1, 1});
   EXPECT_EQ(sample_faces(box, never, report).size(), 12);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_THAT(report.warnings[0].text, HasSubstr("1 faces without area"));
+  EXPECT_THAT(report.warnings[0].text, HasSubstr("1 face without area"));
 }
 
 TEST(SpaceSamples, SpacingIsTheSideOfEvenTriangles) {

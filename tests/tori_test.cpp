@@ -308,7 +308,7 @@ TEST(Tori, BadCloudsAreNamed) {
   OrientedPoints cloud;
   EXPECT_NE(message_for(cloud).find("empty"), std::string::npos);
   cloud.points = sphere_points(20);
-  EXPECT_NE(message_for(cloud).find("20 points and 0 normals"), std::string::npos);
+  EXPECT_NE(message_for(cloud).find("20 points but 0 normals"), std::string::npos);
   cloud.normals = cloud.points;
   cloud.normals.row(7).setZero();
   EXPECT_NE(message_for(cloud).find("point 7 has no normal"), std::string::npos);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "littoral/error.h"
+#include "littoral/mesh.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -36,6 +38,15 @@ TEST(Weld, PutsASoupTogether) {
     EXPECT_EQ(found.n_dropped_faces, 0);
   }
   EXPECT_EQ(weld(apart(whole, 1e-7), 0).n_merged, 0);
+}
+
+TEST(Weld, MakesAMeshConnected) {
+  const Mesh soup(apart(test::octasphere_soup(3), 1e-7));
+  EXPECT_EQ(soup.n_components(), soup.n_faces());
+  EXPECT_EQ(soup.welded(2e-7).n_components(), 1);
+  EXPECT_EQ(soup.welded().n_vertices(), soup.n_vertices());
+  EXPECT_THROW(soup.welded(-1), InputError);
+  EXPECT_THROW(soup.welded(NAN), InputError);
 }
 
 TEST(Weld, KeepsTheFirstAndDoesNotChain) {

@@ -4,8 +4,10 @@ usage: run_costs.py PROGRAM [VERB...]
 
 Runs each method of `distance`, `pairs`, `winding`, `sdf`, `query` and `repair` on bumpy spheres of
 two sizes, on one thread, and prints rows for the table: seconds of the processor as
-`seconds * (n / unit)^power`, and bytes for each element, of pairs for each pair. Times of the
-processor hardly depend on what else runs.
+`seconds * (n / unit)^power`, and bytes for each element, of pairs for each pair. Where nodes near
+the surface cost more (`NEAR`), two grids tell seconds for each node and for each cell that holds a
+part of the surface. `patches` prints what free edges add, of soups of triangles that cross: seconds
+for each side of a cell along them. Times of the processor hardly depend on what else runs.
 """
 
 import json
@@ -23,6 +25,8 @@ SURFACE = ["auto", "signed-heat", "unsigned-heat", "exact", "fast-marching", "qu
 SURFACE += ["regularized", "belyaev-fayolle"]
 SPACE = ["auto", "winding", "closest-point", "tori", "signed-heat", "regularized"]
 SPACE += ["belyaev-fayolle", "hopf-cole", "planar", "log-sum-exp"]
+FACE = 2.3e-6, 900.0  # seconds and bytes for each face of what distance in space is from
+NEAR = ["auto", "winding", "closest-point"]
 LIMIT = 480.0  # seconds of one run
 START, PROGRAM = 0.007, 13 << 20  # seconds and bytes of a run without work
 
@@ -83,6 +87,54 @@ def fitted(sizes: list[float], runs: list[tuple[float, float]], order: int = 1) 
     return f"{seconds:.3g}, {power:.2f}, {max(memory - PROGRAM, 0) / sizes[1] ** order:.3g}"
 
 
+def area_of(path: Path) -> tuple[float, int]:
+    """Area and faces of an OBJ of triangles."""
+    rows = [line.split() for line in path.read_text().splitlines()]
+    V = np.array([row[1:] for row in rows if row[0] == "v"], float)
+    F = np.array([row[1:] for row in rows if row[0] == "f"], int) - 1
+    a, b, c = (V[F[:, k]] for k in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2), len(F)
+
+
+def soup(n: int, size: float, path: Path) -> float:
+    """Triangles anyhow in a cube of side 1; the length of their sides."""
+    random = np.random.default_rng(0)
+    ways = random.normal(size=(n, 3, 3))
+    ways /= np.linalg.norm(ways, axis=2, keepdims=True)
+    corners = random.random((n, 1, 3)) + size * ways
+    rows = [f"v {x} {y} {z}" for x, y, z in corners.reshape(-1, 3)]
+    rows += [f"f {3 * f + 1} {3 * f + 2} {3 * f + 3}" for f in range(n)]
+    path.write_text("\n".join(rows) + "\n")
+    return float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum())
+
+
+def near_surface(method: str, file: Path) -> str:
+    """Seconds for 1e4 nodes and for a cell, bytes for each, of grids of 96 and 384 nodes."""
+    area, faces = area_of(file)
+    work, seconds, memory = [], [], []
+    for resolution in (96, 384):
+        words = ("sdf", file, "--method", method, "--resolution", resolution, "-o", "a.npy")
+        command = [sys.argv[1], *map(str, words), "--dry-run", "--quiet", "--json"]
+        sizes = json.loads(subprocess.check_output(command))["sizes"]
+        work.append([sizes["nodes"], area / sizes["spacing"] ** 2])
+        t, held = run(*words)
+        seconds.append(t - START - FACE[0] * faces)
+        memory.append(held - PROGRAM - FACE[1] * faces)
+    node, cell = np.linalg.solve(np.array(work), np.array(seconds))
+    of_node, of_cell = np.linalg.solve(np.array(work), np.array(memory))
+    return f"{1e4 * node:.3g}, 1.00, {of_node:.3g}, {cell:.2g}, {of_cell:.2g}"
+
+
+def print_patches() -> None:
+    """A query of one point; the cells are those that points are asked on, 128 along the box."""
+    Path("point.csv").write_text("x,y,z\n0,0,0\n")
+    for n, size in ((100, 0.5), (1000, 0.2)):
+        file = Path("soup.obj")
+        length = soup(n, size, file) * 128 / (1 + 2 * size)
+        t, _ = run("query", file, "--points", "point.csv", "-o", "a.npy")
+        print(f"// {n} triangles: {(t - START) / length:.2g} s for each side of a cell", flush=True)
+
+
 def main() -> None:
     os.chdir(tempfile.mkdtemp())
     small, large = Path("small.obj"), Path("large.obj")
@@ -93,7 +145,15 @@ def main() -> None:
         around = [72, 200][k]
         ring = [loop[k] + j for j in range(around)] + [loop[k]]
         Path(file).write_text("signed_curve\n" + "".join(f"v {v}\n" for v in ring))
-    chosen = sys.argv[2:] or ["distance", "winding", "pairs", "sdf", "query", "repair"]
+    chosen = sys.argv[2:] or [
+        "distance",
+        "winding",
+        "pairs",
+        "sdf",
+        "query",
+        "patches",
+        "repair",
+    ]
     if "distance" in chosen:
         for method in SURFACE:
             source = ["-s", "{}.txt"] if method not in ("exact", "quadratic") else ["--vertex", "7"]
@@ -111,7 +171,9 @@ def main() -> None:
             print(f'{{"pairs", "{method}", {fitted([float(i) for i in m], runs, 2)}}},', flush=True)
     cubes = [32.0**3, 96.0**3]
     if "sdf" in chosen:
-        for method in SPACE:
+        for method in NEAR:
+            print(f'{{"sdf", "{method}", {near_surface(method, small)}}},', flush=True)
+        for method in SPACE[len(NEAR) :]:
             words = ("--method", method, "-o", "a.npy")
             runs = [run("sdf", small, "--resolution", r, *words) for r in (32, 96)]
             print(f'{{"sdf", "{method}", {fitted(cubes, runs)}}},', flush=True)
@@ -120,6 +182,8 @@ def main() -> None:
             words = ("--method", method, "-o", "a.npy")
             runs = [run("query", small, "--points", f, *words) for f in files]
             print(f'{{"query", "{method}", {fitted([float(i) for i in n], runs)}}},', flush=True)
+    if "patches" in chosen:
+        print_patches()
     if "repair" in chosen:
         words = ("--remesh", "-o", "a.ply")
         runs = [run("repair", small, "--resolution", r, *words) for r in (32, 96)]

@@ -54,6 +54,12 @@ class Mesh {
   /// exist or a wrong number of values.
   double interpolate(const VecX& values, const SurfacePoint& point) const;
 
+  /// With one vertex for those that are close together: in their order, vertices no farther than
+  /// `distance` [length] from the nearest of those kept before become that one; 0 joins those at
+  /// one place. Faces with fewer than three corners left are dropped. Throws InputError for a
+  /// distance that is negative or not finite.
+  Mesh welded(double distance = 0) const;
+
   /// For the library's own layers.
   const SurfaceDomain& domain() const { return *domain_; }
   explicit Mesh(SurfaceDomain domain);

@@ -61,6 +61,9 @@ void bind_mesh(nb::module_& m) {
                      return view(nb::cast<const Mesh&>(self).soup().face_offsets, self);
                    })
       .def("edges", [](const Mesh& mesh) { return mesh.edges(); })
+      .def(
+          "welded", [](const Mesh& mesh, double distance) { return mesh.welded(distance); },
+          nb::arg("distance"), nb::call_guard<nb::gil_scoped_release>())
       .def("positions",
            [](const Mesh& mesh, const PointArrays& at) {
              MatX3 out(std::ssize(at.points), 3);

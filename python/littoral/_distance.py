@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from typing import Any, cast
+from collections.abc import Callable, Iterable
+from typing import Any, ParamSpec, Protocol, TypeVar, cast, overload
 
 import numpy as np
 
@@ -19,6 +19,26 @@ from ._settings import Progress, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
 from ._tets import TetDistanceSolver, TetField, TetMesh, tet_distance
+
+P = ParamSpec("P")
+R = TypeVar("R")
+R_co = TypeVar("R_co", covariant=True)
+
+
+class OnSurfaceOrTets(Protocol[P, R_co]):
+    """A function of a surface whose result on a `TetMesh` is a `TetField`, with `as_`."""
+
+    @overload
+    def __call__(self, *arguments: Any, as_: str, **keywords: Any) -> Any: ...
+    @overload
+    def __call__(self, mesh: TetMesh, *arguments: Any, **keywords: Any) -> TetField: ...
+    @overload
+    def __call__(self, *arguments: P.args, **keywords: P.kwargs) -> R_co: ...
+
+
+def on_surface_or_tets(call: Callable[P, R]) -> OnSurfaceOrTets[P, R]:
+    """For the type checker; what is called is the same."""
+    return cast("OnSurfaceOrTets[P, R]", takes_kind(call))
 
 
 class Field(Reported, Shown):
@@ -212,7 +232,7 @@ def _through_tets(
     return field
 
 
-@takes_kind
+@on_surface_or_tets
 def distance(
     mesh: Any,
     curves: Any = None,
@@ -310,7 +330,7 @@ def isolines(mesh: Any, values: Any, level: float | Iterable[float] = 0.0) -> li
         raise UnsupportedError("isolines need faces; a point cloud has none")
     given = floats(values, "values", finite=False)
     if len(given) != surface.n_vertices:
-        raise InputError(f"values: expected {surface.n_vertices}, one a vertex, got {len(given)}")
+        raise InputError(f"values: expected {surface.n_vertices}, one per vertex, got {len(given)}")
     out: list[Floats] = []
     for each in floats(np.atleast_1d(np.asarray(level)), "level"):
         out.extend(_core.isolines(surface._handle, given, float(each)))

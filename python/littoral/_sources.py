@@ -260,7 +260,9 @@ def _values(values: Any, n_curves: int, n_points: int) -> Floats:
         return np.full(n_curves + n_points, out[0])
     if len(out) != n_curves + n_points:
         raise InputError(
-            f"values: there are {len(out)} for {n_curves} curves and {n_points} points"
+            f"values: expected one number or one for each of {n_curves} "
+            f"curve{'s' * (n_curves != 1)} and {n_points} point{'s' * (n_points != 1)}, "
+            f"got {len(out)}"
         )
     return out
 

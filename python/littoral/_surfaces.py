@@ -22,7 +22,7 @@ from ._arrays import (
     narrowed,
     result_type,
 )
-from ._errors import InputError
+from ._errors import InputError, UnsupportedError
 from ._sources import point_arrays
 
 S = TypeVar("S", bound="Surface")
@@ -127,12 +127,29 @@ class Surface:
     def interpolate(self, values: Any, points: Any) -> Floats:
         """n: a function given at the vertices, at points of the surface; linear in triangles.
 
-        Raises InputError for values that are not one a vertex.
+        Raises InputError for values that are not one per vertex.
         """
         given = floats(values, "values", finite=False)
         if len(given) != self.n_vertices:
-            raise InputError(f"values: expected {self.n_vertices}, one a vertex, got {len(given)}")
+            raise InputError(
+                f"values: expected {self.n_vertices}, one per vertex, got {len(given)}"
+            )
         return self._handle.interpolate(given, point_arrays(points, self, "points"))
+
+    def welded(self: S, distance: float = 0.0) -> S:
+        """The same with one vertex for those that are close together.
+
+        In their order, vertices no farther than `distance` [length] from one that was kept become
+        that one; 0 joins those at one place. Faces with fewer than three corners left are dropped.
+        Raises InputError for a distance that is negative or not finite, UnsupportedError for
+        voxels, which share their vertices.
+
+        >>> corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1e-9]]
+        >>> soup = Mesh(corners, [[0, 1, 2], [3, 4, 5]])
+        >>> soup.welded().n_vertices, soup.welded(1e-6).n_vertices
+        (5, 4)
+        """
+        return type(self)._of(self._handle.welded(float(distance)), self._dtype)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the surface by extension: .obj .ply .off .stl.
@@ -235,7 +252,9 @@ class PointCloud(Surface):
         points = floats(P, "P", 3)
         normals = np.empty((0, 3)) if N is None else floats(N, "N", 3)
         if N is not None and len(normals) != len(points):
-            raise InputError(f"N: expected one normal a point ({len(points)}), got {len(normals)}")
+            raise InputError(
+                f"N: expected one normal per point ({len(points)}), got {len(normals)}"
+            )
         if len(points) == 0:
             raise InputError("P: there are no points")
         self._handle = _core.Mesh.cloud(points, normals)
@@ -270,6 +289,10 @@ class Voxels(Surface):
         grid = _core.Grid(self._inside.shape, self._origin, self._spacing)
         x_first = self._inside.ravel(order="F").astype(np.uint8)
         self._handle = _core.Mesh.voxels(grid, x_first)
+
+    def welded(self, distance: float = 0.0) -> Voxels:
+        """Raises UnsupportedError: voxels share their vertices."""
+        raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Voxels, (self._inside, self._spacing, self._origin)

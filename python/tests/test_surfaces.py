@@ -73,7 +73,10 @@ def test_distance_is_counted_from_values(square):
         np.testing.assert_allclose(counted.values, np.abs(x) + 2, atol=1e-12)
     both = littoral.distance(square, [line], 0, signed=False, values=[2, 1.75])
     np.testing.assert_allclose(both.values, np.minimum(np.abs(x) + 2, to(0) + 1.75), atol=1e-12)
-    with pytest.raises(littoral.InputError, match="values: there are 1 for 1 curves and 1 points"):
+    with pytest.raises(
+        littoral.InputError,
+        match="values: expected one number or one for each of 1 curve and 1 point, got 1",
+    ):
         littoral.distance(square, [line], 0, values=[2])
     with pytest.raises(littoral.UnsupportedError, match="one value"):
         littoral.distance(square, points=[0, 40], values=[0, 0.1], method="quadratic")
@@ -227,6 +230,26 @@ def test_other_surfaces(square):
     assert littoral.distance(box, points=0).values.max() > 1
 
 
+def test_welded_surfaces_are_connected(sphere):
+    soup = littoral.Mesh(
+        sphere.points[sphere.faces.ravel()], np.arange(3 * sphere.n_faces).reshape(-1, 3)
+    )
+    assert soup.n_components == soup.n_faces
+    whole = soup.welded()
+    assert isinstance(whole, littoral.Mesh)
+    assert (whole.n_vertices, whole.n_components) == (sphere.n_vertices, 1)
+    assert np.isinf(littoral.distance(soup, points=0).values).any()
+    assert np.isfinite(littoral.distance(whole, points=0).values).all()
+    assert len(pickle.loads(pickle.dumps(whole)).points) == sphere.n_vertices
+    cloud = littoral.PointCloud([[0, 0, 0], [1, 0, 0], [1, 0, 1e-6]])
+    assert cloud.welded(1e-3).n_vertices == 2
+    for distance in (-1, float("nan")):
+        with pytest.raises(littoral.InputError, match="finite and not negative"):
+            soup.welded(distance)
+    with pytest.raises(littoral.UnsupportedError, match="nothing to weld"):
+        littoral.Voxels(np.ones((2, 2, 2))).welded()
+
+
 def test_progress_is_told_and_can_stop(sphere):
     seen: list[tuple[float, str]] = []
     with littoral.progress(lambda share, stage: seen.append((share, stage))):
@@ -304,7 +327,7 @@ def test_errors_and_warnings_have_codes(square):
     field = littoral.distance(littoral.Mesh(points, square.faces), points=0)
     (warning,) = field.warnings
     assert warning.code == "isolated-vertices"
-    assert "belong to no face" in warning
+    assert "belongs to no face" in warning
     kept = pickle.loads(pickle.dumps(field)).warnings
     assert [(w, w.code) for w in kept] == [(warning, warning.code)]
     assert field.report.as_dict()["warnings"] == [{"code": warning.code, "message": str(warning)}]

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "api/tet/tet_boundary.h"
+#include "base/counted.h"
 #include "base/stopwatch.h"
 #include "io/write.h"
 #include "littoral/error.h"
@@ -31,7 +32,7 @@ void check_holds_confidence(const std::string& file) {
   for (const io::Format& format : io::formats())
     if (format.write_table || (format.write_field && format.more_values))
       able.append(" ").append(format.extension);
-  throw InputError(file + " holds one number a vertex: confidence is written to" + able,
+  throw InputError(file + " holds one number per vertex: confidence is written to" + able,
                    "options-conflict");
 }
 
@@ -93,8 +94,9 @@ void check_level_outputs(const std::vector<std::string>& out, std::size_t levels
                          const io::Kinds& kinds) {
   check_outputs(out, kinds);
   if (out.size() != 1 && out.size() != levels)
-    throw InputError("there are " + std::to_string(out.size()) + " output files for " +
-                         std::to_string(levels) + " levels: name one for all, or one for each",
+    throw InputError((out.size() == 1 ? "there is " : "there are ") +
+                         counted(out.size(), "output file", "output files") + " for " +
+                         counted(levels, "level", "levels") + ": name one for all, or one for each",
                      "usage");
 }
 

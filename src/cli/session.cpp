@@ -46,20 +46,36 @@ std::string one_line(std::string text) {
   return text;
 }
 
+namespace {
+
+/// The verb that has an option: the one that runs, or else the first one; empty where none does.
+std::string verb_with(const CLI::App& program, const std::string& flag, const std::string& runs) {
+  std::string found;
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!verb->get_option_no_throw(flag)) continue;
+    if (verb->get_name() == runs) return runs;
+    if (found.empty()) found = verb->get_name();
+  }
+  return found;
+}
+
+}  // namespace
+
 std::string Session::with_flags(const std::string& text) const {
   static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
   std::string out;
   auto rest = text.cbegin();
   for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
-    bool known = false;
-    if (program)
-      for (const CLI::App* verb : program->get_subcommands())
-        known = known || verb->get_option_no_throw("--" + (*at)[1].str());
-    const auto next = (*at)[0].second;
-    const bool begins = (*at)[0].first == text.cbegin() || (next != text.cend() && *next == ':');
-    out.append(rest, known && !begins ? (*at)[0].first : (*at)[1].first);
+    const std::string flag = "--" + (*at)[1].str();
+    const std::string verb = program ? verb_with(*program, flag, record.verb) : "";
+    const auto [begin, next] = std::pair((*at)[0].first, (*at)[0].second);
+    const bool begins = begin == text.cbegin() || (next != text.cend() && *next == ':');
+    const bool own = verb == record.verb, known = !verb.empty() && (own || !begins);
+    out.append(rest, known && !begins ? begin : (*at)[1].first);
     if (known) out += "--";
-    rest = (*at)[1].first;
+    out.append((*at)[1].first, next);
+    if (known && !own) out += " of littoral " + verb;
+    rest = next;
   }
   return out.append(rest, text.cend());
 }

@@ -44,8 +44,9 @@ struct Session {
   int status = 0;  // of a run without an error
   const CLI::App* program = nullptr;
 
-  /// The library names its parameters, "raise option resolution". Those that the verb has as flags
-  /// are that here: "raise --resolution", and at the beginning "option --resolution".
+  /// The library names its parameters, "raise option resolution". Flags of the verb are that here:
+  /// "raise --resolution", and at the beginning "option --resolution"; those of another verb name
+  /// it: "raise --resolution of littoral sdf".
   std::string with_flags(const std::string& text) const;
 
   /// Draws progress on stderr; empty where nobody asked for it.

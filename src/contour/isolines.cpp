@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "littoral/error.h"
 
@@ -147,7 +148,7 @@ class Tracer {
 std::vector<Polyline> isolines(const SurfaceMesh& mesh, const VecX& values, double level) {
   if (values.size() != mesh.n_vertices()) {
     throw InputError("isolines: " + std::to_string(values.size()) + " values for " +
-                         std::to_string(mesh.n_vertices()) + " vertices",
+                         counted(mesh.n_vertices(), "vertex", "vertices"),
                      "sizes-differ");
   }
   if (!std::isfinite(level))

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/counted.h"
 #include "contour/isosurface.h"
 #include "contour/rough_surface.h"
 
@@ -15,7 +16,7 @@ using Edge = std::pair<int, int>;  // vertex below or at the level, vertex above
 void check(const TetMesh& mesh, const VecX& values, double level) {
   if (values.size() != mesh.n_vertices()) {
     throw InputError("isosurface: " + std::to_string(values.size()) + " values for " +
-                         std::to_string(mesh.n_vertices()) + " vertices",
+                         counted(mesh.n_vertices(), "vertex", "vertices"),
                      "sizes-differ");
   }
   if (!std::isfinite(level))

@@ -2,6 +2,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/option_table.h"
 #include "contour/rough_surface.h"
@@ -247,8 +248,8 @@ void report_boundary(const PolygonSoup& surface, double level, Report& report) {
     report.warn("open-surface",
                 "the surface at level " + rounded_text(level) +
                     " is open: it meets the boundary of the box or the tets along " +
-                    std::to_string(open) +
-                    " edges; raise option padding or widen option bounds, or close it there by "
+                    counted(open, "edge", "edges") +
+                    "; raise option padding or widen option bounds, or close it there by "
                     "option clip");
 }
 

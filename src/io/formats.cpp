@@ -27,7 +27,8 @@ const std::vector<Format>& formats() {
       {.extension = ".gltf", .about = "glTF 2.0 as text, with data inside or in files beside it", .lines = true, .read_surface = read_gltf, .read_cloud = read_gltf, .read_beside = read_gltf_beside},
       {.extension = ".3mf", .about = "3MF, packed or plain (written: plain): triangles of all items on the plate, in millimetres", .read_surface = read_3mf, .write_surface = write_3mf, .begins = {"pk\x03\x04"}},
       {.extension = ".pc", .about = "records v x y z and vn x y z", .read_cloud = read_pc, .begins = {"v "}},
-      {.extension = ".xyz", .about = "rows x y z, or x y z and a normal; six columns that look like colours are not taken for it", .read_cloud = read_xyz},
+      {.extension = ".xyz", .about = "rows x y z, or x y z and a normal, between blanks, commas, semicolons or tabs; below names, columns as of .csv and nx, ny, nz; six columns without names that look like colours are not taken for normals", .read_cloud = read_xyz},
+      {.extension = ".asc", .about = "as .xyz", .read_cloud = read_xyz},
       {.extension = ".pcd", .about = "Point Cloud Library, text or binary, also compressed: points, normals", .read_cloud = read_pcd, .begins = {"# .pcd"}},
       {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti, .begins = {"<vtkfile type=\"imagedata\""}},
       {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd, .begins = {"nrrd0"}},
@@ -144,7 +145,11 @@ std::string refusal(const std::string& what, const std::string& name, const std:
     why = "results are not packed by gzip";
   else if (extension.empty())
     why = "it has no extension, which says the format";
-  return what + " as " + kinds_text(kinds) + ": " + why + "; possible: " + possible;
+  const Format* known = find(extension);
+  const bool rows = holds == reads && known && known->read_table && !known->read_cloud &&
+                    std::ranges::find(kinds, Kind::cloud) != kinds.end();
+  return what + " as " + kinds_text(kinds) + ": " + why + "; possible: " + possible +
+         (rows ? ". Name rows of points .xyz" : "");
 }
 
 std::string names_held(const Format& format, Holds holds) {

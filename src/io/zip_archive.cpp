@@ -21,7 +21,7 @@ constexpr std::uint32_t local_header = 0x04034b50, directory_entry = 0x02014b50,
 constexpr std::uint32_t in_extra_field = 0xffffffff;  // the number is in the zip64 extra field
 
 [[noreturn]] void throw_damaged(const std::string& name) {
-  throw InputError(name + ": the archive is damaged or is none", "bad-file");
+  throw InputError(name + ": no zip archive, or a damaged one", "bad-file");
 }
 
 /// Numbers of a record, with errors where it ends early.

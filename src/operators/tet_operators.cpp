@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -19,7 +20,8 @@ void check(const TetMesh& mesh) {
       const int v = mesh.tets(t, k);
       if (v < 0 || v >= mesh.n_vertices())
         throw InputError("tet " + std::to_string(t) + " refers to vertex " + std::to_string(v) +
-                             ", the mesh has " + std::to_string(mesh.n_vertices()),
+                             "; the mesh has " + counted(mesh.n_vertices(), "vertex", "vertices") +
+                             ", counted from 0",
                          "no-such-element");
       if (!mesh.points.row(v).allFinite())
         throw InputError("tet " + std::to_string(t) + " has vertex " + std::to_string(v) +

@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "domain/mesh/face_orientation.h"
 #include "sources/surface_points.h"
@@ -155,11 +156,9 @@ void carry_sides(const SurfaceMesh& mesh, PlacedSources& sources, Report& report
   Carrier carrier(mesh, sources.pieces);
   const FaceOrientation& orientation = carrier.orientation();
   if (orientation.flipped > 0)
-    report.warn(
-        "flipped-faces",
-        std::to_string(orientation.flipped) +
-            " faces are oriented against the majority of their neighbours; the left side of a "
-            "curve follows the majority");
+    report.warn("flipped-faces", counted(orientation.flipped, "face is", "faces are") +
+                                     " oriented against the majority of neighbouring faces; the "
+                                     "left side of a curve follows the majority");
   if (!orientation.orientable)
     report.warn(
         "not-orientable",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "domain/cloud/cloud_normals.h"
@@ -88,8 +89,10 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
         "no point has a normal that is not zero; option estimate-normals computes some",
         "no-normals");
   if (index(kept.size()) < cloud.points.rows())
-    report.warn("normals-unusable", std::to_string(cloud.points.rows() - index(kept.size())) +
-                                        " points without a usable normal are left out");
+    report.warn("normals-unusable", counted(cloud.points.rows() - index(kept.size()),
+                                            "point without a finite normal other than zero was",
+                                            "points without finite normals other than zero were") +
+                                        " left out");
   OrientedPoints out;
   out.points = cloud.points(kept, Eigen::all);
   out.normals = cloud.normals(kept, Eigen::all);
@@ -103,7 +106,10 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   });
   // Cells of collinear points may be empty; nothing may weigh nothing.
   const double floor = 1e-6 * out.areas.mean();
-  if (!(floor > 0)) throw InputError("the points of the cloud are too close to each other");
+  if (!(floor > 0))
+    throw InputError(
+        "the points of the cloud span no area: they are at one place, or nearer to each other than "
+        "double precision resolves");
   out.areas = out.areas.cwiseMax(floor);
   return out;
 }

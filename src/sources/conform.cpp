@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -52,11 +53,13 @@ std::vector<CurvePiece> signed_pieces(const PlacedSources& sources, Report& repo
   std::vector<CurvePiece> pieces = pieces_with_sides(sources);
   const std::size_t left_out = sources.points.size() + sources.pieces.size() - pieces.size();
   if (left_out > 0)
-    report.warn("pieces-left-out",
-                std::to_string(left_out) +
-                    " points and pieces of unsigned curves were left out: they have no sides");
+    report.warn("pieces-left-out", counted(left_out, "point or piece of an unsigned curve was",
+                                           "points and pieces of unsigned curves were") +
+                                       " left out: only signed curves have sides");
   if (pieces.empty())
-    throw InputError("winding numbers need signed curves; there are none", "nothing-given");
+    throw InputError(
+        "winding numbers need signed curves (keyword signed_curve of .txt files); there are none",
+        "nothing-given");
   return pieces;
 }
 

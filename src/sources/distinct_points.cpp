@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "littoral/error.h"
 #include "sources/oriented_points.h"
@@ -13,7 +14,7 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
   const int n = cloud.size();
   if (n == 0) throw InputError("the point cloud is empty", "empty-input");
   if (cloud.normals.rows() != n)
-    throw InputError("the point cloud has " + std::to_string(n) + " points and " +
+    throw InputError("the point cloud has " + std::to_string(n) + " points but " +
                      std::to_string(cloud.normals.rows()) + " normals");
   for (int i = 0; i < n; ++i) {
     if (!cloud.points.row(i).allFinite() || !cloud.normals.row(i).allFinite())
@@ -44,16 +45,22 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
       ++cancelled;
     i = end;
   }
-  if (kept.empty()) throw InputError("the normals of coincident points cancel everywhere");
+  if (kept.empty())
+    throw InputError(
+        "the normals of coincident points cancel everywhere: each point has another at its place "
+        "with the reverse normal; leave one of the two out");
   if (cancelled)
     report.warn("normals-unusable",
-                std::to_string(cancelled) +
-                    " places where normals of coincident points cancel were left out");
+                counted(cancelled, "place where normals of coincident points cancel was",
+                        "places where normals of coincident points cancel were") +
+                    " left out");
   std::sort(kept.begin(), kept.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
   if (int_size(kept) < n - cancelled)
-    report.warn("points-coincide", std::to_string(n - int_size(kept)) +
-                                       " points coincide with others; each place was used once");
+    report.warn("points-coincide",
+                counted(n - cancelled - int_size(kept), "point coincides with another",
+                        "points coincide with others") +
+                    "; each place was used once");
   OrientedPoints out;
   out.points.resize(kept.size(), 3);
   out.normals.resize(out.points.rows(), 3);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 
@@ -227,7 +228,9 @@ PolygonSoup level_points(const Volume& field, double level, const Task& task) {
     }
   }
   if (kept.empty())
-    throw InputError("the values do not pass level " + std::to_string(level) + " anywhere",
+    throw InputError("the values do not pass level " + rounded_text(level) +
+                         " anywhere; they run from " + rounded_text(field.values.minCoeff()) +
+                         " to " + rounded_text(field.values.maxCoeff()),
                      "nothing-there");
   PolygonSoup cloud;
   cloud.points.resize(kept.size(), 3);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/point_tree.h"
@@ -66,8 +67,9 @@ OrientedPoints without_outliers(const OrientedPoints& cloud, const Task& task, R
     kept = std::move(next);
   }
   if (kept.size() < cloud.size())
-    report.warn("outliers", std::to_string(cloud.size() - kept.size()) +
-                                " points were taken for outliers and left out");
+    report.warn("outliers", counted(cloud.size() - kept.size(), "point was taken for an outlier",
+                                    "points were taken for outliers") +
+                                " and left out");
   return kept;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
 
@@ -89,13 +90,14 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
       }
     });
     if (points.size() > max_samples)
-      throw InputError(
-          "more than " + std::to_string(max_samples) + " samples are needed; use a coarser grid",
-          "too-large");
+      throw InputError("more than " + std::to_string(max_samples) +
+                           " samples of the input are needed; lower option resolution",
+                       "too-large");
   }
   if (points.empty()) throw InputError("no face of the mesh has any area", "empty-input");
   if (flat > 0)
-    report.warn("degenerate-faces", std::to_string(flat) + " faces without area are left out");
+    report.warn("degenerate-faces",
+                counted(flat, "face without area was", "faces without area were") + " left out");
   OrientedPoints out;
   const Eigen::Index n = points.size();
   out.points.resize(n, 3);

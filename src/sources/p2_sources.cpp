@@ -92,7 +92,8 @@ void sample(std::span<const CurvePiece> pieces, double step, Builder& out) {
 std::vector<P2Source<2>> p2_sources(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                     const PlacedSources& sources, double spacing) {
   if (spacing > 0 && spacing < least_spacing)
-    throw InputError("option spacing: 0, or at least " + number_text(least_spacing),
+    throw InputError("option spacing: " + number_text(spacing) + " is neither 0 nor at least " +
+                         number_text(least_spacing),
                      "option-value");
   const VecX h = mean_edge_lengths(T);
   Builder out(mesh, T);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 #include "sources/carry_sides.h"
 #include "sources/project_curves.h"
@@ -27,7 +28,8 @@ class Notes {
   void report_to(Report& report) const {
     for (const std::string& text : texts_) report.warn(code_, text);
     if (count_ > shown)
-      report.warn(code_, "the same holds for " + std::to_string(count_ - shown) + " more sources");
+      report.warn(code_,
+                  "the same holds for " + counted(count_ - shown, "more source", "more sources"));
   }
 
  private:
@@ -36,10 +38,6 @@ class Notes {
   int count_ = 0;
   std::vector<std::string> texts_;
 };
-
-std::string counted(int n, const std::string& one, const std::string& many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 class Preparation {
  public:

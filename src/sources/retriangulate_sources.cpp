@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/counted.h"
 #include "sources/constraint_rows.h"
 #include "sources/surface_points.h"
 
@@ -134,7 +135,8 @@ Retriangulated retriangulated(const SurfaceMesh& mesh, const IntrinsicTriangulat
     out.sources.add_point(nodes[first_point + i], kept.point_value(i));
   if (lost)
     report.warn("pieces-lost",
-                std::to_string(lost) + " tiny pieces of curves were lost to rounding");
+                counted(lost, "tiny piece of a curve was", "tiny pieces of curves were") +
+                    " lost to rounding");
   return out;
 }
 

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/index.h"
+#include "base/option_table.h"
 
 namespace littoral {
 
@@ -148,15 +150,14 @@ void warn_of_shadowed(const std::vector<std::pair<std::string, double>>& excess,
   std::size_t n = 0;
   for (const auto& [name, most] : excess) {
     if (++n > shown) break;
-    std::ostringstream text;
-    text << name << " has a value " << most
-         << " above what other sources give there: it is shadowed. Values may differ by no more "
-            "than the distance between their sources";
-    report.warn("source-shadowed", text.str());
+    report.warn("source-shadowed",
+                name + " has a value " + rounded_text(most) +
+                    " above what other sources give there: it is shadowed. Values may differ by no "
+                    "more than the distance between their sources");
   }
   if (excess.size() > shown)
     report.warn("source-shadowed",
-                std::to_string(excess.size() - shown) + " more sources are shadowed");
+                counted(excess.size() - shown, "more source is", "more sources are") + " shadowed");
 }
 
 void warn_of_shadowed(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -25,11 +26,10 @@ void check_element(const SurfaceMesh& mesh, const SurfacePoint& p) {
   const int n = vertex ? mesh.n_vertices() : edge ? mesh.n_edges() : mesh.n_faces();
   if (p.element < 0 || p.element >= n)
     throw InputError("a source lies on " + element_name(p) + ", but the mesh has " +
-                         std::to_string(n) +
-                         (vertex ? " vertices"
-                          : edge ? " edges"
-                                 : " faces") +
-                         " (numbered from 0)",
+                         (vertex ? counted(n, "vertex", "vertices")
+                          : edge ? counted(n, "edge", "edges")
+                                 : counted(n, "face", "faces")) +
+                         ", counted from 0",
                      "no-such-element");
   if (vertex && mesh.vertex_faces(p.element).empty())
     throw InputError("a source lies on " + element_name(p) + ", which belongs to no face");

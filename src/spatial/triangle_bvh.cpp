@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
@@ -62,7 +63,8 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
       const int v = faces(f, k);
       if (v < 0 || v >= points.rows())
         throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-                             ", there are " + std::to_string(points.rows()),
+                             "; there are " + counted(points.rows(), "vertex", "vertices") +
+                             ", counted from 0",
                          "no-such-element");
       finite = finite && points.row(v).allFinite();
       if (finite) largest = std::max(largest, points.row(v).cwiseAbs().maxCoeff());
@@ -73,7 +75,7 @@ TriangleBvh::TriangleBvh(const MatX3& points, const MatX3i& faces) {
   }
   if (faces_.empty())
     throw InputError("closest points need a face with three finite corners; there is none among " +
-                         std::to_string(faces.rows()),
+                         counted(faces.rows(), "face", "faces"),
                      "not-finite");
   exponent_ = exponent_of(magnitude);
   std::vector<std::array<Vec3, 3>> corners;

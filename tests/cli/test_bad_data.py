@@ -45,7 +45,7 @@ FILES = {
     "wrong_extension_ply.obj": ": no vertices",
     # may be accepted or not; these are not
     "count_small.stl": ": byte 80: the header says 40 triangles, the data hold 80",
-    "face1.obj": ":123: face has 1 corners, at least 3 are needed",
+    "face1.obj": ":123: face has 1 corner, at least 3 are needed",
     "face2.obj": ":123: face has 2 corners, at least 3 are needed",
     "nul_bytes.obj": ":7: NUL byte in a text file",
     "number_forms.obj": ":4: expected a coordinate, found '0x1p-1'",
@@ -59,7 +59,7 @@ CURVES = {
     "bad_bary.txt": ":2: a point on face 0 has the barycentric coordinate -0.800000, outside",
     "bad_keyword.txt": ":1: unknown record 'signed_curv'",
     "bad_noheader.txt": ":1: nodes with neither a keyword line",
-    "bad_onenode.txt": ":1: signed_curve has 1 nodes, at least 2 are needed",
+    "bad_onenode.txt": ":1: signed_curve has 1 node, at least 2 are needed",
     "bad_oob.txt": ":3: node refers to vertex 99999, the mesh has 642 (counted from 0)",
     "empty.txt": ": no sources",
 }

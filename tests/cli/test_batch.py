@@ -163,13 +163,13 @@ def test_no_inputs(run: Run, scans: Path, jobs: str, said: str) -> None:
 @pytest.mark.parametrize(
     "name, text, said",
     [
-        ("l.jsonl", '{"input": "a.obj"}\n{"input": ', "l.jsonl:2: this is no JSON"),
+        ("l.jsonl", '{"input": "a.obj"}\n{"input": ', "l.jsonl:2: the line is not valid JSON"),
         ("l.jsonl", "[1]\n", "l.jsonl:1: expected an object"),
         ("l.jsonl", '{"verb": "sdf"}\n', "l.jsonl:1: there is no input"),
         ("l.jsonl", '{"input": "a.obj", "resolutoin": 3}\n', "l.jsonl:1: littoral sdf has no"),
         ("l.jsonl", '{"input": "a.obj", "resolution": "x"}\n', "l.jsonl:1: option --resolution"),
         ("l.csv", "name\na.obj\n", "l.csv:1: the first line names the columns"),
-        ("l.csv", "input,flip\na.obj\n", "l.csv:2: there are 1 cells for 2 columns"),
+        ("l.csv", "input,flip\na.obj\n", "l.csv:2: 1 cell for 2 columns"),
         ("l.txt", "a.obj\n'b.obj\n", "l.txt:2: a quotation does not end"),
         ("l.txt", "a.obj --verb compare\n", "l.txt:1: option --verb: batch is for verbs of one"),
     ],

@@ -137,7 +137,7 @@ def test_confidence_stands_beside_the_distance(run: Run, mesh: Path, tmp_path: P
     assert list(memoryview(data[-16 * 121 :]).cast("d")) == columns[0] + columns[1]
     assert b'Name="confidence"' in (tmp_path / "a.vtp").read_bytes()
     said = run(*CURVE, "--confidence", "-o", "a.obj", status=2).stderr
-    assert "a.obj holds one number a vertex: confidence is written to .ply" in said
+    assert "a.obj holds one number per vertex: confidence is written to .ply" in said
     run(*CURVE, "--confidence=off", "-o", "a.obj")
 
 

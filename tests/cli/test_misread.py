@@ -139,7 +139,7 @@ def test_columns_of_points_are_found_by_name(run: Run, tmp_path: Path) -> None:
         ("7,0.9,0,0\n", "'7,0.9,0,0'"),  # four columns without names
         ("7 0.9 0 0\n", "'7 0.9 0 0'"),
         ("id,a,b,c\n7,0.9,0,0\n", "'id,a,b,c', names no columns x, y and z"),
-        ("x,y,z\n1,2,3\n1,2\n", ":3: expected 3 columns, found 2"),
+        ("x,y,z\n1,2,3\n1,2\n", ":3: expected 3 columns as in the first row, found 2"),
         ("x;y;z\n1,5;2;3\n", "'1,5'"),
     ],
 )

@@ -33,7 +33,11 @@ POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n"
         ("a.stl", "\x1f\x8b\x08" + 90 * "\x00", "name it .stl.gz"),
         ("a.ply", "PK\x03\x04", "its contents look like .3mf or .npz"),
         ("a.obj", OBJ.replace("v 1 0 0", "v 1,5 0 0"), "write a point, not a comma"),
-        ("a.xyz", "0;0;0\n", "rows are x y z with blanks between"),
+        ("a.vti", '<VTKFile version="1.0" type="UnstructuredGrid">', "look like .vtu: name it so"),
+        ("a.vtp", '<VTKFile type="ImageData">', "look like .vti: name it so"),
+        ("a.vti", '<VTKFile type="RectilinearGrid">', "save it as ImageData"),
+        ("a.csv", "1,2,3\n", "Name rows of points .xyz"),
+        ("a.xyz", "a b c\n0 0 0\n", "names no columns x, y and z"),
         ("a.xyz", "0,5 0,25 0\n", "write a point, not a comma"),
     ],
 )

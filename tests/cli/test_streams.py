@@ -133,7 +133,7 @@ def test_units_and_marks_of_heads_are_no_part_of_names(run: Run, mesh: Path, hea
 def test_a_decimal_comma_is_named(run: Run, mesh: Path) -> None:
     (mesh.parent / "p.csv").write_text("x;y;z\n0,5;0;1\n")
     failed = run("query", mesh, "--points", "p.csv", "-o", "v.csv", status=2)
-    assert "p.csv:2: expected a number, found '0,5'; decimals stand behind a point" in failed.stderr
+    assert "p.csv:2: expected a number, found '0,5'; write a point, not a comma" in failed.stderr
 
 
 def test_half_precision_is_read(run: Run, mesh: Path) -> None:

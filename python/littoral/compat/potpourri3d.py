@@ -234,7 +234,7 @@ class MeshMarchingTrianglesSolver:
         values = floats(values[:, 0] if values.shape[1:] == (1,) else values, "u")
         if len(values) != self._mesh.n_vertices:
             raise InputError(
-                f"u: expected {self._mesh.n_vertices} values, one a vertex, got {len(values)}"
+                f"u: expected {self._mesh.n_vertices} values, one per vertex, got {len(values)}"
             )
         return level_lines(self._mesh, values, float(isoval))
 

@@ -299,6 +299,6 @@ class SignedHeatTetSolver:
         values = floats(phi, "phi")
         if self._tets is None or len(values) != self._tets.n_vertices:
             count = 0 if self._tets is None else self._tets.n_vertices
-            raise InputError(f"phi: expected {count} values, one a vertex, got {len(values)}")
+            raise InputError(f"phi: expected {count} values, one per vertex, got {len(values)}")
         surface = self._tets.isosurface(values, isoval)
         return np.array(surface.points), np.asarray(surface.faces).tolist()

@@ -209,7 +209,7 @@ def test_wrong_arguments(square):
         signed.compute_distance([UP], level_set_constraint="All")
     with pytest.raises(ValueError):
         pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance([])
-    with pytest.raises(ValueError, match="one a vertex"):
+    with pytest.raises(ValueError, match="one per vertex"):
         pp3d.marching_triangles(V, F, V[:5, 0])
     two = littoral.Mesh(np.concatenate([V, V + 5]), np.concatenate([F, F + 81]))
     assert np.isinf(pp3d.compute_distance(two.points, two.faces, 0)[81:]).all()

@@ -161,7 +161,7 @@ def test_isosurface_of_tets(tets, sphere):
     assert ((normals * corners.mean(axis=1)).sum(axis=1) > 0).all()
     with pytest.raises(ValueError):
         tets.isosurface(phi, 100.0)
-    with pytest.raises(ValueError, match="one a vertex"):
+    with pytest.raises(ValueError, match="one per vertex"):
         tets.isosurface(phi[1:])
 
 

@@ -140,7 +140,8 @@ bool is_worth_retrying(const BatchOutcome& outcome) {
 void check(const std::vector<BatchJob>& jobs, const BatchOptions& options) {
   if (options.shards < 1 || options.shard < 1 || options.shard > options.shards)
     throw InputError("option shard: there is no part " + std::to_string(options.shard) + " of " +
-                         std::to_string(options.shards) + "; they count from 1",
+                         std::to_string(options.shards) + "; parts are 1 to " +
+                         std::to_string(options.shards),
                      "no-such-element");
   if (options.retries < 0 || options.processes < 0 || !(options.time_limit >= 0) ||
       !(options.memory_limit >= 0))

@@ -4,11 +4,14 @@
 #include <limits>
 
 #include "api/surface/surface_domain.h"
+#include "base/counted.h"
+#include "base/option_table.h"
 #include "contour/isolines.h"
 #include "domain/volume/voxels.h"
 #include "littoral/error.h"
 #include "littoral/field.h"
 #include "sources/surface_points.h"
+#include "spatial/weld.h"
 
 namespace littoral {
 
@@ -18,8 +21,8 @@ namespace {
 PolygonSoup with_indices_checked(PolygonSoup soup) {
   const auto check = [&](const std::string& what, int v) {
     if (v < 0 || v >= soup.n_vertices())
-      throw InputError(what + " refers to vertex " + std::to_string(v) + ", there are " +
-                           std::to_string(soup.n_vertices()),
+      throw InputError(what + " refers to vertex " + std::to_string(v) + "; there are " +
+                           counted(soup.n_vertices(), "vertex", "vertices") + ", counted from 0",
                        "no-such-element");
   };
   const auto& offsets = soup.face_offsets;
@@ -67,8 +70,8 @@ PolygonSoup Mesh::checked(const MatX& points, const Integers& faces) {
     for (Eigen::Index k = 0; k < n; ++k) {
       if (faces(f, k) < 0 || faces(f, k) >= points.rows())
         throw InputError("face " + std::to_string(f) + " refers to vertex " +
-                             std::to_string(faces(f, k)) + ", there are " +
-                             std::to_string(points.rows()),
+                             std::to_string(faces(f, k)) + "; there are " +
+                             counted(points.rows(), "vertex", "vertices") + ", counted from 0",
                          "no-such-element");
       corners.push_back(static_cast<int>(faces(f, k)));
     }
@@ -112,11 +115,13 @@ double Mesh::interpolate(const VecX& values, const SurfacePoint& point) const {
   const SurfaceMesh& mesh = *domain_->mesh;
   if (values.size() != mesh.n_vertices())
     throw InputError("there are " + std::to_string(values.size()) + " values for " +
-                         std::to_string(mesh.n_vertices()) + " vertices",
+                         counted(mesh.n_vertices(), "vertex", "vertices"),
                      "sizes-differ");
   if (point.on == SurfacePoint::On::vertex) {
     if (point.element < 0 || point.element >= mesh.n_vertices())
-      throw InputError("there is no vertex " + std::to_string(point.element), "no-such-element");
+      throw InputError("there is no vertex " + std::to_string(point.element) + "; the mesh has " +
+                           counted(mesh.n_vertices(), "vertex", "vertices") + ", counted from 0",
+                       "no-such-element");
     return values[point.element];
   }
   check_element(mesh, point);
@@ -141,6 +146,14 @@ std::vector<MatX3> Field::isolines(double level) const {
   for (const Polyline& line : littoral::isolines(on, values, level))
     lines.push_back(polyline_points(on, line));
   return lines;
+}
+
+Mesh Mesh::welded(double distance) const {
+  if (!(distance >= 0 && std::isfinite(distance)))
+    throw InputError(
+        "the distance to weld over must be finite and not negative, not " + number_text(distance),
+        "option-value");
+  return Mesh(weld(soup(), distance).soup);
 }
 
 }  // namespace littoral

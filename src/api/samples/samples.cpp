@@ -12,6 +12,7 @@
 #include "api/space/input_queries.h"
 #include "api/space/isosurfaces.h"
 #include "api/space/sdf.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/random_numbers.h"
 #include "base/stopwatch.h"
@@ -26,18 +27,31 @@ enum Stream : std::uint32_t { on_surface = 0, in_space = 1 };
 void check(const SampleOptions& options) {
   const auto is_share = [](double x) { return x >= 0 && x <= 1; };
   if (options.resolution < 8 || options.resolution > 2048)
-    throw InputError("option resolution must be 8 to 2048", "option-value");
+    throw InputError(
+        "option resolution must be 8 to 2048, not " + std::to_string(options.resolution),
+        "option-value");
   if (options.surface < 0 || options.space < 0)
-    throw InputError("numbers of samples must not be negative", "option-value");
+    throw InputError("options surface and space are numbers of samples and not negative, found " +
+                         std::to_string(std::min(options.surface, options.space)),
+                     "option-value");
   if (!is_share(options.sharp) || !is_share(options.uniform) || !is_share(options.curvature) ||
       options.uniform + options.curvature > 1)
-    throw InputError("shares of samples are 0 to 1, and at most 1 together", "option-value");
+    throw InputError(
+        "options sharp, uniform and curvature are shares of samples, 0 to 1 each, and at most 1 "
+        "for uniform and curvature together; found " +
+            number_text(options.sharp) + ", " + number_text(options.uniform) + " and " +
+            number_text(options.curvature),
+        "option-value");
   if (!(options.margin >= 0 && options.margin <= 10))
-    throw InputError("option margin must be 0 to 10", "option-value");
-  if (options.scales.empty()) throw InputError("option scales: there is none", "option-value");
+    throw InputError("option margin must be 0 to 10, not " + number_text(options.margin),
+                     "option-value");
+  if (options.scales.empty())
+    throw InputError("option scales names no scale; it takes one or several, over 0 to 10",
+                     "option-value");
   for (const double scale : options.scales)
     if (!(scale > 0 && scale <= 10))
-      throw InputError("option scales: each is over 0, to 10", "option-value");
+      throw InputError("option scales: " + number_text(scale) + " is not over 0 and at most 10",
+                       "option-value");
 }
 
 /// As it will be stored.

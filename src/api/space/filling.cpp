@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/tet/tet_domain.h"
+#include "base/counted.h"
 #include "base/run_interruptible.h"
 #include "base/stopwatch.h"
 #include "domain/tet/tet_lattice.h"
@@ -60,7 +61,9 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
       tet_source_system(mesh, *ops, source, places, cubes, parts_to_hold(input, options));
   if (terms.outside > 0)
     report.warn("samples-outside",
-                std::to_string(terms.outside) + " samples of the input lie outside the box");
+                counted(terms.outside, "sample of the input lies", "samples of the input lie") +
+                    " outside the box and count for nothing; a larger option padding or option "
+                    "bounds holds all");
   const double h = std::max(sample_spacing(source), lattice.finest());
   VecX phi = TetHeatSolver(ops).signed_distance(terms, h, 0.01 * lattice.finest(), options,
                                                 task.stage(options.sharpen ? 0.4 : 0.8, "distance"),

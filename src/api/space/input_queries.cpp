@@ -6,6 +6,7 @@
 
 #include "api/space/space_input.h"
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -93,7 +94,8 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
   const Frame frame(bounding_box(input));
   const double deviation = sigma / frame.unit;
   if (!(deviation > 0 && std::isfinite(deviation)))
-    throw InputError("option smoothing must be positive and finite", "option-value");
+    throw InputError("option smoothing must be positive and finite, not " + number_text(sigma),
+                     "option-value");
   // Sides of half a deviation: about so many samples.
   double area = 0;
   const MatX3i triangles = triangles_of(triangulate(input));
@@ -103,7 +105,7 @@ VecX smoothed_winding(const PolygonSoup& input, const Orientation& orientation, 
     area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
   }
   if (!(area / (deviation * deviation) < (1 << 20)))
-    throw InputError("option smoothing: " + std::to_string(sigma) +
+    throw InputError("option smoothing: " + rounded_text(sigma) +
                          " is too small for a surface of this size; without it winding numbers are "
                          "exact",
                      "option-value");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/option_table.h"
 #include "contour/isosurface.h"
 #include "contour/redistance.h"
@@ -53,7 +54,11 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
     report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
     surfaces.push_back({level, std::move(surface)});
   }
-  if (!any) throw InputError("none of the levels is met", "nothing-there");
+  if (!any)
+    throw InputError("the distance takes none of the levels; it runs from " +
+                         rounded_text(volume.values.minCoeff()) + " to " +
+                         rounded_text(volume.values.maxCoeff()),
+                     "nothing-there");
   return surfaces;
 }
 
@@ -128,8 +133,8 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
     if (open_edges > 0)
       report.warn("open-surface",
                   "the wall at offset " + rounded_text(offsets[i]) + " is open along " +
-                      std::to_string(open_edges) +
-                      " edges where it meets the box: raise option padding, or use option clip");
+                      counted(open_edges, "edge", "edges") +
+                      " where it meets the box: raise option padding, or use option clip");
     walls.push_back({offsets[i], std::move(wall)});
   }
   return walls;

@@ -15,6 +15,7 @@
 #include "api/space/surface_difference.h"
 #include "api/space/surface_parts.h"
 #include "api/surface/mesh_info.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/option_table.h"
 #include "contour/fit_to_surface.h"
@@ -186,16 +187,16 @@ double value_of(const std::vector<InfoEntry>& facts, const std::string& key) {
   throw Error("no fact named " + key);
 }
 
-constexpr std::array counted = {"faces",
-                                "components",
-                                "boundary_edges",
-                                "nonmanifold_edges",
-                                "nonmanifold_vertices",
-                                "inconsistently_oriented_edges",
-                                "self_intersecting_triangles"};
+constexpr std::array counted_facts = {"faces",
+                                      "components",
+                                      "boundary_edges",
+                                      "nonmanifold_edges",
+                                      "nonmanifold_vertices",
+                                      "inconsistently_oriented_edges",
+                                      "self_intersecting_triangles"};
 
 void add_counts(const std::string& name, const std::vector<InfoEntry>& facts, Report& report) {
-  for (std::string key : counted) {
+  for (std::string key : counted_facts) {
     const double value = value_of(facts, key);
     std::replace(key.begin(), key.end(), '_', ' ');
     report.sizes.emplace_back(name + ": " + key, value);
@@ -243,10 +244,13 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
       crossing = value_of(after, "self_intersecting_triangles");
       open + crossing > 0) {
     report.status = "uncertain";
-    report.warn("result-unsound", "the result is not sound: " + number_text(open) +
-                                      " edges or vertices are open or nonmanifold, " +
-                                      number_text(crossing) +
-                                      " faces cross others; try another option resolution");
+    report.warn(
+        "result-unsound",
+        "the result is not sound: " +
+            counted(static_cast<std::int64_t>(open), "edge or vertex is", "edges or vertices are") +
+            " open or nonmanifold, " +
+            counted(static_cast<std::int64_t>(crossing), "face crosses", "faces cross") +
+            " others; try another option resolution");
   }
   const OneSidedDistance to_input =
       one_sided_distance(result, input, samples, task.stage(0.2, "comparing"));

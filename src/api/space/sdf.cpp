@@ -7,6 +7,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/tori_cloud.h"
+#include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/tori/tori.h"
@@ -37,11 +38,16 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
     throw InputError("option resolution and option spacing both say how fine the grid is: give one",
                      "options-conflict");
   if (request.resolution && *request.resolution < 2)
-    throw InputError("option resolution must be at least 2", "option-value");
+    throw InputError(
+        "option resolution must be at least 2, not " + std::to_string(*request.resolution),
+        "option-value");
   if (request.spacing && !(*request.spacing > 0 && std::isfinite(*request.spacing)))
-    throw InputError("option spacing must be positive", "option-value");
+    throw InputError(
+        "option spacing must be positive and finite, not " + number_text(*request.spacing),
+        "option-value");
   if (!(request.padding >= 0 && request.padding <= 1e3))
-    throw InputError("option padding must be in [0, 1000]", "option-value");
+    throw InputError("option padding must be in [0, 1000], not " + number_text(request.padding),
+                     "option-value");
   Box box = bounding_box(input);
   if (request.bounds) {
     const auto& b = *request.bounds;
@@ -51,7 +57,8 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
                        "option-value");
     if ((wanted.low.array() > box.high.array()).any() ||
         (wanted.high.array() < box.low.array()).any())
-      throw InputError("the box of option bounds misses the input", "nothing-there");
+      throw InputError("the box of option bounds misses the input, which fills " + box_text(box),
+                       "nothing-there");
     box = wanted;
   } else {
     const double longest = box.size().maxCoeff();
@@ -68,7 +75,10 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   for (int a = 0; a < 3; ++a) {
     const double cells = box.size()[a] / spacing;
     if (!(cells < 1e6))
-      throw InputError("the grid would have more than a million nodes along an axis", "too-large");
+      throw InputError("the grid would have more than a million nodes along an axis, " +
+                           number_text(spacing) +
+                           " apart; take a larger option spacing or smaller option bounds",
+                       "too-large");
     const auto s = static_cast<std::size_t>(a);
     if (request.bounds) {
       grid.n[s] = std::max(2, static_cast<int>(std::lround(cells)) + 1);

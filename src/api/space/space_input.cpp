@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/space/tori_cloud.h"
+#include "base/option_table.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_normals.h"
@@ -29,7 +30,13 @@ std::string grid_text(const Grid& grid) {
          std::to_string(grid.n[2]) + " nodes";
 }
 
+std::string place_text(const Vec3& p) {
+  return "(" + rounded_text(p[0]) + ", " + rounded_text(p[1]) + ", " + rounded_text(p[2]) + ")";
+}
+
 }  // namespace
+
+std::string box_text(const Box& box) { return place_text(box.low) + " to " + place_text(box.high); }
 
 Box bounding_box(const PolygonSoup& input) {
   Box box;
@@ -109,7 +116,8 @@ Box box_on_grid(const PolygonSoup& input, const Grid& grid) {
   Box box = bounding_box(input);
   const Vec3 far = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
   if ((grid.origin.array() > box.high.array()).any() || (far.array() < box.low.array()).any())
-    throw InputError("the box of the grid misses the input", "nothing-there");
+    throw InputError("the box of the grid misses the input, which fills " + box_text(box),
+                     "nothing-there");
   return box;
 }
 

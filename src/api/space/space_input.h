@@ -2,6 +2,7 @@
 // What all distances in space begin with: the input moved to the origin, scaled and sampled.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "api/space/frame.h"
@@ -33,6 +34,8 @@ struct SpaceInput {
 /// Of the faces or, without any, of the points. Throws InputError for an input without either, and
 /// for coordinates that are not finite.
 Box bounding_box(const PolygonSoup& input);
+/// "(x, y, z) to (x, y, z)" in messages.
+std::string box_text(const Box& box);
 
 /// Faces are sampled so that no side is longer than max_side. Throws InputError where there is
 /// nothing to measure from.

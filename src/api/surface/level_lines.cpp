@@ -49,7 +49,10 @@ std::vector<LevelLines> level_lines(const SurfaceMesh& mesh, const VecX& values,
                                       " to " + rounded_text(values.maxCoeff()));
     any = any || !all.back().lines.empty();
   }
-  if (!any) throw InputError("none of the levels is met by a face", "nothing-there");
+  if (!any)
+    throw InputError("no face takes one of the levels; values run from " +
+                         rounded_text(values.minCoeff()) + " to " + rounded_text(values.maxCoeff()),
+                     "nothing-there");
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/component_values.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
@@ -106,9 +107,8 @@ MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Re
     throw InputError("the mesh has no face with three different vertices", "empty-input");
   if (without > 0)
     report.warn("component-unreached",
-                std::to_string(without) +
-                    " components have no face with three different vertices; their distances are "
-                    "infinite");
+                counted(without, "component has", "components have") +
+                    " no face with three different vertices; distances there are infinite");
   return D;
 }
 
@@ -224,8 +224,9 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
   });
   if (unconverged > 0) {
     report.status = "not converged";
-    report.warn("not-converged", std::to_string(unconverged) + " of " + std::to_string(n) +
-                                     " solves did not converge");
+    report.warn("not-converged",
+                std::to_string(unconverged) + " of " + counted(n, "solve", "solves") +
+                    " did not converge to option tolerance: raise it, or option max-iterations");
   }
   return D;
 }
@@ -237,7 +238,9 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
   if (mesh.n_vertices() == 0) throw InputError("the mesh has no vertices", "empty-input");
   for (int v : vertices)
     if (v < 0 || v >= mesh.n_vertices())
-      throw InputError("there is no vertex " + std::to_string(v) + " to measure from",
+      throw InputError("there is no vertex " + std::to_string(v) +
+                           " to measure from; the mesh has " +
+                           counted(mesh.n_vertices(), "vertex", "vertices") + ", counted from 0",
                        "no-such-element");
   std::vector<int> rows = vertices;
   if (rows.empty()) {

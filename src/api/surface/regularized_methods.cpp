@@ -6,6 +6,7 @@
 
 #include "api/surface/discretization.h"
 #include "api/surface/subdivided.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/stopwatch.h"
 #include "domain/intrinsic/lengthened_sides.h"
@@ -65,8 +66,8 @@ VecX field(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
     }
     if (without)
       report.warn("direction-missing",
-                  std::to_string(without) +
-                      " faces have no direction in their plane; nothing is aligned there");
+                  counted(without, "face has", "faces have") +
+                      " no direction in the plane of the face; nothing is aligned there");
     return V;
   }
   std::vector<std::pair<int, Complex>> given;

@@ -8,6 +8,7 @@
 #include "api/surface/discretization.h"
 #include "api/surface/edge_chains.h"
 #include "api/surface/face_chains.h"
+#include "base/counted.h"
 #include "base/lazy.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/split_at_jumps.h"
@@ -156,8 +157,8 @@ void warn_of_nonmanifold_edges(const SurfaceMesh& mesh, const JumpCalculus& J, R
     }
   if (count == 0) return;
   report.warn("nonmanifold-edges",
-              std::to_string(count) +
-                  " edges have more than two faces, the first between vertices " +
+              counted(count, "edge has", "edges have") +
+                  " more than two faces, the first between vertices " +
                   std::to_string(mesh.edges()(first, 0)) + " and " +
                   std::to_string(mesh.edges()(first, 1)) +
                   "; the surface was taken apart there; formulation dual goes on across them");

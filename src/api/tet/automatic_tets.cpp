@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "api/tet/tet_domain.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -131,10 +132,10 @@ class AutomaticThroughTets {
   void tell_bent(int bent, Report& report) const {
     if (bent == 0) return;
     if (const int folded = folded_tets(mesh_, sight_); folded > 0)
-      report.warn("tets-folded",
-                  std::to_string(folded) +
-                      " times a tet lies on the same side of a face as its neighbour there, folded "
-                      "over it: ways round the boundary may be wrong near such tets");
+      report.warn("tets-folded", counted(folded, "pair of neighbouring tets lies",
+                                         "pairs of neighbouring tets lie") +
+                                     " on one side of the face they share, one folded over the "
+                                     "other: ways round the boundary may be wrong near such tets");
     report.sizes.emplace_back("share of vertices out of sight",
                               static_cast<double>(bent) / mesh_.n_vertices());
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "api/space/space_input.h"
+#include "base/counted.h"
 #include "base/platform/memory.h"
 #include "base/run_interruptible.h"
 #include "sources/tet_source_values.h"
@@ -153,7 +154,8 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   for (const int v : sources.vertices)
     if (v < 0 || v >= mesh_->n_vertices())
       throw InputError("there is no vertex " + std::to_string(v) +
-                           " to measure from, the mesh has " + std::to_string(mesh_->n_vertices()),
+                           " to measure from; the mesh has " +
+                           counted(mesh_->n_vertices(), "vertex", "vertices") + ", counted from 0",
                        "no-such-element");
   TetProblem problem;
   problem.mesh = mesh_;
@@ -234,9 +236,9 @@ void TetDiscretization::place(TetProblem& placed, const TetSources& sources,
   if (outside == placed.samples.size())
     throw InputError("no source lies within the tets", "nothing-there");
   if (outside > 0)
-    report.warn("sources-outside",
-                std::to_string(outside) + " of " + std::to_string(placed.samples.size()) +
-                    " samples of the sources lie outside the tets and are left out");
+    report.warn("sources-outside", std::to_string(outside) + " of " +
+                                       counted(placed.samples.size(), "sample", "samples") +
+                                       " of the sources lie outside the tets and are left out");
 }
 
 }  // namespace littoral

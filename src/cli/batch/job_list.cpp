@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/counted.h"
 #include "base/platform/glob.h"
 #include "io/formats.h"
 #include "littoral/error.h"
@@ -170,8 +171,8 @@ class TableRows {
       return std::nullopt;
     }
     if (cells.size() != columns_.size())
-      throw InputError("there are " + std::to_string(cells.size()) + " cells for " +
-                           std::to_string(columns_.size()) + " columns",
+      throw InputError(counted(cells.size(), "cell", "cells") + " for " +
+                           counted(columns_.size(), "column", "columns"),
                        "bad-file");
     ListedJob job;
     for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -194,7 +195,7 @@ std::optional<ListedJob> of_json(const std::string& line) {
   try {
     json = Json::parse(line);
   } catch (const Json::exception&) {
-    throw InputError("this is no JSON", "bad-file");
+    throw InputError("the line is not valid JSON", "bad-file");
   }
   if (!json.is_object()) throw InputError("expected an object {\"input\": ...}", "bad-file");
   ListedJob job;

@@ -10,14 +10,16 @@
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
-#include "cli/plan/run_costs.h"
+#include "spatial/boundary_edges.h"
+#include "spatial/triangulate.h"
 
 namespace littoral::cli {
 
 namespace {
 
-constexpr double long_run = 30;      // seconds that are said before they pass
-constexpr double shared_work = 0.8;  // of the work that threads share: Amdahl's law
+constexpr double long_run = 30;           // seconds that are said before they pass
+constexpr double shared_work = 0.8;       // of the work that threads share: Amdahl's law
+constexpr double cells_for_points = 128;  // along the longest side, where points are asked
 
 /// Two digits: more would promise too much.
 double rough(double value) {
@@ -31,7 +33,7 @@ PlannedRun estimated(const RunPlan& plan, const std::string& verb, const MethodI
   out.reason = (plan.method.empty() ? "the default: " : "asked for: ") + method.summary;
   out.available_memory_mb = std::round(std::min(available_memory(), 1e18) / (1 << 20));
   const std::optional<RunCost> cost =
-      run_cost(plan.like.empty() ? verb : plan.like, method.name, plan.elements);
+      run_cost(plan.like.empty() ? verb : plan.like, method.name, plan.elements, plan.work);
   if (!cost) return out;
   const double seconds = plan.share * cost->seconds;
   out.processor_seconds = rough(seconds);
@@ -40,13 +42,32 @@ PlannedRun estimated(const RunPlan& plan, const std::string& verb, const MethodI
   return out;
 }
 
+/// The shapes in cells of this side.
+SurfaceWork surface_work(const CsgShapes& shapes, double side) {
+  SurfaceWork work;
+  for (const Shape& shape : shapes.all) {
+    const MatX3& points = shape.surface.points;
+    const MatX3i triangles = triangles_of(triangulate(shape.surface));
+    const auto corner = [&](Eigen::Index f, int k) { return Vec3(points.row(triangles(f, k))); };
+    double area = 0, free_length = 0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+      area += 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm();
+    for (const auto& [a, b] : boundary_edges(points, triangles))
+      free_length += (points.row(a) - points.row(b)).norm();
+    const auto faces = static_cast<double>(triangles.rows());
+    work.faces += faces;
+    work.cells += area / (side * side);
+    work.free_length += free_length / side;
+    if (free_length > 0) work.open_faces += faces;
+  }
+  return work;
+}
+
 std::string estimate_text(const std::optional<double>& value, const char* unit) {
   return value ? "about " + number_text(*value) + " " + unit : "not known";
 }
 
-}  // namespace
-
-RunPlan plan_in_space(const CsgShapes& shapes, const std::string& domain, double points) {
+RunPlan plan_of_shapes(const CsgShapes& shapes, const std::string& domain, double points) {
   RunPlan plan{shapes.all.front().request.method.name(),
                domain,
                Registry<SpaceDomain>::instance().infos(),
@@ -64,12 +85,21 @@ RunPlan plan_in_space(const CsgShapes& shapes, const std::string& domain, double
   return plan;
 }
 
+}  // namespace
+
+RunPlan plan_in_space(const CsgShapes& shapes, double points) {
+  RunPlan plan = plan_of_shapes(shapes, "set of points", points);
+  plan.work = surface_work(shapes, longest_side(shapes) / cells_for_points);
+  return plan;
+}
+
 RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid) {
-  RunPlan plan = plan_in_space(shapes, "grid", static_cast<double>(grid.n_nodes()));
+  RunPlan plan = plan_of_shapes(shapes, "grid", static_cast<double>(grid.n_nodes()));
   for (const auto& [name, a] :
        {std::pair("nodes along x", 0), {"nodes along y", 1}, {"nodes along z", 2}})
     plan.sizes.emplace_back(name, grid.n[static_cast<std::size_t>(a)]);
   plan.sizes.emplace_back("spacing", grid.spacing.minCoeff());
+  plan.work = surface_work(shapes, grid.spacing.minCoeff());
   return plan;
 }
 

@@ -7,6 +7,7 @@
 
 #include "api/method.h"
 #include "api/space/csg.h"
+#include "cli/plan/run_costs.h"
 #include "cli/session.h"
 
 namespace littoral::cli {
@@ -19,6 +20,7 @@ struct RunPlan {
   double elements = 0;  // that the cost depends on
   double share = 1;     // of the work on all of them
   std::string like{};   // the verb that costs as much; empty: the one that runs
+  SurfaceWork work{};   // of distance in space
 };
 
 /// Of methods on a surface or tet mesh.
@@ -34,8 +36,8 @@ RunPlan plan_on(const AnyMethod& method, const D& domain) {
     plan.sizes.emplace_back("faces", static_cast<double>(mesh.n_faces()));
   return plan;
 }
-/// Of methods in space, at so many nodes or points.
-RunPlan plan_in_space(const CsgShapes& shapes, const std::string& domain, double points);
+/// Of methods in space, at so many points.
+RunPlan plan_in_space(const CsgShapes& shapes, double points);
 /// On a grid, with its spacing.
 RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid);
 

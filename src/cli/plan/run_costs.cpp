@@ -13,11 +13,21 @@ constexpr double program = 13 << 20;  // bytes without any
 constexpr double start = 0.007;       // seconds
 
 /// seconds (elements / unit)^power of one processor, and bytes for each element, of pairs for each
-/// pair.
+/// pair; and of each cell that holds a part of the surface, where nodes near it cost more.
 struct Row {
   std::string_view verb, method;  // method empty: whichever it is
-  double seconds, power, bytes;
+  double seconds, power, bytes, cell_seconds = 0, cell_bytes = 0;
 };
+
+constexpr double face_seconds = 2.3e-6, face_bytes = 900;  // of distance in space: each face
+
+// Of bench/studies/run_costs.py too: what `auto` does where the surface has free edges: it orients
+// faces and looks for patches.
+constexpr double patch_start = 0.045;    // seconds
+constexpr double patch_seconds = 3e-5;   // for each side of a cell along a free edge
+constexpr double orient_seconds = 1e-4;  // for each face
+constexpr double beside_patches = 1.5;   // times as long for each node or point
+constexpr double patch_bytes = 200;      // for each cell that holds a part of the surface
 
 // Of two runs each by bench/studies/run_costs.py.
 constexpr std::array rows = std::to_array<Row>({
@@ -35,9 +45,9 @@ constexpr std::array rows = std::to_array<Row>({
     {"pairs", "unsigned-heat", 101, 2.28, 18.9},
     {"pairs", "regularized", 962, 2.15, 18},
     {"pairs", "fast-marching", 211, 2.34, 15.4},
-    {"sdf", "auto", 0.0034, 1.00, 16.6},
-    {"sdf", "winding", 0.00374, 1.00, 18.1},
-    {"sdf", "closest-point", 0.0035, 1.00, 16.6},
+    {"sdf", "auto", 0.00127, 1.00, 8, 1.6e-5, 250},
+    {"sdf", "winding", 0.0015, 1.00, 8, 1.6e-5, 250},
+    {"sdf", "closest-point", 0.00127, 1.00, 8, 1.6e-5, 250},
     {"sdf", "tori", 0.0213, 1.00, 65.2},
     {"sdf", "signed-heat", 0.0186, 1.00, 39.1},
     {"query", "auto", 0.0209, 1.00, 424},
@@ -52,13 +62,20 @@ constexpr std::array rows = std::to_array<Row>({
 
 }  // namespace
 
-std::optional<RunCost> run_cost(const std::string& verb, const std::string& method,
-                                double elements) {
+std::optional<RunCost> run_cost(const std::string& verb, const std::string& method, double elements,
+                                const SurfaceWork& work) {
   for (const Row& row : rows) {
     if (row.verb != verb || (!row.method.empty() && row.method != method)) continue;
     const double held = verb == "pairs" ? elements * elements : elements;
-    return RunCost{start + row.seconds * std::pow(elements / unit, row.power),
-                   program + row.bytes * held};
+    const bool patched = method == "auto" && work.free_length > 0;
+    const double each =
+        row.seconds * std::pow(elements / unit, row.power) + row.cell_seconds * work.cells;
+    const double faces = face_seconds * work.faces;
+    const double patches =
+        patch_start + patch_seconds * work.free_length + orient_seconds * work.open_faces;
+    return RunCost{start + faces + (patched ? beside_patches * each + patches : each),
+                   program + row.bytes * held + face_bytes * work.faces +
+                       (row.cell_bytes + (patched ? patch_bytes : 0)) * work.cells};
   }
   return {};
 }

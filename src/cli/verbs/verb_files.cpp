@@ -8,6 +8,7 @@
 #include "api/surface/level_lines.h"
 #include "api/surface/mesh_info.h"
 #include "api/tet/tet_boundary.h"
+#include "base/counted.h"
 #include "cli/input/lengths.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
@@ -73,8 +74,8 @@ PolygonSoup welded(const PolygonSoup& soup, const std::string& distance, Session
   Welded found = weld(soup, parse_radius("weld", distance, size));
   if (found.n_dropped_faces > 0)
     session.report.warn("degenerate-faces",
-                        std::to_string(found.n_dropped_faces) +
-                            " faces shrank to an edge or a point by --weld and were left out");
+                        counted(found.n_dropped_faces, "face", "faces") +
+                            " shrank to an edge or a point by option weld: left out");
   return std::move(found.soup);
 }
 

@@ -105,7 +105,7 @@ void check_confidence(const std::string& file) {
   if (!io::is_written_as(file, {Kind::volume})) return check_holds_confidence(file);
   if (!io::format_to_write(file, {Kind::volume}).more_values)
     throw InputError(file +
-                         " holds one number a node: confidence is written to VTK image data, "
+                         " holds one number per node: confidence is written to VTK image data, "
                          "and with the surface at --level to formats with numbers at vertices",
                      "options-conflict");
 }

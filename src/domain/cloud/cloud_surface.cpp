@@ -238,7 +238,8 @@ NodalSurface cloud_surface(const MatX3& points, const MatX3& normals, Report& re
   cloud.normals = normals;
   LocalTriangles local = triangulated(cloud, report, task);
   if (local.counts.empty())
-    throw InputError("no triangle can be made between neighbouring points of the cloud");
+    throw InputError(
+        "no triangle can be made between neighbouring points of the cloud: they lie on a line");
   NodalSurface S;
   S.domain = "point cloud";
   S.normals = std::move(local.normals);

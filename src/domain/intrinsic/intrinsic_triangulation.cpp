@@ -4,7 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/counted.h"
 #include "base/disjoint_sets.h"
+#include "base/option_table.h"
 #include "domain/intrinsic/lengthened_sides.h"
 #include "domain/mesh/edge_sides.h"
 #include "domain/mesh/face_orientation.h"
@@ -26,8 +28,9 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
   const int n = kept.size();
   if (n == 0) throw InputError("the mesh has no face with three different vertices", "empty-input");
   if (n < mesh.n_faces())
-    report.warn("degenerate-faces",
-                std::to_string(mesh.n_faces() - n) + " faces that repeat a vertex were left out");
+    report.warn("degenerate-faces", counted(mesh.n_faces() - n, "face that repeats a vertex was",
+                                            "faces that repeat a vertex were") +
+                                        " left out");
   T.faces.resize(n, 3);
   T.side_edge.resize(n, 3);
   T.along.resize(n, 3);
@@ -49,7 +52,9 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
   const double extent = (0.5 * high - 0.5 * low).maxCoeff();  // halved first: must not overflow
   if (!(extent > 0))
     throw InputError("the mesh has no extent: all its vertices are at one point", "empty-input");
-  if (extent < 1e-290) throw InputError("the mesh is too small for double precision; scale it up");
+  if (extent < 1e-290)
+    throw InputError("the mesh is too small for double precision (it extends over " +
+                     number_text(extent) + "); scale it up");
   T.unit = std::exp2(std::floor(std::log2(extent)));
 
   VecX edge_length(T.n_edges());
@@ -78,8 +83,8 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
   const int lengthened = lengthen_sides(T, 1e-10);
   if (lengthened > 0)
     report.warn("degenerate-faces",
-                std::to_string(lengthened) +
-                    " degenerate faces (zero area to 1e-10) had their sides lengthened minimally");
+                counted(lengthened, "face without area", "faces without area") +
+                    " (to a relative 1e-10) had their sides lengthened minimally");
 }
 
 /// Unit vector from side k of f into the face, in space; zero if the face is degenerate.

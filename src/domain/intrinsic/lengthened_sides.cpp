@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "base/counted.h"
+
 namespace littoral {
 
 int lengthen_sides(IntrinsicTriangulation& T, double margin) {
@@ -20,10 +22,8 @@ int lengthen_sides(IntrinsicTriangulation& T, double margin) {
 IntrinsicTriangulation without_needles(IntrinsicTriangulation T, Report& report) {
   const int n = lengthen_sides(T, 1e-6);
   if (n > 0)
-    report.warn("degenerate-faces",
-                std::to_string(n) +
-                    " needles and other thin faces had their sides lengthened by up to a "
-                    "millionth");
+    report.warn("degenerate-faces", counted(n, "thin face", "thin faces") +
+                                        " had their sides lengthened by up to a millionth");
   return T;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/counted.h"
 #include "base/dense_decompositions.h"
 #include "base/index.h"
 #include "littoral/error.h"
@@ -101,9 +102,8 @@ Refinement refine(const SurfaceMesh& mesh, Report& report) {
     out.face_offsets.push_back(out.soup.n_faces());
   }
   if (cut)
-    report.warn("polygons-cut", std::to_string(cut) + " polygons of more than " +
-                                    std::to_string(most_corners) +
-                                    " corners were cut into triangles");
+    report.warn("polygons-cut", counted(cut, "polygon", "polygons") + " of more than " +
+                                    std::to_string(most_corners) + " corners: cut into triangles");
   out.soup.points.resize(n + index(added.size()), 3);
   out.soup.points.topRows(n) = mesh.points();
   for (std::size_t i = 0; i < added.size(); ++i) out.soup.points.row(n + index(i)) = added[i];

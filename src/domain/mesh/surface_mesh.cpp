@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/counted.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
@@ -31,12 +32,14 @@ double check_faces(const PolygonSoup& soup) {
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto corners = soup.face(f);
     if (corners.size() < 3)
-      throw InputError("face " + std::to_string(f) + " has " + std::to_string(corners.size()) +
-                       " corners; a face needs three");
+      throw InputError("face " + std::to_string(f) + " has " +
+                       counted(corners.size(), "corner", "corners") +
+                       "; a face needs three at least");
     for (int v : corners) {
       if (v < 0 || v >= soup.n_vertices())
         throw InputError("face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-                             ", there are " + std::to_string(soup.n_vertices()),
+                             "; the mesh has " + counted(soup.n_vertices(), "vertex", "vertices") +
+                             ", counted from 0",
                          "no-such-element");
       if (!soup.points.row(v).allFinite())
         throw InputError("vertex " + std::to_string(v) + ", used by face " + std::to_string(f) +
@@ -83,7 +86,9 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
 
 void SurfaceMesh::check() {
   if (soup_.corners.size() > std::numeric_limits<int>::max() / 2)
-    throw InputError("the mesh has too many face corners for 32-bit numbering", "too-large");
+    throw InputError(
+        "the mesh has more than 2147483647 face corners; simplify it or take a part of it",
+        "too-large");
   const double largest = check_faces(soup_);
   if (largest > 0) scale_ = std::ldexp(1.0, std::ilogb(largest));
   orientation_ = std::make_shared<const Kept<FaceOrientation>>();

@@ -1,9 +1,13 @@
 // Point clouds as text: .pc (v and vn records) and .xyz (columns).
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
+#include "io/point_rows.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -40,39 +44,36 @@ PolygonSoup read_pc(std::string_view bytes, const std::string& name) {
     scan.expect_end();
   }
   if (!normals.empty() && normals.size() != points.size())
-    throw InputError(name + ": " + std::to_string(points.size() / 3) + " points but " +
-                         std::to_string(normals.size() / 3) + " normals",
+    throw InputError(name + ": " + counted(points.size() / 3, "point", "points") + " but " +
+                         counted(normals.size() / 3, "normal", "normals"),
                      "bad-file");
   return cloud_of(points, normals, name);
 }
 
 PolygonSoup read_xyz(std::string_view bytes, const std::string& name) {
-  LineScanner scan(bytes, name, '#');
-  std::vector<double> points, normals, row;
-  std::size_t columns = 0;
-  while (scan.next()) {
-    row.clear();
-    for (std::string_view word; !(word = scan.word()).empty();) {
-      const auto number = parse_double(word);
-      if (!number)
-        scan.fail("expected a number, found " + in_quotes(word) +
-                  (decimal_comma_hint(word).empty()
-                       ? "; rows are x y z with blanks between, without names above them"
-                       : decimal_comma_hint(word)));
-      row.push_back(*number);
+  constexpr std::array normal_names = std::to_array<NamedAxes>(
+      {{"n", "xyz"}, {"normal_", "xyz"}, {"normals_", "xyz"}, {"normals:", "012"}});
+  PointRows rows(bytes, name);
+  std::vector<double> points, normals;
+  if (rows.n_columns() > 0) {
+    if (rows.n_columns() < 3)
+      throw InputError(name + ": the first row, " + rows.first_row() + ", has " +
+                           counted(rows.n_columns(), "column", "columns") +
+                           "; x, y and z are needed",
+                       "bad-file");
+    const auto xyz = rows.points();
+    // Six columns without names are points and normals, or colours; what else there is, is not
+    // taken for normals.
+    std::optional<std::array<std::size_t, 3>> normal = rows.columns(normal_names);
+    const bool six = rows.names().empty() && rows.n_columns() == 6;
+    if (six) normal = {3, 4, 5};
+    while (rows.next()) {
+      for (const std::size_t c : xyz) points.push_back(rows.number(c));
+      if (normal)
+        for (const std::size_t c : *normal) normals.push_back(rows.number(c));
     }
-    if (row.size() == 1 && points.empty() && columns == 0) continue;  // a count of points
-    if (columns == 0) columns = row.size();
-    if (row.size() != columns)
-      scan.fail("a row of " + std::to_string(row.size()) + " numbers, the first had " +
-                std::to_string(columns));
-    if (columns < 3)
-      scan.fail("a row of " + std::to_string(columns) + " numbers, x y z are needed");
-    points.insert(points.end(), row.begin(), row.begin() + 3);
-    // Six columns are points and normals, or colours; any other number of further ones is the like.
-    if (columns == 6) normals.insert(normals.end(), row.begin() + 3, row.end());
+    if (six && are_colours(rows_of(normals))) normals.clear();
   }
-  if (are_colours(rows_of(normals))) normals.clear();
   return cloud_of(points, normals, name);
 }
 

@@ -118,19 +118,19 @@ void check_scene(const Scene& scene) {
   }
   if (!scene.inner_sides.empty() &&
       static_cast<Eigen::Index>(scene.inner_sides.size()) != scene.triangles.rows()) {
-    refuse("inner_sides must have one entry a triangle");
+    refuse("inner_sides must have one entry per triangle");
   }
   if (!scene.faces.empty() &&
       static_cast<Eigen::Index>(scene.faces.size()) != scene.triangles.rows()) {
-    refuse("faces must have one entry a triangle");
+    refuse("faces must have one entry per triangle");
   }
   if (scene.values.size() != 0) check_values(scene.values, n);
   for (const SceneField& field : scene.more) check_values(field.values, n);
   if (scene.weights.size() != 0 && (scene.weights.size() != n || !(scene.weights.minCoeff() >= 0 &&
                                                                    scene.weights.maxCoeff() <= 1)))
-    refuse("weights must be between 0 and 1, one a vertex");
+    refuse("weights must be between 0 and 1, one per vertex");
   if (scene.discs.rows() != 0 && (scene.discs.rows() != n || !scene.discs.allFinite()))
-    refuse("discs must be finite, one a vertex");
+    refuse("discs must be finite, one per vertex");
   for (const SceneCurve& curve : scene.curves) {
     if (!curve.points.allFinite()) refuse("a source curve has a node that is not finite");
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -110,7 +111,7 @@ class JsonReader {
     const Json& items = curve[kind];
     expect_array(items, kind);
     if (items.size() < 2) {
-      fail("the curve has " + std::to_string(items.size()) + " nodes, at least 2 are needed");
+      fail("the curve has " + counted(items.size(), "node", "nodes") + ", at least 2 are needed");
     }
     const auto name_item = [&](std::size_t k) {
       at_ = origin + "." + kind + "[" + std::to_string(k) + "]";

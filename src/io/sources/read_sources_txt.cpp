@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/counted.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -133,8 +134,8 @@ class SignedHeatReader {
     const bool points = keyword_ == "unsigned_point";
     const std::size_t needed = points ? 1 : 2;
     if (nodes_.size() < needed) {
-      scan_.fail_at(keyword_line_, keyword_ + " has " + std::to_string(nodes_.size()) +
-                                       " nodes, at least " + std::to_string(needed) +
+      scan_.fail_at(keyword_line_, keyword_ + " has " + counted(nodes_.size(), "node", "nodes") +
+                                       ", at least " + std::to_string(needed) +
                                        (points ? " is needed" : " are needed"));
     }
     if (points) {

@@ -24,7 +24,7 @@ FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
     for (std::string w; words >> w;) word.push_back(w);
     if (word.empty()) continue;
     const bool sparse = word[0] == "f";
-    if (word.size() != (sparse ? 5U : 3U)) fail("expected `x y z` or `f I x y z`");
+    if (word.size() != (sparse ? 5U : 3U)) fail("expected 'x y z' or 'f I x y z'");
     Vec3 v;
     for (int i = 0; i < 3; ++i) {
       const std::string& text = word[word.size() - 3 + static_cast<std::size_t>(i)];
@@ -48,7 +48,8 @@ FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
     out.sparse.emplace_back(static_cast<int>(f), v / v.cwiseAbs().maxCoeff());
   }
   if (!rows.empty() && !out.sparse.empty())
-    throw InputError(path.string() + ": lines `x y z` and `f I x y z` are mixed", "bad-file");
+    throw InputError(path.string() + ": lines 'x y z' and 'f I x y z' are mixed; write one kind",
+                     "bad-file");
   if (rows.empty() && out.sparse.empty())
     throw InputError(path.string() + ": holds no direction", "bad-file");
   if (!rows.empty() && static_cast<int>(rows.size()) != n_faces)

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "base/counted.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -67,7 +68,7 @@ void read_face(LineScanner& scan, ObjFile& file) {
     read_corner(scan, word, file);
   }
   if (degree < 3) {
-    scan.fail("face has " + std::to_string(degree) + " corners, at least 3 are needed");
+    scan.fail("face has " + counted(degree, "corner", "corners") + ", at least 3 are needed");
   }
   file.offsets.push_back(static_cast<int>(file.corners.size()));
   file.face_line.push_back(scan.line());
@@ -80,7 +81,7 @@ void read_polyline(LineScanner& scan, ObjFile& file) {
     line.push_back(resolve(scan, vertex, file.n_vertices(), "line", "vertex"));
   }
   if (line.size() < 2) {
-    scan.fail("line has " + std::to_string(line.size()) + " vertices, at least 2 are needed");
+    scan.fail("line has " + counted(line.size(), "vertex", "vertices") + ", at least 2 are needed");
   }
   file.polylines.push_back(std::move(line));
   file.polyline_line.push_back(scan.line());

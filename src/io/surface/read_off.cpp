@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/counted.h"
 #include "io/binary.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
@@ -80,7 +81,7 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
     next_row(scan, f, header.faces, "faces");
     const std::int64_t degree = scan.integer("the number of corners");
     if (degree < 3) {
-      scan.fail("face has " + std::to_string(degree) + " corners, at least 3 are needed");
+      scan.fail("face has " + counted(degree, "corner", "corners") + ", at least 3 are needed");
     }
     for (std::int64_t k = 0; k < degree; ++k) {
       const std::int64_t v = scan.integer("a vertex index");
@@ -154,7 +155,7 @@ class BinaryOff {
     const std::string face = "face " + std::to_string(f);
     const auto degree = next<std::int32_t>("face ", f);
     if (degree < 3)
-      fail(face + " has " + std::to_string(degree) + " corners, at least 3 are needed");
+      fail(face + " has " + counted(degree, "corner", "corners") + ", at least 3 are needed");
     for (std::int32_t k = 0; k < degree; ++k) {
       const auto v = next<std::int32_t>("face ", f);
       if (v < 0 || v >= vertices)

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/counted.h"
 #include "io/binary.h"
 #include "io/surface/ply_header.h"
 #include "io/surface/surface_formats.h"
@@ -228,8 +229,8 @@ class PlyReader {
     rows(element, list, [&](std::uint64_t r) {
       const std::string face = "face " + std::to_string(r);
       if (list_.size() < 3) {
-        body_.fail(face + " has " + std::to_string(list_.size()) +
-                   " corners, at least 3 are needed");
+        body_.fail(face + " has " + counted(list_.size(), "corner", "corners") +
+                   ", at least 3 are needed");
       }
       for (double v : list_) soup_.corners.push_back(vertex(v, face.c_str()));
       if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/contents_hint.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
 
@@ -18,10 +19,13 @@ bool VtkXml::next(std::size_t at, XmlTag& tag) {
 }
 
 void VtkXml::read_file_tag(const XmlTag& tag, const std::string& type) {
-  if (const std::string held = tag.attribute("type"); held != type)
-    throw UnsupportedError(
-        name() + ": VTK data of type " + in_quotes(held) + "; " + type + " is read",
-        "unsupported-file");
+  if (const std::string held = tag.attribute("type"); held != type) {
+    const std::string hint = contents_hint("<vtkfile type=\"" + held + "\"", "");
+    throw UnsupportedError(name() + ": it holds VTK data of type " + in_quotes(held) + ", not " +
+                               type + " as its extension says; " +
+                               (hint.empty() ? "save it as " + type : hint),
+                           "unsupported-file");
+  }
   order_ = tag.attribute("byte_order", "LittleEndian") == "BigEndian" ? std::endian::big
                                                                       : std::endian::little;
   header_size_ = tag.attribute("header_type", "UInt32") == "UInt64" ? 8 : 4;

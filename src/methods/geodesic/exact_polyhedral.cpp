@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/thread_crew.h"
 #include "methods/geodesic/ray_crossing.h"
 #include "methods/heat/finalize.h"
@@ -242,13 +243,11 @@ ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSo
   report.iterations.emplace_back("windows", front.windows());
   const double exact_within = (front.exact_within() + least) * T.unit;
   if (exact_within < infinity) {
-    std::ostringstream text;
-    text
-        << "exact distance met its limit of " << most_windows << " windows: values up to "
-        << exact_within
-        << " are exact; beyond, true distances are at least that and at most the values, which are "
-           "lengths of paths. Merge or remove overlapping faces";
-    report.warn("not-converged", text.str());
+    report.warn("not-converged",
+                "exact distance met its limit of " + number_text(most_windows) +
+                    " windows: values up to " + rounded_text(exact_within) +
+                    " are exact; beyond, true distances are at least that and at most the values, "
+                    "which are lengths of paths. Merge or remove overlapping faces");
   }
   VecXi nearest = front.nearest();
   return {finalize_field(T.component, T.n_components, T.unit, sources.reached,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/counted.h"
 #include "base/index.h"
 
 namespace littoral {
@@ -53,12 +54,13 @@ VecX finalize_field(const std::vector<int>& component, int n_components, double 
   if (!report.unreachable_components.empty())
     report.warn("component-unreached",
                 std::to_string(report.unreachable_components.size()) + " of " +
-                    std::to_string(n_components) +
-                    " components hold no source; their distance is infinite");
+                    counted(n_components, "component", "components") +
+                    (report.unreachable_components.size() == 1 ? " holds" : " hold") +
+                    " no source; the distance is infinite there");
   const auto isolated = std::count(component.begin(), component.begin() + out.size(), -1);
   if (isolated > 0)
-    report.warn("isolated-vertices", std::to_string(isolated) +
-                                         " vertices belong to no face; their distance is infinite");
+    report.warn("isolated-vertices", counted(isolated, "vertex belongs", "vertices belong") +
+                                         " to no face; the distance is infinite there");
   return out;
 }
 

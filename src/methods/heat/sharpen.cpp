@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/component_values.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/stopwatch.h"
 #include "solve/direct/definite.h"
@@ -281,9 +282,10 @@ VecX sharpen(const Operators& ops, const SourceSystem& system, const VecX& phi0,
   dual.report_worst(report.residuals);
   if (stopped > 0) {
     report.status = "not converged";
-    report.warn("not-converged", "sharpening stopped after " +
-                                     std::to_string(static_cast<int>(iterations.worst())) +
-                                     " iterations above the tolerance");
+    report.warn("not-converged",
+                "sharpening stopped after " +
+                    counted(static_cast<int>(iterations.worst()), "iteration", "iterations") +
+                    ", above the tolerance: the result is the last iterate");
   }
   return out;
 }

@@ -104,7 +104,8 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   constrain_stage.checkpoint();
   if (rows.A.rows() == 0) {
     report.warn("box-misses-input",
-                "the box holds no sample of the input; distances are shifted by the box's centre");
+                "the box holds no sample of the input, so that distances are known up to a "
+                "constant only; take option bounds that hold a part of it");
     return phi;
   }
   const auto constraint = options.constraint;

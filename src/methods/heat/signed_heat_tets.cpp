@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -94,7 +95,9 @@ VecX TetHeatSolver::signed_distance(const TetSourceSystem& system, double h, dou
     Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn("direction-missing",
-                  std::to_string(zeros) + " tets have no direction: too far from the input");
+                  counted(zeros, "tet is", "tets are") +
+                      " too far from the input for heat to reach: distances are less exact there. "
+                      "A larger option time-scale reaches farther");
   }
   return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }
@@ -136,7 +139,9 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, d
     Y = normalize_rows(std::move(X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn("direction-missing",
-                  std::to_string(zeros) + " tets have no direction: too far from the sources");
+                  counted(zeros, "tet is", "tets are") +
+                      " too far from the sources for heat to reach: distances are less exact "
+                      "there. A larger option time-scale reaches farther");
   }
   return integrate(system, Y, h, tolerance, options, integrate_stage, report);
 }

@@ -112,8 +112,8 @@ void warn_misaligned(Report& report) {
     report.warn(
         "directions-misaligned",
         "the distance falls along the diffused directions on " + in_short(100 * share) +
-            " % of the surface: sources contradict each other, or the time scale is too small "
-            "for this mesh; the automatic one finds out");
+            " % of the surface: sources contradict each other, or option time-scale is too small "
+            "for this mesh; left out, it is chosen");
 }
 
 }  // namespace littoral

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/component_values.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
@@ -108,8 +109,8 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   field.u = VecX::Constant(E.n_nodes(), infinity);
   if (E.mollified > 0)
     report.warn("degenerate-faces",
-                std::to_string(E.mollified) +
-                    " nearly degenerate elements had their sides lengthened minimally");
+                counted(E.mollified, "nearly degenerate element", "nearly degenerate elements") +
+                    " had their sides lengthened minimally");
   std::vector<std::vector<P2Source<D>>> of_part(parts_.size());
   for (const P2Source<D>& source : sources)
     of_part[E.component[E.node[source.where.at(0).element][0]]].push_back(source);
@@ -163,12 +164,14 @@ QuadraticField<D> QuadraticSolver<D>::solve(const std::vector<P2Source<D>>& sour
   if (!converged) {
     report.status = "not converged";
     if (missing > 0)
-      report.warn("not-converged", "between samples the constraint is still violated at " +
-                                       rounded_text(missing) +
-                                       " points, after the last round of insertion");
+      report.warn("not-converged",
+                  "between samples the constraint is still violated at " +
+                      counted(static_cast<std::int64_t>(missing), "point", "points") +
+                      ", after the last round of insertion");
     report.warn("not-converged", "the solver stopped at a relative duality gap of " +
                                      rounded_text(gap.worst()) + " and residuals of " +
-                                     rounded_text(std::max(residual.worst(), dual.worst())));
+                                     rounded_text(std::max(residual.worst(), dual.worst())) +
+                                     ". Raise option max-iterations or option tolerance");
   }
   return field;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
@@ -114,9 +115,11 @@ class AllPairs {
     report.residuals.emplace_back("largest gradient over 1", std::max(0.0, longest_ - 1));
     if (worst > 1) {
       report.status = "not converged";
-      report.warn("not-converged", "all pairs stopped after " + std::to_string(k) +
-                                       " iterations above the tolerance" +
-                                       (k < last ? ", as these no longer come nearer to it" : ""));
+      report.warn("not-converged",
+                  "all pairs stopped after " + counted(k, "iteration", "iterations") +
+                      " above the tolerance" +
+                      (k < last ? ", as these no longer come nearer to it: raise option tolerance"
+                                : ": raise option max-iterations or option tolerance"));
     }
     T_.resize(0, 0), X_.resize(0, 0), response_.resize(0, 0), S_.clear();
     return U_.template cast<double>();
@@ -292,7 +295,8 @@ class AllPairs {
     const double dual2 = over(s.du, std::max(s.h, given2));
     const double worst = std::max({primal1, dual1, primal2, dual2});
     if (!std::isfinite(worst))
-      throw SolveError("all pairs diverged: non-finite iterate", "diverged");
+      throw SolveError("all pairs diverged: non-finite iterate; a larger option alpha helps",
+                       "diverged");
     progress_ = std::max(progress_, 0.95 / (1 + std::log10(std::max(1.0, worst))));
     if (worst <= 1 || k < next_change_) return worst;
     auto factor_of = [](double primal, double dual) {
@@ -345,9 +349,11 @@ class AllPairs {
 MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task, Report& report) {
   const Calculus& C = ops.scalar;
   if (C.n_components != 1)
-    throw UnsupportedError("symmetric distances are computed on one component at a time");
+    throw UnsupportedError(
+        "symmetric distances are computed on one component at a time, this surface has " +
+        std::to_string(C.n_components));
   if (C.G.rows != 2 * C.A.size())
-    throw UnsupportedError("symmetric distances need a surface of linear functions");
+    throw UnsupportedError("symmetric distances need a triangle mesh; triangulate it first");
   const auto nodes = static_cast<double>(C.M.size()), cells = static_cast<double>(C.A.size());
   const auto storage = options.storage;
   const double full = all_pairs_memory(nodes, cells, 8);

@@ -127,7 +127,8 @@ ConstrainedSystem::Constrained with_hessian(const SpMat& matrix, const Calculus&
   } catch (const SolveError&) {
     throw SolveError(
         "the Hessian energy has no minimum: it is negative for functions that bend with saddles of "
-        "the surface, and option alpha is so large that nothing outweighs that");
+        "the surface, and option alpha is so large that nothing outweighs that; take a smaller "
+        "one");
   }
 }
 

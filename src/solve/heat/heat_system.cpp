@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
@@ -157,9 +158,9 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
   for (Eigen::Index i = 0; i < n; ++i)
     if (field.layer[i] < 0) field.x.segment(i * block_, block_).setZero();
   if (left > 0)
-    report.warn("direction-missing",
-                "heat did not reach " + std::to_string(left) +
-                    " elements; their directions are left to the Poisson step");
+    report.warn("direction-missing", "heat did not reach " + counted(left, "element", "elements") +
+                                         ": the Poisson step fills in the distance there, less "
+                                         "exactly. A larger option time-scale reaches farther");
   return field;
 }
 

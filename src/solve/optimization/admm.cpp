@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/component_values.h"
+#include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
@@ -213,8 +214,9 @@ void report_admm(const AdmmResult& result, Report& report) {
   if (!result.converged) {
     report.status = "not converged";
     report.warn("not-converged", "alternating directions stopped after " +
-                                     std::to_string(result.iterations) +
-                                     " iterations above the tolerance");
+                                     counted(result.iterations, "iteration", "iterations") +
+                                     ", above the tolerance: the result is the last iterate. Raise "
+                                     "option max-iterations or option tolerance");
   }
 }
 

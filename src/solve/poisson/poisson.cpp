@@ -242,7 +242,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     const double range = std::max(x.maxCoeff() - x.minCoeff(), 1e-300);
     violation = miss.size() ? miss.cwiseAbs().maxCoeff() / range : 0;
     residual = dx.cwiseAbs().maxCoeff() / range;
-    if (!std::isfinite(residual)) throw SolveError("the constrained Poisson solve broke down");
+    if (!std::isfinite(residual))
+      throw SolveError("the constrained Poisson solve diverged: its values are not finite");
     const bool stalled = step > 0 && violation < 1e-9 && residual < 1e-8 &&
                          (violation > 0.2 * before || residual > 0.2 * residual_before);
     // The next step is as much shorter than this one as this one is than the last.
@@ -254,7 +255,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   if (violation > 1e-8) {
     report.status = "not converged";
     report.warn("constraints-unmet",
-                "the constraints could not be met exactly; the result is their least-squares fit");
+                "the constraints could not be met exactly, as where curves cross in one element; "
+                "the result is their least-squares fit");
   }
   drop_constants(fixed, x);
   return x;

@@ -93,8 +93,8 @@ MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Re
       continue;
     }
     Report& one = of_components.emplace_back(c, Report()).second;
-    const Operators ops =
-        triangle_operators(without_needles(intrinsic_triangulation(part, one), one));
+    const Operators ops = triangle_operators(*without_needles(
+        std::make_shared<const IntrinsicTriangulation>(intrinsic_triangulation(part, one)), one));
     const double share = static_cast<double>(vertices.size()) / mesh.n_vertices();
     const MatX U = all_pairs(ops, options, task.stage(share, "all pairs"), one);
     for (std::size_t j = 0; j < vertices.size(); ++j)

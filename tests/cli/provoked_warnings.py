@@ -279,6 +279,11 @@ def _(folder: Path) -> Words:
     return ["distance", "square.obj", "-s", "s.obj", "--index-base=1", "-o", "a.txt"]
 
 
+@provokes("far-from-exact")
+def _(folder: Path) -> Words:
+    return ["pairs", "square.obj", "--alpha=1", "-o", "a.npy"]
+
+
 @provokes("curvature-raised")
 def _(folder: Path) -> Words:
     side = range(15)

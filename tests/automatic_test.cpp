@@ -8,11 +8,16 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
+#include "api/surface/discretization.h"
 #include "constants.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
+#include "methods/winding/shortest_completion.h"
 #include "one_call.h"
+#include "sources/conform.h"
+#include "sources/curve_ends.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -114,6 +119,58 @@ TEST(Automatic, GapsAreCompletedAndMeasuredAcross) {
       mean_difference(answer(mesh, broken, shortest, {.completion = Completion::shortest}), exact),
       before);
   EXPECT_NEAR(size(shortest, "shortest_completion_length"), missing, 0.4 * missing);
+}
+
+TEST(Automatic, EndsAreThoseThatCuttingFinds) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.3));
+  Report quiet;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, quiet);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> inside(0.15, 0.85);
+  const auto point = [&] { return Vec3(inside(random), inside(random), 0); };
+  int told = 0;
+  for (int i = 0; i < 60; ++i) {
+    Sources sources;
+    MatX3 first(3, 3), second(2, 3);
+    first << point().transpose(), point().transpose(), point().transpose();
+    // From its middle, from its end, from elsewhere, or to the boundary.
+    Vec3 from = point();
+    if (i % 4 < 2) from = first.row(1 + i % 4);
+    const Vec3 to = i % 4 == 3 ? Vec3(0, inside(random), 0) : point();
+    second << from.transpose(), to.transpose();
+    for (const MatX3& line : {first, second})
+      sources.space_curves.push_back(test::space_curve(line).space_curves.front());
+    const PlacedSources placed = place_sources(mesh, sources, quiet);
+    const ConformingCurves cut = conform(mesh, pieces_with_sides(placed));
+    const JumpSurface on(cut.cut.mesh, quiet);
+    const ShortestCompletion::Part part =
+        shortest_completion(*on.J, cut.times, Complete::none, 1, {}, quiet).parts[0];
+    const auto ends = curve_ends(mesh, T, placed);
+    if (!ends) continue;
+    ++told;
+    EXPECT_EQ(ends->of_component[0], part.ends) << i;
+    EXPECT_NEAR(ends->length, part.given * on.T.unit, 1e-9) << i;
+  }
+  EXPECT_GE(told, 50);
+}
+
+TEST(Automatic, EndsThatCuttingMayMergeAreLeftToIt) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.3));
+  Report quiet;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, quiet);
+  const auto told = [&](const Vec3& gap) {
+    MatX3 first(2, 3), second(2, 3);
+    first << 0.3, 0.5, 0, 0.5, 0.52, 0;
+    second << (first.row(1) + gap.transpose()), 0.7, 0.4, 0;
+    Sources sources;
+    for (const MatX3& line : {first, second})
+      sources.space_curves.push_back(test::space_curve(line).space_curves.front());
+    const auto ends = curve_ends(mesh, T, place_sources(mesh, sources, quiet));
+    return ends ? ends->of_component[0] : -1;
+  };
+  EXPECT_EQ(told(Vec3::Zero()), 2);
+  EXPECT_EQ(told(Vec3(0, 1e-10, 0)), -1);
+  EXPECT_EQ(told(Vec3(0, 1e-4, 0)), 4);
 }
 
 TEST(Automatic, ReversedRunsAreOverruled) {

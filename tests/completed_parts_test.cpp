@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <ctime>
 
@@ -49,6 +50,25 @@ TEST(LevelPatch, CornersLieOnTheLevelAndCracksGetNone) {
                         0.05, Task())
                 .faces.rows(),
             0);
+}
+
+TEST(LevelPatch, LooksAtTheLevelSetAndNotAtAllOfTheBox) {
+  const PolygonSoup open = hemisphere(3, false);
+  const MatX3i faces = triangles_of(open);
+  const WindingNumber winding(open.points, faces);
+  const auto rim = boundary_edges(open.points, faces);
+  const auto asked = [&](double spacing) {
+    std::atomic<int> times = 0;
+    const auto inside = [&](const Vec3& x) {
+      ++times;
+      return winding(x, 1e9) - 0.5;
+    };
+    const LevelPatch patch = level_patch(inside, open.points, rim, spacing, Task());
+    // For each triangle a few: corners shared among cells, both sides of it, crossings.
+    EXPECT_LT(times, 14 * patch.faces.rows()) << spacing << " " << patch.faces.rows();
+    return patch.faces.rows();
+  };
+  EXPECT_GT(asked(0.025), 2 * asked(0.05));
 }
 
 TEST(BoundaryEdges, AreThoseOfTheChain) {

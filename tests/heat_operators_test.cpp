@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "domain/cloud/cloud_surface.h"
 #include "domain/mesh/polygon_surface.h"
 #include "domain_shapes.h"
@@ -228,6 +231,28 @@ TEST(HeatOperatorsPlane, ConstantFieldsAreInTheNullSpaceOfTheConnectionLaplacian
         Complex(0.6, 0.8) * std::conj(Complex(side.x(), side.y())) / side.norm();
     EXPECT_NEAR(cells[2 * f], expected.real(), 1e-10);
     EXPECT_NEAR(cells[2 * f + 1], expected.imag(), 1e-10);
+  }
+}
+
+TEST(HeatOperatorsPlane, TwoTrianglesThatShareAVertexArePinchedThere) {
+  // The shared vertex is each corner of the first triangle in turn.
+  for (int k = 0; k < 3; ++k) {
+    PolygonSoup soup;
+    soup.points.resize(5, 3);
+    soup.points << 0, 0, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0, 1, -1, 0;
+    std::array<int, 3> first = {0, 1, 2};
+    std::rotate(first.begin(), first.begin() + k, first.end());
+    soup.add_face(first);
+    test::add_triangle(soup, 0, 3, 4);
+    Report report;
+    const VectorDiffusion V =
+        triangle_operators(intrinsic_triangulation(SurfaceMesh(soup), report)).vector;
+    ASSERT_EQ(V.pinches.size(), 2U) << k;
+    EXPECT_NE(V.pinches[0].piece, V.pinches[1].piece);
+    for (const Pinch& pinch : V.pinches) {
+      EXPECT_EQ(pinch.node, 0);
+      EXPECT_FALSE(pinch.radial.empty());
+    }
   }
 }
 

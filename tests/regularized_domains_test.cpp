@@ -294,6 +294,53 @@ TEST(RegularizedDomains, TrianglesWithoutAreaLeaveTheHessianDefinite) {
   EXPECT_LT((u - d).cwiseAbs().mean(), 0.05 * d.maxCoeff());
 }
 
+TEST(RegularizedDomains, SaddlesLeaveTheHessianAMinimumAtAnyAlpha) {
+  PolygonSoup soup = test::grid_soup(14, 14);
+  for (auto p : soup.points.rowwise()) {
+    p.head<2>() = 2 * p.head<2>().array() - 1;
+    p[2] = 1.5 * (p[0] * p[0] - p[1] * p[1]);
+  }
+  const SurfaceMesh mesh(soup);
+  const VecX d = test::exact(mesh, test::vertex_points({0}));
+  double last = d.mean();
+  for (const std::string alpha : {"0.1", "1", "100"}) {
+    Report report;
+    const VecX u = test::surface_distance(
+        mesh, test::vertex_points({0}),
+        AnyMethod::named("regularized", {{"regularizer", "hessian"}, {"alpha", alpha}}), report);
+    EXPECT_EQ(report.status, "converged") << alpha;
+    EXPECT_EQ(report.warnings.size(), alpha == "0.1" ? 0U : 1U) << alpha;
+    EXPECT_GE(u.minCoeff(), 0) << alpha;
+    EXPECT_LE((u - 1.02 * d).maxCoeff(), 1e-9) << alpha;
+    EXPECT_LT(u.mean(), 1.01 * last) << alpha;  // the more smoothing, the less
+    last = u.mean();
+  }
+  EXPECT_GT(last, 1e-3 * d.mean());
+}
+
+TEST(RegularizedDomains, PolygonsWithoutAreaAreAsLongAsTheyAre) {
+  // The second polygon is a segment: its corners are at two places.
+  PolygonSoup soup;
+  soup.points.resize(10, 3);
+  soup.points << 0, 0, 0.026, 1, 0, 0.198, 0, 1. / 3, 0.121, 0, 1. / 3, 0.121, 0, 2. / 3, 0.163, 0,
+      2. / 3, 0.163, 0, 1, 0.085, 1, 1, 0.024, 0, 0.7, 0.155, 0.848, 0.934, 0.404;
+  for (const std::vector<int>& corners :
+       {std::vector<int>{0, 1, 3, 2}, {2, 3, 5, 4}, {4, 5, 7, 6, 8}, {0, 1, 9}})
+    soup.add_face(corners);
+  const SurfaceMesh mesh(soup);
+  for (const int from : {4, 5}) {
+    Report report;
+    const VecX u = test::surface_distance(mesh, test::vertex_points({from}),
+                                          BelyaevFayolle{.tolerance = 1e-4}, report);
+    EXPECT_EQ(report.status, "converged");
+    EXPECT_NEAR(u[4], u[5], 1e-5);
+    EXPECT_NEAR(u[2], u[3], 1e-5);
+    const double length = (mesh.point(2) - mesh.point(4)).norm();
+    EXPECT_NEAR(u[2], length, 1e-3 * length);
+    EXPECT_TRUE(u.allFinite());
+  }
+}
+
 TEST(BoundaryCurves, LoopsThatTouchAndFacesThatRepeatAVertex) {
   PolygonSoup soup = test::grid_soup(2, 1);
   soup.points.conservativeResize(soup.points.rows() + 2, 3);

@@ -236,7 +236,6 @@ void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
   V.piece = edges.numbered(V.n_pieces, {T.edge_use.begin(), T.edge_use.end()});
   if (V.n_pieces == T.n_components) return;  // nothing touches at vertices only
 
-  std::vector<std::pair<int, int>> corners;  // (vertex, face), for vertices of several pieces
   std::vector<int> seen(T.n_vertices, -1);
   std::vector<char> pinched(T.n_vertices, 0);
   for (int f = 0; f < T.n_faces(); ++f)

@@ -279,6 +279,23 @@ def _(folder: Path) -> Words:
     return ["distance", "square.obj", "-s", "s.obj", "--index-base=1", "-o", "a.txt"]
 
 
+@provokes("far-from-exact")
+def _(folder: Path) -> Words:
+    return ["pairs", "square.obj", "--alpha=1", "-o", "a.npy"]
+
+
+@provokes("curvature-raised")
+def _(folder: Path) -> Words:
+    side = range(15)
+    places = [(i / 7 - 1, j / 7 - 1) for j in side for i in side]
+    lines = [f"v {x} {y} {1.5 * (x * x - y * y)}" for x, y in places]
+    for a in (15 * j + i + 1 for j in side[:-1] for i in side[:-1]):
+        lines += [f"f {a} {a + 1} {a + 16}", f"f {a} {a + 16} {a + 15}"]
+    (folder / "saddle.obj").write_text("\n".join(lines))
+    method = ["--method", "regularized", "--regularizer", "hessian", "--alpha", 1]
+    return ["distance", folder / "saddle.obj", "--vertex", 0, *method, "-o", folder / "out.csv"]
+
+
 @provokes("direction-missing")
 def _(folder: Path) -> Words:
     rows = ["1 0 0\n"] * 200

@@ -2,6 +2,7 @@
 
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_surface.h"
+#include "domain/intrinsic/lengthened_sides.h"
 #include "domain/mesh/face_orientation.h"
 #include "domain/mesh/polygon_surface.h"
 #include "operators/nodal.h"
@@ -62,7 +63,8 @@ std::shared_ptr<const IntrinsicTriangulation> triangulation_of(const SurfaceDoma
 }
 
 SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report,
-                                             std::shared_ptr<const IntrinsicTriangulation> T)
+                                             std::shared_ptr<const IntrinsicTriangulation> T,
+                                             Needles needles)
     : domain_(std::move(domain)), T_(std::move(T)) {
   task.checkpoint();
   if (domain_.kind() == "polygon mesh") {
@@ -77,10 +79,12 @@ SurfaceDiscretization::SurfaceDiscretization(SurfaceDomain domain, Task task, Re
   }
   if (domain_.kind() == "triangle mesh") {
     if (!T_) T_ = triangulation_of(domain_, report);
+    if (needles == Needles::thicker) T_ = without_needles(T_, report);
   } else {
     const Stopwatch watch(report, "triangulation");
-    nodal_ = std::make_shared<const NodalSurface>(
-        nodal_surface(domain_, task.stage(0.5, "triangulation"), report));
+    NodalSurface nodal = nodal_surface(domain_, task.stage(0.5, "triangulation"), report);
+    if (needles == Needles::thicker) nodal.cells = without_needles(nodal.cells, report);
+    nodal_ = std::make_shared<const NodalSurface>(std::move(nodal));
   }
   const Task stage = task.stage(0.5, "operators");
   stage.checkpoint();

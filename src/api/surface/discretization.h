@@ -40,13 +40,17 @@ struct CutPolygons {
 };
 CutPolygons cut_into_triangles(const SurfaceDomain& domain, Report& report);
 
+/// Thin triangles as they are, or made less thin (`without_needles`).
+enum class Needles { given, thicker };
+
 /// Operators of any surface; immutable. Vectors live on edges of triangle meshes and at nodes
 /// elsewhere. Nodes need normals: polygon meshes that are not orientable are cut into triangles.
 class SurfaceDiscretization {
  public:
   /// T: the triangulation of a triangle mesh, if it is there already.
   SurfaceDiscretization(SurfaceDomain domain, Task task, Report& report,
-                        std::shared_ptr<const IntrinsicTriangulation> T = nullptr);
+                        std::shared_ptr<const IntrinsicTriangulation> T = nullptr,
+                        Needles needles = Needles::given);
 
   const SurfaceDomain& domain() const { return domain_; }
   const std::shared_ptr<const Operators>& operators() const { return ops_; }

@@ -112,9 +112,7 @@ class RegularizedTriangles {
  public:
   RegularizedTriangles(SurfaceDomain domain, const Regularized& options, const Task& task,
                        Report& report)
-      : domain_(std::move(domain)),
-        T_(std::make_shared<const IntrinsicTriangulation>(
-            without_needles(*triangulation_of(domain_, report), report))) {
+      : domain_(std::move(domain)), T_(without_needles(triangulation_of(domain_, report), report)) {
     const Stopwatch watch(report, "factor");
     const auto regularizer = options.alpha > 0 ? options.regularizer : Regularizer::dirichlet;
     if (options.elements == Elements::quadratic) {
@@ -170,7 +168,8 @@ class RegularizedNodes {
  public:
   RegularizedNodes(const SurfaceDomain& domain, const Regularized& options, Task task,
                    Report& report)
-      : surface_((check(domain.kind(), options), domain), task.stage(0.5, "operators"), report) {
+      : surface_((check(domain.kind(), options), domain), task.stage(0.5, "operators"), report,
+                 nullptr, Needles::thicker) {
     const Stopwatch watch(report, "factor");
     method_ =
         std::make_shared<const RegularizedSolver>(surface_.operators(), Regularizer::dirichlet,

@@ -1,6 +1,7 @@
 #include "api/surface/whole_curves.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "methods/winding/shortest_completion.h"
 #include "sources/completed_curves.h"
 #include "sources/conform.h"
+#include "sources/curve_ends.h"
 #include "sources/source_values.h"
 #include "sources/straighten.h"
 #include "sources/surface_points.h"
@@ -34,6 +36,13 @@ void append_chains(const SurfaceMesh& mesh, const CutMesh& cut,
       goes_on = append_step(mesh, simplest(mesh, cut.point[chain[i]]),
                             simplest(mesh, cut.point[chain[i + 1]]), goes_on, to);
   }
+}
+
+void report_lengths(double given, int ends, double added, double overruled, Report& report) {
+  report.sizes.emplace_back("given_length", given);
+  report.sizes.emplace_back("curve_ends", ends);
+  report.sizes.emplace_back("shortest_completion_length", added);
+  report.sizes.emplace_back("overruled_length", overruled);
 }
 
 }  // namespace
@@ -103,7 +112,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
   };
   const Stopwatch watch(report, "completion");
   std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 0);
-  if (how != Completion::heat && has_regions_)
+  if (how != Completion::heat && has_regions_ && !all_have_ends(placed, how, report))
     settled = settle(placed, how, whole, task.stage(0.4, "integer winding numbers"), report);
   std::vector<char> open(settled.size(), 0);
   for (const CurvePiece& piece : placed.pieces) {
@@ -119,6 +128,18 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
   complete_by_heat(given, placed, open, whole, task.stage(0.6, "signed heat"), report);
   whole.by = Completion::heat;
   return finish();
+}
+
+bool WholeCurves::all_have_ends(const PlacedSources& placed, Completion how, Report& report) const {
+  if (how != Completion::automatic) return false;
+  const std::optional<CurveEnds> ends = curve_ends(*domain_.mesh, *T_, placed);
+  if (!ends) return false;
+  for (const CurvePiece& piece : placed.pieces)
+    if (piece.is_signed && ends->of_component[component_of(piece.face)] == 0) return false;
+  report_lengths(ends->length,
+                 std::accumulate(ends->of_component.begin(), ends->of_component.end(), 0), 0, 0,
+                 report);
+  return true;
 }
 
 std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion how,
@@ -147,10 +168,7 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
     added += part.added * unit;
     overruled += part.overruled * unit;
   }
-  report.sizes.emplace_back("given_length", given);
-  report.sizes.emplace_back("curve_ends", ends);
-  report.sizes.emplace_back("shortest_completion_length", added);
-  report.sizes.emplace_back("overruled_length", overruled);
+  report_lengths(given, ends, added, overruled, report);
   std::vector<char> completed(found.labels.parts.size(), 0);
   for (int t = 0; t < found.on->J->n_faces; ++t) {
     const int part = found.on->J->component[t];

@@ -37,6 +37,8 @@ class WholeCurves {
  private:
   struct Labelled;
   Labelled labelled(const std::vector<CurvePiece>& pieces, Complete which, const Task& task) const;
+  /// Do curves have ends wherever they are, so that no integer winding numbers settle their sides?
+  bool all_have_ends(const PlacedSources& placed, Completion how, Report& report) const;
   std::vector<char> settle(const PlacedSources& placed, Completion how, WholeSources& whole,
                            Task task, Report& report) const;
   bool straighten_completion(const Labelled& zigzag, const std::vector<char>& settled,

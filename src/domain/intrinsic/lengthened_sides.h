@@ -1,6 +1,8 @@
 #pragma once
 // Triangles made less thin by longer sides.
 
+#include <memory>
+
 #include "domain/intrinsic/intrinsic_triangulation.h"
 
 namespace littoral {
@@ -11,7 +13,8 @@ namespace littoral {
 int lengthen_sides(IntrinsicTriangulation& T, double margin);
 
 /// The same by up to a millionth, with a warning: for methods that iterate with the factor of a
-/// matrix, whose entries range over the square of what sides do.
-IntrinsicTriangulation without_needles(IntrinsicTriangulation T, Report& report);
+/// matrix, whose entries range over the square of what sides do. T itself where none is that thin.
+std::shared_ptr<const IntrinsicTriangulation> without_needles(
+    std::shared_ptr<const IntrinsicTriangulation> T, Report& report);
 
 }  // namespace littoral

@@ -122,6 +122,7 @@ AdmmResult RegularizedSolver::minimize(const KnownDistances& known, const Regula
     all.primal = std::max(all.primal, one.primal);
     all.dual = std::max(all.dual, one.dual);
     all.largest = std::max(all.largest, one.largest);
+    all.convexified = std::max(all.convexified, one.convexified);
     all.iterations += one.iterations;
     all.converged = all.converged && one.converged;
     one.u = VecX();
@@ -144,6 +145,12 @@ VecX RegularizedSolver::solve(const KnownDistances& known, const Regularized& op
   AdmmState own;
   const AdmmResult result = minimize(known, options, state ? *state : own, task);
   report_admm(result, report);
+  if (result.convexified > 0)
+    report.warn("curvature-raised",
+                "the Hessian energy is negative for functions that bend with saddles of the "
+                "surface, and option alpha so large that it has no least value: " +
+                    rounded_text(result.convexified / (ops_->unit * ops_->unit)) +
+                    " was added to the Gaussian curvature");
   return finalize_field(ops_->scalar.component, ops_->scalar.n_components, ops_->unit,
                         reached(known), result.u.cwiseMax(0.0), report);
 }

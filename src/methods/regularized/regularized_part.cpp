@@ -120,16 +120,28 @@ std::vector<SpMat> split_matrix(const SpMat& lower, const std::vector<int>& comp
 /// Throws SolveError where the curved Hessian's energy outweighs the penalty with the wrong sign.
 ConstrainedSystem::Constrained with_hessian(const SpMat& matrix, const Calculus& C,
                                             const Held& held, double rho, const Task& task) {
-  try {
-    return ConstrainedSystem(matrix, C.component, C.n_components, task,
-                             ConstrainedSystem::Rows::many)
-        .constrain(held.rows, task, held.give / rho);
-  } catch (const SolveError&) {
-    throw SolveError(
-        "the Hessian energy has no minimum: it is negative for functions that bend with saddles of "
-        "the surface, and option alpha is so large that nothing outweighs that; take a smaller "
-        "one");
+  return ConstrainedSystem(matrix, C.component, C.n_components, task, ConstrainedSystem::Rows::many)
+      .constrain(held.rows, task, held.give / rho);
+}
+
+/// The least c, to a fifth, with which W + c L is definite where what is known is held.
+double least_convex(const SpMat& W, const Calculus& C, const Held& held, const Task& task) {
+  const auto definite = [&](double c) {
+    try {
+      with_hessian(SpMat(W + c * C.L), C, held, c, task);
+      return true;
+    } catch (const SolveError&) {
+      return false;
+    }
+  };
+  double high = 1e-6 * W.diagonal().cwiseAbs().sum() / C.L.diagonal().sum();
+  for (int i = 0; i < 30 && !definite(high); ++i) high *= 4;
+  double low = high / 4;
+  for (int i = 0; i < 3; ++i) {
+    const double middle = std::sqrt(low * high);
+    (definite(middle) ? high : low) = middle;
   }
+  return high;
 }
 
 LinearMap as_map(SpRows matrix) {
@@ -217,16 +229,30 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
   ConstrainedSystem::Constrained constrained;
   double constrained_rho = -1;  // Hessian: the penalty for which `constrained` was factored
   if (regularizer_ == Regularizer::hessian) {
-    const SpMat& W = data_->W;
-    problem.quadratic = [&W, alpha](const VecX& u) { return VecX(alpha * times(W, u)); };
+    SpMat W = alpha * data_->W;
+    problem.quadratic = [&W](const VecX& u) { return times(W, u); };
     problem.solve = [&](const VecX& b, double rho) {
       if (rho != constrained_rho) {
-        constrained = with_hessian(SpMat(alpha * W + rho * C.L), C, held, rho, task);
+        constrained = with_hessian(SpMat(W + rho * C.L), C, held, rho, task);
         constrained_rho = rho;
       }
       return constrained.solve(b);
     };
     admm_options.penalty_changes = 8;
+    const AdmmState start = state;
+    try {
+      return admm(problem, admm_options, state, task);
+    } catch (const SolveError&) {
+      // On saddles the energy is negative for functions that bend with them, and not convex. More
+      // curvature makes it so, and where |grad u| = 1 the same constant is added for all u.
+      const double more = least_convex(W, C, held, task);
+      W += more * C.L;
+      constrained_rho = -1;
+      state = start;
+      AdmmResult result = admm(problem, admm_options, state, task);
+      result.convexified = more / alpha;
+      return result;
+    }
   } else {
     constrained = laplacian(task)->constrain(held.rows, task, held.give);
     const double in_quadratic = first_algorithm ? alpha : 0;

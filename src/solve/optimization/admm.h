@@ -58,7 +58,8 @@ struct AdmmResult {
   double largest = 0;           // largest gauge of G u: 1.01 means a gradient 1 % too long
   int iterations = 0;
   bool converged = false;
-  int component = 0;              // of a problem that is one of several parts
+  double convexified = 0;  // multiple of the sum of A |G u|^2 / 2 that was added to the energy
+  int component = 0;       // of a problem that is one of several parts
   std::vector<AdmmResult> parts;  // of a problem that falls into parts: theirs, without u; what is
                                   // above is then the sum or the worst of them
 };

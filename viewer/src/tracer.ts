@@ -6,7 +6,7 @@ import type { SceneData, Trace, Triple, Volume } from "./scene";
 import { makeTree, width } from "./tori-tree";
 import { screenVertex, showFragment, traceFragment } from "./trace-shader";
 
-const quick = 25, strip = 30, rest = 150;  // milliseconds
+const quick = 25, strip = 30, longestStrip = 300, rest = 150;  // milliseconds
 
 type Numbers = Float32Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
 
@@ -69,6 +69,7 @@ export class Tracer {
   private dirty = true;
   private rows = 0;
   private changedAt = 0;
+  private endedAt = 0;  // when the last strip was traced
   private perRow = strip / 16;
   private last = "";
 
@@ -164,11 +165,14 @@ export class Tracer {
       this.scale = Math.min(1, Math.max(0.06, this.scale * Math.sqrt(quick / Math.max(1, took))));
     } else if (this.rows < size.y && now - this.changedAt > rest) {
       if (this.rows === 0) this.full.setSize(size.x, size.y);
-      const next = Math.min(size.y, this.rows + Math.max(1, Math.floor(strip / this.perRow)));
+      // Each strip is shown by a frame: where frames are slow, strips take as long as they do.
+      const wanted = Math.min(longestStrip, Math.max(strip, now - this.endedAt));
+      const next = Math.min(size.y, this.rows + Math.max(1, Math.floor(wanted / this.perRow)));
       this.perRow = Math.max(0.01, this.run(this.full, this.rows, next) / (next - this.rows));
       this.rows = next;
     }
     shown.fullRows.value = this.rows;
+    this.endedAt = performance.now();
     shown.eye.value.copy(uniforms.eye.value);
     shown.rays.value.copy(uniforms.rays.value);
     return this.rows < size.y;

@@ -20,7 +20,7 @@ venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
 test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
-long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate studies single aarch64)
+long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate firefox studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
 # Suites that take longer than a few seconds each; `quick` leaves them out.
@@ -111,12 +111,15 @@ stage_fuzz() {
   with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-10}"
 }
 
-stage_viewer() {
+# The viewer's tests on pages of this build; arguments: what they are run by.
+viewer_tests() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
   build_release &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
-    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" npm test)
+    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" "$@" npm test)
 }
+
+stage_viewer() { viewer_tests env; }
 
 # The package for JavaScript and the studio beside the program, in Node and in Chromium.
 stage_web() {
@@ -182,6 +185,16 @@ many_cases() {
 stage_mutate() {
   build_release --target littoral_tests &&
     "$venv/python" scripts/mutate.py --count "${MUTATIONS:-100}" --seed "${MUTATE_SEED:-1}"
+}
+
+# The same in Firefox, on a display that nobody sees.
+stage_firefox() {
+  local firefox
+  if firefox=$(command -v firefox-esr || command -v firefox) && command -v xvfb-run >/dev/null; then
+    viewer_tests env FIREFOX="$firefox" xvfb-run -a
+  else
+    printf '%s\n' "Firefox or xvfb-run is not installed" "# skipped 1"
+  fi
 }
 
 stage_studies() { build bench; }  # benchmarks and studies compile

@@ -144,6 +144,28 @@ TEST(SceneStyle, NiceSpacing) {
   EXPECT_TRUE(io::nice_ticks(0, 1, 1e-9).empty());
 }
 
+// Shown first or among others, and where it is nothing but 0 and 1.
+TEST(SceneStyle, ConfidenceHasColoursFromZeroToOne) {
+  io::Scene scene = io::make_scene(test::octasphere_soup(4));
+  scene.field_name = "confidence";
+  for (const double least : {0.5, 0.0}) {
+    scene.values =
+        (scene.points.col(0).array() > 0.3).select(VecX::Ones(scene.points.rows()), least);
+    for (const io::FieldStyle& style :
+         {io::field_style(scene), io::field_style(scene, {"confidence", scene.values}),
+          io::field_style(scene.values, "confidence")}) {
+      EXPECT_FALSE(style.discrete);
+      EXPECT_FALSE(style.diverging);
+      EXPECT_EQ(style.colour_low, 0);
+      EXPECT_EQ(style.colour_high, 1);
+    }
+  }
+  scene.colour_range = {0.4, 0.6};
+  EXPECT_EQ(io::field_style(scene).colour_low, 0.4);
+  scene.values *= 100;  // of another program, in percent
+  EXPECT_EQ(io::field_style(scene.values, "confidence").colour_high, 100);
+}
+
 TEST(SceneStyle, SequentialMapsGetSteadilyLighterOrDarker) {
   for (const io::ColourMap map :
        {io::ColourMap::sequential, io::ColourMap::viridis, io::ColourMap::cividis,

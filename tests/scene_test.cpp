@@ -305,7 +305,8 @@ TEST_F(PageTest, RefusesBadScenesAndPaths) {
   EXPECT_THROW(io::write_page("/nonexistent-folder/page.html", sphere_scene()), IoError);
 }
 
-// What a picture shows at vertices in sight, for the browser's test to compare the page with.
+// What a picture shows in sight at vertices, or at the middles of faces where each has a light of
+// its own, for the browser's test to compare the page with: place, red, green, blue.
 nlohmann::json picture_colours(io::Scene scene) {
   scene.curves.clear();
   scene.source_points.resize(0, 3);
@@ -315,14 +316,24 @@ nlohmann::json picture_colours(io::Scene scene) {
   const io::Camera camera =
       io::fit_camera(scene, options, {margin, margin, 640 - margin, 640 - margin});
   const Vec3 eye = io::scene_frame(scene).towards_eye;
+  MatX3 places = scene.points;
+  if (scene.shading == io::Shading::flat) {
+    places.resize(scene.triangles.rows(), 3);
+    for (Eigen::Index t = 0; t < places.rows(); ++t) {
+      const Eigen::RowVector3i corners = scene.triangles.row(t);
+      places.row(t) = (scene.points.row(corners[0]) + scene.points.row(corners[1]) +
+                       scene.points.row(corners[2])) /
+                      3;
+    }
+  }
   nlohmann::json seen = nlohmann::json::array();
-  for (Eigen::Index v = 0; v < scene.points.rows(); v += 3) {
-    const Vec3 p = scene.points.row(v);
+  for (Eigen::Index v = 0; v < places.rows(); v += 3) {
+    const Vec3 p = places.row(v);
     if (p.dot(eye) < 0.5) continue;
     const Vec3 at = camera.project(p);
     const auto i =
         3 * static_cast<std::size_t>(static_cast<int>(at[1]) * 640 + static_cast<int>(at[0]));
-    seen.push_back({v, image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+    seen.push_back({p[0], p[1], p[2], image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
   }
   return seen;
 }
@@ -346,11 +357,18 @@ TEST_F(PageTest, WritesThePageForTheBrowserTest) {
                  {"value", io::label_text(scene.values[vertex])}};
   scene.nodes = io::SceneNodes::faces;
   scene.warnings = {"a <b>warning</b>"};
+  const VecX sureness = 0.3 + 0.6 * scene.points.col(1).array().square();
+  scene.more = {{"confidence", sureness}};
   const char* out = std::getenv("LITTORAL_PAGE_OUT");
   io::write_page(out ? fs::path(out) : path, scene);
   if (out) {
-    // Also of other kinds of shading, and as discs.
+    // Also of another field, of other kinds of shading, and as discs.
     nlohmann::json colours = {{"smooth", picture_colours(scene)}};
+    io::Scene sure = scene;
+    sure.values = scene.more[0].values;
+    sure.field_name = "confidence";
+    sure.isolines = 0;
+    colours["confidence"] = picture_colours(sure);
     io::Scene other = dented(scene);
     io::write_page(std::string(out) + ".dented.html", other);
     for (const auto& [name, shading] :

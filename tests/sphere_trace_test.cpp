@@ -13,8 +13,10 @@
 #include "base/parallel.h"
 #include "constants.h"
 #include "field_helpers.h"
+#include "io/render/camera.h"
 #include "io/render/picture.h"
 #include "littoral/error.h"
+#include "test_meshes.h"
 
 namespace littoral {
 namespace {
@@ -154,6 +156,30 @@ TEST(TracedScene, PicturesShowTheSurfaceForAnyNumberOfThreads) {
   EXPECT_EQ(image.rgb, one.rgb);
 }
 
+// Half a cell thick and far out: the grid does not see it, the rays do, and so must the picture.
+TEST(TracedScene, ThinPartsAreInThePicture) {
+  PolygonSoup soup = test::octasphere_soup(3);
+  const double thin = 0.004;
+  const int first = soup.n_vertices();
+  soup.points.conservativeResize(first + 4, 3);
+  soup.points.bottomRows(4) << 0, -thin, 0.5, 0, thin, 0.5, thin, 0, 0.5, 0, 0, 3;
+  for (const std::array<int, 3>& f :
+       {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{2, 0, 3}})
+    soup.add_face(std::array{first + f[0], first + f[1], first + f[2]});
+  CsgShapes shapes = shapes_of(std::move(soup));
+  shapes.all[0].request.method = {};
+  const io::Scene scene = scene_of(shapes, {}, 24);
+  double reach = 0;
+  for (const int v : scene.triangles.reshaped()) reach = std::max(reach, scene.points(v, 2));
+  EXPECT_EQ(reach, 3);
+  TracedView shrunk;
+  shrunk.level = -0.2;  // it is gone
+  const io::Scene less = scene_of(shapes, shrunk, 24);
+  reach = 0;
+  for (const int v : less.triangles.reshaped()) reach = std::max(reach, less.points(v, 2));
+  EXPECT_LT(reach, 1);
+}
+
 TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
   const io::PictureOptions options{.width = 80,
                                    .height = 80,
@@ -188,6 +214,66 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
   grown.level = 0.1;
   const io::Scene fat = traced_scene(shapes, grid, grown, {}, report);
   EXPECT_NEAR(fat.trace->hit({0.8, 0, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal), 2.6, 0.01);
+}
+
+// Half of the sky is seen from a wall's foot, and a little more beside a slice that soon ends.
+TEST(TracedScene, OccludedShadingDarkensTheCornerBesideTheSlice) {
+  TracedView view;
+  view.position = 0;
+  io::Scene scene = scene_of(shapes_of(torus_cloud(2000)), view, 49);  // there are nodes at 0
+  scene.isolines = 0;
+  const io::PictureOptions options{.width = 240,
+                                   .height = 180,
+                                   .towards_eye = Vec3(1, 0, 0.7),
+                                   .up = Vec3::UnitZ(),
+                                   .supersampling = 1,
+                                   .colour_bar = false};
+  const double margin = 0.04 * 180 + 4;
+  const io::Camera camera =
+      io::fit_camera(scene, options, {margin, margin, 240 - margin, 180 - margin});
+  const auto look = [&](io::Shading shading, const Vec3& place) {
+    scene.shading = shading;
+    const io::Image image = draw_picture(scene, options);
+    const Vec3 at = camera.project(place);
+    return double(
+        image.rgb[3 * (static_cast<std::size_t>(at[0]) + 240 * static_cast<std::size_t>(at[1]))]);
+  };
+  const auto part = [&](const Vec3& place) {
+    return look(io::Shading::occluded, place) / look(io::Shading::smooth, place);
+  };
+  const auto outside = [](double z) { return Vec3(0.8 + std::sqrt(0.09 - z * z), 0, z); };
+  EXPECT_LT(part(outside(0.04)), 0.85);
+  EXPECT_GT(part(outside(0.04)), 0.6);
+  EXPECT_GT(part(outside(0.299)), 0.93);
+  EXPECT_LT(part({1.13, 0, 0}), 0.85);  // and of the slice beside it
+  // Without a slice, the hole is darker than the outside.
+  scene = scene_of(shapes_of(torus_cloud(2000)), {}, 48);
+  const io::PictureOptions above{.width = 240,
+                                 .height = 240,
+                                 .towards_eye = Vec3::UnitZ(),
+                                 .up = Vec3::UnitY(),
+                                 .colour_bar = false};
+  const auto mean = [&](io::Shading shading, bool inner) {
+    scene.shading = shading;
+    const io::Image image = draw_picture(scene, above);
+    double sum = 0, count = 0;
+    for (int y = 0; y < 240; ++y) {
+      for (int x = 0; x < 240; ++x) {
+        const double r = std::hypot(x - 119.5, y - 119.5) / 110 * 1.1;
+        const int red = image.rgb[static_cast<std::size_t>(3 * (x + 240 * y))];
+        if (red > 240 || r > 1 || (inner ? r > 0.65 : r < 0.85)) continue;
+        sum += red;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 1000);
+    return sum / count;
+  };
+  const auto shade = [&](bool inner) {
+    return mean(io::Shading::occluded, inner) / mean(io::Shading::smooth, inner);
+  };
+  EXPECT_LT(shade(true), shade(false) - 0.05);
+  EXPECT_GT(shade(false), 0.9);
 }
 
 TEST(TracedScene, BadRequestsAreNamed) {

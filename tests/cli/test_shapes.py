@@ -159,6 +159,27 @@ def test_traced_pictures_show_the_shape(run: Run, balls: Path) -> None:
     assert '"trace"' in (balls / "a.html").read_text()
 
 
+def test_united_clouds_are_traced_in_one_picture(run: Run, balls: Path) -> None:
+    how = ("--trace", "--view", "z", "--up", "y", "--width", 120, "--height", 90)
+    run("render", "a.xyz", "--unite", "b.xyz", *how, "-o", "u.png")
+    rows = pixels(balls / "u.png")
+    ink = sum(row[3 * x] < 240 for row in rows for x in range(120))
+    across = sum(rows[45][3 * x] < 240 for x in range(120))
+    area = 2 * math.pi - (2 * math.pi / 3 - math.sqrt(3) / 2)  # of two discs, three across
+    assert ink == pytest.approx(area / 9 * across**2, rel=0.06)
+
+    # The groove where they meet sees less of the sky than what bulges out.
+    run("render", "a.xyz", "--unite", "b.xyz", *how, "--shading", "occluded", "-o", "o.png")
+    dark = pixels(balls / "o.png")
+    shade = [d / s for d, s in zip(dark[45], rows[45], strict=True)][::3]
+    first = next(x for x in range(120) if rows[45][3 * x] < 240)
+    groove, bulge = first + across // 2, first + across // 3
+    assert min(shade[groove - 2 : groove + 3]) < 0.95
+    assert shade[bulge - 8] > 0.97
+    run("view", "a.xyz", "--trace", "--shading", "occluded", "-o", "o.html")
+    assert '"shading":"occluded"' in (balls / "o.html").read_text().replace(" ", "")
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -11,6 +11,7 @@ import { ResultView, ViewError } from "./view";
 import { connectVolume } from "./volume-controls";
 
 function fail(text: string): void {
+  document.documentElement.dataset.theme ??= window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   element("message").textContent = text;
   element("message").hidden = false;
 }

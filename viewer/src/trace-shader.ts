@@ -181,7 +181,8 @@ precision highp sampler2D;
 precision highp sampler3D;
 in vec2 place;
 out vec4 result;
-uniform sampler2D hits;
+uniform sampler2D coarse, full;
+uniform int fullRows;    // from below, that are traced in full
 uniform vec3 eye;
 uniform mat3 rays;
 uniform sampler2D colours;
@@ -192,8 +193,10 @@ uniform bool occluded;
 uniform sampler3D openness;  // on the grid
 uniform vec3 origin, spacing;
 void main() {
-  ivec2 size = textureSize(hits, 0);
-  vec4 hit = texelFetch(hits, min(ivec2((0.5 * place + 0.5) * vec2(size)), size - 1), 0);
+  ivec2 size = textureSize(full, 0), few = textureSize(coarse, 0);
+  ivec2 at = min(ivec2((0.5 * place + 0.5) * vec2(size)), size - 1);
+  vec4 hit = at.y < fullRows ? texelFetch(full, at, 0)
+    : texelFetch(coarse, min(ivec2((0.5 * place + 0.5) * vec2(few)), few - 1), 0);
   if (!(hit.x > 0.0)) discard;  // nothing there, or not traced yet
   vec3 x = eye + hit.x * normalize(rays[0] * place.x + rays[1] * place.y + rays[2]);
   vec3 seen = (view * vec4(x, 1.0)).xyz, towards = dot(hit.yzw, x - eye) > 0.0 ? -hit.yzw : hit.yzw;

@@ -1,12 +1,12 @@
 // The surface of a cloud, traced through its tori in a fragment shader. While the view or a slider
-// moves, it is traced at as few pixels as the machine can do at once; at rest, strip by strip at all.
+// moves, it is traced at as few pixels as the machine can do at once; at rest, strip by strip from below, at all.
 import * as THREE from "three";
 import type { Look } from "./look";
 import type { SceneData, Trace, Triple, Volume } from "./scene";
 import { makeTree, width } from "./tori-tree";
 import { screenVertex, showFragment, traceFragment } from "./trace-shader";
 
-const quick = 25, strip = 30, rest = 150;  // milliseconds
+const quick = 25, strip = 30, longestStrip = 300, rest = 150;  // milliseconds
 
 type Numbers = Float32Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
 
@@ -69,6 +69,7 @@ export class Tracer {
   private dirty = true;
   private rows = 0;
   private changedAt = 0;
+  private endedAt = 0;  // when the last strip was traced
   private perRow = strip / 16;
   private last = "";
 
@@ -101,7 +102,7 @@ export class Tracer {
       rays: { value: new THREE.Matrix3() },
     };
     this.shown = {
-      hits: { value: null as THREE.Texture | null }, eye: { value: new THREE.Vector3() }, rays: { value: new THREE.Matrix3() },
+      coarse: { value: this.coarse.texture }, full: { value: this.full.texture }, fullRows: { value: 0 }, eye: { value: new THREE.Vector3() }, rays: { value: new THREE.Matrix3() },
       colours: look.uniforms.colours, plainColour: look.uniforms.plainColour, colourAt: { value: -1 },
       view: { value: new THREE.Matrix4() }, toScreen: { value: new THREE.Matrix4() },
       occluded: { value: false }, openness: { value: openTexture([1, 1, 1], Uint8Array.from([128, 128, 128, 255])) },
@@ -162,14 +163,16 @@ export class Tracer {
       const took = this.run(this.coarse, 0, this.coarse.height);
       this.perRow = Math.max(0.01, took / this.coarse.height / this.scale);
       this.scale = Math.min(1, Math.max(0.06, this.scale * Math.sqrt(quick / Math.max(1, took))));
-      shown.hits.value = this.coarse.texture;
     } else if (this.rows < size.y && now - this.changedAt > rest) {
       if (this.rows === 0) this.full.setSize(size.x, size.y);
-      const next = Math.min(size.y, this.rows + Math.max(1, Math.floor(strip / this.perRow)));
+      // Each strip is shown by a frame: where frames are slow, strips take as long as they do.
+      const wanted = Math.min(longestStrip, Math.max(strip, now - this.endedAt));
+      const next = Math.min(size.y, this.rows + Math.max(1, Math.floor(wanted / this.perRow)));
       this.perRow = Math.max(0.01, this.run(this.full, this.rows, next) / (next - this.rows));
       this.rows = next;
-      if (this.rows === size.y) shown.hits.value = this.full.texture;
     }
+    shown.fullRows.value = this.rows;
+    this.endedAt = performance.now();
     shown.eye.value.copy(uniforms.eye.value);
     shown.rays.value.copy(uniforms.rays.value);
     return this.rows < size.y;

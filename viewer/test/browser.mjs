@@ -31,13 +31,17 @@ let running = null, open = 0, ending = 0;
 export const firefox = process.env.FIREFOX;
 /// Of tests that need what playwright offers of Chromium alone: downloads, touches, the clipboard.
 export const chromiumOnly = { skip: firefox ? "needs Chromium" : false };
-const launch = (extraFlags) => firefox
-  ? playwright._bidiFirefox.launch({ executablePath: firefox, headless: false, firefoxUserPrefs: { "webgl.force-enabled": true } })
+// Firefox takes the scheme from its profile: what drives it cannot change that of a page.
+const launch = (extraFlags, scheme) => firefox
+  ? playwright._bidiFirefox.launch({
+    executablePath: firefox, headless: false,
+    firefoxUserPrefs: { "webgl.force-enabled": true, "layout.css.prefers-color-scheme.content-override": scheme === "dark" ? 0 : 1 },
+  })
   : playwright.chromium.launch({ executablePath: executable(), args: [...flags, ...extraFlags] });
 
 async function contextOf(extraFlags, options) {
-  if (extraFlags.length > 0) {
-    const browser = await launch(extraFlags);
+  if (extraFlags.length > 0 || (firefox && options.colorScheme === "dark")) {
+    const browser = await launch(extraFlags, options.colorScheme);
     return { context: await browser.newContext(options), end: () => browser.close() };
   }
   clearTimeout(ending);

@@ -308,9 +308,10 @@ test("large volumes get their surface, at every node, from a worker", async () =
 test("damaged and foreign scenes give a message", async () => {
   const bad = { ...scene(flat, kinds), version: 7 }, empty = scene({ positions: [], triangles: [] }, []);
   for (const [what, pattern] of [[bad, /version 7/], ['{"format": ', /damaged/], [scene(flat, [{ ...kinds[0], values: base64(new Float32Array(2)) }]), /wrong length/], [empty, /no triangles/]]) {
-    const broken = await show(what, { ...small, wait: false });
+    const broken = await show(what, { ...small, wait: false, colorScheme: what === bad ? "dark" : "light" });
     try {
       await broken.page.waitForSelector("#message:not([hidden])");
+      assert.equal(await broken.page.evaluate(() => document.documentElement.dataset.theme), what === bad ? "dark" : "light");
       assert.match(await broken.page.textContent("#message"), pattern);
       assert.deepEqual(broken.errors, []);
     } finally {

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
 import { readFileSync } from "node:fs";
-import { assertAccessible, assertAlone, changed as changedPixels, chromiumOnly, frames, openPage, openResult } from "./browser.mjs";
+import { assertAccessible, assertAlone, changed as changedPixels, chromiumOnly, firefox, frames, openPage, openResult } from "./browser.mjs";
 
 const shown = await openResult("PAGE");
 const { page } = shown;
@@ -64,21 +64,38 @@ const pictured = JSON.parse(readFileSync(`${process.env.PAGE}.json`, "utf8"));
 async function assertPictured(page, kind) {
   const seen = pictured[kind];
   await page.click("#sources");
-  const drawn = await page.evaluate((vertices) => {
-    const gl = littoral.view.renderer.getContext(), bytes = littoral.pixels(), width = gl.drawingBufferWidth;
-    return vertices.map((v) => {
-      const place = littoral.project(v), at = 4 * (Math.floor(place.x) + width * (gl.drawingBufferHeight - 1 - Math.floor(place.y)));
+  const drawn = await page.evaluate((places) => {
+    const gl = littoral.view.renderer.getContext(), bytes = littoral.pixels(), width = gl.drawingBufferWidth, { centre, radius } = littoral.view.scene;
+    return places.map((p) => {
+      const place = littoral.view.project(p.map((c, k) => (c - centre[k]) / radius)), at = 4 * (Math.floor(place.x) + width * (gl.drawingBufferHeight - 1 - Math.floor(place.y)));
       return Array.from(bytes.slice(at, at + 3));
     });
-  }, seen.map(([v]) => v));
+  }, seen.map((one) => one.slice(0, 3)));
   await page.click("#sources");
-  const apart = seen.map(([, ...rgb], i) => Math.max(...rgb.map((c, k) => Math.abs(c - drawn[i][k])))).sort((a, b) => a - b);
-  console.log(`${kind}, ${apart.length} vertices: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
-  assert.ok(apart.length > 60 && apart[apart.length >> 1] <= 4, `${apart[apart.length >> 1]}`);
+  const apart = seen.map((one) => one.slice(3)).map((rgb, i) => Math.max(...rgb.map((c, k) => Math.abs(c - drawn[i][k])))).sort((a, b) => a - b);
+  console.log(`${kind}, ${apart.length} places: colours apart by ${apart[apart.length >> 1]} in the middle, ${apart[Math.floor(0.7 * apart.length)]} for seven of ten`);
+  assert.ok(apart.length > 60 && apart[apart.length >> 1] <= 2, `${apart[apart.length >> 1]}`);
   assert.ok(apart[Math.floor(0.7 * apart.length)] <= 12, "seven of ten are alike; lines fall on the others");
 }
 
 test("the page has the colours of the picture", () => assertPictured(page, "smooth"));
+
+test("confidence is a field with its own values, in colours from 0 to 1 as in the picture", async () => {
+  await page.selectOption("#field", "confidence");
+  const seen = await page.evaluate((places) => places.map((p) => {
+    const { centre, radius } = littoral.view.scene, { x, y } = littoral.view.project(p.map((c, k) => (c - centre[k]) / radius));
+    const { value, place } = littoral.pick(x, y);
+    return { value, y: place[1] };
+  }), pictured.confidence.map((one) => one.slice(0, 3)));
+  for (const { value, y } of seen) assert.ok(Math.abs(value - 0.3 - 0.6 * y * y) < 0.01, `${value} at ${y}`);
+  assert.ok(Math.max(...seen.map(({ value }) => value)) > 0.6 && Math.min(...seen.map(({ value }) => value)) < 0.35);
+  assert.match(await page.getAttribute("#legend", "aria-label"), /^Legend: confidence from 0\.3 to 0\.9/);
+  assert.deepEqual(await page.evaluate(() => littoral.view.panes[0].look.uniforms.colourMap.value.toArray().map((x) => +x.toFixed(3))), [0.3, 0.6]);
+  assert.equal(await page.isChecked("#isolines"), false, "no lines between what is sure and what is not");
+  await assertPictured(page, "confidence");
+  await page.selectOption("#field", "x");
+  assert.ok(await page.isChecked("#isolines"));
+});
 
 for (const [kind, file] of [["flat", "dented"], ["occluded", "dented"], ["discs", "discs"]])
   test(`the page has the colours of the picture: ${kind}`, async () => {
@@ -160,11 +177,19 @@ test("labels for those who cannot see", async () => {
 });
 
 test("dark scheme darkens the page", async () => {
+  const assertDark = async (dark) => {
+    const corner = await dark.evaluate(() => littoral.pixels().slice(0, 3));
+    assert.ok(Math.max(...Object.values(corner)) < 60);
+    await assertAccessible(dark);
+  };
+  if (firefox) {
+    const dark = await openResult("PAGE", { colorScheme: "dark" });
+    await assertDark(dark.page);
+    return dark.close();
+  }
   await page.emulateMedia({ colorScheme: "dark" });
   await frames(page, 3);
-  const corner = await page.evaluate(() => littoral.pixels().slice(0, 3));
-  assert.ok(Math.max(...Object.values(corner)) < 60);
-  await assertAccessible(page);
+  await assertDark(page);
   await page.emulateMedia({ colorScheme: "light" });
 });
 

@@ -1,7 +1,9 @@
 #include "api/space/traced_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "api/space/sampled_distance.h"
 #include "api/space/tori_cloud.h"
@@ -74,6 +76,28 @@ void hide_triangles(io::Scene& scene, Eigen::Index first) {
     scene.triangles(t, 1) = scene.triangles(t, 2) = scene.triangles(t, 0);
 }
 
+/// Parts that are thinner than the grid's cells frame the picture by their vertices, unless they
+/// may have been taken away.
+void frame_thin_parts(const CsgShapes& shapes, const Grid& grid, double level, io::Scene& scene) {
+  const auto unites = [](Boolean operation) { return operation == Boolean::unite; };
+  if (level < 0 || shapes.csg.offset < 0 || !std::ranges::all_of(shapes.csg.operations, unites))
+    return;
+  const Vec3 high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  std::vector<Vec3> inside;
+  for (const Shape& shape : shapes.all)
+    for (const Vec3 x : shape.surface.points.rowwise())
+      if ((x.array() >= grid.origin.array() && x.array() <= high.array()).all())
+        inside.push_back(x);
+  const Eigen::Index points = scene.points.rows(), triangles = scene.triangles.rows();
+  const auto n = static_cast<Eigen::Index>(inside.size());
+  scene.points.conservativeResize(points + n, 3);
+  scene.triangles.conservativeResize(triangles + n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    scene.points.row(points + i) = inside[static_cast<std::size_t>(i)].transpose();
+    scene.triangles.row(triangles + i).setConstant(static_cast<int>(points + i));
+  }
+}
+
 }  // namespace
 
 io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedView& view, Task task,
@@ -99,14 +123,16 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
   const Eigen::Index slice = 2 * (Eigen::Index{grid.n[(view.axis + 1) % 3]} - 1) *
                              (Eigen::Index{grid.n[(view.axis + 2) % 3]} - 1);
   const bool with_slice = view.position.has_value() || view.for_page;
+  auto trace = std::make_shared<io::SceneTrace>();
+  trace->triangles = scene.triangles.bottomRows(scene.triangles.rows() - slice);
   hide_triangles(scene, slice);
   if (!with_slice) {
     scene.triangles = scene.triangles.bottomRows(scene.triangles.rows() - slice).eval();
     scene.values.resize(0);
     scene.volume.reset();
+    frame_thin_parts(shapes, grid, view.level, scene);
   }
 
-  auto trace = std::make_shared<io::SceneTrace>();
   trace->low = grid.origin;
   trace->high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
   if (with_slice) {

@@ -27,7 +27,7 @@ namespace littoral::cli {
 namespace {
 
 const char* const trace_group = "Tracing";
-constexpr int framing_nodes = 40, slice_nodes = 128, page_nodes = 64;  // along the longest side
+constexpr int traced_nodes = 64, slice_nodes = 128;  // along the longest side
 
 /// Options about volumes, as given.
 struct VolumeViewArguments {
@@ -198,9 +198,7 @@ io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,
   if (!view.level.empty()) traced.level = parse_length("level", view.level, size);
   GridOptions request = grid_request(texts.space, size);
   if (!request.resolution && !request.spacing)
-    request.resolution = for_page                      ? page_nodes
-                         : traced.position.has_value() ? slice_nodes
-                                                       : framing_nodes;
+    request.resolution = !for_page && traced.position ? slice_nodes : traced_nodes;
   request.padding += std::max(0.0, traced.level) / longest_side(shapes);
   const Grid grid = choose_grid(shapes, request);
   session.reading = false;

@@ -20,4 +20,9 @@ Openness openness(const MatX3& points, const MatX3i& triangles);
 /// The integral of (a + b . d) (n . d)+ / pi over the directions d, between 0 and 1.
 float open_part(const Eigen::Vector4f& openness, const Vec3& normal);
 
+/// By how much a side is darker for it, .3 to 1.
+inline float occlusion(const Eigen::Vector4f& openness, const Vec3& normal) {
+  return 0.3f + 0.7f * open_part(openness, normal);
+}
+
 }  // namespace littoral::io

@@ -99,11 +99,19 @@ void draw_bar(Image& image, const ColourBar& bar, const FieldStyle& style) {
   }
 }
 
-// Of the vertices that are drawn, where the shading asks for it.
+// Of the vertices, where the shading asks for it. What is traced stands in the way like the rest.
 Openness open_of(const Scene& scene) {
   if (scene.shading != Shading::occluded) return {};
-  const Openness open = openness(scene.points, scene.triangles);
-  if (scene.discs.rows() == 0) return open;
+  if (!scene.trace) return openness(scene.points, scene.triangles);
+  const MatX3i& traced = scene.trace->triangles;
+  MatX3i all(scene.triangles.rows() + traced.rows(), 3);
+  all << scene.triangles, traced;
+  return openness(scene.points, all);
+}
+
+// Of the corners that stand for them where vertices are drawn as discs.
+Openness at_discs(const Scene& scene, const Openness& open) {
+  if (scene.discs.rows() == 0 || open.rows() == 0) return open;
   Openness corners(disc_corners * open.rows(), 4);
   for (Eigen::Index i = 0; i < corners.rows(); ++i) corners.row(i) = open.row(i / disc_corners);
   return corners;
@@ -150,8 +158,9 @@ Image draw_picture(const Scene& scene, const PictureOptions& options) {
   const int rows = 16 * samples, height = options.height * samples;
   const Scene discs = scene.discs.rows() > 0 ? discs_as_triangles(scene) : Scene{};
   const Scene& drawn = scene.discs.rows() > 0 ? discs : scene;
-  const SurfaceRaster surface(drawn, open_of(scene), camera, style, samples, height, rows);
-  const TraceRaster trace(scene, camera, style, samples);
+  const Openness open = open_of(scene);
+  const SurfaceRaster surface(drawn, at_discs(scene, open), camera, style, samples, height, rows);
+  const TraceRaster trace(scene, open, camera, style, samples);
   const MarkRaster marks(scene, camera, samples);
 
   Image image{options.width, options.height, {}};

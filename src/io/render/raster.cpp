@@ -306,7 +306,7 @@ float SurfaceRaster::opening(int t, const double* part, const Vec3& normal) cons
     place += part[k] * scene_.points.row(v).transpose();
   }
   const bool away = normal.dot(camera_.eye() - place) < 0;
-  return 0.3f + 0.7f * open_part(open, away ? Vec3(-normal) : normal);
+  return occlusion(open, away ? Vec3(-normal) : normal);
 }
 
 double SurfaceRaster::mean_slope(int t, const double* part, const Vec3& normal, double x,

@@ -47,6 +47,7 @@ struct SceneTrace {
       hit;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // nothing is outside of this box
   double level = 0;                              // the field's value on the surface
+  MatX3i triangles{0, 3};  // of the scene's points: the surface on the grid, for how open it is
   /// What pages trace: point, spacing; touching point, log of weight; normal, curvature k1;
   /// direction e1, curvature k2 (methods/tori/torus.h). Without rows pages show the isosurface.
   Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> tori;

@@ -139,14 +139,15 @@ FieldStyle range_of_field(const Scene& scene, const VecX& values) {
   return style;
 }
 
-// Integers are regions unless they are a distance; one number alone is one only by its name.
+// Integers are regions unless they are a distance or sure throughout; one number alone is one only
+// by its name.
 bool are_regions(const FieldStyle& style, const std::string& name) {
   constexpr double most = 255;
   if (!style.discrete || style.high - style.low > most) return false;
-  return name == "region" || (style.high > style.low && name != "distance");
+  return name == "region" || (style.high > style.low && name != "distance" && name != "confidence");
 }
 
-void choose_colours(FieldStyle& style, ColourMap wanted) {
+void choose_colours(FieldStyle& style, const std::string& name, ColourMap wanted) {
   // A trace of negative values, as a solver leaves around zero, does not make a signed field.
   const double reach = std::max(std::abs(style.low), std::abs(style.high));
   style.diverging =
@@ -157,6 +158,10 @@ void choose_colours(FieldStyle& style, ColourMap wanted) {
   style.colour_low = style.diverging ? -reach : style.low;
   style.colour_high = style.diverging ? reach : style.high;
   if (!style.diverging && style.low < 0.2 * style.high) style.colour_low = std::min(0.0, style.low);
+  if (name == "confidence" && style.low >= 0 && style.high <= 1) {  // two of them compare
+    style.colour_low = 0;
+    style.colour_high = 1;
+  }
 }
 
 }  // namespace
@@ -177,7 +182,7 @@ FieldStyle field_style(const Scene& scene) {
   style.present = true;
   style.discrete = !scene.volume && scene.colour_map == ColourMap::automatic &&
                    are_regions(style, scene.field_name);
-  choose_colours(style, scene.colour_map);
+  choose_colours(style, scene.field_name, scene.colour_map);
   if (scene.colour_range) {
     style.colour_low = (*scene.colour_range)[0];
     style.colour_high = (*scene.colour_range)[1];
@@ -197,11 +202,7 @@ FieldStyle style_of_range(FieldStyle style, const std::string& name, double isol
   }
   style.present = true;
   style.discrete = are_regions(style, name);
-  choose_colours(style, ColourMap::automatic);
-  if (name == "confidence") {
-    style.colour_low = 0;
-    style.colour_high = 1;
-  }
+  choose_colours(style, name, ColourMap::automatic);
   if (!style.discrete && name != "confidence")
     style.spacing = nice_spacing(style.low, style.high, isolines);
   return style;

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/index.h"
 
 namespace littoral::io {
 
-TraceRaster::TraceRaster(const Scene& scene, const Camera& camera, const FieldStyle& style,
-                         int samples)
-    : trace_(scene.trace.get()), camera_(camera), samples_(samples) {
+TraceRaster::TraceRaster(const Scene& scene, Openness open, const Camera& camera,
+                         const FieldStyle& style, int samples)
+    : trace_(scene.trace.get()), open_(std::move(open)), camera_(camera), samples_(samples) {
+  if (trace_ && trace_->triangles.rows() > 0 && open_.rows() > 0)
+    near_.emplace(scene.points, trace_->triangles);
   const Rgb rgb = trace_ && style.present ? value_colour(style, trace_->level) : plain_colour;
   colour_ = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
@@ -36,14 +39,24 @@ TraceRaster::Seen TraceRaster::look(double x, double y) const {
   Vec3 normal;
   const double t = trace_->hit(eye, direction, from, end, pixel, normal);
   if (!std::isfinite(t)) return {};
-  return {length / t, camera_.to_eye * normal};
+  Seen seen{length / t, camera_.to_eye * normal};
+  if (near_) {
+    const Vec3 towards = normal.dot(direction) > 0 ? Vec3(-normal) : normal;
+    const NearestPoint nearest = near_->closest_point(eye + t * direction);
+    Eigen::Vector4f open = Eigen::Vector4f::Zero();
+    for (int k = 0; k < 3; ++k)
+      open += static_cast<float>(nearest.barycentric[static_cast<std::size_t>(k)]) *
+              open_.row(trace_->triangles(nearest.face, k)).transpose();
+    seen.lit = occlusion(open, towards);
+  }
+  return seen;
 }
 
 void TraceRaster::put(const Seen& seen, int x, int y, Band& band) const {
   const std::size_t i = band.at(x, y);
   if (!(seen.nearness > band.nearness[i])) return;
   band.nearness[i] = seen.nearness;
-  band.colour[i] = colour_ * brightness(camera_, seen.normal, x + 0.5, y + 0.5);
+  band.colour[i] = colour_ * (seen.lit * brightness(camera_, seen.normal, x + 0.5, y + 0.5));
 }
 
 void TraceRaster::draw(Band& band) const {

@@ -21,7 +21,7 @@ export function connectControls(app: App): void {
   on("file", "change", () => {
     const [chosen] = file.files ?? [];
     file.value = "";
-    if (chosen) void files.openFile(chosen);
+    if (chosen) void files.openFiles([chosen]);
   });
   const box = element("stage");
   document.addEventListener("dragover", (event) => {
@@ -32,8 +32,7 @@ export function connectControls(app: App): void {
   document.addEventListener("drop", (event) => {
     event.preventDefault();
     box.classList.remove("over");
-    const [dropped] = event.dataTransfer?.files ?? [];
-    if (dropped) void files.openFile(dropped);
+    void files.openFiles([...event.dataTransfer?.files ?? []]);
   });
   on("task", "change", () => {
     app.use({ task: element<HTMLSelectElement>("task").value as Task, method: "", options: {} });

@@ -2,7 +2,6 @@
 import type { Surface } from "littoral/inline";
 import type { App } from "./app";
 import { element } from "./dom";
-import type { GivenFiles } from "./backend";
 import { fromSources, isEmpty, toSources, type Drawing } from "./drawing";
 import type { Task } from "./engine";
 import { examples, type Example } from "./examples";
@@ -48,23 +47,9 @@ export class Files {
     if (given) {
       element<HTMLSelectElement>("examples").value = "";
       await this.show(given.name, given.hash, null, () => this.app.engine.loadGiven(given));
-      await this.readGiven(given.sources);
+      await this.readSources(given.sources, true);
     }
     if (!await this.followAddress() && !given) await this.openExample(examples[0]);
-  }
-
-  /** All of them together. */
-  private async readGiven(files: GivenFiles["sources"]): Promise<void> {
-    const { surface } = this.app.engine;
-    if (!surface || !files.length) return;
-    const drawings = await Promise.all(files.map(async ({ name, bytes }) => fromSources(await surface.readSources(bytes, name))));
-    this.app.history.reset({
-      strokes: drawings.flatMap(({ strokes }) => strokes), points: drawings.flatMap(({ points }) => points),
-      beside: drawings.reduce((sum, { beside }) => ({
-        ...joined("spaceCurves", sum.spaceCurves, beside.spaceCurves), ...joined("chains", sum.chains, beside.chains),
-      }), {} as Drawing["beside"]),
-    });
-    this.app.changed();
   }
 
   /** False where the address carries no link. */
@@ -92,19 +77,28 @@ export class Files {
     element<HTMLSelectElement>("examples").value = example.id;
     if (!await this.load(await example.bytes(), example.file, example.id)) return false;
     const text = await example.sources();
-    if (text) await this.readSources(text, "sources.txt", true);
+    if (text) await this.readSources([{ name: "sources.txt", bytes: text }], true);
     return true;
   }
 
-  async openFile(file: File): Promise<void> {
-    const name = file.name.toLowerCase(), extension = name.slice(name.lastIndexOf("."));
+  /** A surface, and what is drawn on it. */
+  async openFiles(files: readonly File[]): Promise<void> {
     const { sources, surfaces, volumes } = this.app.engine.library.extensions;
-    if (file.size > largest)
-      return this.app.message(`${file.name} has ${(file.size / 1e9).toFixed(1)} GB, more than a page can hold. The command line takes it.`);
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    const onlySources = sources.includes(extension) && !surfaces.includes(extension) && !volumes.includes(extension);
-    if (onlySources) await this.readSources(bytes, file.name);
-    else if (await this.load(bytes, file.name, null)) element<HTMLSelectElement>("examples").value = "";
+    const drawn = files.filter(({ name }) => {
+      const extension = name.slice(name.lastIndexOf(".")).toLowerCase();
+      return sources.includes(extension) && !surfaces.includes(extension) && !volumes.includes(extension);
+    });
+    const [surface, ...more] = files.filter((file) => !drawn.includes(file)), huge = files.find(({ size }) => size > largest);
+    if (huge)
+      return this.app.message(`${huge.name} has ${(huge.size / 1e9).toFixed(1)} GB, more than a page can hold. The command line takes it.`);
+    if (more.length)
+      return this.app.message(`One surface at a time: ${[surface, ...more].map(({ name }) => name).join(", ")}.`);
+    const bytesOf = async (file: File) => new Uint8Array(await file.arrayBuffer());
+    if (surface) {
+      if (!await this.load(await bytesOf(surface), surface.name, null)) return;
+      element<HTMLSelectElement>("examples").value = "";
+    }
+    await this.readSources(await Promise.all(drawn.map(async (file) => ({ name: file.name, bytes: await bytesOf(file) }))));
   }
 
   private load(bytes: Uint8Array, name: string, example: string | null): Promise<boolean> {
@@ -128,19 +122,27 @@ export class Files {
     }
   }
 
-  /** Takes the place of what is drawn, as a step that can be undone unless it is the first. */
-  private async readSources(text: string | Uint8Array, name: string, first = false): Promise<void> {
-    const { surface } = this.app.engine;
-    if (!surface) return;
-    try {
-      const drawing = fromSources(await surface.readSources(text, name));
-      if (first) this.app.history.reset(drawing);
-      else this.app.history.change(drawing, null);
-      this.app.message(null);
-      this.app.changed();
-    } catch (error) {
-      this.app.message(`${name} cannot be used here.\n${(error as Error).message}`);
+  /** All together they take the place of what is drawn, as a step that can be undone unless it is the first. */
+  private async readSources(files: readonly { name: string; bytes: string | Uint8Array }[], first = false): Promise<void> {
+    const { surface } = this.app.engine, drawings: Drawing[] = [];
+    if (!surface || !files.length) return;
+    for (const { name, bytes } of files) {
+      try {
+        drawings.push(fromSources(await surface.readSources(bytes, name)));
+      } catch (error) {
+        return this.app.message(`${name} cannot be used here.\n${(error as Error).message}`);
+      }
     }
+    const drawing: Drawing = {
+      strokes: drawings.flatMap(({ strokes }) => strokes), points: drawings.flatMap(({ points }) => points),
+      beside: drawings.reduce((sum, { beside }) => ({
+        ...joined("spaceCurves", sum.spaceCurves, beside.spaceCurves), ...joined("chains", sum.chains, beside.chains),
+      }), {} as Drawing["beside"]),
+    };
+    if (first) this.app.history.reset(drawing);
+    else this.app.history.change(drawing, null);
+    this.app.message(null);
+    this.app.changed();
   }
 
   // ------------------------------------------------------------------------- links
@@ -169,7 +171,7 @@ export class Files {
       return this.app.message(`This link belongs to the file ${linked.name ?? ""} (content ${linked.hash ?? "unknown"}). Open or drop that file here.`);
     }
     this.app.use({ task: linked.task === "regions" ? "regions" : "distance", method: linked.method, options: linked.options });
-    if (linked.sources) await this.readSources(linked.sources, linked.sourcesName, true);
+    if (linked.sources) await this.readSources([{ name: linked.sourcesName, bytes: linked.sources }], true);
     this.app.stage.setCamera(linked.camera);
   }
 

@@ -120,3 +120,17 @@ export async function changedPixels(page, act) {
 
 export const pickFile = async (page, name, bytes) =>
   page.setInputFiles("#file", { name, mimeType: "application/octet-stream", buffer: Buffer.from(bytes) });
+
+/** Drags files from the desktop over the picture and lets them go there, as the browser itself does it. */
+export async function dropFiles(page, ...paths) {
+  const session = await page.context().newCDPSession(page), box = await page.locator("#stage").boundingBox();
+  const data = { items: [], files: paths, dragOperationsMask: 1 };
+  const send = (type) => session.send("Input.dispatchDragEvent", { type, x: box.x + box.width / 2, y: box.y + box.height / 2, data });
+  const over = () => page.evaluate(() => document.getElementById("stage").classList.contains("over"));
+  await send("dragEnter");
+  await send("dragOver");
+  assert.equal(await over(), true, "it shows where it goes");
+  await send("drop");
+  assert.equal(await over(), false);
+  await session.detach();
+}

@@ -1,27 +1,14 @@
 // Every key of the list, the buttons that no other test presses, and files that are dropped.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { openStudio, changedPixels, clickAll, closeQuietly, ring, root, settled, state } from "./helpers.mjs";
+import { openStudio, changedPixels, clickAll, closeQuietly, dropFiles, folder, ring, root, settled, state } from "./helpers.mjs";
 
 const spot = join(root, "examples/data/spot.obj"), jersey = join(root, "examples/data/spot-jersey.txt");
 
 const mode = (page) => page.evaluate(() => studio.tools.mode);
 const camera = (page) => page.evaluate(() => [...studio.stage.camera.position, studio.stage.camera.zoom].join(" "));
-
-/** Lets a file of some bytes go over the picture, as from the desktop. */
-async function drop(page, name, bytes) {
-  const carried = await page.evaluateHandle(([title, text]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], title));
-    return data;
-  }, [name, bytes.toString("base64")]);
-  await page.dispatchEvent("#view", "dragover", { dataTransfer: carried });
-  assert.equal(await page.evaluate(() => document.getElementById("stage").classList.contains("over")), true, "it shows where it goes");
-  await page.dispatchEvent("#view", "drop", { dataTransfer: carried });
-  assert.equal(await page.evaluate(() => document.getElementById("stage").classList.contains("over")), false);
-}
 
 test("each key does what the list says", async () => {
   const shown = await openStudio({ example: "ring" }), { page } = shown, press = (key) => page.keyboard.press(key);
@@ -109,15 +96,29 @@ test("files are opened by the button and by letting them go over the picture", a
   await page.waitForFunction(() => studio.files.example === null);
   assert.match(await page.textContent("#facts"), /2,?930/);
   assert.deepEqual((await state(page)).strokes, []);
-  await drop(page, "jersey.txt", readFileSync(jersey));
+  await dropFiles(page, jersey);
   await page.waitForFunction(() => studio.history.drawing.strokes.length > 0);
   const { values, message } = await state(page);
   assert.equal(message, null);
   assert.ok(Math.min(...values) < 0 && Math.max(...values) > 0, "the curves of the file have two sides");
-  await drop(page, "notes.docx", Buffer.from("no mesh"));
+  writeFileSync(join(folder, "notes.docx"), "no mesh");
+  await dropFiles(page, join(folder, "notes.docx"));
   await page.waitForSelector("#message:not([hidden])");
   assert.match(await page.textContent("#message"), /notes\.docx/);
   assert.equal((await state(page)).values.length, values.length, "the surface stays");
+
+  // A surface and what is drawn on it, whichever is named first; never two surfaces.
+  const point = join(folder, "dropped-point.txt"), other = join(folder, "other.obj");
+  writeFileSync(point, "unsigned_point\nv 7\n");
+  writeFileSync(other, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  await dropFiles(page, jersey, spot, point);
+  await page.waitForFunction(() => studio.history.drawing.points.length === 1);
+  const both = await state(page);
+  assert.deepEqual([both.message, both.values.length], [null, values.length]);
+  assert.ok(both.strokes.length > 0 && Math.abs(both.values[7]) < 1e-9);
+  await dropFiles(page, other, spot);
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.textContent("#message"), /One surface at a time: other\.obj, spot\.obj/);
   await closeQuietly(shown);
 });
 

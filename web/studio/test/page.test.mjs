@@ -231,7 +231,7 @@ test("files that are damaged, unknown or huge get a message and leave the pictur
   await page.evaluate(() => {
     const file = new File(["x"], "huge.ply");
     Object.defineProperty(file, "size", { value: 4e9 });
-    return studio.files.openFile(file);
+    return studio.files.openFiles([file]);
   });
   assert.match((await state(page)).message, /huge\.ply has 4\.0 GB/);
   await pickFile(page, "tetrahedron.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");

@@ -2,11 +2,11 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { assertClose, byProgram, clickAll, folder, openStudio, program, ring, root, saved, settled, state } from "./helpers.mjs";
+import { assertClose, byProgram, clickAll, dropFiles, folder, openStudio, program, ring, root, saved, settled, state } from "./helpers.mjs";
 
 const spot = join(root, "examples/data/spot.obj");
 
@@ -100,6 +100,35 @@ test("an example is computed by the program too", async () => {
   const { values, points } = await state(page);
   assert.equal(points, 1);
   assert.ok(values.length > 3000 && Math.min(...values) >= 0);
+  assert.deepEqual(shown.errors, []);
+  await shown.close();
+});
+
+test("files that are dropped go to the program: a mesh, then curves on it, then what it cannot read", async () => {
+  const n = 12, lines = [], mesh = join(folder, "hill.obj"), curve = join(folder, "hill-curve.txt"), bad = join(folder, "bad.ply");
+  for (let i = 0; i <= n; ++i) for (let j = 0; j <= n; ++j) lines.push(`v ${i / n} ${j / n} ${(0.3 * Math.sin((3 * i) / n)).toFixed(6)}`);
+  for (let i = 0; i < n; ++i) for (let j = 0; j < n; ++j) {
+    const a = i * (n + 1) + j + 1;
+    lines.push(`f ${a} ${a + n + 1} ${a + n + 2}`, `f ${a} ${a + n + 2} ${a + 1}`);
+  }
+  writeFileSync(mesh, `${lines.join("\n")}\n`);
+  writeFileSync(curve, "signed_curve\nv 3\nv 60\nv 160\n");
+  writeFileSync(bad, "ply\nformat ascii 1.0\nelement vertex 9\n");
+  const shown = await openStudio({ url: served.address }), { page } = shown;
+  const calls = () => shown.requests.filter((url) => url.includes("/call?")).length, before_ = calls();
+  await dropFiles(page, mesh);
+  await page.waitForFunction(() => studio.engine.surface.name === "hill.obj");
+  assert.ok(calls() > before_, "the program reads it");
+  assert.equal((await state(page)).values, null);
+  await dropFiles(page, curve);
+  await page.waitForFunction(() => studio.history.drawing.strokes.length === 1);
+  const { values, message: said, strokes } = await state(page);
+  assert.deepEqual([said, strokes], [null, [{ nodes: 3, closed: false, signed: true }]]);
+  assertClose(values, byProgram(mesh, readFileSync(curve)), 1e-12);
+  await dropFiles(page, bad);
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.textContent("#message"), /^bad\.ply cannot be opened\./);
+  assert.equal((await state(page)).values.length, (n + 1) ** 2, "the surface stays");
   assert.deepEqual(shown.errors, []);
   await shown.close();
 });

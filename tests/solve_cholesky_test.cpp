@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -13,6 +14,7 @@
 
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
+#include "base/platform/large_pages.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
 #include "solve/poisson/poisson.h"
@@ -112,6 +114,38 @@ TEST(Cholesky, APatchedFactorHasTheBitsOfANewOne) {
                 Cholesky<double>(changed, E, {}).solve(b));
   }
   EXPECT_TRUE(base.solve(b) == before);
+}
+
+/// Blocks of a factor so large that they lie together: patches share them and leave them alone.
+TEST(Cholesky, ALargeFactorIsPatchedToo) {
+  std::mt19937 random(9);
+  const int n = 3000;
+  const SpMat lower = random_matrix<double>(n, 60000, random);
+  const Cholesky<double> alone(lower, {});
+  ASSERT_GT(8 * alone.nonzeros(), double(1 << 22));
+  const Cholesky<double> base(lower, alone.structure(), {}, true);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n, 1), x = base.solve(b);
+  EXPECT_TRUE(alone.solve(b) == x);
+  EXPECT_LE((lower.selfadjointView<Eigen::Lower>() * x - b).cwiseAbs().maxCoeff(), 1e-12);
+  SpMat changed = lower;
+  changed.coeffRef(5, 5) += 1;
+  const Cholesky<double> patched = base.patched(changed, {5}, {});
+  EXPECT_TRUE(patched.solve(b) == Cholesky<double>(changed, base.structure(), {}).solve(b));
+  EXPECT_FALSE(patched.solve(b) == x);
+  EXPECT_TRUE(base.solve(b) == x);
+}
+
+TEST(LargePages, AreZeroWhereThereAreAny) {
+  EXPECT_EQ(large_pages(1000), nullptr);
+  const std::size_t n = (std::size_t(5) << 20) + 8;
+  for (int round = 0; round < 2; ++round) {  // used memory is not handed out again
+    const auto memory = large_pages(n);
+    if (!memory) GTEST_SKIP() << "this system has none";
+    char* const bytes = static_cast<char*>(memory.get());
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes) % (1 << 21), 0U);
+    EXPECT_EQ(std::count(bytes, bytes + n, 0), std::ptrdiff_t(n));
+    std::fill(bytes, bytes + n, 1);
+  }
 }
 
 TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {

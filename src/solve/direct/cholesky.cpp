@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
+#include "base/platform/large_pages.h"
 #include "littoral/error.h"
 #include "solve/direct/dense_kernels.h"
 
@@ -91,6 +92,14 @@ void Cholesky<Scalar>::factor(const Matrix& lower, const std::vector<char>& stal
   const Elimination& E = *structure_;
   supernodes_.resize(E.n_super);
   task.checkpoint();
+  for (int s = 0; s < E.n_super; ++s)
+    if (stale[s]) supernodes_[s].block.reset();
+  // Solves go through all of a factor: its blocks lie together.
+  const bool whole = std::find(stale.begin(), stale.end(), 0) == stale.end();
+  if (const auto all = whole ? large_pages(E.values() * sizeof(Scalar)) : nullptr)
+    for (int s = 0; s < E.n_super; ++s)
+      supernodes_[s].block =
+          std::shared_ptr<Scalar[]>(all, static_cast<Scalar*>(all.get()) + E.values_begin[s]);
   try {
     parallel_forest(E.task_parent, Walk::from_leaves, [&](int t) {
       for (int s = E.task_first[t]; s < E.task_first[t + 1]; ++s)
@@ -112,7 +121,7 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   const Elimination& E = *structure_;
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];
-  node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
+  if (!node.block) node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
   node.update = zeros<Scalar>(std::size_t(below) * below);
   Scalar* block = node.block.get();
   Scalar* update = node.update.get();

@@ -1,0 +1,13 @@
+#pragma once
+// Memory in pages so large that going through it seldom waits for the address of the next.
+
+#include <cstddef>
+#include <memory>
+
+namespace littoral {
+
+/// Zeroed memory, handed out by the system as it is touched, in large pages where it has them;
+/// null where it is too little for that to pay, or the system has no such memory.
+std::shared_ptr<void> large_pages(std::size_t bytes);
+
+}  // namespace littoral

@@ -30,14 +30,6 @@ int lengthen_sides(IntrinsicTriangulation& T, double margin) {
   return n;
 }
 
-<<<<<<< HEAD
-IntrinsicTriangulation without_needles(IntrinsicTriangulation T, Report& report) {
-  const int n = lengthen_sides(T, 1e-6);
-  if (n > 0)
-    report.warn("degenerate-faces", counted(n, "thin face", "thin faces") +
-                                        " had their sides lengthened by up to a millionth");
-  return T;
-=======
 std::shared_ptr<const IntrinsicTriangulation> without_needles(
     std::shared_ptr<const IntrinsicTriangulation> T, Report& report) {
   constexpr double margin = 1e-6;
@@ -46,12 +38,9 @@ std::shared_ptr<const IntrinsicTriangulation> without_needles(
   if (f == T->n_faces()) return T;
   auto thicker = std::make_shared<IntrinsicTriangulation>(*T);
   const int n = lengthen_sides(*thicker, margin);
-  report.warn("degenerate-faces",
-              std::to_string(n) +
-                  " needles and other thin faces had their sides lengthened by up to a "
-                  "millionth");
+  report.warn("degenerate-faces", counted(n, "thin face", "thin faces") +
+                                      " had their sides lengthened by up to a millionth");
   return thicker;
->>>>>>> default
 }
 
 }  // namespace littoral

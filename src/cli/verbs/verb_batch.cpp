@@ -191,7 +191,7 @@ void read_shard(const std::string& text, BatchOptions& options) {
   options.shards = number(text.substr(std::min(slash + 1, text.size())));
 }
 
-std::string counted(const BatchSummary& summary) {
+std::string counts_text(const BatchSummary& summary) {
   char rate[64];
   std::snprintf(rate, sizeof rate, " in %.1f s, %.3g a second", summary.seconds,
                 static_cast<double>(summary.done + summary.failed + summary.unchanged) /
@@ -203,7 +203,7 @@ std::string counted(const BatchSummary& summary) {
 
 void say_summary(const BatchSummary& summary) {
   constexpr std::size_t most = 20;
-  std::fprintf(stderr, "littoral: %s\n", counted(summary).c_str());
+  std::fprintf(stderr, "littoral: %s\n", counts_text(summary).c_str());
   for (std::size_t f = 0; f < std::min(most, summary.failures.size()); ++f) {
     const BatchFailures& each = summary.failures[f];
     std::fprintf(stderr, "  %zu %s: %s (%s)\n", each.count, each.status.c_str(),

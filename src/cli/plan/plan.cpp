@@ -17,8 +17,9 @@ namespace littoral::cli {
 
 namespace {
 
-constexpr double long_run = 30;           // seconds that are said before they pass
-constexpr double shared_work = 0.8;       // of the work that threads share: Amdahl's law
+constexpr double long_run = 30;      // seconds that are said before they pass
+constexpr double shared_work = 0.8;  // of the work that threads share: Amdahl's law
+constexpr Eigen::Index few_faces = 20000;
 constexpr double cells_for_points = 128;  // along the longest side, where points are asked
 
 /// Two digits: more would promise too much.
@@ -43,7 +44,7 @@ PlannedRun estimated(const RunPlan& plan, const std::string& verb, const MethodI
 }
 
 /// The shapes in cells of this side.
-SurfaceWork surface_work(const CsgShapes& shapes, double side) {
+SurfaceWork surface_work(const CsgShapes& shapes, double side, bool thorough) {
   SurfaceWork work;
   for (const Shape& shape : shapes.all) {
     const MatX3& points = shape.surface.points;
@@ -52,8 +53,10 @@ SurfaceWork surface_work(const CsgShapes& shapes, double side) {
     double area = 0, free_length = 0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
       area += 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0)).norm();
-    for (const auto& [a, b] : boundary_edges(points, triangles))
-      free_length += (points.row(a) - points.row(b)).norm();
+    // Finding them takes a while, which a run whose plan is not shown does not spend.
+    if (thorough || triangles.rows() <= few_faces)
+      for (const auto& [a, b] : boundary_edges(points, triangles))
+        free_length += (points.row(a) - points.row(b)).norm();
     const auto faces = static_cast<double>(triangles.rows());
     work.faces += faces;
     work.cells += area / (side * side);
@@ -87,19 +90,19 @@ RunPlan plan_of_shapes(const CsgShapes& shapes, const std::string& domain, doubl
 
 }  // namespace
 
-RunPlan plan_in_space(const CsgShapes& shapes, double points) {
+RunPlan plan_in_space(const CsgShapes& shapes, double points, bool thorough) {
   RunPlan plan = plan_of_shapes(shapes, "set of points", points);
-  plan.work = surface_work(shapes, longest_side(shapes) / cells_for_points);
+  plan.work = surface_work(shapes, longest_side(shapes) / cells_for_points, thorough);
   return plan;
 }
 
-RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid) {
+RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid, bool thorough) {
   RunPlan plan = plan_of_shapes(shapes, "grid", static_cast<double>(grid.n_nodes()));
   for (const auto& [name, a] :
        {std::pair("nodes along x", 0), {"nodes along y", 1}, {"nodes along z", 2}})
     plan.sizes.emplace_back(name, grid.n[static_cast<std::size_t>(a)]);
   plan.sizes.emplace_back("spacing", grid.spacing.minCoeff());
-  plan.work = surface_work(shapes, grid.spacing.minCoeff());
+  plan.work = surface_work(shapes, grid.spacing.minCoeff(), thorough);
   return plan;
 }
 

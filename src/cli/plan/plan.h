@@ -36,10 +36,10 @@ RunPlan plan_on(const AnyMethod& method, const D& domain) {
     plan.sizes.emplace_back("faces", static_cast<double>(mesh.n_faces()));
   return plan;
 }
-/// Of methods in space, at so many points.
-RunPlan plan_in_space(const CsgShapes& shapes, double points);
+/// Of methods in space, at so many points. thorough: free edges are counted in inputs of any size.
+RunPlan plan_in_space(const CsgShapes& shapes, double points, bool thorough);
 /// On a grid, with its spacing.
-RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid);
+RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid, bool thorough);
 
 /// Adds --dry-run.
 void add_plan_option(CLI::App& verb, Session& session);

@@ -105,7 +105,7 @@ struct DistanceAround {
 };
 
 bool planned_as_sdf(const CsgShapes& shapes, const Grid& grid, Session& session) {
-  RunPlan plan = plan_in_space(shapes, grid);
+  RunPlan plan = plan_in_space(shapes, grid, session.dry_run);
   plan.like = "sdf";
   return planned(plan, session);
 }

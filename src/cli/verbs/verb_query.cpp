@@ -24,7 +24,7 @@ void run_query(QueryArguments& arguments, Session& session) {
   const io::PointTable queries = read_queries(arguments.points);
   session.reading = false;
   const auto count = static_cast<double>(queries.points.rows());
-  if (planned(plan_in_space(shapes, count), session)) return;
+  if (planned(plan_in_space(shapes, count, session.dry_run), session)) return;
   MatX3 gradients;
   const VecX values =
       query_distance(shapes, queries.points, arguments.gradient ? &gradients : nullptr,

@@ -41,7 +41,7 @@ void run_repair(RepairArguments& arguments, Session& session) {
   session.reading = false;
   GridOptions likely = options.grid;
   if (!likely.resolution && !likely.spacing) likely.resolution = repair_nodes;
-  if (planned(plan_in_space(shapes, choose_grid(shapes, likely)), session)) return;
+  if (planned(plan_in_space(shapes, choose_grid(shapes, likely), session.dry_run), session)) return;
   const PolygonSoup result =
       repair_surface(shape.surface, options, shape.request, session.task(), session.report);
   session.record.values = {range_of("distance", result.scalars.at("distance"))};

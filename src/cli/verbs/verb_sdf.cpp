@@ -134,7 +134,7 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   Volume volume;
   volume.grid = choose_grid(shapes, grid_request(arguments.space, size));
   session.reading = false;
-  if (planned(plan_in_space(shapes, volume.grid), session)) return;
+  if (planned(plan_in_space(shapes, volume.grid, session.dry_run), session)) return;
   TetField tets;
   if (arguments.field == "winding") {
     const Shape& shape = shapes.all.front();

@@ -17,11 +17,11 @@ constexpr double inner_tolerance = 0.03;
 
 GridMultipliers::GridMultipliers(std::array<int, 3> n, const Vec3& spacing, const Rows& A,
                                  const VecX& weight, const VecX& softness)
-    : block_(static_cast<std::size_t>(A.rows())), share_(A.rows()), inverse_(A.rows()) {
+    : block_(A.rows()), share_(A.rows()), inverse_(A.rows()) {
   std::array<int, 3> coarse{};
   Vec3 coarse_spacing = spacing;
   for (int a = 0; a < 3; ++a) {
-    const std::size_t s = static_cast<std::size_t>(a);
+    const std::size_t s = a;
     coarse[s] = n[s] > 1 ? (n[s] - 2) / wide + 2 : 1;
     if (n[s] > 1) coarse_spacing[a] *= wide;
   }
@@ -44,13 +44,12 @@ GridMultipliers::GridMultipliers(std::array<int, 3> n, const Vec3& spacing, cons
     place /= wide;
     Eigen::Array3i low;
     for (int a = 0; a < 3; ++a)
-      low[a] = std::clamp(static_cast<int>(place[a]), 0,
-                          std::max(0, coarse[static_cast<std::size_t>(a)] - 2));
+      low[a] = std::clamp(static_cast<int>(place[a]), 0, std::max(0, coarse[a] - 2));
     const auto [found, fresh] = blocks.emplace(node(low), int_size(blocks));
     const int block = found->second;
     if (fresh) total.push_back(0);
-    block_[static_cast<std::size_t>(r)] = block;
-    total[static_cast<std::size_t>(block)] += weight[r];
+    block_[r] = block;
+    total[block] += weight[r];
     inverse_[r] = weight[r] / (order + softness[r] * weight[r]);
     const Eigen::Array3d t = place - low.cast<double>();
     for (int c = 0; c < 8; ++c) {
@@ -65,7 +64,7 @@ GridMultipliers::GridMultipliers(std::array<int, 3> n, const Vec3& spacing, cons
   A_ = sums.cwiseInverse().asDiagonal() * A_;
   softness_ = VecX::Zero(sums.size());
   for (Eigen::Index r = 0; r < A.rows(); ++r) {
-    const int block = block_[static_cast<std::size_t>(r)];
+    const int block = block_[r];
     share_[r] = weight[r] / sums[block];
     softness_[block] += share_[r] * share_[r] * softness[r];
   }
@@ -74,11 +73,10 @@ GridMultipliers::GridMultipliers(std::array<int, 3> n, const Vec3& spacing, cons
 
 VecX GridMultipliers::operator()(const VecX& residual, const Task& task) const {
   VecX mean = VecX::Zero(A_.rows());
-  for (Eigen::Index r = 0; r < residual.size(); ++r)
-    mean[block_[static_cast<std::size_t>(r)]] += share_[r] * residual[r];
+  for (Eigen::Index r = 0; r < residual.size(); ++r) mean[block_[r]] += share_[r] * residual[r];
   VecX varying(residual.size()), excess = VecX::Zero(A_.rows());
   for (Eigen::Index r = 0; r < residual.size(); ++r) {
-    const int block = block_[static_cast<std::size_t>(r)];
+    const int block = block_[r];
     varying[r] = inverse_[r] * (residual[r] - mean[block]);
     excess[block] += varying[r];
   }
@@ -92,7 +90,7 @@ VecX GridMultipliers::operator()(const VecX& residual, const Task& task) const {
   const VecX multiplier =
       constraint_multipliers(solve, {A_, softness_, inner_tolerance * start}, mean, task, ignored);
   for (Eigen::Index r = 0; r < residual.size(); ++r) {
-    const int block = block_[static_cast<std::size_t>(r)];
+    const int block = block_[r];
     varying[r] += share_[r] * (multiplier[block] - excess[block]);
   }
   return varying;

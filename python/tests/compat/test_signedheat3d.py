@@ -232,7 +232,7 @@ def test_what_raises(grid, tets):
         tets.compute_distance_to_mesh(V, F, {"level_set_constraint": "Multiple"})
     with pytest.raises(IndexError):
         grid.compute_distance_to_mesh(V, [[0, 1, 99]])
-    with pytest.raises(ValueError, match="one normal a point"):
+    with pytest.raises(ValueError, match="one normal per point"):
         grid.compute_distance_to_point_cloud(V, V[1:])
 
 

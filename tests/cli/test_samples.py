@@ -96,7 +96,10 @@ def test_holes_are_closed_and_what_has_no_inside_is_refused(run: Run, block: Pat
     [
         (("-o", "s.txt"), "they are written to .npz .zarr .tar"),
         (("-o", "nowhere/s.npz"), "there is no folder nowhere"),
-        (("--uniform", "0.8", "--curvature", "0.8", "-o", "s.npz"), "at most 1 for uniform and curvature together"),
+        (
+            ("--uniform", "0.8", "--curvature", "0.8", "-o", "s.npz"),
+            "at most 1 for uniform and curvature together",
+        ),
         (("--scales", "0", "-o", "s.npz"), "--scales"),
         (("--numbers", "float8", "-o", "s.npz"), "'float8' is none of"),
         (("--method", "signed-heat", "-o", "s.npz"), "signed-heat"),

@@ -17,11 +17,12 @@ constexpr double start = 0.007;       // seconds
 struct Row {
   std::string_view verb, method;  // method empty: whichever it is
   double seconds, power, bytes, cell_seconds = 0, cell_bytes = 0;
+  bool patches = false;  // looks for patches where the surface has free edges
 };
 
 constexpr double face_seconds = 2.3e-6, face_bytes = 900;  // of distance in space: each face
 
-// Of bench/studies/run_costs.py too: what `auto` does where the surface has free edges: it orients
+// Of bench/studies/run_costs.py too: what is done where the surface has free edges: it orients
 // faces and looks for patches.
 constexpr double patch_start = 0.045;    // seconds
 constexpr double patch_seconds = 3e-5;   // for each side of a cell along a free edge
@@ -29,7 +30,8 @@ constexpr double orient_seconds = 1e-4;  // for each face
 constexpr double beside_patches = 1.5;   // times as long for each node or point
 constexpr double patch_bytes = 200;      // for each cell that holds a part of the surface
 
-// Of two runs each by bench/studies/run_costs.py.
+// Of two runs each by bench/studies/run_costs.py; `sdf` by cells: of a sphere with bumps on grids
+// of 48 to 512 nodes a side.
 constexpr std::array rows = std::to_array<Row>({
     {"distance", "auto", 0.0562, 1.09, 1.32e+03},
     {"distance", "signed-heat", 0.109, 1.07, 6.09e+03},
@@ -45,18 +47,19 @@ constexpr std::array rows = std::to_array<Row>({
     {"pairs", "unsigned-heat", 101, 2.28, 18.9},
     {"pairs", "regularized", 962, 2.15, 18},
     {"pairs", "fast-marching", 211, 2.34, 15.4},
-    {"sdf", "auto", 0.00127, 1.00, 8, 1.6e-5, 250},
+    {"sdf", "auto", 0.00127, 1.00, 8, 1.6e-5, 250, true},
     {"sdf", "winding", 0.0015, 1.00, 8, 1.6e-5, 250},
     {"sdf", "closest-point", 0.00127, 1.00, 8, 1.6e-5, 250},
     {"sdf", "tori", 0.0213, 1.00, 65.2},
     {"sdf", "signed-heat", 0.0186, 1.00, 39.1},
-    {"query", "auto", 0.0209, 1.00, 424},
+    {"query", "auto", 0.0209, 1.00, 424, 0, 0, true},
     {"query", "winding", 0.0208, 1.00, 477},
     {"query", "closest-point", 0.0187, 1.00, 424},
     {"query", "tori", 0.11, 1.00, 2.28e+03},
     {"query", "hopf-cole", 0.637, 1.00, 794},
     {"query", "planar", 0.343, 1.00, 794},
     {"query", "log-sum-exp", 0.317, 1.00, 1.8e+03},
+    {"repair", "auto", 0.011, 1.00, 46.2, 0, 0, true},
     {"repair", "", 0.011, 1.00, 46.2},
 });
 
@@ -67,7 +70,7 @@ std::optional<RunCost> run_cost(const std::string& verb, const std::string& meth
   for (const Row& row : rows) {
     if (row.verb != verb || (!row.method.empty() && row.method != method)) continue;
     const double held = verb == "pairs" ? elements * elements : elements;
-    const bool patched = method == "auto" && work.free_length > 0;
+    const bool patched = row.patches && work.free_length > 0;
     const double each =
         row.seconds * std::pow(elements / unit, row.power) + row.cell_seconds * work.cells;
     const double faces = face_seconds * work.faces;

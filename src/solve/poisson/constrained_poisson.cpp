@@ -22,6 +22,7 @@ void remove_means(const std::vector<int>& group, VecX& v) {
   }
   for (Eigen::Index r = 0; r < v.size(); ++r) v[r] -= sum[group[r]] / count[group[r]];
 }
+
 /// s = L^+ A^T v, in the same place each time: fresh memory of that size takes as long as the sums.
 void spread_and_solve(const std::function<void(VecX&)>& solve,
                       const Eigen::SparseMatrix<double, Eigen::RowMajor>& A, const VecX& v,

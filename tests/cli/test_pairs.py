@@ -14,10 +14,25 @@ def test_matrix_and_statistics(run: Run, tmp_path: Path) -> None:
     report = json.loads(run("pairs", mesh, "-o", out, "--json").stdout)
     d = np.load(out)
     assert d.shape == (6, 6)
-    assert (d == d.T).all() and (np.diag(d) == 0).all() and (d >= 0).all()
+    assert np.abs(d - d.T).max() < 1e-12 and (np.diag(d) == 0).all()
+    over_an_edge = 2**0.5, 6**0.5  # to a neighbour, and over two faces to the other side
+    assert np.allclose(np.unique(d.round(9)), [0, *over_an_edge], atol=1e-8)
     names = {entry if isinstance(entry, str) else entry[0] for entry in report["residuals"]}
     assert any("triangle inequality" in name for name in names)
+    assert report["method"] == "auto"
+
+
+def test_the_default_is_exact_and_symmetric_is_asked_for(run: Run, tmp_path: Path) -> None:
+    mesh = octahedron(tmp_path / "o.obj")
+    out, exact = tmp_path / "d.npy", tmp_path / "exact.npy"
+    run("pairs", mesh, "-o", out)
+    run("pairs", mesh, "-o", exact, "--method", "exact")
+    assert np.abs(np.load(out) - np.load(exact)).max() < 1e-12
+    asked = ("--method", "symmetric", "--alpha", "0.05")
+    report = json.loads(run("pairs", mesh, "-o", out, *asked, "--json").stdout)
+    d = np.load(out)
     assert report["method"] == "symmetric"
+    assert (d == d.T).all() and (np.diag(d) == 0).all() and (d >= 0).all()
 
 
 def test_rows_of_other_methods(run: Run, tmp_path: Path) -> None:
@@ -55,7 +70,7 @@ def test_what_is_wrong(run: Run, tmp_path: Path) -> None:
     for words, says in [
         (["-o", "d.npy", "--method", "nonsense"], "unknown method"),
         (["-o", "d.npy", "--vertex", "6"], "no vertex 6"),
-        (["-o", "d.npy", "--alpha", "-1"], "alpha"),
+        (["-o", "d.npy", "--method", "symmetric", "--alpha", "-1"], "alpha"),
         (["-o", "d.npy", "--method", "exact", "--alpha", "1"], "no option"),
         (["-o", "d.ply"], "as a table"),
     ]:

@@ -213,14 +213,13 @@ std::vector<Method<PairsDomain>> library_methods() {
 }
 
 std::vector<MethodInfo> pair_methods() {
-  std::vector<MethodInfo> out = Registry<PairsDomain>::instance().infos();
-  for (MethodInfo& info : Registry<SurfaceDomain>::instance().infos())
-    out.push_back(std::move(info));
+  std::vector<MethodInfo> out = Registry<SurfaceDomain>::instance().infos();
+  for (MethodInfo& info : Registry<PairsDomain>::instance().infos()) out.push_back(std::move(info));
   return out;
 }
 
 void check_pairs_method(const AnyMethod& method) {
-  if (method.name().empty() || Registry<PairsDomain>::instance().has(method.name()))
+  if (Registry<PairsDomain>::instance().has(method.name()))
     check_method<PairsDomain>(method);
   else
     check_method<SurfaceDomain>(method);
@@ -297,7 +296,7 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
   report.sizes.emplace_back("source_points", static_cast<double>(rows.size()));
   check_matrix(rows.size(), mesh.n_vertices(), static_cast<double>(rows.size()) + (all ? n : 0));
   PairsAnswer answer;
-  if (method.name().empty() || Registry<PairsDomain>::instance().has(method.name())) {
+  if (Registry<PairsDomain>::instance().has(method.name())) {
     answer.distances =
         solve_once<PairsDomain>(method, {domain.mesh}, rows, task.stage(0.85, "all pairs"), report);
   } else {

@@ -27,7 +27,8 @@ struct PairsDomain {
 template <>
 std::vector<Method<PairsDomain>> library_methods();
 
-/// The methods of both kinds: those for all pairs, then those of distance on surfaces.
+/// The methods of both kinds: those of distance on surfaces, whose default is the default here,
+/// then those for all pairs.
 std::vector<MethodInfo> pair_methods();
 
 /// Throws InputError if there is no such method, it lacks an option, or a value is out of range.

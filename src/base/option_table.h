@@ -137,14 +137,14 @@ class OptionTable {
   }
   template <class N, class Parse, class Text>
   OptionTable& numeric(N S::*m, OptionInfo info, std::string unit, double low, double high,
-                       Parse parse, Text text) {
+                       Parse parse, Text words) {
     info.unit = std::move(unit);
     info.low = low;
     info.high = high;
     return add(
         std::move(info),
         [m, parse](S& s, const OptionInfo& i, const std::string& given) { s.*m = parse(i, given); },
-        [m, text](const S& s, const OptionInfo&) { return text(s.*m); },
+        [m, words](const S& s, const OptionInfo&) { return words(s.*m); },
         [m](const S& s, const OptionInfo& i) { check_option_range(i, s.*m); });
   }
   template <class Set, class Get, class Check>

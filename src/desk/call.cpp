@@ -91,9 +91,9 @@ std::vector<double> Call::doubles(const json& value) const {
   if (type == "$u32") return widened<std::uint32_t>(data);
   if (type == "$u8") return widened<std::uint8_t>(data);
   if (!value.is_array()) throw InputError("expected an array of numbers");
-  std::vector<double> out;
-  for (const json& x : value) out.push_back(number_of(x));
-  return out;
+  std::vector<double> given;
+  for (const json& x : value) given.push_back(number_of(x));
+  return given;
 }
 
 MatX3 Call::points(const json& value) const {

@@ -44,15 +44,15 @@ class Call {
     if constexpr (std::is_same_v<T, double>) {
       return all;
     } else {
-      std::vector<T> out;
-      out.reserve(all.size());
+      std::vector<T> whole;
+      whole.reserve(all.size());
       for (const double x : all) {
         if (!(x >= std::numeric_limits<T>::min() && x <= std::numeric_limits<T>::max()) ||
             x != std::floor(x))
           throw InputError("an array of whole numbers holds " + std::to_string(x));
-        out.push_back(static_cast<T>(x));
+        whole.push_back(static_cast<T>(x));
       }
-      return out;
+      return whole;
     }
   }
   std::vector<double> doubles(const json& value) const;

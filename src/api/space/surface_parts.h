@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "api/space/frame.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/types.h"
 

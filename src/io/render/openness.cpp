@@ -27,7 +27,7 @@ Vec3 direction(int i) {
 class HeightMap {
  public:
   explicit HeightMap(int side)
-      : side(side),
+      : side_(side),
         heights_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), nothing) {}
 
   void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
@@ -50,14 +50,14 @@ class HeightMap {
 
   // Takes the lowest of each pixel and its neighbours: then nothing that is flat hides itself.
   void lower() {
-    std::vector<float> row(static_cast<std::size_t>(side));
+    std::vector<float> row(static_cast<std::size_t>(side_));
     for (const bool across : {true, false}) {
-      for (int j = 0; j < side; ++j) {
+      for (int j = 0; j < side_; ++j) {
         const auto item = [&](int i) -> float& { return across ? at(i, j) : at(j, i); };
-        for (int i = 0; i < side; ++i) row[static_cast<std::size_t>(i)] = item(i);
-        for (int i = 0; i < side; ++i) {
+        for (int i = 0; i < side_; ++i) row[static_cast<std::size_t>(i)] = item(i);
+        for (int i = 0; i < side_; ++i) {
           const auto before = static_cast<std::size_t>(std::max(0, i - 1));
-          const auto after = static_cast<std::size_t>(std::min(side - 1, i + 1));
+          const auto after = static_cast<std::size_t>(std::min(side_ - 1, i + 1));
           item(i) = std::min({row[before], row[static_cast<std::size_t>(i)], row[after]});
         }
       }
@@ -65,8 +65,8 @@ class HeightMap {
   }
 
   bool seen(const Eigen::Vector3f& p) const {
-    const int x = std::clamp(static_cast<int>(p[0]), 0, side - 1);
-    const int y = std::clamp(static_cast<int>(p[1]), 0, side - 1);
+    const int x = std::clamp(static_cast<int>(p[0]), 0, side_ - 1);
+    const int y = std::clamp(static_cast<int>(p[1]), 0, side_ - 1);
     return p[2] >= heights_[index(x, y)] - 1;
   }
 
@@ -76,14 +76,14 @@ class HeightMap {
   }
   // Of pixels whose middle is not before, not behind a place x > 0.
   static int first(float x) { return static_cast<int>(x + 0.5f); }
-  int last(float x) const { return std::min(side - 1, static_cast<int>(x + 0.5f) - 1); }
+  int last(float x) const { return std::min(side_ - 1, static_cast<int>(x + 0.5f) - 1); }
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
            static_cast<std::size_t>(x);
   }
   float& at(int x, int y) { return heights_[index(x, y)]; }
 
-  int side;
+  int side_;
   std::vector<float> heights_;
 };
 

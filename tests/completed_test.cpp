@@ -8,7 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include "api/space/offset_quality.h"
 #include "api/space/sdf.h"
 #include "base/parallel.h"
 #include "broken_shapes.h"
@@ -29,7 +28,6 @@ using test::message_of;
 using test::part_of;
 using test::reversed;
 using test::turned;
-using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -313,34 +311,6 @@ TEST(Completed, RandomSoupsGiveFiniteDistancesNoLargerThanTheNearestFace) {
     EXPECT_LE((values.cwiseAbs() - nearest).maxCoeff(), 1e-12 * size) << round;
     EXPECT_TRUE(report.status == "converged" || !report.warnings.empty()) << round;
   }
-}
-
-TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
-  const PolygonSoup open = hemisphere(4, false);
-  Report report;
-  const Grid grid = test::cube_grid(48, 1.6);
-  SpaceAnswer answer = grid_answer(open, grid, {}, Task(), report);
-  const auto surfaces =
-      offset_isosurfaces({grid, answer.at_nodes}, {0.2, -0.1}, {}, false, report, Task());
-  for (const Isosurface& each : surfaces)
-    measure_offset(each, open, answer.completion, report, Task());
-  EXPECT_THAT(report.warnings, IsEmpty());
-  EXPECT_EQ(report.status, "converged");
-  for (const double d : {0.2, -0.1}) {
-    const std::string name = d > 0 ? "offset 0.2: " : "offset -0.1: ";
-    EXPECT_EQ(completed_size(report, name + "open edges"), 0);
-    EXPECT_NEAR(completed_size(report, name + "median distance"), std::abs(d), 0.01 * std::abs(d));
-    EXPECT_NEAR(completed_size(report, name + "least distance"), std::abs(d), 0.1 * std::abs(d));
-  }
-  // Flat tops: pi of pi + 2 pi (1.2)^2 + the quarter of a tube around the rim, and inside.
-  const double outer = M_PI / (M_PI + 2 * M_PI * 1.44 + M_PI * M_PI * 0.2 + 2 * M_PI * 0.04);
-  EXPECT_NEAR(completed_size(report, "offset 0.2: share over holes"), outer, 0.02);
-  EXPECT_GT(completed_size(report, "offset -0.1: share over holes"), 0.3);
-  // Measured against another distance than was asked for.
-  Report wrong;
-  measure_offset({0.21, surfaces.front().surface}, open, answer.completion, wrong, Task());
-  EXPECT_EQ(wrong.status, "uncertain");
-  EXPECT_THAT(wrong.warnings, Contains(AllOf(HasSubstr("offset 0.21"), HasSubstr("0.2,"))));
 }
 
 TEST(Completed, ConfidenceIsThatOfTheSidesThatWereSettled) {

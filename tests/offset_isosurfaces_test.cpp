@@ -36,6 +36,40 @@ TEST(Redistance, IsTheDistanceToTheLevelSetUpToItsReach) {
   EXPECT_EQ(redistance(field.grid, field.values, 9, {}, 0.3, {}).maxCoeff(), -0.3);
 }
 
+TEST(Isosurface, PointsLieWhereTheFunctionTakesTheLevel) {
+  // Balls that nearly touch, some in one cell: the distance has creases between them, and cells
+  // whose corners alternate, which have points inside.
+  const Grid grid = test::box_grid(17);
+  const double h = grid.spacing[0];
+  double worst = 0, worst_by_nodes = 0;
+  for (int shift = 0; shift < 40; ++shift) {
+    const Vec3 at(0.013 * shift, 0.007 * shift, -0.011 * shift);
+    const auto shape = [&](const Vec3& p) {
+      double nearest = 10;
+      for (int corner = 0; corner < 8; ++corner) {
+        Vec3 centre(corner & 1, corner >> 1 & 1, corner >> 2);
+        if (centre.sum() == 1 || centre.sum() == 3) continue;
+        nearest = std::min(nearest, ball(p, at + 2.2 * h * centre, 1.2 * h));
+      }
+      return nearest;
+    };
+    const Volume field = test::sampled(grid, shape);
+    Report report;
+    const auto farthest = [&](const IsosurfaceOptions& options) {
+      const PolygonSoup surface = isosurface(grid, field.values, 0.3 * h, options, report);
+      EXPECT_TRUE(report.warnings.empty());  // closed
+      double most = 0;
+      for (Eigen::Index v = 0; v < surface.points.rows(); ++v)
+        most = std::max(most, std::abs(shape(surface.points.row(v)) - 0.3 * h));
+      return most;
+    };
+    worst = std::max(worst, farthest({.function = shape}));
+    worst_by_nodes = std::max(worst_by_nodes, farthest({}));
+  }
+  EXPECT_LT(worst, 0.1 * h);  // of vertices that are joined near a node
+  EXPECT_GT(worst_by_nodes, 0.2 * h);
+}
+
 double widest(const PolygonSoup& soup) { return soup.points.rowwise().norm().maxCoeff(); }
 double narrowest(const PolygonSoup& soup) { return soup.points.rowwise().norm().minCoeff(); }
 

@@ -136,6 +136,11 @@ struct Morphology {
 std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& distances,
                          const Morphology& morphology = {}, const Context& context = {});
 
+/// The same of a shape that is sampled on a grid, with vertices exactly at the distances where the
+/// shape can be asked anywhere; those of a volume are at the distances by interpolation.
+std::vector<Mesh> offset(const Sdf& shape, const Grid& grid, const std::vector<double>& distances,
+                         const Morphology& morphology = {}, const Context& context = {});
+
 /// A closed wall about the surface at signed distance `at`: the surface half the thickness farther
 /// out and, reversed, the one half the thickness farther in [length].
 Mesh wall(const Volume& distance, double thickness, double at = 0,

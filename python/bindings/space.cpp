@@ -71,6 +71,16 @@ void bind_volume(nb::module_& m) {
       },
       nb::arg("volume"), nb::arg("distances"), nb::arg("open"), nb::arg("close"),
       nb::arg("settings").none());
+  m.def(
+      "offset",
+      [](const Sdf& shape, const Grid& grid, const std::vector<double>& distances, double open,
+         double close, const Settings* settings) {
+        return released(settings, [&](const Context& context) {
+          return offset(shape, grid, distances, {open, close}, context);
+        });
+      },
+      nb::arg("shape"), nb::arg("grid"), nb::arg("distances"), nb::arg("open"), nb::arg("close"),
+      nb::arg("settings").none());
 }
 
 void bind_repair(nb::module_& m) {

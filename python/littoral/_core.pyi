@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 import enum
-from typing import Annotated
+from typing import Annotated, overload
 
 import numpy
 from numpy.typing import NDArray
@@ -255,8 +255,18 @@ def read_volume(arg: str, /) -> Volume: ...
 def isosurface(
     volume: Volume, level: float, close_at_box: bool, settings: Settings | None
 ) -> Mesh: ...
+@overload
 def offset(
     volume: Volume, distances: Sequence[float], open: float, close: float, settings: Settings | None
+) -> list[Mesh]: ...
+@overload
+def offset(
+    shape: Sdf,
+    grid: Grid,
+    distances: Sequence[float],
+    open: float,
+    close: float,
+    settings: Settings | None,
 ) -> list[Mesh]: ...
 
 class Sdf:

@@ -271,7 +271,9 @@ def offset(
     """The surfaces at signed distances from a shape, one each [length]; InputError without one.
 
     shape: a volume of distance, an SDF, or what `SDF` takes; the latter are sampled (resolution,
-    spacing). open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps fill.
+    spacing), and where they can be asked anywhere, vertices lie exactly at the distances, however
+    coarse the grid. open: erode by this, then dilate, so thin parts go; close: the reverse, so gaps
+    fill.
     as_: "pyvista", "trimesh" or "meshio" for a list of that library's objects.
 
     >>> from littoral.examples import cube
@@ -279,14 +281,16 @@ def offset(
     1.1
     """
     wanted = list(floats(np.atleast_1d(np.asarray(distances)), "distances"))
-    if not isinstance(shape, Volume):
+    given = (float(open), float(close), settings(threads, progress))
+    if isinstance(shape, Volume):
+        cores = _core.offset(shape._handle, wanted, *given)
+    else:
         sdf = shape if isinstance(shape, SDF) else SDF(shape)
         side = float(np.ptp(sdf.bounds, axis=0).max())
         reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
-        shape = sdf.sample(resolution, spacing=spacing, padding=max(0.25, 1.5 * reach))
-    cores = _core.offset(
-        shape._handle, wanted, float(open), float(close), settings(threads, progress)
-    )
+        padding = max(0.25, 1.5 * reach)
+        grid = _core.Grid.around(sdf._handle, resolution, spacing, None, padding)
+        cores = _core.offset(sdf._handle, grid, wanted, *given)
     return [Mesh._of(core) for core in cores]
 
 

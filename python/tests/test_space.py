@@ -93,8 +93,13 @@ def test_sampling_isosurfaces_and_offsets(cube):
     shell = volume.isosurface(0.1)
     assert np.abs(box_distance(shell.points) - 0.1).max() < 0.02
     inner, outer = littoral.offset(cube, [-0.1, 0.2], resolution=32)
-    assert np.abs(box_distance(inner.points) + 0.1).max() < 0.03
-    assert np.abs(box_distance(outer.points) - 0.2).max() < 0.03
+    # Vertices are exact but for those that lie so near to a node that several become one.
+    near_nodes = 0.05 * 3**0.5 * 3 / 31
+    assert np.abs(box_distance(inner.points) + 0.1).max() < near_nodes
+    assert np.abs(box_distance(outer.points) - 0.2).max() < near_nodes
+    assert np.median(np.abs(box_distance(outer.points) - 0.2)) < 1e-4
+    (coarse,) = littoral.offset(littoral.SDF(cube, method="signed-heat"), 0.2, resolution=32)
+    assert np.abs(box_distance(coarse.points) - 0.2).max() < 0.06
     with pytest.raises(littoral.InputError):
         volume.isosurface(100)
     other = littoral.Volume(volume.values, volume.spacing, volume.origin)

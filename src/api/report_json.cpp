@@ -129,7 +129,7 @@ std::string report_json(const Report& report) {
   return dump(out);
 }
 
-FieldRange range_of(std::string name, const VecX& values) {
+FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   FieldRange range{std::move(name), none, none, static_cast<std::size_t>(values.size()), 0};
   for (const double value : values) {

@@ -38,7 +38,7 @@ struct FieldRange {
   double low = 0, high = 0;  // of the finite ones; NaN where there are none
   std::size_t count = 0, not_finite = 0;
 };
-FieldRange range_of(std::string name, const VecX& values);
+FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values);
 
 /// What a run would do; numbers are estimates, absent where nothing was measured.
 struct PlannedRun {

@@ -1,6 +1,8 @@
 #pragma once
 // Level sets of functions in space, as triangle meshes.
 
+#include <functional>
+
 #include "base/task.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
@@ -14,6 +16,10 @@ struct IsosurfaceOptions {
   /// Where the level set meets the boundary of a grid, close it there: outside counts as above the
   /// level, so the part of the box below it is capped, flat on the box.
   bool close = false;
+  /// The function whose samples the values are; may be asked from several threads. With it a
+  /// crossing of a grid's edge is where the function takes the level, to 1/1000 of the edge, not
+  /// where the line between the two samples does: that is off by cells beside creases.
+  std::function<double(const Vec3&)> function = {};
 };
 
 /// Marching cubes with the topology of the trilinear interpolant (after Chernyaev 1995, Nielson

@@ -20,10 +20,15 @@ namespace {
 // one spacing outside, and crossings on the way to them at the box.
 class Samples {
  public:
-  Samples(const Grid& grid, const VecX& values, double level, bool close)
-      : grid_(grid), values_(values), level_(level), pad_(close ? 1 : 0) {
+  Samples(const Grid& grid, const VecX& values, double level, const IsosurfaceOptions& options)
+      : grid_(grid),
+        values_(values),
+        level_(level),
+        function_(options.function),
+        pad_(options.close ? 1 : 0) {
     for (int k = 0; k < 3; ++k) n[k] = grid.n[k] + 2 * pad_;
-    if (close) outside_ = std::max(1e-300, (0.5 * values.array() - 0.5 * level).abs().maxCoeff());
+    if (options.close)
+      outside_ = std::max(1e-300, (0.5 * values.array() - 0.5 * level).abs().maxCoeff());
     const auto slice = std::size_t(n[0]) * n[1];
     positive_.resize(slice * n[2]);
     parallel_for(n[2], 1, [&](std::size_t k, std::size_t) {
@@ -49,7 +54,38 @@ class Samples {
     if (padded(p[0], p[1], p[2])) return 1;
     if (padded(q[0], q[1], q[2])) return 0;
     const double a = value(p[0], p[1], p[2]), b = value(q[0], q[1], q[2]);
-    return a == b ? 0.5 : std::clamp(a / (a - b), 0.0, 1.0);
+    if (a == b) return 0.5;
+    return function_ ? root(p, q, a, b) : std::clamp(a / (a - b), 0.0, 1.0);
+  }
+  // Point p, 0 to 1, of the cell at `corner`, moved within it to where the function, if there is
+  // one, takes the level, or as near to that as it gets.
+  Vec3 inside(const Vec3& corner, Vec3 p) const {
+    if (!function_) return point(corner + p);
+    constexpr int most = 12;
+    constexpr double enough = 1e-3, step = 1e-4, rim = 0.02;  // of a cell
+    const double h = grid_.spacing.minCoeff();
+    const auto off = [&](const Vec3& q) { return (function_(point(corner + q)) - level_) / h; };
+    double here = off(p);
+    for (int i = 0; i < most && std::abs(here) > enough; ++i) {
+      Vec3 slope;
+      for (int a = 0; a < 3; ++a)
+        slope[a] = (off(p + step * Vec3::Unit(a)) - off(p - step * Vec3::Unit(a))) / (2 * step);
+      const double square = slope.squaredNorm();
+      if (!(square > 0) || !std::isfinite(square)) break;
+      double length = 1;
+      bool nearer = false;
+      for (; !nearer && length > 0.1; length /= 2) {
+        const Vec3 q = (p - length * here / square * slope).cwiseMax(rim).cwiseMin(1 - rim);
+        const double there = off(q);
+        nearer = std::abs(there) < std::abs(here);
+        if (nearer) {
+          p = q;
+          here = there;
+        }
+      }
+      if (!nearer) break;
+    }
+    return point(corner + p);
   }
   std::int64_t node(int i, int j, int k) const {
     return i + static_cast<std::int64_t>(n[0]) * (j + static_cast<std::int64_t>(n[1]) * k);
@@ -59,12 +95,41 @@ class Samples {
   std::array<int, 3> n{};
 
  private:
+  // The same by the function itself; half its value minus the level is a at p and b at q, of which
+  // one is above zero. Regula falsi, where the end that stays counts half (Illinois).
+  double root(const std::array<int, 3>& p, const std::array<int, 3>& q, double a, double b) const {
+    constexpr double enough = 1e-3;  // of the edge
+    constexpr int most = 40;
+    const Vec3 from = point(Vec3(p[0], p[1], p[2])), to = point(Vec3(q[0], q[1], q[2]));
+    const double flat = 0.5 * enough * (to - from).norm();  // a distance this far is that near
+    double low = 0, high = 1, t = 0.5;
+    int kept = 0;
+    for (int i = 0; i < most && high - low > enough; ++i) {
+      t = i % 4 == 3 ? 0.5 * (low + high) : (low * b - high * a) / (b - a);
+      const double here = 0.5 * function_(from + t * (to - from)) - 0.5 * level_;
+      if (!std::isfinite(here)) break;
+      if (std::abs(here) <= 0.1 * flat) return std::clamp(t, 0.0, 1.0);
+      if ((here > 0) == (b > 0)) {
+        high = t;
+        b = here;
+        if (kept == 1) a *= 0.5;
+        kept = 1;
+      } else {
+        low = t;
+        a = here;
+        if (kept == -1) b *= 0.5;
+        kept = -1;
+      }
+    }
+    return std::clamp(t, 0.0, 1.0);
+  }
   Eigen::Index real(int i, int j, int k) const {
     return index(grid_.node(i - pad_, j - pad_, k - pad_));
   }
   const Grid& grid_;
   const VecX& values_;
   double level_;
+  const std::function<double(const Vec3&)>& function_;
   int pad_;
   double outside_ = 1;
   std::vector<unsigned char> positive_;  // nodes: above the level?
@@ -121,6 +186,7 @@ class Marcher {
     rough.points.resize(start_[slices]);
     rough.separated_points.resize(start_[slices]);
     rough.node.resize(start_[slices]);
+    where_.resize(start_[slices]);
     place_points(rough);
     std::vector<Layer> layers(slices - 1);
     std::atomic<std::size_t> done{0};
@@ -182,7 +248,7 @@ class Marcher {
         ++q[edge.axis];
         Vec3 along = Vec3::Zero();
         along[edge.axis] = 1;
-        const double t = s_.crossing(p, q);
+        const double t = where_[start_[k] + c] = s_.crossing(p, q);
         const Vec3 base(p[0], p[1], p[2]);
         const auto& near = t < 0.5 ? p : q;
         place_crossing(rough, start_[k] + c, t, s_.node(near[0], near[1], near[2]),
@@ -230,20 +296,18 @@ class Marcher {
       if ((one.positive >> edge.tail & 1) == (one.positive >> edge.head & 1)) continue;
       std::array<int, 3> p;
       for (int a = 0; a < 3; ++a) p[a] = edge.tail >> a & 1;
-      const std::array<int, 3> from{i + p[0], j + p[1], k + p[2]};
-      std::array<int, 3> to = from;
-      ++to[edge.axis];
+      const std::size_t node = i + p[0] + std::size_t(s_.n[0]) * (j + p[1]);
+      number[e] = (p[2] ? above : below)[3 * node + edge.axis];
       one.crossing[e] = Vec3(p[0], p[1], p[2]);
       // Crossings that are about to become one point must not put two inner points in one place.
-      one.crossing[e][edge.axis] =
-          std::clamp(s_.crossing(from, to), close_to_node, 1 - close_to_node);
-      const std::size_t node = from[0] + s_.n[0] * from[1];
-      number[e] = (p[2] ? above : below)[3 * node + edge.axis];
+      one.crossing[e][edge.axis] = std::clamp(where_[number[e]], close_to_node, 1 - close_to_node);
     }
     patch.clear();
     cell::span_cell(one, patch);
     const int inner = layer.inner.size();
-    for (const Vec3& p : patch.inner) layer.inner.push_back(s_.point(Vec3(i, j, k) + p));
+    for (const Vec3& p : patch.inner)
+      layer.inner.push_back(one.trilinear ? s_.inside(Vec3(i, j, k), p)
+                                          : s_.point(Vec3(i, j, k) + p));
     for (const auto& t : patch.triangles) {
       std::array<int, 3> corners;
       for (int c = 0; c < 3; ++c) corners[c] = t[c] < 12 ? number[t[c]] : -1 - (inner + t[c] - 12);
@@ -274,6 +338,7 @@ class Marcher {
   const Task& task_;
   std::vector<std::vector<Crossed>> crossed_;  // by slice, in order of nodes
   std::vector<std::size_t> start_;             // slices + 1: number of a slice's first crossing
+  std::vector<double> where_;                  // crossings: fraction of the edge
 };
 
 }  // namespace
@@ -281,7 +346,7 @@ class Marcher {
 PolygonSoup isosurface(const Grid& grid, const VecX& values, double level,
                        const IsosurfaceOptions& options, Report& report, Task task) {
   check(grid, values, level);
-  const Samples samples(grid, values, level, options.close);
+  const Samples samples(grid, values, level, options);
   const Task march = task.stage(0.7, "marching cubes");
   PolygonSoup surface =
       merge_close_points(Marcher(samples, march).run(), task.stage(0.3, "joining points"));

@@ -68,6 +68,7 @@ def test_long_runs_are_announced(tmp_path: Path) -> None:
     done = subprocess.run(arguments, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1
     assert done.stderr.startswith("littoral: this will take about ")
+    assert "option vertex measures from some vertices only" in done.stderr
     assert "time limit" in done.stderr
     done = subprocess.run(
         [*arguments, "--vertex=0"], cwd=tmp_path, capture_output=True, text=True, timeout=60

@@ -127,21 +127,6 @@ def test_what_is_doubtful_is_said(run: Run, cube: Path, tmp_path: Path) -> None:
     assert [row[0] for row in rows(tmp_path / "a.csv")] == pytest.approx([-1, 2])
 
 
-def test_offset_of_an_open_box_is_closed_and_measured(run: Run, cube: Path, tmp_path: Path) -> None:
-    lines = CUBE.splitlines()
-    (tmp_path / "open.obj").write_text("\n".join(lines[:-1]) + "\n")
-    arguments = ("--distance", "0.3", "--resolution", 32, "--json", "-o", "a.ply")
-    report = json.loads(run("offset", "open.obj", *arguments).stdout)
-    assert report["status"] == "converged"
-    sizes = report["sizes"]
-    assert sizes["offset 0.3: open edges"] == 0
-    assert sizes["offset 0.3: median distance"] == pytest.approx(0.3, abs=0.003)
-    assert 0.08 < sizes["offset 0.3: share over holes"] < 0.2
-    assert clean(run, "a.ply")["components"] == 1
-    result = run("offset", "open.obj", "--method", "signed-heat", *arguments)
-    assert "more than a tenth off" in result.stderr or "is open" in result.stderr
-
-
 def test_sdf_on_tets(run: Run, cube: Path, tmp_path: Path) -> None:
     run("sdf", "cube.obj", "--domain", "tets", "--resolution", 16, "-o", "t.ply", "-o", "t.vti")
     info = json.loads(run("info", "t.ply", "--json").stdout)

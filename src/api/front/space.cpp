@@ -269,6 +269,19 @@ std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& dist
   });
 }
 
+std::vector<Mesh> offset(const Sdf& shape, const Grid& grid, const std::vector<double>& distances,
+                         const Morphology& morphology, const Context& context) {
+  const Volume distance = shape.sample(grid, context);
+  return run(context, [&](const Task& task) {
+    Report report;
+    std::vector<Mesh> out;
+    for (Isosurface& each : offset_isosurfaces(distance, distances, morphology, false, report, task,
+                                               shape.impl().function.get()))
+      out.emplace_back(std::move(each.surface));
+    return out;
+  });
+}
+
 Mesh wall(const Volume& distance, double thickness, double at, const Morphology& morphology,
           const Context& context) {
   return run(context, [&](const Task& task) {

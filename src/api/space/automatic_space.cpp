@@ -67,7 +67,7 @@ SpaceAnswer on_nodes(const Grid& grid, const SpaceSources& sources, Task& task, 
   const Grid local = frame.local(grid);
   const double spacing = local.spacing.minCoeff();
   const SpaceInput input = make_input(sources, frame, spacing, task, report);
-  const auto distance = completed(input, &local, spacing, task.stage(0.35, "preparing"), report);
+  auto distance = completed(input, &local, spacing, task.stage(0.35, "preparing"), report);
   const Stopwatch watch(report, "evaluate");
   SpaceAnswer answer;
   answer.at_nodes = distance->at_nodes(local, task.stage(0.6, "distance"), report);
@@ -75,6 +75,7 @@ SpaceAnswer on_nodes(const Grid& grid, const SpaceSources& sources, Task& task, 
     warn_of_thin_parts(*distance, input.samples, local, answer.at_nodes, report);
   answer.at_nodes *= frame.unit;
   answer.completion = completion_of(*distance, frame);
+  answer.function = placed(std::move(distance), frame);
   return answer;
 }
 

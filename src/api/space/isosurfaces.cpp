@@ -38,12 +38,15 @@ Volume offset_back(const Volume& distance, double level, double back, double rea
 }  // namespace
 
 std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<double>& levels,
-                                    bool close_at_box, Report& report, Task task) {
+                                    bool close_at_box, Report& report, Task task,
+                                    const PointwiseDistance* exact) {
   std::vector<Isosurface> surfaces;
+  IsosurfaceOptions options{.close = close_at_box};
+  if (exact) options.function = [exact](const Vec3& x) { return exact->value(x); };
   bool any = false;
   for (const double level : levels) {
     PolygonSoup surface =
-        isosurface(volume.grid, volume.values, level, {.close = close_at_box}, report,
+        isosurface(volume.grid, volume.values, level, options, report,
                    task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
     if (surface.n_faces() == 0)
       report.warn("level-missed", "there is no surface at level " + rounded_text(level) +
@@ -65,7 +68,8 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
 std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
                                            const std::vector<double>& offsets,
                                            const Morphology& morphology, bool close_at_box,
-                                           Report& report, Task task) {
+                                           Report& report, Task task,
+                                           const PointwiseDistance* exact) {
   const double open = morphology.open, close = morphology.close;
   if (!(open >= 0) || !(close >= 0) || !std::isfinite(open + close))
     throw InputError("offset: the radii of opening and closing must not be negative",
@@ -81,12 +85,14 @@ std::vector<Isosurface> offset_isosurfaces(const Volume& distance,
   if (close > 0)
     field = offset_back(field, close, -close, 2 * close + more, "closing", report,
                         task.stage(0.3, "closing"));
-  return isosurfaces(field, offsets, close_at_box, report, task.stage(1, "contouring"));
+  return isosurfaces(field, offsets, close_at_box, report, task.stage(1, "contouring"),
+                     open > 0 || close > 0 ? nullptr : exact);
 }
 
 std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vector<double>& offsets,
                                          double thickness, const Morphology& morphology,
-                                         bool close_at_box, Report& report, Task task) {
+                                         bool close_at_box, Report& report, Task task,
+                                         const PointwiseDistance* exact) {
   if (!(thickness > 0) || !std::isfinite(thickness))
     throw InputError("the thickness of a wall must be positive", "option-value");
   const double spacing = distance.grid.spacing.maxCoeff();
@@ -106,8 +112,8 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
   for (const double d : offsets)
     for (const double side : {0.5, -0.5}) levels.push_back(d + side * thickness);
   Report measured;
-  std::vector<Isosurface> sides =
-      offset_isosurfaces(distance, levels, morphology, close_at_box, measured, std::move(task));
+  std::vector<Isosurface> sides = offset_isosurfaces(distance, levels, morphology, close_at_box,
+                                                     measured, std::move(task), exact);
   measured.warnings.clear();  // of levels, which are said below
   report.merge(measured);
   std::vector<Isosurface> walls;

@@ -28,7 +28,7 @@ struct TetFilling {
 /// Signed distance in space, negative inside [length].
 struct SpaceAnswer {
   VecX at_nodes;                                      // of the grid, where there is one
-  std::shared_ptr<const PointwiseDistance> function;  // at any point, where there is no grid
+  std::shared_ptr<const PointwiseDistance> function;  // at any point, where a method has it
   TetField tets;                                      // where tets fill the grid's box
   PolygonSoup completion;  // triangles over holes, where a method has them
 };
@@ -110,34 +110,30 @@ Method<SpaceDomain> make_grid_method(MethodInfo info, const OptionTable<S>& tabl
 /// anywhere, in the input's frame; on a grid it is asked at each node.
 template <class S, class Make>
 Method<SpaceDomain> make_pointwise_method(MethodInfo info, const OptionTable<S>& table, Make make) {
-  const Method<SpaceDomain> on_grid = make_grid_method(
-      info, table,
-      [make](const SpaceInput& input, const Grid& grid, const S& options, Task& task,
-             Report& report) {
-        const auto distance = make(input, options, task.stage(0.3, "preparing"), report);
-        const Stopwatch watch(report, "evaluate");
-        return evaluate(*distance, grid, task.stage(0.7, "distance"));
-      });
   info.domains = {"grid", "set of points"};
-  Method<SpaceDomain> method = make_method<SpaceDomain>(
+  return make_method<SpaceDomain>(
       std::move(info), table,
-      [make](const SpaceDomain&, const S&, SolveHint, const Task&, Report&) {
-        return [make](const SpaceSources& sources, S& options, Task& task, Report& report) {
-          const Frame frame(bounding_box(sources.soup));
-          const SpaceInput input = make_input(sources, frame, query_side, task, report);
-          return SpaceAnswer{
-              {},
-              placed(make(input, options, task.stage(0.95, "preparing"), report), frame),
-              {},
-              {}};
+      [make](const SpaceDomain& domain, const S&, SolveHint, const Task&, Report& report) {
+        if (domain.grid) {
+          check_grid(*domain.grid);
+          report.sizes.emplace_back("nodes", static_cast<double>(domain.grid->n_nodes()));
+        }
+        return [make, grid = domain.grid](const SpaceSources& sources, S& options, Task& task,
+                                          Report& r) {
+          const Frame frame(grid ? box_on_grid(sources.soup, *grid) : bounding_box(sources.soup));
+          const double side = grid ? frame.local(*grid).spacing.minCoeff() : query_side;
+          const SpaceInput input = make_input(sources, frame, side, task, r);
+          auto distance = make(input, options, task.stage(grid ? 0.3 : 0.95, "preparing"), r);
+          SpaceAnswer answer;
+          if (grid) {
+            const Stopwatch watch(r, "evaluate");
+            answer.at_nodes =
+                evaluate(*distance, frame.local(*grid), task.stage(0.65, "distance")) * frame.unit;
+          }
+          answer.function = placed(std::move(distance), frame);
+          return answer;
         };
       });
-  method.prepare = [at_points = method.prepare, on_grid](const SpaceDomain& domain,
-                                                         const std::any& options, SolveHint hint,
-                                                         const Task& task, Report& report) {
-    return (domain.grid ? on_grid.prepare : at_points)(domain, options, hint, task, report);
-  };
-  return method;
 }
 
 }  // namespace littoral

@@ -294,7 +294,8 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
   report.sizes.emplace_back("vertices", n);
   report.sizes.emplace_back("faces", mesh.n_faces());
   report.sizes.emplace_back("source_points", static_cast<double>(rows.size()));
-  check_matrix(rows.size(), mesh.n_vertices(), static_cast<double>(rows.size()) + (all ? n : 0));
+  const auto checked = static_cast<double>(all ? statistics_nodes(mesh.n_vertices()) : 0);
+  check_matrix(rows.size(), mesh.n_vertices(), static_cast<double>(rows.size()) + checked);
   PairsAnswer answer;
   if (Registry<PairsDomain>::instance().has(method.name())) {
     answer.distances =

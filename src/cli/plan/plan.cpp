@@ -119,7 +119,8 @@ bool planned(const RunPlan& plan, Session& session) {
   if (!session.dry_run) {
     if (run.seconds.value_or(0) > long_run) {
       session.note("this will take " + estimate_text(run.seconds, "s") + " and " +
-                   estimate_text(run.memory_mb, "MB"));
+                   estimate_text(run.memory_mb, "MB") +
+                   (plan.shorter.empty() ? "" : "; " + plan.shorter));
     }
     return false;
   }

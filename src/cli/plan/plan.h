@@ -17,10 +17,11 @@ struct RunPlan {
   std::string domain;
   std::vector<MethodInfo> methods;  // of the domain, the default first
   std::vector<std::pair<std::string, double>> sizes;
-  double elements = 0;  // that the cost depends on
-  double share = 1;     // of the work on all of them
-  std::string like{};   // the verb that costs as much; empty: the one that runs
-  SurfaceWork work{};   // of distance in space
+  double elements = 0;    // that the cost depends on
+  double share = 1;       // of the work on all of them
+  std::string like{};     // the verb that costs as much; empty: the one that runs
+  SurfaceWork work{};     // of distance in space
+  std::string shorter{};  // what would take less, as is said before long runs
 };
 
 /// Of methods on a surface or tet mesh.

@@ -101,6 +101,7 @@ void offset_curves(OffsetArguments& arguments, std::size_t count, Session& sessi
 struct DistanceAround {
   Volume distance;
   PolygonSoup input, completion;
+  std::shared_ptr<const PointwiseDistance> exact;  // what was sampled, where it is known
   OffsetLengths lengths;
 };
 
@@ -124,7 +125,7 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   if (shapes.all.size() == 1 && shapes.all.front().field)
     return planned_as_sdf(shapes, shapes.all.front().field->grid, session)
                ? std::nullopt
-               : std::optional(DistanceAround{*shapes.all.front().field, {}, {}, lengths});
+               : std::optional(DistanceAround{*shapes.all.front().field, {}, {}, {}, lengths});
   double farthest = 0;
   for (const double d : lengths.distances) farthest = std::max(farthest, std::abs(d));
   const double reach =
@@ -146,6 +147,7 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   SpaceAnswer answer = grid_answer(shapes, around.distance.grid, session.task(), session.report);
   around.distance.values = std::move(answer.at_nodes);
   around.completion = std::move(answer.completion);
+  around.exact = std::move(answer.function);
   if (shapes.plain()) around.input = std::move(shapes.all.front().surface);
   return around;
 }
@@ -160,14 +162,15 @@ void offset_shape(OffsetArguments& arguments, std::size_t count, Session& sessio
   session.reading = false;
   Task task = session.task();
   if (lengths.wall > 0) {
-    write_isosurfaces(arguments.out,
-                      wall_isosurfaces(around.distance, lengths.distances, lengths.wall,
-                                       lengths.morphology, arguments.clip, session.report, task));
+    write_isosurfaces(
+        arguments.out,
+        wall_isosurfaces(around.distance, lengths.distances, lengths.wall, lengths.morphology,
+                         arguments.clip, session.report, task, around.exact.get()));
     return;
   }
   const auto surfaces =
       offset_isosurfaces(around.distance, lengths.distances, lengths.morphology, arguments.clip,
-                         session.report, task.stage(0.9, "offsets"));
+                         session.report, task.stage(0.9, "offsets"), around.exact.get());
   if (lengths.plain() && around.input.n_faces() > 0)
     for (const Isosurface& surface : surfaces)
       measure_offset(surface, around.input, around.completion, session.report,

@@ -34,8 +34,12 @@ struct PairStatistics {
 };
 
 /// D: nodes x nodes, columns are sources; entries that are not finite are left out. area: of the
-/// domain, in the square of D's unit. Of more than 600 nodes a fixed share of the pairs is looked
-/// at, each with all third nodes.
+/// domain, in the square of D's unit. Asymmetry is that of all pairs. Triangles are those of all
+/// pairs of `statistics_nodes` nodes, evenly spread by their numbers, each with all third nodes.
 PairStatistics pair_statistics(const MatX& D, double area, const Task& task);
+
+/// How many of n nodes the triangle inequality is checked from: all of up to 1000, and of more so
+/// many that there are half a billion triplets.
+Eigen::Index statistics_nodes(Eigen::Index n);
 
 }  // namespace littoral

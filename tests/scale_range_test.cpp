@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "api/surface/surface_domain.h"
+#include "base/stable_length.h"
 #include "one_call.h"
 #include "test_meshes.h"
 
@@ -51,6 +52,22 @@ TEST(ScaleRange, BrokenCurvesAreCompleted) {
     curve.nodes.push_back(SurfacePoint::in_face(face, 0.5, 0.3, 0.2));
   gaps.curves.push_back(curve);
   expect_scales(test::grid_soup(9, 7), gaps, AnyMethod::named("auto"));
+}
+
+TEST(ScaleRange, ALengthIsTheSameWhereverTheVectorLies) {
+  struct alignas(32) Shifted {
+    Vec3 even;
+    Vec3 odd;  // where no vector register begins
+  };
+  for (int i = 0; i < 1000; ++i) {
+    Shifted two;
+    two.even = two.odd = Vec3(std::sin(i), std::cos(3 * i), std::sin(7 * i + 1));
+    EXPECT_EQ(stable_length(two.even), stable_length(two.odd));
+  }
+  for (const double size : {1e-310, 1e-200, 1e200, 1.5e307})
+    EXPECT_DOUBLE_EQ(stable_length(size * Vec3(2, 3, 6)) / size, 7);
+  EXPECT_EQ(stable_length(Vec3::Zero()), 0);
+  EXPECT_EQ(stable_length(Vec3(1, -HUGE_VAL, 2)), HUGE_VAL);
 }
 
 }  // namespace

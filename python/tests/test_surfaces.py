@@ -278,11 +278,18 @@ def test_an_interrupt_stops_a_long_call():
 
 def test_many_calls_do_not_grow(square):
     solver = littoral.DistanceSolver(square, method="signed-heat")
+    sdf = littoral.SDF(square)
+    X = np.random.default_rng(0).random((20, 3))
 
     def calls() -> None:
-        for _ in range(2500):
+        for _ in range(5000):
             solver.solve(points=3)
             littoral.Mesh(square.points, square.faces)
+            sdf.with_gradient(X)
+            sdf.closest(X)
+            sdf.winding_number(X)
+            with pytest.raises(ValueError, match="barycentric"):
+                square.positions((0, [7.0]))
         gc.collect()
 
     calls()

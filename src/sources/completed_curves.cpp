@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/index.h"
+#include "base/stable_length.h"
 #include "contour/isolines.h"
 #include "sources/surface_points.h"
 
@@ -54,10 +55,10 @@ class Nearby {
       for (int i : near->second) {
         const Straight& s = straight_[i];
         const Vec3 along = s.b - s.a;
-        const double length = along.stableNorm();
+        const double length = stable_length(along);
         const double t =
             length > 0 ? std::clamp((x - s.a).dot(along / length) / length, 0.0, 1.0) : 0;
-        const double distance = (s.a + t * along - x).stableNorm();
+        const double distance = stable_length(s.a + t * along - x);
         if (distance >= least) continue;
         least = distance;
         beside = !((t == 0 && s.open_a) || (t == 1 && s.open_b));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/counted.h"
+#include "base/stable_length.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
 
@@ -68,7 +69,7 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
     Triangle t;
     for (int k = 0; k < 3; ++k) t[k] = triangles.points.row(triangles.face(f)[k]);
     const Vec3 twice = (t[1] - t[0]).cross(t[2] - t[0]);
-    const double norm = twice.stableNorm();
+    const double norm = stable_length(twice);
     if (!(norm > 0) || !std::isfinite(norm)) {
       ++flat;
       continue;

@@ -11,6 +11,7 @@
 #include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/stable_length.h"
 #include "littoral/error.h"
 #include "spatial/covered_triangles.h"
 
@@ -273,7 +274,7 @@ Vec3 TriangleBvh::to_tree(const Vec3& query) const { return scaled(query, -expon
 double TriangleBvh::distance_to(int stored, const Vec3& query) const {
   const Vec3 q = to_tree(query);
   const auto& c = corners_[stored];
-  return std::ldexp(closest_on_triangle(c[0] - q, c[1] - q, c[2] - q).offset.stableNorm(),
+  return std::ldexp(stable_length(closest_on_triangle(c[0] - q, c[1] - q, c[2] - q).offset),
                     exponent_);
 }
 
@@ -291,8 +292,8 @@ NearestPoint TriangleBvh::point_of(int stored, const TriangleFoot& foot, int exp
   Vec3 point = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) point += foot.barycentric[k] * corners_[stored][k];
   out.point = scaled(point, exponent_);
-  out.distance =
-      std::min(std::ldexp(foot.offset.stableNorm(), exponent), std::numeric_limits<double>::max());
+  out.distance = std::min(std::ldexp(stable_length(foot.offset), exponent),
+                          std::numeric_limits<double>::max());
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/stable_length.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -50,7 +51,7 @@ DistanceSample SampledDistance::at(const Vec3& x) const {
         value * Vec3(sign[0] * w[1] * w[2], w[0] * sign[1] * w[2], w[0] * w[1] * sign[2]);
   }
   const Vec3 beyond = x - inside;
-  const double distance = beyond.stableNorm();
+  const double distance = stable_length(beyond);
   if (!(distance > 0)) return sample;
   for (int a = 0; a < 3; ++a)
     if (beyond[a] != 0) sample.gradient[a] = 0;  // the nearest point of the box stays

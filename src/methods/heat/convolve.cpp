@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/stable_length.h"
+
 namespace littoral {
 
 namespace {
@@ -28,7 +30,7 @@ Flow Convolution::operator()(const Vec3& x) const {
   blocks_.visit(x, d0 + reach * root_t_,
                 [&](const PointBlocks<float>::Block& b) { sum_(b, place, sums); });
   const Vec3 X(Lanes(sums.x).sum(), Lanes(sums.y).sum(), Lanes(sums.z).sum());
-  const double size = X.stableNorm();
+  const double size = stable_length(X);
   Flow flow;
   flow.distance = d0;
   // What is left of a sum that cancels is rounding.

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
-#include "base/parallel.h"
+#include "methods/implicit/place_tree.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/covered_triangles.h"
 #include "spatial/finite_box.h"
@@ -25,147 +24,6 @@ constexpr int places_in_all = 4096, places_at_least = 4;  // on parts
 constexpr double least_valid = 0.1;     // share of lines that pass an odd number on one side alone
 constexpr double least_agreeing = 0.4;  // of these, for less against
 constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
-
-/// Triangles by where lines of one direction meet them: in bins of the plane across it, and crowded
-/// bins in bins of their own.
-class LineCaster {
- public:
-  LineCaster(const MatX3& points, const MatX3i& faces, const Vec3& direction) : faces_(faces) {
-    const Vec3 u = direction.unitOrthogonal(), v = direction.cross(u);
-    Eigen::Matrix3d turn;
-    turn << u.transpose(), v.transpose(), direction.transpose();
-    turn_ = turn;
-    points_ = points * turn.transpose();
-    std::vector<int> all(faces.rows());
-    std::iota(all.begin(), all.end(), 0);
-    Box2 box = box_of(0);
-    for (const int f : all) {
-      const Box2 one = box_of(f);
-      box.low = box.low.cwiseMin(one.low);
-      box.high = box.high.cwiseMax(one.high);
-    }
-    add_bins(all, box, 0);
-  }
-
-  /// How many faces but `own` the line through x passes on the side of the direction, and before.
-  std::pair<int, int> passed(const Vec3& x, int own) const {
-    const Vec3 q = turn_ * x;
-    const Bins* bins = bins_.data();
-    std::size_t bin = bins->at(q.head<2>());
-    while (bins->finer[bin] >= 0) {
-      bins = &bins_[bins->finer[bin]];
-      bin = bins->at(q.head<2>());
-    }
-    int after = 0, before = 0;
-    for (std::size_t k = bins->begin[bin]; k < bins->begin[bin + 1]; ++k) {
-      const int f = bins->faces[k];
-      if (f == own) continue;
-      std::array<Vec3, 3> p;
-      for (int c = 0; c < 3; ++c) p[c] = points_.row(faces_(f, c)).transpose() - q;
-      const auto cross = [](const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; };
-      const double a = cross(p[1], p[2]), b = cross(p[2], p[0]), c = cross(p[0], p[1]);
-      if ((a >= 0) != (b >= 0) || (b >= 0) != (c >= 0)) continue;
-      const double area = a + b + c;
-      if (area == 0) continue;
-      const double height = (a * p[0][2] + b * p[1][2] + c * p[2][2]) / area;
-      ++(height > 0 ? after : before);
-    }
-    return {after, before};
-  }
-
- private:
-  static constexpr std::size_t crowded = 256;  // faces of a bin
-  static constexpr int deepest = 12;
-  static constexpr double faces_a_finer_bin = 16;  // on average
-  static constexpr double most_copies = 2;         // of a face in finer bins, on average
-  static constexpr double most_in_all = 20;        // of all faces
-
-  struct Box2 {
-    Vec2 low, high;
-  };
-  struct Bins {
-    Vec2 low;
-    double cell = 1;
-    int n = 1;                       // a side
-    std::vector<std::size_t> begin;  // of each bin's faces
-    std::vector<int> faces, finer;   // bins of a bin, or -1
-
-    Eigen::Array2i place(const Vec2& p) const {
-      return (((p - low) / cell).array().floor().max(0).min(n - 1)).cast<int>();
-    }
-    std::size_t at(const Vec2& p) const {
-      const Eigen::Array2i i = place(p);
-      return std::size_t(i[1]) * n + i[0];
-    }
-  };
-
-  Box2 box_of(int f) const {
-    Box2 box{points_.row(faces_(f, 0)).head<2>(), points_.row(faces_(f, 0)).head<2>()};
-    for (int c = 1; c < 3; ++c) {
-      box.low = box.low.cwiseMin(points_.row(faces_(f, c)).head<2>().transpose());
-      box.high = box.high.cwiseMax(points_.row(faces_(f, c)).head<2>().transpose());
-    }
-    return box;
-  }
-
-  /// Bins of the faces that reach a part of the plane. Returns their number, or -1 where finer bins
-  /// would each have most of the faces again.
-  int add_bins(std::span<const int> faces, const Box2& part, int depth) {
-    Bins bins;
-    bins.low = part.low;
-    const double share = depth == 0 ? 1 : faces_a_finer_bin;
-    bins.n = std::clamp(static_cast<int>(std::sqrt(double(faces.size()) / share)), 1, 512);
-    bins.cell = std::max((part.high - part.low).maxCoeff() / bins.n, 1e-300);
-    const auto range = [&](int f) {
-      const Box2 one = box_of(f);
-      return std::pair(bins.place(one.low), bins.place(one.high));
-    };
-    if (depth > 0) {
-      const double most = std::min(most_copies * static_cast<double>(faces.size()),
-                                   most_in_all * static_cast<double>(faces_.rows()) - stored_);
-      double copies = 0;
-      for (const int f : faces) {
-        const auto [from, to] = range(f);
-        copies += (to - from + 1).prod();
-        if (copies > most) return -1;
-      }
-      stored_ += copies;
-    }
-    bins.begin.assign(std::size_t(bins.n) * bins.n + 1, 0);
-    bins.finer.assign(bins.begin.size() - 1, -1);
-    const auto for_bins = [&](int f, const auto& visit) {
-      const auto [from, to] = range(f);
-      for (int j = from[1]; j <= to[1]; ++j)
-        for (int i = from[0]; i <= to[0]; ++i) visit(std::size_t(j) * bins.n + i);
-    };
-    for (const int f : faces) for_bins(f, [&](std::size_t bin) { ++bins.begin[bin + 1]; });
-    std::partial_sum(bins.begin.begin(), bins.begin.end(), bins.begin.begin());
-    bins.faces.resize(bins.begin.back());
-    std::vector<std::size_t> end(bins.begin.begin(), bins.begin.end() - 1);
-    for (const int f : faces) for_bins(f, [&](std::size_t bin) { bins.faces[end[bin]++] = f; });
-
-    const int at = int_size(bins_);
-    bins_.push_back(std::move(bins));
-    for (std::size_t bin = 0; bin < end.size() && depth < deepest; ++bin) {
-      const Bins& these = bins_[at];
-      const std::size_t count = these.begin[bin + 1] - these.begin[bin];
-      if (count <= crowded) continue;
-      const std::span<const int> inside(these.faces.data() + these.begin[bin], count);
-      const Vec2 low = these.low + these.cell * Vec2(static_cast<double>(bin % these.n),
-                                                     static_cast<double>(bin / these.n));
-      const Box2 square{low, low.array() + these.cell};
-      const int finer = add_bins(inside, square, depth + 1);
-      bins_[at].finer[bin] = finer;
-    }
-    return at;
-  }
-
-  const MatX3i& faces_;
-  Eigen::Matrix3d turn_;
-  MatX3 points_;  // the direction is the third axis
-  std::vector<Bins> bins_;
-  double stored_ = 0;  // in finer bins
-};
 
 /// Each set of corners once, as the first face has them, without those of fewer than three.
 /// Vertices are the lowest ones of their positions.
@@ -241,11 +99,6 @@ std::vector<int> agreeing_parts(MatX3i& faces, std::vector<char>& turned) {
   return part;
 }
 
-struct Place {
-  int face;
-  Vec3 x;
-};
-
 /// Places spread evenly over each part, more on large ones.
 std::vector<Place> places_on(const MatX3& points, const MatX3i& faces, const VecX& areas,
                              const std::vector<int>& part) {
@@ -306,23 +159,22 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
   if (!(total > 0)) return out;
   const std::vector<Place> places = places_on(points, all, areas, part);
 
+  std::vector<Place> on_solid = places;
+  for (Place& place : on_solid) place.face = solid_of[place.face];
+  const PlaceTree tree(on_solid);
   // +1 behind the face is inside, -1 before it, 0 no telling.
   std::vector<std::array<signed char, directions>> votes(places.size());
   for (int d = 0; d < directions; ++d) {
     const Vec3 direction = direction_number(d);
-    const LineCaster lines(points, solid, direction);
-    parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
-      task.checkpoint();
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto corners = all.row(places[i].face);
-        const Vec3 a = points.row(corners[0]), b = points.row(corners[1]),
-                   c = points.row(corners[2]);
-        const bool along = (b - a).cross(c - a).dot(direction) > 0;
-        auto [front, behind] = lines.passed(places[i].x, solid_of[places[i].face]);
-        if (!along) std::swap(front, behind);
-        votes[i][d] = static_cast<signed char>((front + behind) % 2 == 0 ? 0 : behind % 2 * 2 - 1);
-      }
-    });
+    const std::vector<unsigned char> odd = tree.parities(points, solid, direction, task);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto corners = all.row(places[i].face);
+      const Vec3 a = points.row(corners[0]), b = points.row(corners[1]), c = points.row(corners[2]);
+      const bool along = (b - a).cross(c - a).dot(direction) > 0;
+      const bool one_side = odd[i] == odd_after || odd[i] == odd_before;
+      const unsigned char behind = along ? odd_before : odd_after;
+      votes[i][d] = static_cast<signed char>(!one_side ? 0 : odd[i] == behind ? 1 : -1);
+    }
   }
   struct Count {
     double plus = 0, minus = 0, none = 0;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "io/surface/most_copies.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"

@@ -1,12 +1,11 @@
 // 3MF (3MF Consortium, "3D Manufacturing Format, Core Specification", 1.3): an archive of XML.
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 #include <vector>
-
-#include <Eigen/LU>
 
 #include "io/surface/most_copies.h"
 #include "io/surface/surface_formats.h"

@@ -1,5 +1,6 @@
 #include "methods/implicit/place_tree.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

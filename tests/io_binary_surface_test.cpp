@@ -135,6 +135,10 @@ TEST(IoPly, SaysWhatIsWrong) {
   EXPECT_EQ(error(replaced(all, "vertex 3", "vertex 4294967295")),
             "a.ply: the header promises 4294967295 of element 'vertex', 26 bytes follow it");
   EXPECT_EQ(error(replaced(all, "vertex 3", "vertex 0")), "a.ply: no vertices");
+  EXPECT_EQ(error(replaced(all, "element vertex", "element vertex 0\nelement vertex")),
+            "a.ply:4: element 'vertex' appears twice");
+  EXPECT_EQ(error(replaced(all, "element vertex", "format ascii 1.0\nelement vertex")),
+            "a.ply:3: the format is given twice");
   EXPECT_EQ(error("ply\nformat ascii 1.0\nend_header\n"), "a.ply: no vertices");
   EXPECT_EQ(error(replaced(all, "float y", "float why")),
             "a.ply:10: element 'vertex' has no property 'y'");

@@ -153,10 +153,14 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") break;
     if (words[0] == "format") {
+      if (has_format) lines.fail("the format is given twice");
       header.format = parse_format(lines, words);
       has_format = true;
     } else if (words[0] == "element") {
-      header.elements.push_back(parse_element(lines, words));
+      PlyElement element = parse_element(lines, words);
+      for (const PlyElement& e : header.elements)
+        if (e.name == element.name) lines.fail("element " + in_quotes(e.name) + " appears twice");
+      header.elements.push_back(std::move(element));
     } else if (words[0] == "property") {
       if (header.elements.empty()) lines.fail("a property before the first element");
       header.elements.back().properties.push_back(parse_property(lines, words));

@@ -109,11 +109,8 @@ template <class Body>
 class PlyReader {
  public:
   PlyReader(const PlyHeader& header, Body body) : header_(header), body_(std::move(body)) {
-    for (const PlyElement& e : header.elements) {
-      if (e.name != "vertex") continue;
-      if (n_vertices_ > 0) body_.fail("element 'vertex' appears twice");
-      n_vertices_ = e.count;
-    }
+    for (const PlyElement& e : header.elements)
+      if (e.name == "vertex") n_vertices_ = e.count;
   }
 
   PolygonSoup read(const std::string& name) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -10,6 +11,7 @@
 #include "io/read.h"
 #include "io/volume/volume.h"
 #include "littoral/error.h"
+#include "space_helpers.h"
 #include "volume_helpers.h"
 
 namespace littoral {
@@ -183,6 +185,9 @@ TEST(ReadNrrd, TypesAndEncodings) {
   EXPECT_THROW(read("type: uint8\nencoding: bzip2\n\n"), UnsupportedError);
   EXPECT_THROW(read("type: uint8\nencoding: gzip\n\nabc"), InputError);
   EXPECT_THROW(read("type: uint8\nencoding: ascii\n\n0 1 2"), InputError);
+  EXPECT_THAT(
+      test::message_of([&] { read("sizes: 2 2 1\ntype: uint8\nencoding: ascii\n\n0 1 2 3\n"); }),
+      testing::HasSubstr("'sizes' appears twice"));
 }
 
 TEST(ReadNpy, RowMajorArraysAndOtherTypes) {

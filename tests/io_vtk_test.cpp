@@ -174,6 +174,8 @@ TEST(VtkFiles, ErrorsSayWhatIsWrong) {
   EXPECT_THAT(volume(grid, "3 2 2", "90000 90000 90000"), HasSubstr("nodes"));
   EXPECT_THAT(volume(grid, "0.5 1 2", "0 1 2"), HasSubstr("spacing"));
   EXPECT_THAT(volume(grid, "DIMENSIONS 3 2 2\n", ""), HasSubstr("no DIMENSIONS"));
+  EXPECT_THAT(volume(grid, "POINT_DATA", "DIMENSIONS 3 1 2\nPOINT_DATA"),
+              HasSubstr("keyword 'dimensions' appears twice"));
   EXPECT_THAT(volume(polydata, "a roof", "a roof"), HasSubstr("it holds no volume"));
   EXPECT_THAT(volume(grid, "POINT_DATA 12", "CELL_DATA 12"),
               HasSubstr("no field with one value per node"));

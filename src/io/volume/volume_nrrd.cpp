@@ -88,7 +88,8 @@ class NrrdReader {
       std::string_view value = line.substr(colon + 1);
       while (!value.empty() && is_blank(value.front())) value.remove_prefix(1);
       while (!value.empty() && is_blank(value.back())) value.remove_suffix(1);
-      fields_[lower_case(std::string(line.substr(0, colon)))] = value;
+      const std::string field = lower_case(std::string(line.substr(0, colon)));
+      if (!fields_.emplace(field, value).second) fail(in_quotes(field) + " appears twice");
     }
   }
 

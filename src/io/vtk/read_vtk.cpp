@@ -1,8 +1,12 @@
 // VTK legacy files, text or binary (VTK File Formats, version 2.0 to 5.1): unstructured grids,
 // polygon data and grids of points.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "base/index.h"
 #include "io/any_formats.h"
@@ -81,6 +85,12 @@ class VtkReader {
   }
 
   void section(const std::string& keyword) {
+    // What was read already counts on it.
+    constexpr std::array<std::string_view, 11> once = {
+        "points",          "cells",      "cell_types", "vertices",     "lines", "polygons",
+        "triangle_strips", "dimensions", "spacing",    "aspect_ratio", "origin"};
+    if (std::ranges::find(once, keyword) != once.end() && !seen_.insert(keyword).second)
+      scan_.fail("keyword " + in_quotes(keyword) + " appears twice");
     if (keyword == "points") {
       const std::int64_t n = scan_.count("points");
       const std::string type(scan_.word_of_line());
@@ -269,6 +279,7 @@ class VtkReader {
   }
 
   VtkScanner scan_;
+  std::set<std::string> seen_;
   CellMesh cells_;
   DataSet set_ = DataSet::cells;
   Grid grid_;

@@ -9,7 +9,7 @@ namespace littoral {
 
 /// Where two sides of a triangle are less than `margin` times the longest longer than the third,
 /// all its sides are lengthened equally until they are, its own alone: by less than that share.
-/// Returns how many triangles were.
+/// Sides that are all zero become `margin` times the mean edge. Returns how many triangles were.
 int lengthen_sides(IntrinsicTriangulation& T, double margin);
 
 /// The same by up to a millionth, with a warning: for methods that iterate with the factor of a

@@ -67,15 +67,15 @@ std::string recommendation_for(const Volume& volume) {
     if (meaning_of(volume) == VolumeMeaning::distance)
       return "sdf, query, offset: as they are; the values look like signed distance";
   } catch (const InputError&) {
-    return "sdf, query, offset: say what the values are with --as, or use --redistance; contour "
-           "takes them as they are";
+    return "sdf, query, offset: say what the values are with option as, or make them distances "
+           "with option redistance; contour takes them as they are";
   }
   try {
     check_side_of_mask(volume, false);
     return "sdf, query, offset: as they are; the values are a mask, what is not 0 is inside";
   } catch (const InputError&) {
-    return "sdf, query, offset: the values are a mask, and what is not 0 fills its border: say "
-           "--flip where 0 is inside, --as mask where it is outside";
+    return "sdf, query, offset: the values are a mask, and what is not 0 fills its border: "
+           "invert them where 0 is inside (option flip), or say that they are a mask (option as)";
   }
 }
 

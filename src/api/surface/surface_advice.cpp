@@ -89,7 +89,8 @@ std::string recommendation_for(const SurfaceTraits& traits) {
     return traits.has_normals
                ? "sdf, query: auto, or tori for values at points; points have normals. distance: "
                  "auto runs on the cloud"
-               : "sdf, query: auto with --estimate-normals; points have no normals. distance: auto "
+               : "sdf, query: auto with option estimate-normals; points have no normals. distance: "
+                 "auto "
                  "runs on the cloud";
   std::vector<std::string> reasons;
   if (traits.boundary_loops > 0)
@@ -107,10 +108,11 @@ std::string recommendation_for(const SurfaceTraits& traits) {
                 (reasons.empty() ? std::string("not watertight") : listed(reasons)) + ")";
   text += ". distance: auto";
   if (traits.only_triangles && traits.smallest_angle < needle_angle)
-    text += ", or signed-heat with --intrinsic-delaunay; the smallest angle is " +
+    text += ", or signed-heat with option intrinsic-delaunay; the smallest angle is " +
             number_text(std::round(10 * traits.smallest_angle) / 10) + " degrees";
-  if (!traits.only_triangles) text += "; quadratic and regularized need convert --triangulate";
-  if (traits.nonmanifold_edges > 0) text += ". winding: --formulation dual";
+  if (!traits.only_triangles)
+    text += "; quadratic and regularized need triangles (option triangulate)";
+  if (traits.nonmanifold_edges > 0) text += ". winding: the dual one of option formulation";
   return text;
 }
 

@@ -58,6 +58,8 @@ void info(FileArguments& arguments, Session& session) {
     entries = sources_info(mesh, sources, session.report);
   }
   session.print_warnings();
+  for (InfoEntry& entry : entries)
+    if (auto* text = std::get_if<std::string>(&entry.value)) *text = session.with_flags(*text);
   std::cout << (session.json ? info_json(entries) + "\n" : info_text(entries));
 }
 

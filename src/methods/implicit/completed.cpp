@@ -50,8 +50,7 @@ CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, dou
       report.warn(
           "free-edges",
           "the input's faces have so many free edges that patches end a spacing before them; "
-          "distances are less exact there. Weld vertices that belong together: littoral convert "
-          "--weld");
+          "distances are less exact there. Weld vertices that belong together (option weld)");
   }
   task.checkpoint(0.8);
   MatX3 all(points.rows() + patch_.points.rows(), 3);

@@ -109,6 +109,21 @@ CsgShapes shapes_of(PolygonSoup cloud) {
   return shapes;
 }
 
+/// Two tori of points side by side, rounded where they meet and a little fatter, less a third.
+CsgShapes bitten_pair(int n) {
+  CsgShapes shapes = shapes_of(torus_cloud(n));
+  for (const double x : {1.1, 0.5}) {
+    PolygonSoup moved = torus_cloud(n);
+    moved.points.col(0).array() += x;
+    if (x < 1) moved.points.col(2).array() += 0.35;
+    shapes.all.push_back(shapes_of(std::move(moved)).all.front());
+  }
+  shapes.csg.operations = {Boolean::unite, Boolean::subtract};
+  shapes.csg.blend = 0.1;
+  shapes.csg.offset = 0.02;
+  return shapes;
+}
+
 io::Scene scene_of(const CsgShapes& shapes, const TracedView& view, int resolution = 24) {
   GridOptions request;
   request.resolution = resolution;
@@ -288,28 +303,49 @@ TEST(TracedScene, BadRequestsAreNamed) {
   view.level = 0;
   view.position = 99;
   EXPECT_THROW(scene_of(shapes, view), InputError);
-  CsgShapes two = shapes;
-  two.all.push_back(shapes.all[0]);
-  two.csg.operations = {Boolean::unite};
   TracedView page;
   page.for_page = true;
-  EXPECT_THROW(scene_of(two, page), UnsupportedError);
+  CsgShapes many = shapes;
+  many.all.resize(9, shapes.all[0]);
+  many.csg.operations.assign(8, Boolean::unite);
+  EXPECT_THROW(scene_of(many, page), UnsupportedError);
+  CsgShapes with_mesh = shapes;
+  with_mesh.all.push_back({test::octasphere_soup(1), {}, {}});
+  with_mesh.csg.operations = {Boolean::unite};
+  EXPECT_THROW(scene_of(with_mesh, page), UnsupportedError);
   CsgShapes planar = shapes;
   planar.all[0].request.method = Planar{};
   EXPECT_THROW(scene_of(planar, page), UnsupportedError);
-  EXPECT_EQ(scene_of(shapes, page).trace->tori.rows(), 500);
+  const io::Scene one = scene_of(shapes, page);
+  ASSERT_EQ(one.trace->clouds.size(), 1u);
+  EXPECT_EQ(one.trace->clouds[0].tori.rows(), 500);
+  EXPECT_EQ(one.trace->clouds[0].samples.size(), 0);
   EXPECT_THROW(scene_of(shapes_of({}), {}), InputError);
 }
 
-// A page for the browser's test (viewer/test/trace.test.mjs), and beside it, as JSON, what rays of
-// the library's own tracer meet, in the page's units.
-TEST(TracePageForBrowserTest, IsWritten) {
-  const char* path = std::getenv("LITTORAL_TRACE_PAGE_OUT");
-  if (!path) GTEST_SKIP() << "LITTORAL_TRACE_PAGE_OUT is not set";
-  TracedView view;
-  view.for_page = true;
-  io::Scene scene = scene_of(shapes_of(torus_cloud(2000)), view, 48);
-  scene.title = "torus";
+TEST(TracedScene, PagesHaveEachCloudOfACombination) {
+  const CsgShapes shapes = bitten_pair(500);
+  TracedView page;
+  page.for_page = true;
+  const io::Scene scene = scene_of(shapes, page);
+  const io::SceneTrace& trace = *scene.trace;
+  ASSERT_EQ(trace.clouds.size(), 3u);
+  EXPECT_EQ(trace.clouds[1].operation, "unite");
+  EXPECT_EQ(trace.clouds[2].operation, "subtract");
+  EXPECT_EQ(trace.blend, shapes.csg.blend);
+  EXPECT_EQ(trace.offset, shapes.csg.offset);
+  // What they are combined to is the volume.
+  const VecX& values = scene.volume->thin.values;
+  for (Eigen::Index v = 0; v < values.size(); v += 7) {
+    std::vector<DistanceSample> fields;
+    for (const io::TracedCloud& cloud : trace.clouds)
+      fields.push_back({cloud.samples[v], Vec3::Zero()});
+    EXPECT_NEAR(values[v], combine(shapes.csg, fields).value, 1e-12);
+  }
+}
+
+/// A page, and beside it, as JSON, what rays of the library's own tracer meet, in the page's units.
+void write_with_rays(const std::string& path, const io::Scene& scene) {
   io::write_page(path, scene);
   const Grid& grid = scene.volume->thin.grid;
   const Vec3 high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
@@ -341,6 +377,20 @@ TEST(TracePageForBrowserTest, IsWritten) {
   }
   out << "]}\n";
   ASSERT_TRUE(out.good());
+}
+
+// Pages for the browser's test (viewer/test/trace.test.mjs).
+TEST(TracePageForBrowserTest, IsWritten) {
+  const char* path = std::getenv("LITTORAL_TRACE_PAGE_OUT");
+  if (!path) GTEST_SKIP() << "LITTORAL_TRACE_PAGE_OUT is not set";
+  TracedView view;
+  view.for_page = true;
+  io::Scene scene = scene_of(shapes_of(torus_cloud(2000)), view, 48);
+  scene.title = "torus";
+  write_with_rays(path, scene);
+  io::Scene several = scene_of(bitten_pair(2000), view, 48);
+  several.title = "three clouds";
+  write_with_rays(std::string(path) + ".clouds.html", several);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ function fail(text: string): void {
 
 function describe(scene: SceneData): string {
   const field = scene.fields[0], what: string[] = [];
-  if (scene.trace) what.push(`${scene.trace.tori.length / 16} points`);
+  if (scene.trace) what.push(`${scene.trace.clouds.reduce((sum, cloud) => sum + cloud.tori.length / 16, 0)} points`);
   what.push(scene.volume ? `volume of ${scene.volume.n.join(" x ")} nodes` : `${scene.surface.triangles.length / 3} triangles`);
   if (field && (field.values || scene.volume)) what.push(`${field.name} from ${numberText(field.low)} to ${numberText(field.high)}`);
   return `${scene.title || "Surface"}: ${what.join(", ")}`;

@@ -1,6 +1,6 @@
 // The scene as the library writes it (docs/reference/scene.md), read and checked.
 
-export const sceneVersion = 1;
+export const sceneVersion = 2;
 
 export class SceneError extends Error {}
 
@@ -29,6 +29,10 @@ export interface Field {
   levels: number[];
 }
 
+export const operations = ["unite", "intersect", "subtract"] as const;
+export type Operation = (typeof operations)[number];
+export const mostClouds = 8;  // of a trace
+
 export interface Volume {
   n: Triple;
   origin: Triple;
@@ -42,8 +46,18 @@ export interface Volume {
   isosurface: boolean;
 }
 
-export interface Trace {
+/** A cloud of a trace; samples: its distance at the volume's nodes, page units. */
+export interface Cloud {
+  operation: Operation;
   tori: Float32Array;
+  samples: Float32Array;
+}
+
+/** Clouds that are one shape, rounded where they meet and moved outward. */
+export interface Trace {
+  clouds: Cloud[];
+  blend: number;
+  offset: number;
   steepness: number;
   low: number;
   range: number;
@@ -212,14 +226,30 @@ function readSurface(from: Json): Surface {
   };
 }
 
+/** Values at nodes, 0 to 1; 65535 is infinite. */
+function steps(from: Json, n: Triple): Float32Array {
+  const all = new Uint16Array(bytes(from, "values", 2, n[0] * n[1] * n[2]).buffer);
+  return Float32Array.from(all, (step) => step === 65535 ? Infinity : step / 65534);
+}
+
+function readTrace(from: Json, volume: Volume): Trace {
+  const low = number(from, "low"), range = number(from, "range");
+  const clouds = list(from, "clouds").map((one): Cloud => {
+    const cloud = object(one, "cloud"), tori = floats(cloud, "tori");
+    if (tori.length === 0 || tori.length % 16) refuse("tori have 16 numbers each");
+    const operation = operations.find((name) => name === cloud.operation) ?? refuse("a cloud is united, intersected or subtracted");
+    const own = has(cloud, "values"), base = own ? number(cloud, "low") : low, factor = own ? number(cloud, "range") : range;
+    return { operation, tori, samples: (own ? steps(cloud, volume.n) : volume.values).map((x) => base + factor * x) };
+  });
+  if (clouds.length < 1 || clouds.length > mostClouds) refuse(`a trace has 1 to ${mostClouds} clouds`);
+  return { clouds, blend: number(from, "blend"), offset: number(from, "offset"), steepness: number(from, "steepness"), low, range };
+}
+
 function readVolume(from: Json): Volume {
   const n = triple(from, "n");
   if (!n.every((k) => Number.isInteger(k) && k >= 2)) refuse("the volume's size is no three integers from 2 on");
-  const steps = new Uint16Array(bytes(from, "values", 2, n[0] * n[1] * n[2]).buffer);
-  const values = new Float32Array(steps.length);  // 65535 is infinite
-  for (let i = 0; i < steps.length; ++i) values[i] = steps[i] === 65535 ? Infinity : steps[i] / 65534;
   return {
-    n, values, origin: triple(from, "origin"), spacing: triple(from, "spacing"),
+    n, values: steps(from, n), origin: triple(from, "origin"), spacing: triple(from, "spacing"),
     low: triple(from, "low"), high: triple(from, "high"), axis: number(from, "axis"),
     position: number(from, "position"), level: number(from, "level"), isosurface: from.isosurface === true,
   };
@@ -238,10 +268,8 @@ function readPart(from: Json): SceneData {
   const volume = has(from, "volume") ? readVolume(object(from.volume, "volume")) : null;
   let trace: Trace | null = null;
   if (has(from, "trace")) {
-    const t = object(from.trace, "trace");
-    trace = { tori: floats(t, "tori"), steepness: number(t, "steepness"), low: number(t, "low"), range: number(t, "range") };
-    if (trace.tori.length % 16) refuse("tori have 16 numbers each");
     if (!volume) refuse("a trace needs a volume");
+    trace = readTrace(object(from.trace, "trace"), volume);
   }
   const fields = list(from, "fields").map((field) =>
     readField(object(field, "field"), surface.positions.length / 3, surface.triangles.length / 3, volume !== null));

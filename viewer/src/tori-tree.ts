@@ -63,6 +63,28 @@ export function makeTree(tori: Float32Array, low: number[], high: number[]): Tor
   return { centre, half, nodes: Int32Array.from(nodes), lists: Uint32Array.from(lists) };
 }
 
+/// Trees of several clouds as one: where the root of each is. Lists name tori as if all stood in one
+/// array.
+export function makeTrees(clouds: Float32Array[], low: number[], high: number[]): ToriTree & { roots: number[] } {
+  const trees = clouds.map((tori) => makeTree(tori, low, high)), roots: number[] = [];
+  const size = (of: (tree: ToriTree) => ArrayLike<number>) => trees.reduce((sum, tree) => sum + of(tree).length, 0);
+  const nodes = new Int32Array(size((tree) => tree.nodes)), lists = new Uint32Array(size((tree) => tree.lists));
+  let atNode = 0, atList = 0, torus = 0;
+  trees.forEach((tree, which) => {
+    roots.push(atNode / 2);
+    for (let i = 0; i < tree.nodes.length; i += 2) {
+      const inner = tree.nodes[i + 1] < 0;
+      nodes[atNode + i] = tree.nodes[i] + (inner ? atNode / 2 : atList);
+      nodes[atNode + i + 1] = tree.nodes[i + 1];
+    }
+    for (let i = 0; i < tree.lists.length; ++i) lists[atList + i] = tree.lists[i] + torus;
+    atNode += tree.nodes.length;
+    atList += tree.lists.length;
+    torus += clouds[which].length / 16;
+  });
+  return { centre: trees[0].centre, half: trees[0].half, nodes, lists, roots };
+}
+
 /// The k-th smallest (from 0) of some numbers, which stay as they are.
 export function kth(numbers: Float32Array, k: number): number {
   const a = numbers.slice();

@@ -1,5 +1,6 @@
 // Sphere tracing of blended tori, as in the library: methods/tori/torus.h, methods/tori/tori.cpp (eq. 5.1 with
-// shifted exponents) and methods/implicit/sphere_trace.cpp, in single precision.
+// shifted exponents), methods/implicit/combined.cpp and methods/implicit/sphere_trace.cpp, in single precision.
+import { mostClouds } from "./scene";
 import { lightFunction, openFunction } from "./shaders";
 
 /// Of both passes: a rectangle over the whole picture.
@@ -22,7 +23,10 @@ out vec4 result;           // where along the ray, or -1; the normal
 uniform sampler2D tori;    // four texels a torus
 uniform isampler2D nodes;
 uniform usampler2D lists;
-uniform sampler3D samples; // the field on a grid, page units
+uniform sampler3D samples; // each cloud's field on a grid, page units, one above the other
+uniform int clouds;
+uniform int roots[${mostClouds}], operations[${mostClouds}];  // of each cloud; unite, intersect, subtract
+uniform float blend, offset;
 uniform vec3 origin, spacing;  // of the grid
 uniform vec3 centre;       // of the octree
 uniform float halfSide;
@@ -36,14 +40,16 @@ const int blended = 12;
 
 ivec2 texel(int i) { return ivec2(i % 2048, i / 2048); }
 
-float sampled(vec3 x) {
+float sampled(vec3 x, int cloud) {
   ivec3 n = textureSize(samples, 0);
+  n.z /= clouds;
+  int below = cloud * n.z;
   vec3 at = clamp((x - origin) / spacing, vec3(0.0), vec3(n) - 1.0001);
   ivec3 c = min(ivec3(at), n - 2);
   vec3 t = at - vec3(c);
   float v[8];
   for (int k = 0; k < 8; ++k)
-    v[k] = texelFetch(samples, c + ivec3(k & 1, (k >> 1) & 1, k >> 2), 0).r;
+    v[k] = texelFetch(samples, c + ivec3(k & 1, (k >> 1) & 1, below + (k >> 2)), 0).r;
   vec4 a = mix(vec4(v[0], v[2], v[4], v[6]), vec4(v[1], v[3], v[5], v[7]), t.x);
   vec2 b = mix(a.xz, a.yw, t.y);
   return mix(b.x, b.y, t.z);
@@ -70,12 +76,12 @@ float patchDistance(vec3 y, vec3 n, vec3 e1, float k1, float k2, float rho) {
   return g < 0.0 ? -d : d;
 }
 
-float field(vec3 x) {
+float cloudField(vec3 x, int cloud) {
   // The leaf of x.
   vec3 c = centre;
   float h = halfSide;
-  int node = 0;
-  ivec2 entry = texelFetch(nodes, texel(0), 0).rg;
+  int node = roots[cloud];
+  ivec2 entry = texelFetch(nodes, texel(node), 0).rg;
   for (int depth = 0; depth < 12 && entry.y < 0; ++depth) {
     bvec3 up = greaterThanEqual(x, c);
     node = entry.x + (up.x ? 1 : 0) + (up.y ? 2 : 0) + (up.z ? 4 : 0);
@@ -83,7 +89,7 @@ float field(vec3 x) {
     c += mix(vec3(-h), vec3(h), vec3(up));
     entry = texelFetch(nodes, texel(node), 0).rg;
   }
-  if (entry.y <= 0) return sampled(x);
+  if (entry.y <= 0) return sampled(x, cloud);
 
   // The 12 nearest; the list is sorted by distance from c, so it need not be read to its end.
   float d[blended];
@@ -131,9 +137,38 @@ float field(vec3 x) {
   }
   // Where tori disagree on the side, away from the points, the samples know it.
   bool disputed = nearest > 1.5 * rho && negative > 0.02 * total && negative < 0.98 * total;
-  float phi = disputed ? (sampled(x) < 0.0 ? -size : size) / total : plain / total;
+  float phi = disputed ? (sampled(x, cloud) < 0.0 ? -size : size) / total : plain / total;
   float bounded = clamp(abs(phi), max(0.0, nearest - rho), nearest);
   return phi < 0.0 ? -bounded : bounded;
+}
+
+void insert(inout float sorted[${mostClouds}], inout int n, float value) {
+  int at = n++;
+  for (; at > 0 && sorted[at - 1] > value; --at) sorted[at] = sorted[at - 1];
+  sorted[at] = value;
+}
+
+float smoothMin(float sorted[${mostClouds}], int n) {
+  float least = sorted[0];
+  for (int i = 1; i < n; ++i) {
+    float h = 1.0 - (sorted[i] - least) / blend;
+    if (blend > 0.0 && h > 0.0) least -= 0.25 * blend * h * h;
+  }
+  return least;
+}
+
+// max(united, all intersected, -all subtracted) less the offset
+float field(vec3 x) {
+  if (clouds == 1) return cloudField(x, 0) - offset;
+  float united[${mostClouds}], parts[${mostClouds}];
+  int joined = 0, n = 0;
+  for (int i = 0; i < clouds; ++i) {
+    float phi = cloudField(x, i);
+    if (operations[i] == 0) insert(united, joined, phi);
+    else insert(parts, n, operations[i] == 1 ? -phi : phi);
+  }
+  insert(parts, n, -smoothMin(united, joined));
+  return -smoothMin(parts, n) - offset;
 }
 
 void main() {

@@ -1,12 +1,24 @@
-// The surface of a cloud, traced through its tori in a fragment shader. While the view or a slider
+// The surface of one cloud or of several, traced through their tori in a fragment shader. While the view or a slider
 // moves, it is traced at as few pixels as the machine can do at once; at rest, strip by strip from below, at all.
 import * as THREE from "three";
 import type { Look } from "./look";
-import type { SceneData, Trace, Triple, Volume } from "./scene";
-import { makeTree, width } from "./tori-tree";
+import { mostClouds, operations, type SceneData, type Trace, type Triple, type Volume } from "./scene";
+import { makeTrees, width } from "./tori-tree";
 import { screenVertex, showFragment, traceFragment } from "./trace-shader";
 
 const quick = 25, strip = 30, longestStrip = 300, rest = 150;  // milliseconds
+
+function joined(parts: Float32Array[]): Float32Array<ArrayBuffer> {
+  const all = new Float32Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
+
+const filled = (numbers: number[]): number[] => Array.from({ length: mostClouds }, (_, i) => numbers[i] ?? 0);
 
 type Numbers = Float32Array<ArrayBuffer> | Int32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>;
 
@@ -23,8 +35,9 @@ function texture(
   return t;
 }
 
-function gridTexture({ n, values }: Volume, trace: Trace): THREE.Data3DTexture {
-  const t = new THREE.Data3DTexture(values.map((x) => trace.low + trace.range * x) as Float32Array<ArrayBuffer>, ...n);
+/** Samples of all clouds, one above the other. */
+function gridTexture([nx, ny, nz]: Triple, samples: Float32Array[]): THREE.Data3DTexture {
+  const t = new THREE.Data3DTexture(joined(samples), nx, ny, nz * samples.length);
   t.format = THREE.RedFormat;
   t.type = THREE.FloatType;
   t.internalFormat = "R32F";
@@ -82,12 +95,17 @@ export class Tracer {
   private constructor(private readonly volume: Volume, private readonly trace: Trace, private readonly renderer: THREE.WebGLRenderer, private readonly look: Look) {
     this.low = [...volume.origin];
     this.high = this.low.map((x, a) => x + (volume.n[a] - 1) * volume.spacing[a]) as Triple;
-    const tree = makeTree(trace.tori, this.low, this.high);
+    const all = trace.clouds.map((cloud) => cloud.tori), tree = makeTrees(all, this.low, this.high);
     this.uniforms = {
-      tori: { value: texture(trace.tori as Float32Array<ArrayBuffer>, 4, THREE.RGBAFormat, THREE.FloatType, "RGBA32F") },
+      tori: { value: texture(joined(all), 4, THREE.RGBAFormat, THREE.FloatType, "RGBA32F") },
       nodes: { value: texture(tree.nodes, 2, THREE.RGIntegerFormat, THREE.IntType, "RG32I") },
       lists: { value: texture(tree.lists, 1, THREE.RedIntegerFormat, THREE.UnsignedIntType, "R32UI") },
-      samples: { value: gridTexture(volume, trace) },
+      samples: { value: gridTexture(volume.n, trace.clouds.map((cloud) => cloud.samples)) },
+      clouds: { value: trace.clouds.length },
+      roots: { value: filled(tree.roots) },
+      operations: { value: filled(trace.clouds.map((cloud) => operations.indexOf(cloud.operation))) },
+      blend: { value: trace.blend },
+      offset: { value: trace.offset },
       origin: { value: new THREE.Vector3(...volume.origin) },
       spacing: { value: new THREE.Vector3(...volume.spacing) },
       centre: { value: new THREE.Vector3().fromArray(tree.centre) },

@@ -69,7 +69,7 @@ export const sky = (normal, part) => [...normal.map((c) => Math.round((255 * (pa
 export function scene({ positions, triangles }, fields, more = {}) {
   const none = base64(new Float32Array(0));
   return {
-    format: "littoral scene", version: 1, title: "test", facts: [], options: [], warnings: [],
+    format: "littoral scene", version: 2, title: "test", facts: [], options: [], warnings: [],
     frame: { centre: [0, 0, 0], radius: 1, towardsEye: [0, 0, 1], up: [0, 1, 0] },
     surface: { positions: base64(Float32Array.from(positions)), triangles: base64(Uint32Array.from(triangles)), nodes: "faces" },
     fields,

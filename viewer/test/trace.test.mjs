@@ -50,8 +50,8 @@ test("leaves list the nearest points", () => {
   assert.equal(checked, 200);
 });
 
-test("rays meet what the library's rays meet", async () => {
-  const { n, frame, t } = reference;
+/** Rays of the page beside those of the library, of a page and what it must see. */
+async function compareRays(page, { n, frame, t }, most) {
   const seen = await page.evaluate(([f, size]) => Array.from(littoral.tracer.traceRays(...f.slice(0, 4), size)), [frame, n]);
   let hits = 0, differ = 0, worst = 0, sum = 0;
   for (let i = 0; i < n * n; ++i) {
@@ -65,10 +65,24 @@ test("rays meet what the library's rays meet", async () => {
     assert.ok(Math.abs(Math.hypot(seen[4 * i + 1], seen[4 * i + 2], seen[4 * i + 3]) - 1) < 1e-3);
   }
   console.log(`${hits} hits of ${n * n} rays, ${differ} silhouettes differ, depth apart ${(sum / hits).toExponential(1)} on average, ${worst.toExponential(1)} at most`);
-  assert.ok(hits > 400 && hits < 1000, `${hits} hits`);
+  assert.ok(hits > 400 && hits < most, `${hits} hits`);
   assert.ok(differ <= 0.005 * n * n, `${differ} rays see another silhouette`);
   assert.ok(sum / hits < 2e-3, `mean ${sum / hits}`);
   assert.ok(worst < 0.05, `worst ${worst}`);
+}
+
+test("rays meet what the library's rays meet", () => compareRays(page, reference, 1000));
+
+test("clouds united, rounded, fattened and bitten are what the library combines", async () => {
+  const path = process.env.CLOUDS_PAGE = `${process.env.TRACE_PAGE}.clouds.html`;
+  const several = await openResult("CLOUDS_PAGE", { viewport: { width: 360, height: 200 } }, 60000);
+  try {
+    await compareRays(several.page, JSON.parse(readFileSync(`${path}.json`, "utf8")), 2000);
+    assert.match(await several.page.getAttribute("#view", "aria-label"), /6000 points/);
+    assertAlone(several);
+  } finally {
+    await several.close();
+  }
 });
 
 test("while it refines it says so, and nothing is black", async () => {

@@ -17,7 +17,8 @@ namespace littoral {
 
 namespace {
 
-constexpr int most_tori = 200000;  // in a page
+constexpr int most_tori = 200000;       // in a page
+constexpr std::size_t most_clouds = 8;  // as its shader has room for (viewer/src/trace-shader.ts)
 constexpr double part_of_pixel = 0.1;
 
 /// The field near the level set; farther away what its samples on the grid promise, which costs a
@@ -43,31 +44,64 @@ class Sketched final : public PointwiseDistance {
   double level_, margin_;
 };
 
-/// The tori of the one cloud that a page traces, also in its own shape so that they are fitted
-/// once.
-std::vector<Torus> tori_for_page(CsgShapes& shapes, Task task, Report& report) {
-  Shape& shape = shapes.all.front();
-  const std::string& name = shape.request.method.name();
-  if (!shapes.plain() || (!name.empty() && name != Tori::method) || shape.surface.n_faces() > 0)
-    throw UnsupportedError(
-        "pages trace one point cloud by its tori (method tori); pictures trace all "
-        "shapes, and a volume of distance shows them on a grid");
-  shape.surface = fit_tori_cloud(shape.surface, shape.request, task, report);
-  shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
-  shape.request.method = Tori{};
-  if (shape.surface.n_vertices() > most_tori)
+/// Clouds become their tori, which pages trace, so that they are fitted once.
+void fit_for_page(CsgShapes& shapes, Task task, Report& report) {
+  if (shapes.all.size() > most_clouds)
+    throw UnsupportedError("pages trace at most " + std::to_string(most_clouds) +
+                           " clouds; these are " + std::to_string(shapes.all.size()));
+  int points = 0;
+  for (Shape& shape : shapes.all) {
+    const std::string& name = shape.request.method.name();
+    if (shape.field || (!name.empty() && name != Tori::method) || shape.surface.n_faces() > 0)
+      throw UnsupportedError(
+          "pages trace point clouds by their tori (method tori); pictures trace all "
+          "shapes, and a volume of distance shows them on a grid");
+    shape.surface =
+        fit_tori_cloud(shape.surface, shape.request,
+                       task.stage(1 / static_cast<double>(shapes.all.size()), "fitting"), report);
+    shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
+    shape.request.method = Tori{};
+    points += shape.surface.n_vertices();
+  }
+  if (points > most_tori)
     throw UnsupportedError("pages trace at most " + std::to_string(most_tori) +
-                           " points; this cloud has " + std::to_string(shape.surface.n_vertices()));
-  return tori_of_cloud(shape.surface);
+                           " points; there are " + std::to_string(points));
 }
 
-void pack_tori(const MatX3& points, const std::vector<Torus>& tori, io::SceneTrace& trace) {
-  trace.tori.resize(points.rows(), 16);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Torus& t = tori[static_cast<std::size_t>(i)];
-    trace.tori.row(i) << points.row(i), t.rho, t.q.transpose(), t.log_weight, t.n.transpose(), t.k1,
-        t.e1.transpose(), t.k2;
+std::string name_of(Boolean operation) {
+  switch (operation) {
+    case Boolean::unite:
+      return "unite";
+    case Boolean::intersect:
+      return "intersect";
+    case Boolean::subtract:
+      break;
   }
+  return "subtract";
+}
+
+/// The clouds as a page traces them, each with its own distance on the grid.
+std::vector<io::TracedCloud> clouds_for_page(const CsgShapes& shapes, const Grid& grid, Task task) {
+  std::vector<io::TracedCloud> clouds(shapes.all.size());
+  for (std::size_t s = 0; s < clouds.size(); ++s) {
+    Task part = task.stage(1 / static_cast<double>(clouds.size()), "sampling");
+    const MatX3& points = shapes.all[s].surface.points;
+    const std::vector<Torus> tori = tori_of_cloud(shapes.all[s].surface);
+    io::TracedCloud& cloud = clouds[s];
+    cloud.operation = name_of(s == 0 ? Boolean::unite : shapes.csg.operations[s - 1]);
+    cloud.tori.resize(points.rows(), 16);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const Torus& t = tori[static_cast<std::size_t>(i)];
+      cloud.tori.row(i) << points.row(i), t.rho, t.q.transpose(), t.log_weight, t.n.transpose(),
+          t.k1, t.e1.transpose(), t.k2;
+    }
+    if (shapes.plain()) break;  // the volume's values are its own
+    Report spare;
+    const CsgShapes alone{{shapes.all[s]}, {}};
+    cloud.samples = evaluate(*pointwise_distance(alone, part.stage(0.2, "preparing"), spare), grid,
+                             part.stage(0.8, "sampling"));
+  }
+  return clouds;
 }
 
 /// Triangles from `first` on are not drawn, but still frame the picture.
@@ -105,10 +139,9 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
   if (!std::isfinite(view.level))
     throw InputError("the level must be a finite number", "option-value");
   CsgShapes used = shapes;
-  std::vector<Torus> tori;
-  if (view.for_page) tori = tori_for_page(used, task.stage(0.2, "fitting"), report);
+  if (view.for_page) fit_for_page(used, task.stage(0.2, "fitting"), report);
   const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
-  const Volume volume{grid, evaluate(*field, grid, task.stage(0.6, "sampling"))};
+  const Volume volume{grid, evaluate(*field, grid, task.stage(0.3, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))
     throw InputError("the distance does not pass level " + number_text(view.level) +
                          " in the box: it is from " + rounded_text(volume.values.minCoeff()) +
@@ -154,7 +187,11 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
     normal = hit.normal;
     return hit.found ? hit.t : infinity;
   };
-  if (view.for_page) pack_tori(used.all.front().surface.points, tori, *trace);
+  if (view.for_page) {
+    trace->clouds = clouds_for_page(used, scene.volume->thin.grid, task.stage(0.3, "sampling"));
+    trace->blend = used.csg.blend;
+    trace->offset = used.csg.offset;
+  }
   scene.trace = std::move(trace);
   return scene;
 }

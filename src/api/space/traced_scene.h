@@ -18,9 +18,9 @@ struct TracedView {
 
 /// The level set of the shapes' field inside the box of a grid, and maybe a slice with its values
 /// on the nodes of the grid, before which the surface is cut away as in volume scenes. The grid
-/// also frames the picture. Pages trace a single cloud's tori; throws UnsupportedError for pages of
-/// anything else or of more than 200000 points, InputError if the level is not met in the box, and
-/// as pointwise_distance.
+/// also frames the picture. Pages trace the tori of up to eight clouds; throws UnsupportedError for
+/// pages of anything else or of more than 200000 points, InputError if the level is not met in the
+/// box, and as pointwise_distance.
 io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedView& view, Task task,
                        Report& report);
 

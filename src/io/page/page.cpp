@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "io/page/page_parts.h"
 #include "io/page/page_template.h"
 #include "io/render/openness.h"
 #include "io/render/scene.h"
@@ -14,13 +15,6 @@
 #include "littoral/error.h"
 
 namespace littoral::io {
-
-namespace {
-
-using nlohmann::json;
-
-constexpr int scene_version = 1;                       // viewer/src/scene.ts refuses others
-constexpr Eigen::Index most_for_openness = 1'000'000;  // triangles: it takes seconds from there on
 
 std::string base64(const void* data, std::size_t size) {
   static constexpr char digits[] =
@@ -41,10 +35,12 @@ std::string base64(const void* data, std::size_t size) {
   return text;
 }
 
-template <class T>
-std::string base64(const std::vector<T>& items) {
-  return base64(items.data(), items.size() * sizeof(T));
-}
+namespace {
+
+using nlohmann::json;
+
+constexpr int scene_version = 2;                       // viewer/src/scene.ts refuses others
+constexpr Eigen::Index most_for_openness = 1'000'000;  // triangles: it takes seconds from there on
 
 // Positions relative to the centre in units of the radius: single precision is then always enough
 // for the screen, wherever and however large the model is.
@@ -154,55 +150,6 @@ Scene box_of(const Scene& scene) {
   return box;
 }
 
-// Values in 65534 steps from the least to the greatest; 65535 is infinite.
-json volume_json(const SceneVolume& volume, const SceneFrame& frame, const FieldStyle& style) {
-  const Grid& grid = volume.thin.grid;
-  const double half = 0.5 * style.high - 0.5 * style.low;
-  const auto part = [&](double value) {
-    return half > 0 ? std::clamp((0.5 * value - 0.5 * style.low) / half, 0.0, 1.0) : 0.0;
-  };
-  std::vector<std::uint16_t> values;
-  values.reserve(static_cast<std::size_t>(volume.thin.values.size()));
-  for (const double value : volume.thin.values)
-    values.push_back(static_cast<std::uint16_t>(
-        std::isfinite(value) ? std::lround(65534 * part(value)) : 65535));
-  const Vec3 low = grid.origin, high = grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
-  const Vec3 origin = (low - frame.centre) / frame.radius, spacing = grid.spacing / frame.radius;
-  const auto triple = [](const Vec3& v) { return json{v[0], v[1], v[2]}; };
-  return {{"n", grid.n},
-          {"origin", triple(origin)},
-          {"spacing", triple(spacing)},
-          {"low", triple(low)},
-          {"high", triple(high)},
-          {"values", base64(values)},
-          {"axis", volume.axis},
-          {"position", volume.position},
-          {"level", part(volume.level)},
-          {"isosurface", volume.isosurface}};
-}
-
-// Tori in the page's units, and how the values of the volume become distances in them.
-json trace_json(const SceneTrace& trace, const SceneFrame& frame, const FieldStyle& style) {
-  std::vector<float> numbers;
-  numbers.reserve(static_cast<std::size_t>(trace.tori.size()));
-  for (Eigen::Index i = 0; i < trace.tori.rows(); ++i) {
-    for (int k = 0; k < 16; ++k) {
-      const double x = trace.tori(i, k);
-      const bool place = k < 3 || (k >= 4 && k < 7), curvature = k == 11 || k == 15;
-      const double scaled = place       ? (x - frame.centre[k % 4]) / frame.radius
-                            : curvature ? x * frame.radius
-                            : k == 3    ? x / frame.radius
-                                        : x;
-      constexpr double most = 1e30;  // a lone point's plane has an infinite patch
-      numbers.push_back(static_cast<float>(std::clamp(scaled, -most, most)));
-    }
-  }
-  return {{"tori", base64(numbers)},
-          {"steepness", trace.steepness},
-          {"low", style.low / frame.radius},
-          {"range", style.high / frame.radius - style.low / frame.radius}};
-}
-
 // In bytes: b + 3/4 in units of 3/2, as |b| <= 3/4 on a wall, and a.
 std::string openness_text(const Scene& scene) {
   std::vector<unsigned char> bytes;
@@ -288,7 +235,7 @@ json part_json(const Scene& all, const Scene& box, const SceneFrame& frame) {
   page["fields"] = fields_json(all);
   page["sources"] = sources_json(all, frame);
   if (all.volume) page["volume"] = volume_json(*all.volume, frame, style);
-  if (all.volume && all.trace && all.trace->tori.rows() > 0)
+  if (all.volume && all.trace && !all.trace->clouds.empty())
     page["trace"] = trace_json(*all.trace, frame, style);
   page["plainColour"] = plain_colour;
   page["infiniteColour"] = infinite_colour;

@@ -37,6 +37,16 @@ struct SceneVolume {
   bool isosurface = true;
 };
 
+/// A point cloud as pages trace it.
+struct TracedCloud {
+  std::string operation;  // unite, intersect or subtract
+  /// Point, spacing; touching point, log of weight; normal, curvature k1; direction e1, curvature
+  /// k2 (methods/tori/torus.h).
+  Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> tori;
+  VecX samples;  // its distance on the scene's volume, as thinned for pages [length]; without, it
+                 // is the volume's
+};
+
 /// A surface that is asked ray by ray instead of being made of triangles.
 struct SceneTrace {
   /// Where a ray origin + t direction (unit) first meets it in [from, to], to a small part of a
@@ -48,10 +58,10 @@ struct SceneTrace {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // nothing is outside of this box
   double level = 0;                              // the field's value on the surface
   MatX3i triangles{0, 3};  // of the scene's points: the surface on the grid, for how open it is
-  /// What pages trace: point, spacing; touching point, log of weight; normal, curvature k1;
-  /// direction e1, curvature k2 (methods/tori/torus.h). Without rows pages show the isosurface.
-  Eigen::Matrix<double, Eigen::Dynamic, 16, Eigen::RowMajor> tori;
-  double steepness = 1;  // of the field at most
+  double steepness = 1;    // of the field at most
+  /// What pages trace; without clouds they show the isosurface.
+  std::vector<TracedCloud> clouds;
+  double blend = 0, offset = 0;  // of the clouds together [length] (methods/implicit/combined.h)
 };
 
 /// How a surface is lit: with the normals of its vertices, of its faces, or as smooth and darker

@@ -6,7 +6,6 @@ need none are made. The pages' Python runs too, so the package must be importabl
 """
 
 import os
-import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -24,12 +23,9 @@ def main(program: str, data: Path | None) -> None:
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             try:
-                run_page(GALLERY / page, Path(folder), program, data, draw=True)
+                run_page(GALLERY / page, Path(folder), program, data, GALLERY)
             finally:
                 os.chdir(before)
-            for picture in sorted((Path(folder) / "out").glob("*.png")):
-                if (GALLERY / picture.name).exists():
-                    shutil.copy(picture, GALLERY)
 
 
 if __name__ == "__main__":

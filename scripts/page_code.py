@@ -12,7 +12,9 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
+import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -77,9 +79,13 @@ def data_collection() -> Path | None:
 
 
 def run_page(
-    page: Path, folder: Path, program: str, data: Path | None = None, draw: bool = False
+    page: Path, folder: Path, program: str, data: Path | None = None, draw: Path | None = None
 ) -> None:
-    """Runs the code of a page in a folder, which must be the working directory."""
+    """Runs the code of a page in a folder, which must be the working directory.
+
+    Commands that need data only run with `draw`, a folder whose pictures are then those that the
+    commands made, not those that Python makes of the same name.
+    """
     (folder / "out").mkdir(exist_ok=True)
     (folder / "examples").symlink_to(ROOT / "examples")
     if data:
@@ -89,13 +95,17 @@ def run_page(
         where = f"{page.name}:{block.line}"
         if block.skipped or (block.needs_data and not data):
             continue
-        if block.needs_data and block.language == "sh" and not draw:
+        if block.needs_data and block.language == "sh" and draw is None:
             continue
         if block.language == "sh":
+            begin = time.time()
             try:
                 run_shell(block.code, folder, program)
             except RuntimeError as error:
                 raise RuntimeError(f"{where}: {error}") from None
+            for picture in (folder / "out").glob("*.png") if draw else ():
+                if picture.stat().st_mtime >= begin and (draw / picture.name).exists():
+                    shutil.copy(picture, draw)
         elif block.language == "python":
             exec(compile(block.code, where, "exec"), names)
         elif block.language == "cpp":

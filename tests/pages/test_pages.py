@@ -45,15 +45,30 @@ def test_what_needs_data_waits_for_it(monkeypatch: pytest.MonkeyPatch, tmp_path:
     (tmp_path / "page.md").write_text(page + "<!-- needs data -->\n```sh\ntouch out/drawn\n```\n")
     (tmp_path / "data").mkdir()
     for folder, data, draw, left in (
-        ("none", None, False, set()),
-        ("some", tmp_path / "data", False, {"here"}),
-        ("all", tmp_path / "data", True, {"here", "drawn"}),
+        ("none", None, None, set()),
+        ("some", tmp_path / "data", None, {"here"}),
+        ("all", tmp_path / "data", tmp_path, {"here", "drawn"}),
     ):
         (tmp_path / folder).mkdir()
         monkeypatch.chdir(tmp_path / folder)
         program = os.environ["LITTORAL"]
         page_code.run_page(tmp_path / "page.md", tmp_path / folder, program, data, draw)
         assert {found.name for found in Path("out").iterdir()} == left
+
+
+def test_pictures_are_those_of_commands(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "page.md").write_text(
+        "```sh\nprintf command > out/a.png\n```\n"
+        "```python\nopen('out/a.png', 'w').write('Python')\n```\n```sh\ntrue\n```\n"
+    )
+    for folder in ("run", "kept"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "kept" / "a.png").touch()
+    monkeypatch.chdir(tmp_path / "run")
+    page_code.run_page(
+        tmp_path / "page.md", tmp_path / "run", os.environ["LITTORAL"], None, tmp_path / "kept"
+    )
+    assert (tmp_path / "kept" / "a.png").read_text() == "command"
 
 
 @pytest.mark.parametrize(

@@ -103,9 +103,10 @@ def run_page(
                 run_shell(block.code, folder, program)
             except RuntimeError as error:
                 raise RuntimeError(f"{where}: {error}") from None
-            for picture in (folder / "out").glob("*.png") if draw else ():
-                if picture.stat().st_mtime >= begin and (draw / picture.name).exists():
-                    shutil.copy(picture, draw)
+            if draw:
+                for picture in (folder / "out").glob("*.png"):
+                    if picture.stat().st_mtime >= begin and (draw / picture.name).exists():
+                        shutil.copy(picture, draw)
         elif block.language == "python":
             exec(compile(block.code, where, "exec"), names)
         elif block.language == "cpp":

@@ -89,8 +89,8 @@ std::string recommendation_for(const SurfaceTraits& traits) {
     return traits.has_normals
                ? "sdf, query: auto, or tori for values at points; points have normals. distance: "
                  "auto runs on the cloud"
-               : "sdf, query: auto with option estimate-normals; points have no normals. distance: "
-                 "auto "
+               : "sdf, query: auto with option estimate-normals; points have no normals. "
+                 "distance: auto "
                  "runs on the cloud";
   std::vector<std::string> reasons;
   if (traits.boundary_loops > 0)

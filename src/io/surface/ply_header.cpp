@@ -2,6 +2,8 @@
 
 #include <array>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "io/text_scan.h"
@@ -148,6 +150,7 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
     throw InputError(name + ":1: expected the word 'ply'", "bad-file");
   }
   bool has_format = false;
+  std::set<std::string> names;
   while (true) {
     const Words words = lines.next();
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
@@ -158,8 +161,8 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
       has_format = true;
     } else if (words[0] == "element") {
       PlyElement element = parse_element(lines, words);
-      for (const PlyElement& e : header.elements)
-        if (e.name == element.name) lines.fail("element " + in_quotes(e.name) + " appears twice");
+      if (!names.insert(element.name).second)
+        lines.fail("element " + in_quotes(element.name) + " appears twice");
       header.elements.push_back(std::move(element));
     } else if (words[0] == "property") {
       if (header.elements.empty()) lines.fail("a property before the first element");

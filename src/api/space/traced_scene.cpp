@@ -51,11 +51,13 @@ void fit_for_page(CsgShapes& shapes, Task task, Report& report) {
                            " clouds; these are " + std::to_string(shapes.all.size()));
   int points = 0;
   for (Shape& shape : shapes.all) {
-    const std::string& name = shape.request.method.name();
-    if (shape.field || (!name.empty() && name != Tori::method) || shape.surface.n_faces() > 0)
+    const std::string name = shape.request.method.name();
+    const bool by_tori = name.empty() || name == SpaceAutomatic::method || name == Tori::method;
+    if (shape.field || !by_tori || shape.surface.n_faces() > 0)
       throw UnsupportedError(
           "pages trace point clouds by their tori (method tori); pictures trace all "
           "shapes, and a volume of distance shows them on a grid");
+    if (name != Tori::method) shape.request.method = Tori{};
     shape.surface =
         fit_tori_cloud(shape.surface, shape.request,
                        task.stage(1 / static_cast<double>(shapes.all.size()), "fitting"), report);

@@ -49,14 +49,6 @@ Report& part_of(Report& report, Report& spare, std::size_t shape) {
   return shape == 0 ? report : spare;
 }
 
-void gather(const Report& spare, std::size_t shape, Report& report) {
-  if (shape == 0) return;
-  for (const auto& [code, text] : spare.warnings)
-    report.warn(code, "shape " + std::to_string(shape + 1) + ": " + text);
-  report.timings.insert(report.timings.end(), spare.timings.begin(), spare.timings.end());
-  if (spare.status != "converged") report.status = spare.status;
-}
-
 void describe(const CsgShapes& shapes, Report& report) {
   if (shapes.all.front().field) report.method = "volume";
   if (shapes.plain()) return;
@@ -70,6 +62,14 @@ Shape shape_at_level(const Volume& volume, double level) {
   shape.surface = level_points(volume, level, {});
   shape.request.method = Tori{};
   return shape;
+}
+
+void add_report_of(std::size_t shape, const Report& its, Report& report) {
+  if (shape == 0) return;
+  for (const auto& [code, text] : its.warnings)
+    report.warn(code, "shape " + std::to_string(shape + 1) + ": " + text);
+  report.timings.insert(report.timings.end(), its.timings.begin(), its.timings.end());
+  if (its.status != "converged") report.status = its.status;
 }
 
 Box bounding_box(const CsgShapes& shapes) {
@@ -120,7 +120,7 @@ SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Re
     } else {
       values[s] = evaluate(*field_of(shape), grid, part);
     }
-    gather(spare, s, report);
+    add_report_of(s, spare, report);
   }
   describe(shapes, report);
   const Task rest = task.stage(0.1, "combining");
@@ -148,7 +148,7 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const CsgShapes& sha
     fields.push_back(shape.field ? field_of(shape)
                                  : pointwise_distance(shape.surface, shape.request, part,
                                                       part_of(report, spare, s)));
-    gather(spare, s, report);
+    add_report_of(s, spare, report);
   }
   describe(shapes, report);
   if (fields.size() == 1 && shapes.csg.offset == 0) return fields.front();

@@ -33,6 +33,9 @@ struct CsgShapes {
   }
 };
 
+/// Adds what is said of a shape other than the first: its warnings, times and bad status.
+void add_report_of(std::size_t shape, const Report& its, Report& report);
+
 /// The box around all of them. Throws InputError for coordinates that are not finite.
 Box bounding_box(const CsgShapes& shapes);
 

@@ -50,7 +50,9 @@ void fit_for_page(CsgShapes& shapes, Task task, Report& report) {
     throw UnsupportedError("pages trace at most " + std::to_string(most_clouds) +
                            " clouds; these are " + std::to_string(shapes.all.size()));
   int points = 0;
-  for (Shape& shape : shapes.all) {
+  for (std::size_t s = 0; s < shapes.all.size(); ++s) {
+    Shape& shape = shapes.all[s];
+    Report spare;
     const std::string name = shape.request.method.name();
     const bool by_tori = name.empty() || name == SpaceAutomatic::method || name == Tori::method;
     if (shape.field || !by_tori || shape.surface.n_faces() > 0)
@@ -58,9 +60,10 @@ void fit_for_page(CsgShapes& shapes, Task task, Report& report) {
           "pages trace point clouds by their tori (method tori); pictures trace all "
           "shapes, and a volume of distance shows them on a grid");
     if (name != Tori::method) shape.request.method = Tori{};
-    shape.surface =
-        fit_tori_cloud(shape.surface, shape.request,
-                       task.stage(1 / static_cast<double>(shapes.all.size()), "fitting"), report);
+    shape.surface = fit_tori_cloud(
+        shape.surface, shape.request,
+        task.stage(1 / static_cast<double>(shapes.all.size()), "fitting"), s == 0 ? report : spare);
+    add_report_of(s, spare, report);
     shape.request.flip = shape.request.estimate_normals = false;  // they are that way now
     shape.request.method = Tori{};
     points += shape.surface.n_vertices();

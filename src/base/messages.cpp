@@ -89,7 +89,7 @@ constexpr std::array message_table = std::to_array<Message>({
      "the same, in an iterative solver", "the same; larger `--alpha` helps `regularized`"},
     {an_error, "tetgen-failed", "tetgen is missing, failed or ended too late",
      "it is another program", "install it, or leave `--domain tets` to the lattice"},
-    {an_error, "system", "a process or port cannot be opened", "the operating system refused",
+    {an_error, "system", "a process, thread or port cannot be opened", "the operating system refused",
      "free some, or fewer `--jobs`"},
     {an_error, "internal", "an error that nobody foresaw", "a fault of littoral",
      "report it with the input"},

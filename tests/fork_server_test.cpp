@@ -100,6 +100,17 @@ TEST(ForkServer, DoesManyAtOnce) {
   EXPECT_EQ(seen, std::vector<int>(n, 1));
 }
 
+/// Requests and answers that together exceed what the system keeps between two processes.
+TEST(ForkServer, IsAskedWhileItAnswers) {
+  const ForkServer server(forked_work);
+  constexpr std::uint64_t n = 20;
+  const std::string large(3000000, 'x');
+  ::alarm(60);  // two that wait for each other would do so for ever
+  for (std::uint64_t id = 0; id < n; ++id) server.start(id, large, {});
+  for (std::uint64_t k = 0; k < n; ++k) EXPECT_EQ(server.wait(20).value().told, "first " + large);
+  ::alarm(0);
+}
+
 TEST(Sha256, HasTheKnownDigests) {
   const auto of = [](const std::string& text) {
     Sha256 sum;

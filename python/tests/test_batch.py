@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import faulthandler
 import hashlib
 import json
 import os
+import resource
 import shutil
 import signal
 import threading
@@ -98,6 +100,76 @@ def test_what_misbehaves_is_a_line(tmp_path: Path) -> None:
     assert lines["raise"]["message"] == "KeyError: 'no such key'"
     assert (tmp_path / "out/fine.dir/part").read_text() == "fine"
     assert sum(failure.count for failure in done.failures) == 6
+
+
+@contextlib.contextmanager
+def files_of_at_most(size: int) -> Iterator[None]:
+    """As on a full disk: files cannot grow beyond so many bytes."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_results_that_do_not_fit_and_inputs_that_vanish(tmp_path: Path, sphere) -> None:
+    """The library's files and others, with room for the status; later there is room for all."""
+    for name in ("a", "b", "gone"):
+        sphere.save(tmp_path / f"{name}.obj")
+
+    def work(path: str, output: str) -> None:
+        mesh = littoral.read(path)
+        if Path(path).stem == "a":
+            mesh.save(output)
+        else:
+            Path(output).write_bytes(b"x" * 10_000)
+
+    items = [tmp_path / f"{name}.obj" for name in ("a", "b", "gone")]
+    (tmp_path / "gone.obj").unlink()
+    out = tmp_path / "out"
+    named = {item.stem: item for item in items}
+    with files_of_at_most(5000):
+        full = littoral.batch(named, work, out, to=".ply")
+    assert (full.done, full.failed) == (0, 3)
+    lines = status(out)
+    assert {name: line["status"] for name, line in lines.items()} == {
+        "a": "io", "b": "io", "gone": "input"
+    }  # fmt: skip
+    assert lines["a"]["message"] == f"cannot write {out}/a.ply: File too large"
+    assert "File too large" in lines["b"]["message"]
+    assert lines["gone"]["message"] == f"cannot read {items[2]}: there is no such file"
+    assert [path.name for path in out.iterdir()] == ["status.jsonl"]
+    again = littoral.batch(named, work, out, to=".ply")
+    assert (again.done, again.failed) == (2, 1)
+
+
+def test_a_status_that_cannot_be_written(tmp_path: Path) -> None:
+    def work(value: int, output: str) -> None:
+        Path(output).write_text(str(value))
+
+    out = tmp_path / "out"
+    with files_of_at_most(600), pytest.raises(littoral.IoError, match=r"status\.jsonl: File too"):
+        littoral.batch(range(20), work, out)
+    lines = status(out)  # whole ones
+    assert 1 <= len(lines) < 20
+    again = littoral.batch(range(20), work, out)
+    assert (again.done, again.unchanged) == (20 - len(lines), len(lines))
+    assert len(status(out)) == 20
+    with pytest.raises(littoral.IoError, match="cannot make the folder /proc/out"):
+        littoral.batch(range(20), work, "/proc/out")
+
+
+def test_large_values_and_reports(tmp_path: Path) -> None:
+    """More at once than the system keeps between two processes: neither waits for the other."""
+
+    def work(value: list[int], output: str) -> str:
+        return "x" * 1_000_000
+
+    items = [[k] + [7] * 100_000 for k in range(8)]
+    made = littoral.batch(items, work, tmp_path / "out", processes=2)
+    assert made.done == 8
+    assert all(len(line["report"]) == 1_000_000 for line in status(tmp_path / "out").values())
 
 
 def test_values_as_items_and_shards(tmp_path: Path) -> None:

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <chrono>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 #include "base/platform/process.h"
 #include "io/write.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
 
@@ -18,15 +20,19 @@ void watch_for_interrupts(const CancelToken& cancel) {
   });
 }
 
-TimeLimit::TimeLimit(const CancelToken& cancel, double seconds) {
+void TimeLimit::begin(const CancelToken& cancel, double seconds) {
   if (!(seconds > 0)) return;
-  thread_ = std::thread([this, cancel, seconds] {
-    std::unique_lock lock(mutex_);
-    if (ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ending_; }))
-      return;
-    passed_ = true;
-    cancel.cancel();
-  });
+  try {
+    thread_ = std::thread([this, cancel, seconds] {
+      std::unique_lock lock(mutex_);
+      if (ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ending_; }))
+        return;
+      passed_ = true;
+      cancel.cancel();
+    });
+  } catch (const std::system_error& e) {
+    throw IoError("cannot start a thread for the time limit: " + e.code().message(), "system");
+  }
 }
 
 TimeLimit::~TimeLimit() {

@@ -14,14 +14,15 @@ namespace littoral::cli {
 /// not done so by itself. Signals that were ignored when the program started stay ignored.
 void watch_for_interrupts(const CancelToken& cancel);
 
-/// Raises the token after this time, while it lives.
+/// Raises a token after some time, while it lives.
 class TimeLimit {
  public:
-  /// [seconds]; 0: never.
-  TimeLimit(const CancelToken& cancel, double seconds);
+  TimeLimit() = default;
   ~TimeLimit();
   TimeLimit(const TimeLimit&) = delete;
   TimeLimit& operator=(const TimeLimit&) = delete;
+  /// [seconds]; 0: never. Throws IoError where there is no place for a thread.
+  void begin(const CancelToken& cancel, double seconds);
   bool passed() const { return passed_; }
 
  private:

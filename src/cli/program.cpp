@@ -34,8 +34,9 @@ Status say(Session& session, Status status, const std::string& kind, const std::
 }
 
 int run_job(Session& session) {
-  const TimeLimit limit(session.cancel, session.time_limit);
+  TimeLimit limit;
   try {
+    limit.begin(session.cancel, session.time_limit);
     set_thread_count(session.threads);
     session.begin_log();
     session.job();
@@ -57,7 +58,8 @@ int run_job(Session& session) {
     return say(session, failed, "io", e.code(), e.what());
   } catch (const IoError& e) {
     const std::string kind = is_about_memory(e) ? "memory" : "io";
-    return say(session, session.reading ? bad_input : failed, kind, e.code(), e.what());
+    const bool by_input = session.reading && e.code() != "system";
+    return say(session, by_input ? bad_input : failed, kind, e.code(), e.what());
   } catch (const SolveError& e) {
     return say(session, failed, "solve", e.code(), e.what());
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@ import os
 import random
 import resource
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 from conftest import PROGRAM, Run, square
 
 TO_PLY = ("--verb", "convert", "--to", ".ply", "-o", "out")
+UNUSED_USER = 54321
 Script = Callable[[str], "subprocess.CompletedProcess[str]"]
 
 
@@ -130,6 +132,55 @@ def test_no_place_for_more_processes(scans: Path) -> None:
     assert made.returncode == 0, made.stderr
     assert "12 done, 0 were done before, 0 failed of 12" in made.stderr
     assert len(by_input(scans / "out")) == 12
+
+
+@pytest.mark.parametrize("files", [4, 7, 8])
+def test_no_place_for_any_process(scans: Path, files: int) -> None:
+    """So few files may be open that a batch does nothing: one message, and nothing is left."""
+    limited = f'ulimit -n {files}; exec "$0" batch in {" ".join(TO_PLY)} --jobs 1'
+    made = subprocess.run(
+        ["bash", "-c", limited, PROGRAM], cwd=scans, capture_output=True, text=True, timeout=60
+    )
+    assert made.returncode in (1, 2)
+    [said] = made.stderr.splitlines()
+    assert said.startswith("littoral: error: cannot ") and "Too many open files" in said
+    assert {path.name for path in scans.glob("out/*")} <= {"status.jsonl"}
+    assert not (scans / "out/status.jsonl").exists() or lines(scans / "out") == []
+    assert batch(scans, "in", *TO_PLY).returncode == 0
+
+
+@pytest.mark.skipif(
+    os.geteuid() != 0, reason="another user's processes can be limited by root only"
+)
+def test_no_place_for_threads() -> None:
+    """The user may have no second thread or process: work goes on in one, or a message says why."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o777)
+        (folder / "a.obj").write_text(square(2))
+
+        def alone(*words: str) -> "subprocess.CompletedProcess[str]":
+            def limit() -> None:
+                resource.setrlimit(resource.RLIMIT_NPROC, (1, 1))
+
+            return subprocess.run(
+                [PROGRAM, *words], cwd=folder, capture_output=True, text=True, timeout=60,
+                user=UNUSED_USER, group=UNUSED_USER, extra_groups=[], preexec_fn=limit,
+                env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            )  # fmt: skip
+
+        made = alone("distance", "a.obj", "--vertex", "0", "-o", "a.ply")
+        assert made.returncode == 0, made.stderr
+        assert (folder / "a.ply").exists()
+        limited = alone("distance", "a.obj", "--vertex", "0", "--time-limit", "9", "-o", "b.ply")
+        assert limited.returncode == 1
+        assert limited.stderr == (
+            "littoral: error: cannot start a thread for the time limit: "
+            "Resource temporarily unavailable [system]\n"
+        )
+        many = alone("batch", "a.obj", *TO_PLY)
+        assert many.returncode == 1 and "cannot start a process: Resource" in many.stderr
+        assert sorted(os.listdir(folder)) == ["a.obj", "a.ply"]
 
 
 def test_inputs_vanish_underway(scans: Path) -> None:

@@ -260,7 +260,7 @@ class RunningBatch {
     const fs::path folder = folder_of(attempt.job);
     std::error_code ignored;
     if (!end.not_started.empty()) {
-      fs::remove_all(folder, ignored);
+      fs::remove(folder, ignored);  // empty; to look into it takes a file, and there may be no room
       return hold(attempt, end.not_started);
     }
     full_since_ = -1;

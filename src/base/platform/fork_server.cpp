@@ -79,8 +79,12 @@ class Message {
     text = bytes_.substr(at_, size);
     at_ += size;
   }
+  /// As `receive` reads it.
+  void append_to(std::string& sent) const { sent += Message().add(bytes_.size()).bytes_ + bytes_; }
   bool send(int to) const {
-    return send_bytes(to, Message().add(bytes_.size()).bytes_) && send_bytes(to, bytes_);
+    std::string whole;
+    append_to(whole);
+    return send_bytes(to, whole);
   }
   bool receive(int from) {
     std::size_t size = 0;
@@ -171,13 +175,16 @@ class Server {
     action.sa_flags = SA_RESTART | SA_NOCLDSTOP;
     ::sigaction(SIGCHLD, &action, nullptr);
     while (true) {
-      pollfd ready[2] = {{socket_, POLLIN, 0}, {wake_reader_, POLLIN, 0}};
+      const int answers = unsent_.empty() ? 0 : POLLOUT;
+      pollfd ready[2] = {{socket_, static_cast<short>(POLLIN | answers), 0},
+                         {wake_reader_, POLLIN, 0}};
       ::poll(ready, 2, milliseconds_to_next_deadline());
       char bytes[64];
       while (::read(wake_reader_, bytes, sizeof bytes) > 0) {
       }
       collect();
       end_overdue();
+      send_what_fits();
       if ((ready[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) accept();
     }
   }
@@ -233,7 +240,21 @@ class Server {
     Message message;
     message.add(end.id).add(end.signal).add(end.timed_out).add(end.not_started);
     message.add(end.told).add(end.printed).add(end.seconds).add(end.start_seconds);
-    if (!message.add(end.peak_memory).send(socket_)) finish();
+    message.add(end.peak_memory).append_to(unsent_);
+  }
+
+  /// Never waits: whoever asks may be sending a request, and reads no answer until that is through.
+  void send_what_fits() {
+    while (sent_ < unsent_.size()) {
+      const ssize_t sent = ::send(socket_, unsent_.data() + sent_, unsent_.size() - sent_,
+                                  MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (sent < 0 && errno == EINTR) continue;
+      if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
+      if (sent <= 0) finish();
+      sent_ += static_cast<std::size_t>(sent);
+    }
+    unsent_.clear();
+    sent_ = 0;
   }
 
   void accept() {
@@ -305,6 +326,8 @@ class Server {
   const ForkServer::Work& work_;
   const ForkServer::Hooks& hooks_;
   std::map<pid_t, Running> running_;
+  std::string unsent_;  // answers, the first `sent_` bytes of which are on their way
+  std::size_t sent_ = 0;
 };
 
 [[noreturn]] void throw_gone() {

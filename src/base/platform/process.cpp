@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -39,13 +40,18 @@ void remove_file(const char* path) noexcept { ::unlink(path); }
 void on_interrupt(std::function<void()> react) {
   int ends[2];
   if (!make_pipe(ends)) return;  // the default actions then end the process
+  try {
+    std::thread([from = ends[0], react = std::move(react)] {
+      char byte = 0;
+      while (::read(from, &byte, 1) != 1) {
+      }
+      react();
+    }).detach();
+  } catch (const std::system_error&) {  // no place for a thread: the same
+    for (const int end : ends) ::close(end);
+    return;
+  }
   wake_end = ends[1];
-  std::thread([from = ends[0], react = std::move(react)] {
-    char byte = 0;
-    while (::read(from, &byte, 1) != 1) {
-    }
-    react();
-  }).detach();
   // Handlers, not a thread in sigwait: libraries start threads of their own before main, and those
   // would take the signals.
   for (int signal : {SIGINT, SIGTERM}) {

@@ -246,7 +246,7 @@ TEST_F(PageTest, HoldsTheScene) {
   scene.more = {{"confidence", VecX::Constant(scene.points.rows(), 0.25)}};
   const auto page = written(scene);
   EXPECT_EQ(page["format"], "littoral scene");
-  EXPECT_EQ(page["version"], 1);
+  EXPECT_EQ(page["version"], 2);
   EXPECT_EQ(page["facts"][0][1], "2048");
   EXPECT_EQ(page["warnings"][0], "something is odd");
   const auto& surface = page["surface"];

@@ -75,7 +75,7 @@ std::string recommendation_for(const Volume& volume) {
     return "sdf, query, offset: as they are; the values are a mask, what is not 0 is inside";
   } catch (const InputError&) {
     return "sdf, query, offset: the values are a mask, and what is not 0 fills its border: "
-           "invert them where 0 is inside (option flip), or say that they are a mask (option as)";
+           "take option flip where 0 is inside, or say that they are a mask (option as)";
   }
 }
 

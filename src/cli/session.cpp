@@ -61,16 +61,17 @@ std::string verb_with(const CLI::App& program, const std::string& flag, const st
 
 }  // namespace
 
-std::string Session::with_flags(const std::string& text) const {
+std::string Session::with_flags(const std::string& text, const std::string& about) const {
+  const std::string& here = about.empty() ? record.verb : about;
   static const std::regex named("\\boption ([a-z][a-z-]*[a-z])");
   std::string out;
   auto rest = text.cbegin();
   for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
     const std::string flag = "--" + (*at)[1].str();
-    const std::string verb = program ? verb_with(*program, flag, record.verb) : "";
+    const std::string verb = program ? verb_with(*program, flag, here) : "";
     const auto [begin, next] = std::pair((*at)[0].first, (*at)[0].second);
     const bool begins = begin == text.cbegin() || (next != text.cend() && *next == ':');
-    const bool own = verb == record.verb, known = !verb.empty() && (own || !begins);
+    const bool own = verb == here, known = !verb.empty() && (own || !begins);
     out.append(rest, known && !begins ? begin : (*at)[1].first);
     if (known) out += "--";
     out.append((*at)[1].first, next);

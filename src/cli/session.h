@@ -46,8 +46,9 @@ struct Session {
 
   /// The library names its parameters, "raise option resolution". Flags of the verb are that here:
   /// "raise --resolution", and at the beginning "option --resolution"; those of another verb name
-  /// it: "raise --resolution of littoral sdf".
-  std::string with_flags(const std::string& text) const;
+  /// it: "raise --resolution of littoral sdf". `about`: the verb that a text is about, if not the
+  /// one that runs.
+  std::string with_flags(const std::string& text, const std::string& about = "") const;
 
   /// Draws progress on stderr; empty where nobody asked for it.
   Task::Callback progress_callback();

@@ -45,7 +45,7 @@ def test_the_side_of_a_mask_is_seen_or_asked_for(
     run(*words, "--as", "mask", *([] if reverse else ["--flip"]))
     assert middle(field) == pytest.approx(4.8, abs=0.3)  # as said: the middle is outside
     advice = run("info", f"m.{kind}").stdout.splitlines()[-1]
-    assert ("say --flip" in advice) == reverse
+    assert ("take --flip" in advice) == reverse
 
 
 def test_a_mask_cut_off_by_its_box_is_taken(run: Run, field: Path) -> None:

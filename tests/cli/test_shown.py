@@ -20,7 +20,7 @@ def test_two_results_are_shown_in_one_frame(run: Run, tmp_path: Path) -> None:
         run("distance", "mesh.obj", "--vertex", vertex, "-o", f"from-{vertex}.ply")
     run("view", "from-0.ply", "from-24.ply", "-o", "both.html")
     shown = scene(tmp_path / "both.html")
-    assert (shown["format"], shown["version"]) == ("littoral scene", 1)
+    assert (shown["format"], shown["version"]) == ("littoral scene", 2)
     assert shown["title"] == "from-0" and shown["beside"]["title"] == "from-24"
     assert shown["frame"] == shown["beside"]["frame"]
     assert shown["surface"]["positions"] == shown["beside"]["surface"]["positions"]

@@ -222,7 +222,7 @@ test("scenes are read, and damaged ones refused in words", () => {
     spoil(bad);
     assert.throws(() => scenes.readScene(JSON.stringify(bad)), (error) => error instanceof scenes.SceneError && pattern.test(error.message));
   };
-  refused((s) => { s.version = 2; }, /version 2, this page shows version 1/);
+  refused((s) => { s.version = 1; }, /version 1, this page shows version 2/);
   refused((s) => { s.format = "other"; }, /no scene/);
   refused((s) => { s.surface.triangles = base64(Uint32Array.from([0, 1, 99])); }, /vertex 99/);
   refused((s) => { s.surface.positions = "AAA"; }, /positions/);
@@ -232,5 +232,15 @@ test("scenes are read, and damaged ones refused in words", () => {
   refused((s) => { s.fields[0].at = "nowhere"; }, /nowhere/);
   refused((s) => { delete s.sources; }, /sources is missing/);
   refused((s) => { s.volume = { n: [1, 2, 2] }; }, /integers from 2 on/);
+  const volume = { n: [2, 2, 2], origin: [0, 0, 0], spacing: [1, 1, 1], low: [0, 0, 0], high: [1, 1, 1], axis: 2, position: 0, level: 0.5, values: base64(new Uint16Array(8)) };
+  const cloud = { operation: "unite", tori: base64(new Float32Array(16)) }, trace = { clouds: [cloud], blend: 0, offset: 0, steepness: 1, low: 0, range: 1 };
+  assert.equal(scenes.readScene(JSON.stringify({ ...good, volume, trace })).trace.clouds[0].samples.length, 8);
+  refused((s) => { s.trace = trace; }, /needs a volume/);
+  const damaged = (clouds, pattern) => refused((s) => { s.volume = volume; s.trace = { ...trace, clouds }; }, pattern);
+  damaged([], /1 to 8 clouds/);
+  damaged(Array(9).fill(cloud), /1 to 8 clouds/);
+  damaged([{ ...cloud, operation: "mix" }], /united, intersected or subtracted/);
+  damaged([{ ...cloud, tori: base64(new Float32Array(15)) }], /16 numbers/);
+  damaged([{ ...cloud, low: 0, range: 1, values: base64(new Uint16Array(7)) }], /values has the wrong length/);
   assert.throws(() => scenes.readScene("{"), /cut off/);
 });

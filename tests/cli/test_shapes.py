@@ -234,7 +234,11 @@ def test_bad_requests_to_trace_are_named(
     assert not (balls / "x.png").exists()
 
 
-def test_pages_trace_one_cloud_by_tori(run: Run, balls: Path) -> None:
-    for arguments in (("--unite", "b.xyz"), ("--method", "planar")):
-        error = run("view", "a.xyz", "--trace", *arguments, "-o", "x.html", status=2).stderr
+def test_pages_trace_clouds_by_tori(run: Run, balls: Path) -> None:
+    run("view", "a.xyz", "--trace", "--unite", "b.xyz", "-o", "x.html")
+    assert (balls / "x.html").read_text().count('"operation":"unite"') == 2
+    for arguments in (("--unite", "b.xyz", "--operand-method", "planar"), ("--method", "planar")):
+        error = run("view", "a.xyz", "--trace", *arguments, "-o", "y.html", status=2).stderr
         assert "pictures trace all shapes" in error
+    many = ["--unite", "b.xyz"] * 8
+    assert "at most 8" in run("view", "a.xyz", "--trace", *many, "-o", "y.html", status=2).stderr

@@ -59,7 +59,8 @@ void info(FileArguments& arguments, Session& session) {
   }
   session.print_warnings();
   for (InfoEntry& entry : entries)
-    if (auto* text = std::get_if<std::string>(&entry.value)) *text = session.with_flags(*text, "sdf");
+    if (auto* text = std::get_if<std::string>(&entry.value))
+      *text = session.with_flags(*text, "sdf");
   std::cout << (session.json ? info_json(entries) + "\n" : info_text(entries));
 }
 

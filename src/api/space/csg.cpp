@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "api/space/beside_automatic.h"
 #include "api/space/sampled_distance.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -106,8 +107,15 @@ VecX grid_distance(const CsgShapes& shapes, const Grid& grid, Task task, Report&
 SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Report& report) {
   check_combination(shapes.csg, shapes.all.size());
   const std::size_t n = shapes.all.size();
-  if (shapes.plain())
-    return grid_answer(shapes.all.front().surface, grid, shapes.all.front().request, task, report);
+  if (shapes.plain()) {
+    const auto& [surface, field, request] = shapes.all.front();
+    if (!has_automatic(surface, request)) return grid_answer(surface, grid, request, task, report);
+    SpaceAnswer answer = grid_answer(surface, grid, request, task.stage(0.9, "distance"), report);
+    const std::vector<Eigen::Index> nodes = compared_nodes(grid);
+    check_beside_automatic(surface, grid, nodes, answer.at_nodes(nodes), request,
+                           task.stage(0.1, "checking"), report);
+    return answer;
+  }
   check_grid(grid);
   std::vector<VecX> values(n);
   for (std::size_t s = 0; s < n; ++s) {
@@ -151,6 +159,17 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const CsgShapes& sha
     add_report_of(s, spare, report);
   }
   describe(shapes, report);
+  if (shapes.plain()) {
+    const auto& [surface, field, request] = shapes.all.front();
+    if (has_automatic(surface, request)) {
+      const Grid grid = choose_grid(surface, {.resolution = 32});
+      const std::vector<Eigen::Index> nodes = compared_nodes(grid);
+      const Task part = task.stage(0.1, "checking");
+      check_beside_automatic(surface, grid, nodes,
+                             evaluate(*fields.front(), positions(grid, nodes), nullptr, part),
+                             request, part, report);
+    }
+  }
   if (fields.size() == 1 && shapes.csg.offset == 0) return fields.front();
   return std::make_shared<const Combined>(std::move(fields), shapes.csg);
 }

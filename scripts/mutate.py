@@ -6,8 +6,8 @@ used; nothing in the work tree is written. A change is killed if a test fails, c
 long. Suites of test files that include the changed file's folder run first, the others only if
 those notice nothing.
 
-usage: mutate.py [--build build/release] [--seed N] [--count N] [--under PATTERN] [--limit SECONDS]
-                 [--near] [--least SHARE]
+usage: mutate.py [--build build/release] [--seed N] [--count N] [--folders FOLDER...]
+                 [--under PATTERN] [--limit SECONDS] [--near] [--least SHARE]
 
 The build folder holds littoral_tests; what is changed is the work tree it was made of. Prints a
 line for each change and the share that was killed; changes that do not compile do not count, nor
@@ -161,6 +161,7 @@ def main() -> None:
     parser.add_argument("--build", type=Path, default=Path("build/release"))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--folders", nargs="+", default=FOLDERS, help="below src")
     parser.add_argument("--under", default="", help="a regular expression on paths below src")
     parser.add_argument("--limit", type=float, default=600)
     parser.add_argument("--near", action="store_true", help="only the suites that run first")
@@ -176,7 +177,7 @@ def run(given: argparse.Namespace, builder: Builder) -> float:
     root = builder.root
     sources = [
         source
-        for folder in FOLDERS
+        for folder in given.folders
         for source in sorted((root / "src" / folder).rglob("*.cpp"))
         if re.search(given.under, str(source.relative_to(root / "src")))
     ]

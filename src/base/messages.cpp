@@ -198,8 +198,9 @@ constexpr std::array message_table = std::to_array<Message>({
     {a_warning, "walls-inside", "part of the input's area lies inside, on both sides",
      "walls within, or parts that overlap", "remove them to measure to the outer surface alone"},
     {a_warning, "sign-uncertain", "signs are uncertain in places",
-     "the sign changes where there is no surface, or lines disagree about the orientation",
-     "`--confidence` shows where"},
+     "the sign changes where there is no surface, lines disagree about the orientation, or the "
+     "method and `auto` differ",
+     "`--confidence` shows where; method `auto`"},
     {a_warning, "points-not-enclosing", "the points do not enclose what they bound",
      "the surface through them goes on beyond them", "more points, or a smaller box"},
     {a_warning, "free-edges", "patches over holes end a spacing before the faces",

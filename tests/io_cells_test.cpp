@@ -250,7 +250,7 @@ TEST(Msh, EveryVersionHoldsTheSame) {
     for (const auto& [binary, big] : {std::pair(false, false), {true, false}, {true, true}}) {
       const std::string bytes = MshSample{version, binary, big, ""}.bytes(msh_points, msh_elements);
       SCOPED_TRACE(std::to_string(version) + (binary ? " binary" : ""));
-      const io::TetFile file = io::read_msh_tets(bytes, "a.msh");
+      const io::TetFile file = io::CellsAs<io::read_msh>::tets(bytes, "a.msh");
       ASSERT_EQ(file.mesh.n_vertices(), 10);
       EXPECT_EQ(Vec3(file.mesh.points.row(8)), msh_points[8]);
       EXPECT_EQ(file.mesh.n_tets(), 6 + 2 + 1);
@@ -261,7 +261,7 @@ TEST(Msh, EveryVersionHoldsTheSame) {
       // Cut anywhere it is an error, or what follows the elements is missing.
       for (std::size_t cut = 0; cut < bytes.size(); cut += 3) {
         try {
-          const io::TetFile part = io::read_msh_tets(bytes.substr(0, cut), "a.msh");
+          const io::TetFile part = io::CellsAs<io::read_msh>::tets(bytes.substr(0, cut), "a.msh");
           EXPECT_TRUE(part.mesh.n_tets() == 9 || part.mesh.n_tets() == 0) << cut;
         } catch (const InputError&) {
         }
@@ -298,7 +298,9 @@ std::string said_with(const Read& read, const std::string& text, const std::stri
 TEST(Msh, ErrorsNameTheElement) {
   const std::string text = MshSample{22, false, false, ""}.bytes(msh_points, msh_elements);
   const auto expect = [&](const std::string& from, const std::string& to, const char* said) {
-    EXPECT_THAT(said_with(io::read_msh_tets, text, "a.msh", from, to), HasSubstr(said)) << from;
+    EXPECT_THAT(said_with(io::CellsAs<io::read_msh>::tets, text, "a.msh", from, to),
+                HasSubstr(said))
+        << from;
   };
   expect("2.2 0 8", "1.0 0 8", "version 1; 2 and 4 are read");
   expect("2.2 0 8", "2.2 1 4", "numbers of 4 bytes");
@@ -327,7 +329,7 @@ const std::string vtu =
     "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
 
 TEST(Vtu, TextAndWhatIsWritten) {
-  const io::TetFile file = io::read_vtu_tets(vtu, "a.vtu");
+  const io::TetFile file = io::CellsAs<io::read_vtu>::tets(vtu, "a.vtu");
   EXPECT_EQ(file.mesh.n_tets(), 2);
   EXPECT_EQ(file.triangles, (MatX3i(1, 3) << 0, 1, 4).finished());
   EXPECT_EQ(file.scalars.at("depth"), VecX::LinSpaced(5, 0, 4));
@@ -355,7 +357,8 @@ TEST(Vtu, TextAndWhatIsWritten) {
 
 TEST(Vtu, ErrorsNameTheElement) {
   const auto expect = [&](const std::string& from, const std::string& to, const char* said) {
-    EXPECT_THAT(said_with(io::read_vtu_tets, vtu, "a.vtu", from, to), HasSubstr(said)) << from;
+    EXPECT_THAT(said_with(io::CellsAs<io::read_vtu>::tets, vtu, "a.vtu", from, to), HasSubstr(said))
+        << from;
   };
   expect("0 1 2 3 4 0 1 4", "0 1 2 3 4 0 1 5", "cell 1 refers to vertex 5, the file has 5");
   expect("0 1 2 3 4 0 1 4", "0 1 2 3 -4 0 1 4", "cell 0 refers to vertex -4");

@@ -1,5 +1,6 @@
 // Batches of calls of Python functions, in processes forked from this interpreter.
 
+#include "api/batch/batch_status.h"
 #include "bindings.h"
 
 namespace littoral::python {
@@ -79,6 +80,10 @@ nb::dict batch(const std::vector<JobTuple>& jobs, const nb::callable& run, const
 void bind_batch(nb::module_& m) {
   m.def("batch", batch, nb::arg("jobs"), nb::arg("run"), nb::arg("hash"), nb::arg("folder"),
         nb::arg("how"), nb::arg("settings").none());
+  m.def("batch_status_file", status_file_name, nb::arg("shard"), nb::arg("shards"));
+  m.def(
+      "is_batch_status_file", [](const std::string& name) { return is_status_file(name); },
+      nb::arg("name"));
 }
 
 }  // namespace littoral::python

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from . import _core
+
 
 def _status_files(fs: Any, root: str) -> dict[str, int]:
     """Those of all parts that lie in a folder, with their sizes; none where there is no folder."""
@@ -17,7 +19,7 @@ def _status_files(fs: Any, root: str) -> dict[str, int]:
     except FileNotFoundError:
         return {}
     sizes = {entry["name"].rpartition("/")[2]: int(entry["size"] or 0) for entry in found}
-    return {n: s for n, s in sizes.items() if n.startswith("status.") and n.endswith(".jsonl")}
+    return {name: size for name, size in sizes.items() if _core.is_batch_status_file(name)}
 
 
 @contextmanager
@@ -43,7 +45,7 @@ def status_folder(
             local = folder / name
             if not local.exists() or local.stat().st_size < size:
                 fs.get_file(f"{root}/{name}", str(local))
-        mine = folder / ("status.{}-of-{}.jsonl".format(*shard) if shard[1] > 1 else "status.jsonl")
+        mine = folder / _core.batch_status_file(*shard)
         before = mine.stat().st_size if mine.exists() else 0
         try:
             yield os.fspath(folder)

@@ -275,6 +275,23 @@ std::vector<std::string> check_names(const CLI::App& program, std::vector<std::s
   return outputs;
 }
 
+namespace {
+
+/// Why a value that was given to an option is none; empty where all are.
+std::string refusal_of_value(CLI::Option& option) {
+  for (const std::string& value : option.results())
+    for (const CLI::Validator* check : validators_of(option)) {
+      try {
+        if (const std::string why = (*check)(value); !why.empty()) return why;
+      } catch (const CLI::ValidationError& error) {  // those of sizes in bytes
+        return error.what();
+      }
+    }
+  return "";
+}
+
+}  // namespace
+
 std::string refused_text(const CLI::ParseError& error, CLI::App& program,
                          const std::vector<std::string>& arguments, std::string& code) {
   CLI::App* verb = nullptr;
@@ -306,14 +323,12 @@ std::string refused_text(const CLI::ParseError& error, CLI::App& program,
       if (option->count() > 1 && option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
         return "option " + option->get_name(false, true) + " is given " +
                std::to_string(option->count()) + " times; give it once";
-  if (dynamic_cast<const CLI::ValidationError*>(&error)) {
-    const std::string text = error.what();
-    code = "option-value";
+  if (dynamic_cast<const CLI::ValidationError*>(&error))
     for (CLI::Option* option : verb->get_options())
-      if (text.starts_with(option->get_name() + ":") && !words_to_complete(*option).empty())
-        code = "unknown-name";
-    return "option " + text;
-  }
+      if (const std::string why = refusal_of_value(*option); !why.empty()) {
+        code = words_to_complete(*option).empty() ? "option-value" : "unknown-name";
+        return "option " + option->get_name() + ": " + why;
+      }
   return error.what() + see;
 }
 

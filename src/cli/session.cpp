@@ -295,16 +295,20 @@ CLI::Validator among(const std::vector<std::string>& words) {
       .name(name_with(words));
 }
 
-std::string words_to_complete(CLI::Option& option) {
-  for (int i = 0;; ++i) {
-    try {
-      const std::string name = option.get_validator(i)->get_name();
-      if (name.starts_with(words_mark))
-        return name.substr(std::min(name.size(), words_mark.size() + 1));
-    } catch (const CLI::OptionNotFound&) {
-      return "";  // there are no more
-    }
+std::vector<const CLI::Validator*> validators_of(CLI::Option& option) {
+  std::vector<const CLI::Validator*> out;
+  try {
+    for (int i = 0;; ++i) out.push_back(option.get_validator(i));
+  } catch (const CLI::OptionNotFound&) {  // there are no more
+    return out;
   }
+}
+
+std::string words_to_complete(CLI::Option& option) {
+  for (const CLI::Validator* check : validators_of(option))
+    if (const std::string& name = check->get_name(); name.starts_with(words_mark))
+      return name.substr(std::min(name.size(), words_mark.size() + 1));
+  return "";
 }
 
 namespace {

@@ -104,6 +104,8 @@ CLI::Validator whole_number(long long low, long long high);
 CLI::Validator number_between(double low, double high);
 /// Accepts any word, so that another check may say more; shells complete these.
 CLI::Validator among(const std::vector<std::string>& words);
+/// What checks the values of an option.
+std::vector<const CLI::Validator*> validators_of(CLI::Option& option);
 /// The words that `one_of` or `among` gave to an option, separated by spaces; empty if neither did.
 std::string words_to_complete(CLI::Option& option);
 /// Text without line breaks and other control characters, which readers of lines stumble over.

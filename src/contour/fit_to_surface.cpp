@@ -132,18 +132,19 @@ class Cutter {
   }
 
   /// Vertices so near to a crease that a point on a side would be next to them go there themselves,
-  /// but never all corners of a triangle: it would be flat.
+  /// but never all corners of a triangle, nor two of them to one place: it would be flat.
   void place_on_creases() {
     const std::vector<Foot> before = feet_;
     std::vector<std::vector<int>> faces_at(before.size());
     for (Eigen::Index f = 0; f < faces_.rows(); ++f)
       for (int k = 0; k < 3; ++k) faces_at[faces_(f, k)].push_back(static_cast<int>(f));
     const auto is_placed = [&](int v) { return cut.best[v] == 2; };
-    const auto flattens = [&](int v) {
+    const auto flattens = [&](int v, const Vec3& x) {
       return std::any_of(faces_at[v].begin(), faces_at[v].end(), [&](int f) {
         int placed = 0;
-        for (int k = 0; k < 3; ++k) placed += is_placed(faces_(f, k));
-        return placed == 2;
+        for (const int w : faces_.row(f))
+          if (is_placed(w)) placed += (to(w) - x).norm() < on_crease * reach_ ? 2 : 1;
+        return placed >= 2;
       });
     };
     for (int v = 0; v < static_cast<int>(before.size()); ++v)
@@ -153,7 +154,7 @@ class Cutter {
           if (!differ(before[v], before[w])) continue;
           Vec3 x = meeting_point({&before[v], &before[w]}, before[v].point);
           if ((x - before[v].point).norm() > on_crease * reach_ || !on_target(x, from(v)) ||
-              flattens(v))
+              flattens(v, x))
             continue;
           cut.places[v][2] = x;
           cut.best[v] = 2;

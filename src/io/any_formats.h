@@ -13,12 +13,7 @@ Content read_npy(std::string_view bytes, const std::string& name, const std::str
 /// An archive without an array of three axes is a cloud.
 Content read_npz(std::string_view bytes, const std::string& name, const std::string& field);
 
-/// With solid cells tets, otherwise a surface.
-Content read_medit(std::string_view bytes, const std::string& name, const std::string& field);
-/// The same, or a grid of points with values, which is a volume.
+/// With solid cells tets, a grid of points with values a volume, otherwise a surface.
 Content read_vtk(std::string_view bytes, const std::string& name, const std::string& field);
-/// With solid cells tets, otherwise a surface.
-Content read_vtu(std::string_view bytes, const std::string& name, const std::string& field);
-Content read_msh(std::string_view bytes, const std::string& name, const std::string& field);
 
 }  // namespace littoral::io

@@ -1,17 +1,21 @@
 #include "io/contents_hint.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <vector>
 
 #include "io/formats.h"
+#include "io/read.h"
 #include "io/text_scan.h"
 
 namespace littoral::io {
 
 namespace {
 
+constexpr std::size_t looked_at = 1024;
+
 /// The first bytes in lower case, from the first that is no blank, with blanks for line ends.
 std::string beginning_of(std::string_view bytes) {
-  constexpr std::size_t looked_at = 1024;
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return "";
@@ -28,7 +32,29 @@ bool begins_as(const std::string& text, const Format& format) {
   });
 }
 
+/// The formats whose files begin so.
+std::vector<const Format*> formats_beginning(const std::string& text) {
+  std::vector<const Format*> found;
+  for (const Format& format : formats())
+    if (begins_as(text, format)) found.push_back(&format);
+  return found;
+}
+
 }  // namespace
+
+std::string extension_told(std::string_view bytes) {
+  const std::vector<const Format*> found = formats_beginning(beginning_of(bytes));
+  return found.size() == 1 ? std::string(found.front()->extension) : "";
+}
+
+std::string extension_to_read(const std::filesystem::path& path) {
+  const std::string named = extension_named(path);
+  const Format* format = format_of(named);
+  if (format && !format->exchanged) return named;
+  const std::string told = extension_told(first_bytes(path, 2 * looked_at));
+  if (told.empty() || (format && !format_of(told)->exchanged)) return named;
+  return told;
+}
 
 std::string contents_hint(std::string_view bytes, const std::string& extension) {
   const std::string text = beginning_of(bytes);
@@ -39,10 +65,9 @@ std::string contents_hint(std::string_view bytes, const std::string& extension) 
     return "it is a pointer of Git LFS: 'git lfs pull' fetches the file";
   if (text.starts_with("\x1f\x8b")) return "it is packed by gzip: name it " + extension + ".gz";
   std::string alike;
-  for (const Format& format : formats()) {
-    if (!begins_as(text, format)) continue;
-    if (format.extension == lower_case(extension)) return "";
-    alike.append(alike.empty() ? "" : " or ").append(format.extension);
+  for (const Format* format : formats_beginning(text)) {
+    if (format->extension == lower_case(extension)) return "";
+    alike.append(alike.empty() ? "" : " or ").append(format->extension);
   }
   return alike.empty() ? "" : "its contents look like " + alike + ": name it so";
 }

@@ -12,6 +12,9 @@ namespace littoral::io {
 /// no format.
 std::string contents_hint(std::string_view bytes, const std::string& extension);
 
+/// The extension of the only format whose files begin so; empty where there is none or several.
+std::string extension_told(std::string_view bytes);
+
 /// What `read` returns; its InputErrors of bad files end in the hint, unless they say the same.
 template <class Read>
 auto read_with_hint(std::string_view bytes, const std::string& extension, Read read) {

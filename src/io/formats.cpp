@@ -9,6 +9,7 @@
 #include "io/sources/source_nodes.h"
 #include "io/surface/surface_formats.h"
 #include "io/surface/surface_writers.h"
+#include "io/tet/cell_mesh.h"
 #include "io/tet/tet_formats.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
@@ -30,18 +31,18 @@ const std::vector<Format>& formats() {
       {.extension = ".xyz", .about = "rows x y z, or x y z and a normal, between blanks, commas, semicolons or tabs; below names, columns as of .csv and nx, ny, nz; six columns without names that look like colours are not taken for normals", .read_cloud = read_xyz},
       {.extension = ".asc", .about = "as .xyz", .read_cloud = read_xyz},
       {.extension = ".pcd", .about = "Point Cloud Library, text or binary, also compressed: points, normals", .read_cloud = read_pcd, .begins = {"# .pcd"}},
-      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .read_volume = read_vti, .write_volume = write_vti, .begins = {"<vtkfile type=\"imagedata\""}},
+      {.extension = ".vti", .about = "VTK image data: grid and values, packed or plain (written: plain)", .more_values = true, .exchanged = true, .read_volume = read_vti, .write_volume = write_vti, .begins = {"<vtkfile type=\"imagedata\""}},
       {.extension = ".nrrd", .about = "NRRD in one file, text, raw or gzip (written: raw): grid and values", .read_volume = read_nrrd, .write_volume = write_nrrd, .begins = {"nrrd0"}},
       {.extension = ".npy", .about = "NumPy array: as a volume three axes x, y, z, without a place for the box; as points N x 3, N x 6 with normals, or records with fields x, y, z", .no_box = true, .read_cloud = read_npy_cloud, .read_volume = read_npy_volume, .read_any = read_npy, .read_table = read_npy_points, .write_volume = write_npy_volume, .write_table = write_npy, .begins = {"\x93numpy"}},
       {.extension = ".npz", .about = "NumPy archive, plain or packed (written: plain): a volume as values, origin, spacing; points as points, N x 3, with normals and values at points as arrays of their own", .read_cloud = read_npz_cloud, .read_volume = read_npz_volume, .read_any = read_npz, .read_table = read_npz_points, .write_volume = write_npz_volume, .write_table = write_npz, .begins = {"pk\x03\x04"}},
       {.extension = ".vol", .about = "voxels of one byte, plain or packed", .read_volume = read_vol, .read_voxels = read_vol_bytes},
       {.extension = ".vdb", .about = "OpenVDB level set in single precision, where the program has that module (as read: the box of the active voxels)", .read_volume = read_vdb, .write_volume = write_vdb, .available = has_openvdb, .unless = "the module littoral_vdb.so, which needs OpenVDB to be built, is not installed with the program"},
-      {.extension = ".mesh", .about = "Medit, text: tets, hexahedra, prisms and pyramids (cut into tets), or else triangles and quads", .read_surface = read_medit_surface, .read_tets = read_medit_tets, .read_any = read_medit, .begins = {"meshversionformatted"}},
+      {.extension = ".mesh", .about = "Medit, text: tets, hexahedra, prisms and pyramids (cut into tets), or else triangles and quads", .read_surface = CellsAs<read_medit>::surface, .read_tets = CellsAs<read_medit>::tets, .read_any = CellsAs<read_medit>::any, .begins = {"meshversionformatted"}},
       {.extension = ".tet", .about = "counts, points and tets as text", .read_tets = read_tet},
-      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons and lines, also of polygon data; points with normals; a grid of points; values at points", .lines = true, .read_surface = read_vtk_surface, .read_cloud = read_vtk_surface, .read_volume = read_vtk_volume, .read_tets = read_vtk_tets, .read_any = read_vtk, .write_tets = write_vtk, .begins = {"# vtk datafile"}},
-      {.extension = ".msh", .about = "Gmsh 2 and 4, text or binary: as .vtu, of first order", .read_surface = read_msh_surface, .read_tets = read_msh_tets, .read_any = read_msh, .begins = {"$meshformat"}},
-      {.extension = ".vtu", .about = "VTK unstructured grid as XML, text, base64 or appended, packed or plain (written: appended, plain): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons; values at points", .read_surface = read_vtu_surface, .read_tets = read_vtu_tets, .read_any = read_vtu, .write_tets = write_vtu, .begins = {"<vtkfile type=\"unstructuredgrid\""}},
-      {.extension = ".vtp", .about = "VTK polygon data as XML, as .vtu (written: appended, plain): points, polygons, lines, normals, values at points", .lines = true, .more_values = true, .read_surface = read_vtp, .read_cloud = read_vtp, .write_field = write_vtp, .begins = {"<vtkfile type=\"polydata\""}},
+      {.extension = ".vtk", .about = "VTK legacy, text or binary (written: binary): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons and lines, also of polygon data; points with normals; a grid of points; values at points", .lines = true, .exchanged = true, .read_surface = read_vtk_surface, .read_cloud = read_vtk_surface, .read_volume = read_vtk_volume, .read_tets = read_vtk_tets, .read_any = read_vtk, .write_tets = write_vtk, .begins = {"# vtk datafile"}},
+      {.extension = ".msh", .about = "Gmsh 2 and 4, text or binary: as .vtu, of first order", .read_surface = CellsAs<read_msh>::surface, .read_tets = CellsAs<read_msh>::tets, .read_any = CellsAs<read_msh>::any, .begins = {"$meshformat"}},
+      {.extension = ".vtu", .about = "VTK unstructured grid as XML, text, base64 or appended, packed or plain (written: appended, plain): tets, hexahedra, prisms and pyramids (cut into tets), or else polygons; values at points", .exchanged = true, .read_surface = CellsAs<read_vtu>::surface, .read_tets = CellsAs<read_vtu>::tets, .read_any = CellsAs<read_vtu>::any, .write_tets = write_vtu, .begins = {"<vtkfile type=\"unstructuredgrid\""}},
+      {.extension = ".vtp", .about = "VTK polygon data as XML, as .vtu (written: appended, plain): points, polygons, lines, normals, values at points", .lines = true, .more_values = true, .exchanged = true, .read_surface = read_vtp, .read_cloud = read_vtp, .write_field = write_vtp, .begins = {"<vtkfile type=\"polydata\""}},
       {.extension = ".csv", .about = "rows below names; points in columns x, y, z, Px, Py, Pz or Points:0, Points:1, Points:2", .read_table = read_points_text, .write_table = write_csv},
       {.extension = ".tsv", .about = "as .csv, with tabs between", .read_table = read_points_text, .write_table = write_tsv},
       {.extension = ".txt", .about = "rows of numbers; as sources, nodes by their place on a surface", .read_sources = read_sources_txt, .read_table = read_points_text, .write_table = write_txt},
@@ -52,6 +53,11 @@ const std::vector<Format>& formats() {
   };
   // clang-format on
   return all;
+}
+
+const Format* format_of(const std::string& extension) {
+  const auto found = std::ranges::find(formats(), lower_case(extension), &Format::extension);
+  return found == formats().end() ? nullptr : &*found;
 }
 
 bool reads(const Format& f, Kind kind) {
@@ -117,11 +123,6 @@ bool holds_any(const Format& format, const Kinds& kinds, Holds holds) {
   return std::ranges::any_of(kinds, [&](Kind kind) { return holds(format, kind); });
 }
 
-const Format* find(const std::string& extension) {
-  const auto found = std::ranges::find(formats(), lower_case(extension), &Format::extension);
-  return found == formats().end() ? nullptr : &*found;
-}
-
 std::string extensions(const Kinds& kinds, Holds holds) {
   std::string out;
   for (const Format& format : formats())
@@ -145,7 +146,9 @@ std::string refusal(const std::string& what, const std::string& name, const std:
     why = "results are not packed by gzip";
   else if (extension.empty())
     why = "it has no extension, which says the format";
-  const Format* known = find(extension);
+  const Format* known = format_of(extension);
+  if (known && lower_case(extension) != lower_case(extension_named(name)))
+    why = "it holds " + in_quotes(extension);
   const bool rows = holds == reads && known && known->read_table && !known->read_cloud &&
                     std::ranges::find(kinds, Kind::cloud) != kinds.end();
   return what + " as " + kinds_text(kinds) + ": " + why + "; possible: " + possible +
@@ -174,7 +177,7 @@ std::string kinds_text(const Kinds& kinds) {
 
 const Format& format_to_read(const std::string& extension, const std::string& name,
                              const Kinds& kinds) {
-  const Format* format = find(extension);
+  const Format* format = format_of(extension);
   if (format && holds_any(*format, kinds, reads)) {
     if (format->available && !format->available())
       throw UnsupportedError(name + ": cannot be read: " + std::string(format->unless),
@@ -190,7 +193,7 @@ const Format& format_to_read(const std::string& extension, const std::string& na
 
 const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds) {
   const std::string extension = extension_to_write(path);
-  const Format* format = find(extension);
+  const Format* format = format_of(extension);
   if (!format || !holds_any(*format, kinds, writes))
     throw UnsupportedError(
         refusal("cannot write " + path.string(), path.string(), extension, kinds, writes),
@@ -201,18 +204,23 @@ const Format& format_to_write(const std::filesystem::path& path, const Kinds& ki
   return *format;
 }
 
+bool is_named_as(const std::filesystem::path& path, const Kinds& kinds) {
+  const Format* format = format_of(extension_named(path));
+  return format && holds_any(*format, kinds, reads);
+}
+
 bool is_read_as(const std::filesystem::path& path, const Kinds& kinds) {
-  const Format* format = find(extension_to_read(path));
+  const Format* format = format_of(extension_to_read(path));
   return format && holds_any(*format, kinds, reads);
 }
 
 bool is_written_as(const std::filesystem::path& path, const Kinds& kinds) {
-  const Format* format = find(extension_to_write(path));
+  const Format* format = format_of(extension_to_write(path));
   return format && holds_any(*format, kinds, writes);
 }
 
 bool has_extension(const std::filesystem::path& path, std::string_view extension) {
-  return lower_case(extension_to_read(path)) == extension;
+  return lower_case(extension_named(path)) == extension;
 }
 
 Content read_content(const std::filesystem::path& path, const std::string& field) {
@@ -229,7 +237,7 @@ Content read_content(const std::filesystem::path& path, const std::string& field
 }
 
 bool holds(const std::filesystem::path& path, Kind kind) {
-  const Format* format = find(extension_to_read(path));
+  const Format* format = format_of(extension_to_read(path));
   if (!format || !reads(*format, kind)) return false;
   if (!format->read_any) return true;
   const Content content = read_content(path);
@@ -289,7 +297,10 @@ constexpr const char* format_notes = R"(
 
 std::string formats_markdown() {
   std::string out =
-      "# File formats\n\nThe extension of a file, in any case, says its format. Clouds are written "
+      "# File formats\n\nThe extension of a file, in any case, says its format. Where it is none "
+      "of "
+      "these, or one of VTK's, how the file begins does: `scan.dat` may hold PLY, and `a.vtk` XML. "
+      "Clouds are written "
       "with any values at their points, fields with one value per vertex.\n\n"
       "| extension | read as | written as | what it holds |\n|---|---|---|---|\n";
   for (const Format& format : formats())

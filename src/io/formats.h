@@ -36,6 +36,7 @@ struct Format {
   bool lines = false;        // a surface's lines are kept, so that it can hold sources
   bool no_box = false;       // of a volume, origin and spacing are not kept
   bool more_values = false;  // of volumes and surfaces, several values at each node are written
+  bool exchanged = false;    // files bear the extensions of all that are, whichever they hold
 
   PolygonSoup (*read_surface)(std::string_view bytes, const std::string& name) = nullptr;
   PolygonSoup (*read_cloud)(std::string_view bytes, const std::string& name) = nullptr;
@@ -77,10 +78,16 @@ struct Format {
 };
 
 const std::vector<Format>& formats();
+/// The row of an extension in any case; null where there is none.
+const Format* format_of(const std::string& extension);
 
 /// "ply:-": standard input or output in the format .ply. Not so where a folder stands before it.
 bool is_standard_stream(const std::filesystem::path& path);
-/// What says the format of a file to be read: ".ply" of "a.ply", "a.ply.gz" and "ply:-".
+/// What the name of a file to be read says: ".ply" of "a.ply", "a.ply.gz" and "ply:-".
+std::string extension_named(const std::filesystem::path& path);
+/// What says its format: the name, or else the contents. These are asked where the name has no
+/// extension that is known or one that is exchanged for others, and tell if they begin as files of
+/// one format alone do.
 std::string extension_to_read(const std::filesystem::path& path);
 /// The same of a file to be written: ".ply" of "a.ply" and "ply:-".
 std::string extension_to_write(const std::filesystem::path& path);
@@ -102,10 +109,12 @@ const Format& format_to_read(const std::string& extension, const std::string& na
 const Format& format_to_write(const std::filesystem::path& path, const Kinds& kinds);
 
 /// True if the extension is that of a format read or written as one of the kinds.
-bool is_read_as(const std::filesystem::path& path, const Kinds& kinds);
+bool is_named_as(const std::filesystem::path& path, const Kinds& kinds);
 bool is_written_as(const std::filesystem::path& path, const Kinds& kinds);
+/// The same of what says the format of a file that is there.
+bool is_read_as(const std::filesystem::path& path, const Kinds& kinds);
 
-/// True if a file has this extension, in any case.
+/// True if a file is named so, in any case.
 bool has_extension(const std::filesystem::path& path, std::string_view extension);
 
 /// Reads a surface, cloud, volume or tets. `field` is that of a volume. Throws as the readers do.

@@ -1,6 +1,7 @@
 #pragma once
 // Reading files. Every reader answers any bytes with a value or an InputError naming file and line.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -57,5 +58,9 @@ Sources sources_from_lines(const PolygonSoup& soup, const std::string& name);
 
 /// Whole file; throws IoError naming it (missing, unreadable, a directory).
 std::string read_bytes(const std::filesystem::path& path);
+
+/// How a file begins, unpacked: `most` bytes at most; none of what is no plain file or cannot be
+/// read, such as standard input, which can be read but once.
+std::string first_bytes(const std::filesystem::path& path, std::size_t most);
 
 }  // namespace littoral::io

@@ -23,6 +23,12 @@ namespace {
 
 constexpr std::string_view stream_mark = ":-", packed_mark = ".gz";
 
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+bool is_packed(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == packed_mark;
+}
+
 [[noreturn]] void cannot_read(const std::filesystem::path& path, const std::string& why) {
   throw IoError("cannot read " + path.string() + ": " + why, "cannot-read");
 }
@@ -66,7 +72,7 @@ std::string extension_to_write(const std::filesystem::path& path) {
   return "." + name.substr(0, name.size() - stream_mark.size());
 }
 
-std::string extension_to_read(const std::filesystem::path& path) {
+std::string extension_named(const std::filesystem::path& path) {
   const std::string extension = extension_to_write(path);
   return lower_case(extension) == packed_mark ? path.stem().extension().string() : extension;
 }
@@ -79,16 +85,24 @@ std::string read_bytes(const std::filesystem::path& path) {
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) cannot_read(path, "it is a directory");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
+  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file)
     cannot_read(path, std::generic_category().message(errno) +
                           (path.string().starts_with("~")
                                ? "; '~' is the home folder only without quotes, in the shell"
                                : ""));
   std::string bytes = all_of(file.get(), path, std::filesystem::file_size(path, ignored));
-  return lower_case(path.extension().string()) == packed_mark ? without_gzip(bytes, path.string())
-                                                              : bytes;
+  return is_packed(path) ? without_gzip(bytes, path.string()) : bytes;
+}
+
+std::string first_bytes(const std::filesystem::path& path, std::size_t most) {
+  std::error_code none;
+  if (is_standard_stream(path) || !std::filesystem::is_regular_file(path, none)) return "";
+  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) return "";
+  std::string bytes(most, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, most, file.get()));
+  return is_packed(path) ? unpacked_beginning(bytes, most) : bytes;
 }
 
 }  // namespace littoral::io

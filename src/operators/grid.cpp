@@ -65,8 +65,9 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return std::tie(a.cell, a.part, a.point) < std::tie(b.cell, b.part, b.point);
   });
-  Triplets entries;
-  std::vector<double> row_weight;
+  // Row by row, as they are stored: there are so many columns that sorting by them takes long.
+  std::vector<int> row_begin{0}, columns;
+  std::vector<double> row_weight, coefficients;
   std::vector<int> row_part;
   for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
     std::array<double, 8> sum{};
@@ -81,20 +82,22 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
                   (c & 4 ? t[2] : 1 - t[2]);
       total += weights[p];
     }
-    const int row = row_weight.size();
-    for (int c = 0; c < 8; ++c)
-      if (sum[c] != 0)
-        entries.emplace_back(row,
-                             grid.node(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2)),
-                             sum[c] / total);
+    for (int c = 0; c < 8; ++c)  // in the order of the nodes
+      if (sum[c] != 0) {
+        columns.push_back(static_cast<int>(
+            grid.node(low[0] + (c & 1), low[1] + (c >> 1 & 1), low[2] + (c >> 2))));
+        coefficients.push_back(sum[c] / total);
+      }
+    row_begin.push_back(int_size(columns));
     row_weight.push_back(total);
     if (!part.empty()) row_part.push_back(places[from].part);
   }
   GridRows rows;
   rows.part = std::move(row_part);
   rows.weight = Eigen::Map<const VecX>(row_weight.data(), row_weight.size());
-  rows.A.resize(rows.weight.size(), grid.n_nodes());
-  rows.A.setFromTriplets(entries.begin(), entries.end());
+  rows.A =
+      Eigen::Map<const decltype(rows.A)>(rows.weight.size(), grid.n_nodes(), int_size(columns),
+                                         row_begin.data(), columns.data(), coefficients.data());
   return rows;
 }
 

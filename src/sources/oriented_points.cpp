@@ -16,6 +16,7 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t max_samples = std::size_t{1} << 26;
+constexpr std::size_t samples_between_checkpoints = 65536;
 
 void check_faces(const PolygonSoup& soup) {
   if (soup.n_faces() == 0) throw InputError("the mesh has no faces", "empty-input");
@@ -59,7 +60,7 @@ void refine(const Triangle& whole, double max_side, const Visit& visit) {
 }  // namespace
 
 OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report,
-                            SamplesPerTriangle count) {
+                            SamplesPerTriangle count, const Task& task) {
   check_faces(soup);
   const PolygonSoup triangles = triangulate(soup);
   std::vector<Vec3> points, normals;
@@ -75,6 +76,7 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
       continue;
     }
     refine(t, max_side, [&](const Triangle& part) {
+      if (points.size() % samples_between_checkpoints == 0) task.checkpoint();
       const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
       const double area = (part[1] - part[0]).cross(part[2] - part[0]).stableNorm() / 2;
       if (!(area > 0)) return;  // of a needle, by rounding

@@ -28,7 +28,8 @@ enum class SamplesPerTriangle { one, three };
 /// Throws InputError for a soup without faces, a face with a vertex that is not finite, faces that
 /// all have no area, or more than 2^26 samples.
 OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report,
-                            SamplesPerTriangle count = SamplesPerTriangle::one);
+                            SamplesPerTriangle count = SamplesPerTriangle::one,
+                            const Task& task = {});
 
 /// One sample per point, with its normal made unit and the area of its Voronoi cell among its
 /// neighbours in its tangent plane. Points whose normal is zero or not finite are left out, with a

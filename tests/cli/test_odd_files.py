@@ -1,5 +1,6 @@
 """Files that are not what their names say, and soups that are put together."""
 
+import gzip
 import json
 import struct
 from pathlib import Path
@@ -33,8 +34,7 @@ POINTER = "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n"
         ("a.stl", "\x1f\x8b\x08" + 90 * "\x00", "name it .stl.gz"),
         ("a.ply", "PK\x03\x04", "its contents look like .3mf or .npz"),
         ("a.obj", OBJ.replace("v 1 0 0", "v 1,5 0 0"), "write a point, not a comma"),
-        ("a.vti", '<VTKFile version="1.0" type="UnstructuredGrid">', "look like .vtu: name it so"),
-        ("a.vtp", '<VTKFile type="ImageData">', "look like .vti: name it so"),
+        ("a", OBJ, "it has no extension, which says the format"),
         ("a.vti", '<VTKFile type="RectilinearGrid">', "save it as ImageData"),
         ("a.csv", "1,2,3\n", "Name rows of points .xyz"),
         ("a.xyz", "a b c\n0 0 0\n", "names no columns x, y and z"),
@@ -46,6 +46,36 @@ def test_what_a_file_looks_like_is_said(
 ) -> None:
     (tmp_path / name).write_bytes(contents.encode("latin-1"))
     assert says in run("info", name, status=2).stderr
+
+
+def test_contents_tell_what_names_do_not(run: Run, tmp_path: Path) -> None:
+    """VTK's files under each other's names, and files whose names say nothing."""
+    (tmp_path / "a.stl").write_text(STL)
+    run("distance", "a.stl", "--vertex", 0, "-o", "a.vtp", "--quiet")
+    run("sdf", "a.stl", "--resolution", 8, "--quiet", "-o", "v.vti")
+    for source, names in {
+        "a.vtp": ("b.vtk", "b.vtu", "b.vti", "b", "b.dat", "b.vtk.gz", "B.VTK"),
+        "a.stl": ("c", "c.dat", "c.tmp.gz"),
+    }.items():
+        contents = (tmp_path / source).read_bytes()
+        facts = run("info", source).stdout
+        for name in names:
+            packed = gzip.compress(contents) if name.endswith(".gz") else contents
+            (tmp_path / name).write_bytes(packed)
+            assert run("info", name).stdout == facts
+    (tmp_path / "v.vtk").write_bytes((tmp_path / "v.vti").read_bytes())
+    assert run("info", "v.vtk").stdout == run("info", "v.vti").stdout
+    run("offset", "v.vtk", "--as", "distance", "--distance", 0.3, "-o", "o.ply", "--quiet")
+    # What is there is named where it is of no use.
+    said = run("query", "a.stl", "--points", "v.vtk", "-o", "d.csv", status=2).stderr
+    assert "cannot be read as a table, surface or cloud: it holds '.vti'" in said
+    # In a folder names alone count: it may hold anything.
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (folder / "a.stl").write_text(STL)
+    (folder / "README").write_text(STL)
+    run("batch", "in", "--verb", "info", "-o", "out", "--quiet")
+    assert len((tmp_path / "out/status.jsonl").read_text().splitlines()) == 1
 
 
 def test_what_is_damaged_alone_is_not_called_another_format(run: Run, tmp_path: Path) -> None:

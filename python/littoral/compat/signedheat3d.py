@@ -8,9 +8,9 @@ about the vertices' mean whose half side is twice their largest distance from it
 
 Options are a dict of: t_coef (1), diffusion time over h^2, h as in littoral's `time_scale`;
 bbox_min and bbox_max, 3 each; resolution, nodes by axis (32); level_set_constraint, "ZeroSet" (the
-default) or "None". A box or a resolution that is not positive counts as not given, as there.
-Without a resolution the previous one stays. Unknown options and bad input raise ValueError,
-TypeError or IndexError.
+default), "Multiple" (one value along each part of the input) or "None". A box or a resolution that
+is not positive counts as not given, as there. Without a resolution the previous one stays. Unknown
+options and bad input raise ValueError, TypeError or IndexError.
 
 The grid solver has the same nodes as signedheat3d's, and zero in every cell that the input meets,
 whatever level_set_constraint says, as there.
@@ -19,7 +19,7 @@ vertices and faces are then some of the tets'; here tets are about as small as t
 near it, or as `resolution[0]` nodes along the box's longest side are apart, and larger far from it.
 So vertices differ in number and place, `get_vertices` says where they are, and the zero set is met
 up to a part of a tet. In a box that is no cube they reach beyond its shorter sides by less than a
-tet. Its level_set_constraint "Multiple" raises littoral.UnsupportedError.
+tet.
 
 A solver keeps its grid while box and resolution stay, its tets and what it made of the input while
 that stays as well. verbose: a line on the standard error for every distance.
@@ -35,7 +35,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import Array, Floats, Ints, as_array, floats
-from .._errors import InputError, UnsupportedError
+from .._errors import InputError
 from .._report import Report
 from .._space import SDF
 from .._surfaces import Mesh, PointCloud, Polygons, Surface
@@ -45,7 +45,7 @@ from .._volumes import Volume
 _KNOWN = ("level_set_constraint", "t_coef", "bbox_min", "bbox_max", "resolution", "verbose")
 _DEFAULTS: Mapping[str, Any] = MappingProxyType({})
 _MOST_PIECES = 12_000  # that tets are made for: some hundred thousands of them
-_CONSTRAINTS = {"zeroset": "zero-set", "none": "none"}
+_CONSTRAINTS = {"zeroset": "zero-set", "multiple": "level-sets", "none": "none"}
 
 
 def _surface(V: Any, F: Any) -> Surface:
@@ -83,12 +83,10 @@ class _Options:
     def constraint(self) -> str:
         """In littoral's words."""
         name = self._level_set
-        if name.lower() == "multiple":
-            raise UnsupportedError(
-                'level_set_constraint "Multiple": littoral knows "ZeroSet" and "None" only'
-            )
         if name.lower() not in _CONSTRAINTS:
-            raise InputError(f'level_set_constraint: expected "ZeroSet" or "None", got {name!r}')
+            raise InputError(
+                f'level_set_constraint: expected "ZeroSet", "Multiple" or "None", got {name!r}'
+            )
         return _CONSTRAINTS[name.lower()]
 
     @staticmethod

@@ -150,6 +150,39 @@ def test_the_zero_set_follows_the_input_at_any_resolution(tets, spot):
         assert away.mean() < 0.002 * np.ptp(spot[0], axis=0).max()
 
 
+def values_at(tets, phi, x):
+    """Linear in each tet."""
+    corners = tets.get_vertices()[tets.get_tets()]
+    weights = np.linalg.inv(np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2))
+    out = []
+    for place in x:
+        inner = np.einsum("tij,tj->ti", weights, place - corners[:, 0])
+        each = np.column_stack([1 - inner.sum(axis=1), inner])
+        tet = each.min(axis=1).argmax()
+        out.append(each[tet] @ phi[tets.get_tets()[tet]])
+    return np.array(out)
+
+
+def test_each_part_may_have_a_value_of_its_own(tets):
+    """A small cube within another, off its middle."""
+    cube = littoral.examples.cube()
+    V = np.vstack([cube.points, [0.55, 0.52, 0.6] + 0.4 * (cube.points - 0.5)])
+    F = np.vstack([cube.faces, np.asarray(cube.faces) + len(cube.points)])
+    middles = V[F].mean(axis=1).reshape(2, -1, 3)
+
+    def means_and_spreads(constraint):
+        options = {"resolution": [16] * 3, "level_set_constraint": constraint}
+        phi = tets.compute_distance_to_mesh(V, F, options)
+        values = np.array([values_at(tets, phi, part) for part in middles])
+        return values.mean(axis=1), values.std(axis=1)
+
+    means, spreads = means_and_spreads("Multiple")
+    assert (spreads < 0.005).all()
+    assert 0.2 < means[0] - means[1] < 0.4  # they are 0.2 to 0.4 apart
+    assert (means_and_spreads("None")[1] > 0.01).all()
+    assert (np.abs(means_and_spreads("ZeroSet")[0]) < 0.005).all()
+
+
 def test_isosurface_of_tets(tets, sphere):
     tets.compute_distance_to_mesh(sphere.points, sphere.faces, SMALL)
     phi = np.linalg.norm(tets.get_vertices(), axis=1)
@@ -228,8 +261,6 @@ def test_what_raises(grid, tets):
                 solver.compute_distance_to_mesh(V, F, options)
     with pytest.raises(ValueError, match="level_set_constraint"):
         tets.compute_distance_to_mesh(V, F, {"level_set_constraint": "Most"})
-    with pytest.raises(littoral.UnsupportedError, match="Multiple"):
-        tets.compute_distance_to_mesh(V, F, {"level_set_constraint": "Multiple"})
     with pytest.raises(IndexError):
         grid.compute_distance_to_mesh(V, [[0, 1, 99]])
     with pytest.raises(ValueError, match="one normal per point"):

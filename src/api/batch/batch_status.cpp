@@ -43,13 +43,17 @@ const fs::path& made_folder(const fs::path& folder) {
 
 }  // namespace
 
+std::string status_file_name(int shard, int shards) {
+  return status_name(shard, shards) + ".jsonl";
+}
+
 bool is_status_file(const fs::path& path) {
-  const std::string name = path.string();
-  return name.rfind("status", 0) == 0 && path.extension() == ".jsonl" && !path.has_parent_path();
+  return path.string().starts_with("status.") && path.extension() == ".jsonl" &&
+         !path.has_parent_path();
 }
 
 BatchStatusFile::BatchStatusFile(const fs::path& folder, int shard, int shards)
-    : path_(made_folder(folder) / (status_name(shard, shards) + ".jsonl")),
+    : path_(made_folder(folder) / status_file_name(shard, shards)),
       temporary_(folder / ("." + status_name(shard, shards) + ".tmp")),
       lock_(path_) {
   {

@@ -13,6 +13,8 @@
 
 namespace littoral {
 
+/// "status.jsonl", or "status.3-of-8.jsonl" of a shard.
+std::string status_file_name(int shard, int shards);
 /// Is this, below the folder, a name of such a file?
 bool is_status_file(const std::filesystem::path& path);
 

@@ -16,6 +16,7 @@
 #include "io/sources/write_sources.h"
 #include "littoral/error.h"
 #include "sources/trace.h"
+#include "spatial/finite_box.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -30,13 +31,8 @@ Triangulation triangulation(const PolygonSoup& surface) {
 }
 
 bool z_is_up(const MatX3& points) {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  for (const auto& x : points.rowwise()) {
-    if (!x.allFinite()) continue;
-    low = low.cwiseMin(x.transpose());
-    high = high.cwiseMax(x.transpose());
-  }
-  return points.rows() > 0 && io::upright_axis(low, high)[2] > 0;
+  const Eigen::AlignedBox3d box = finite_box(points);
+  return !box.isEmpty() && io::upright_axis(box.min(), box.max())[2] > 0;
 }
 
 std::vector<SurfacePoint> path_through(const Mesh& mesh, const std::vector<SurfacePoint>& nodes,

@@ -75,7 +75,7 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
       for (int f = 0; f < surface.n_faces(); ++f)
         std::swap(surface.corners[static_cast<std::size_t>(3 * f)],
                   surface.corners[static_cast<std::size_t>(3 * f + 1)]);
-    input.samples = sample_faces(surface, max_side, report);
+    input.samples = sample_faces(surface, max_side, report, SamplesPerTriangle::one, task);
     report.sizes.emplace_back("faces", surface.n_faces());
   } else {
     surface.normals = sources.estimate_normals

@@ -86,7 +86,7 @@ void look_at_slopes(const Volume& volume, ValueTraits& seen) {
 [[noreturn]] void throw_unclear(const ValueTraits& seen) {
   const bool both = seen.low < 0 && seen.high > 0;
   std::string text =
-      "the values, from " + rounded_text(seen.low) + " to " + rounded_text(seen.high);
+      "the values go from " + rounded_text(seen.low) + " to " + rounded_text(seen.high);
   if (both)
     text += ", have a slope of about " + rounded_text(seen.zero_slope) +
             " where they are 0, and near 1 in " + rounded_text(std::round(100 * seen.near_one)) +

@@ -28,7 +28,8 @@ std::string name_of(const fs::path& path) {
 
 bool may_be_input(const fs::path& path) {
   using io::Kind;
-  return io::is_read_as(path, {Kind::surface, Kind::cloud, Kind::volume, Kind::voxels, Kind::tets});
+  return io::is_named_as(path,
+                         {Kind::surface, Kind::cloud, Kind::volume, Kind::voxels, Kind::tets});
 }
 
 /// The inputs below a folder.

@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/formats.h"
@@ -58,6 +59,24 @@ struct CellMesh {
  private:
   void add_cone(std::span<const int> corners, std::span<const std::array<int, 4>> faces);
   void check_corners(std::size_t number, int kind, std::size_t corners, std::size_t needed) const;
+};
+
+CellMesh read_medit(std::string_view bytes, const std::string& name);
+CellMesh read_msh(std::string_view bytes, const std::string& name);
+CellMesh read_vtu(std::string_view bytes, const std::string& name);
+
+/// One of these readers as the table of formats has them.
+template <CellMesh (*read)(std::string_view bytes, const std::string& name)>
+struct CellsAs {
+  static TetFile tets(std::string_view bytes, const std::string& name) {
+    return read(bytes, name).as_tets();
+  }
+  static PolygonSoup surface(std::string_view bytes, const std::string& name) {
+    return read(bytes, name).as_surface();
+  }
+  static Content any(std::string_view bytes, const std::string& name, const std::string&) {
+    return read(bytes, name).as_what_it_is();
+  }
 };
 
 }  // namespace littoral::io

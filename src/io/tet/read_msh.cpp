@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "base/option_table.h"
-#include "io/any_formats.h"
 #include "io/binary.h"
 #include "io/tet/cell_mesh.h"
 #include "io/tet/tet_formats.h"
@@ -340,14 +339,8 @@ class MshReader {
 
 }  // namespace
 
-TetFile read_msh_tets(std::string_view bytes, const std::string& name) {
-  return MshReader(bytes, name).read().as_tets();
-}
-PolygonSoup read_msh_surface(std::string_view bytes, const std::string& name) {
-  return MshReader(bytes, name).read().as_surface();
-}
-Content read_msh(std::string_view bytes, const std::string& name, const std::string&) {
-  return MshReader(bytes, name).read().as_what_it_is();
+CellMesh read_msh(std::string_view bytes, const std::string& name) {
+  return MshReader(bytes, name).read();
 }
 
 }  // namespace littoral::io

@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 
-#include "io/any_formats.h"
 #include "io/contents_hint.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -103,7 +102,9 @@ void skip_section(WordScanner& scan, const std::string& keyword) {
   scan.fail("unknown section " + in_quotes(keyword));
 }
 
-CellMesh medit_cells(std::string_view bytes, const std::string& name) {
+}  // namespace
+
+CellMesh read_medit(std::string_view bytes, const std::string& name) {
   WordScanner scan(bytes, name);
   if (scan.word() != "MeshVersionFormatted") scan.fail("expected MeshVersionFormatted");
   scan.integer([] { return std::string("the version"); });
@@ -128,18 +129,6 @@ CellMesh medit_cells(std::string_view bytes, const std::string& name) {
     }
   }
   return cells;
-}
-
-}  // namespace
-
-TetFile read_medit_tets(std::string_view bytes, const std::string& name) {
-  return medit_cells(bytes, name).as_tets();
-}
-PolygonSoup read_medit_surface(std::string_view bytes, const std::string& name) {
-  return medit_cells(bytes, name).as_surface();
-}
-Content read_medit(std::string_view bytes, const std::string& name, const std::string&) {
-  return medit_cells(bytes, name).as_what_it_is();
 }
 
 TetFile read_tet(std::string_view bytes, const std::string& name) {

@@ -12,16 +12,10 @@
 
 namespace littoral::io {
 
-TetFile read_medit_tets(std::string_view bytes, const std::string& name);
 TetFile read_tet(std::string_view bytes, const std::string& name);
 TetFile read_vtk_tets(std::string_view bytes, const std::string& name);
-TetFile read_vtu_tets(std::string_view bytes, const std::string& name);
-TetFile read_msh_tets(std::string_view bytes, const std::string& name);
 /// The polygons among the cells.
-PolygonSoup read_medit_surface(std::string_view bytes, const std::string& name);
 PolygonSoup read_vtk_surface(std::string_view bytes, const std::string& name);
-PolygonSoup read_vtu_surface(std::string_view bytes, const std::string& name);
-PolygonSoup read_msh_surface(std::string_view bytes, const std::string& name);
 
 void write_vtk(std::ostream& out, const TetMesh& mesh, const VecX& values,
                const std::string& field);

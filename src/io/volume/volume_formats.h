@@ -111,5 +111,7 @@ enum class Packing { zlib_or_gzip, raw_deflate };
 /// Unpacks a stream of exactly `size` bytes; nothing where it is another or damaged.
 std::optional<std::string> unpack(std::string_view packed, std::size_t size,
                                   Packing packing = Packing::zlib_or_gzip);
+/// What the first bytes of a stream unpack to, `most` at most.
+std::string unpacked_beginning(std::string_view packed, std::size_t most);
 
 }  // namespace littoral::io

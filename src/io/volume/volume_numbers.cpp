@@ -127,33 +127,55 @@ std::optional<std::string> decode_base64(std::string_view text, std::size_t& use
   return bytes;
 }
 
-std::optional<std::string> unpack(std::string_view packed, std::size_t size, Packing packing) {
-  constexpr std::size_t best_ratio = 1032;  // of the format
-  if (size / best_ratio > packed.size() + 1) return std::nullopt;
-  std::string bytes(size, '\0');
+namespace {
+
+/// What a stream unpacks to, `most` bytes at most, and whether that is all of it.
+struct Unpacked {
+  std::string bytes;
+  bool ended = false;
+};
+
+Unpacked unpack_up_to(std::string_view packed, std::size_t most, Packing packing) {
+  Unpacked out;
   z_stream stream{};
   const int window = packing == Packing::raw_deflate ? -15 : 15 + 32;
-  if (inflateInit2(&stream, window) != Z_OK) return std::nullopt;
+  if (inflateInit2(&stream, window) != Z_OK) return out;
+  out.bytes.resize(most);
   // zlib counts in 32 bits: feed it pieces.
   constexpr std::size_t piece = std::size_t{1} << 30;
-  std::size_t in = 0, out = 0;
+  std::size_t in = 0, made = 0;
   int status = Z_OK;
   while (status == Z_OK) {
     const std::size_t give = std::min(piece, packed.size() - in);
-    const std::size_t room = std::min(piece, size - out);
+    const std::size_t room = std::min(piece, most - made);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
     stream.avail_in = static_cast<uInt>(give);
-    stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + out);
+    stream.next_out = reinterpret_cast<Bytef*>(out.bytes.data() + made);
     stream.avail_out = static_cast<uInt>(room);
     status = inflate(&stream, Z_NO_FLUSH);
-    const std::size_t taken = give - stream.avail_in, made = room - stream.avail_out;
+    const std::size_t taken = give - stream.avail_in, more = room - stream.avail_out;
     in += taken;
-    out += made;
-    if (taken == 0 && made == 0 && status == Z_OK) break;
+    made += more;
+    if (taken == 0 && more == 0 && status == Z_OK) break;
   }
   inflateEnd(&stream);
-  if (status != Z_STREAM_END || out != size) return std::nullopt;
-  return bytes;
+  out.bytes.resize(made);
+  out.ended = status == Z_STREAM_END;
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::string> unpack(std::string_view packed, std::size_t size, Packing packing) {
+  constexpr std::size_t best_ratio = 1032;  // of the format
+  if (size / best_ratio > packed.size() + 1) return std::nullopt;
+  Unpacked all = unpack_up_to(packed, size, packing);
+  if (!all.ended || all.bytes.size() != size) return std::nullopt;
+  return std::move(all.bytes);
+}
+
+std::string unpacked_beginning(std::string_view packed, std::size_t most) {
+  return unpack_up_to(packed, most, Packing::zlib_or_gzip).bytes;
 }
 
 }  // namespace littoral::io

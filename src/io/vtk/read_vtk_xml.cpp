@@ -4,7 +4,6 @@
 #include <map>
 
 #include "base/index.h"
-#include "io/any_formats.h"
 #include "io/surface/surface_formats.h"
 #include "io/tet/cell_mesh.h"
 #include "io/tet/tet_formats.h"
@@ -161,14 +160,8 @@ class VtkCellReader {
 
 }  // namespace
 
-TetFile read_vtu_tets(std::string_view bytes, const std::string& name) {
-  return VtkCellReader(bytes, name, VtkCells::any).read().as_tets();
-}
-PolygonSoup read_vtu_surface(std::string_view bytes, const std::string& name) {
-  return VtkCellReader(bytes, name, VtkCells::any).read().as_surface();
-}
-Content read_vtu(std::string_view bytes, const std::string& name, const std::string&) {
-  return VtkCellReader(bytes, name, VtkCells::any).read().as_what_it_is();
+CellMesh read_vtu(std::string_view bytes, const std::string& name) {
+  return VtkCellReader(bytes, name, VtkCells::any).read();
 }
 PolygonSoup read_vtp(std::string_view bytes, const std::string& name) {
   return VtkCellReader(bytes, name, VtkCells::polygons).read().as_surface();

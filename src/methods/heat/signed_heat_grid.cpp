@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/run_interruptible.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/heat/convolve.h"
@@ -83,11 +84,12 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   Directions Y;
   {
     const Stopwatch watch(report, "diffuse");
-    const Convolution X(source, root_t);
+    const auto X =
+        run_interruptible(diffuse_stage, [source, root_t] { return Convolution(source, root_t); });
     Y = sample_directions(
         grid,
         [&X](const Vec3& x, double& distance) {
-          const Flow flow = X(x);
+          const Flow flow = (*X)(x);
           distance = flow.distance;
           return flow.direction;
         },

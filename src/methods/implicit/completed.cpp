@@ -41,8 +41,9 @@ CompletedSurface::CompletedSurface(const MatX3& points, const MatX3i& faces, dou
   report.sizes.emplace_back("free edges", static_cast<double>(sides_.boundary.size()));
   if (!closed_) {
     const Stopwatch watch(report, "patches");
-    patch_ = level_patch([&](const Vec3& x) { return sides_.inside(x, accuracy_open); }, points,
-                         sides_.boundary, spacing, task);
+    if (sides_.bounds)  // what bounds nothing has no holes to fill
+      patch_ = level_patch([&](const Vec3& x) { return sides_.inside(x, accuracy_open); }, points,
+                           sides_.boundary, spacing, task);
     report.sizes.emplace_back("patch triangles", static_cast<double>(patch_.faces.rows()));
     report.sizes.emplace_back("completed share of the zero set",
                               patch_.area / (patch_.area + area_of(points, sides_.faces)));

@@ -91,7 +91,7 @@ SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_giv
       report_orientation(soup, report);
       report_shares(shares, report);
       return {std::move(oriented), as_given ? SideRule{-1, -0.5} : SideRule{}, soup.faces,
-              boundary_edges(points, soup.faces)};
+              boundary_edges(points, soup.faces), shares.bounds > 0};
     }
   }
   if (against > doubtful) {
@@ -107,7 +107,7 @@ SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_giv
         "most normals point into the space that the input encloses: all count as reversed, so that "
         "this space is inside");
   report_shares(given, report);
-  return {std::move(winding), rule, faces, std::move(boundary)};
+  return {std::move(winding), rule, faces, std::move(boundary), given.bounds > 0};
 }
 
 }  // namespace littoral

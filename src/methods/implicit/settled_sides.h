@@ -17,6 +17,7 @@ struct SettledSides {
   SideRule rule;
   MatX3i faces{0, 3};
   std::vector<std::array<int, 2>> boundary;  // where they end
+  bool bounds = true;                        // some of their area does, as far as was looked
 
   /// Winding number less the level between outside and inside: 1/2 in a closed surface, -1/2
   /// around it, 0 where nothing tells.

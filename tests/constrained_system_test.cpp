@@ -62,5 +62,43 @@ TEST(ConstrainedSystem, RowsThatGiveAreSprings) {
     }
 }
 
+/// K with every entry of an edge times 1 + its number.
+SpMat with_weights(const SpMat& K, int n) {
+  Triplets entries;
+  for (int i = 0; i + 1 < 2 * n; ++i) {
+    if (i == n - 1) continue;
+    entries.emplace_back(i, i, i + 1);
+    entries.emplace_back(i + 1, i + 1, i + 1);
+    entries.emplace_back(i + 1, i, -(i + 1));
+  }
+  SpMat out(K.rows(), K.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+TEST(ConstrainedSystem, AnotherMatrixOnTheSameStructure) {
+  const int n = 60;
+  const SpMat K = two_chains(n), other = with_weights(K, n);
+  std::vector<int> component(2 * n, 0);
+  std::fill(component.begin() + n, component.end(), 1);
+  VecX b(2 * n);
+  for (int i = 0; i < 2 * n; ++i) b[i] = std::sin(1 + 3 * i);
+  for (const int step : {12, 1})  // few rows and many
+    for (const bool gives : {false, true}) {
+      Triplets entries;
+      for (int i = 2; i < 2 * n; i += step)
+        entries.emplace_back(static_cast<int>(entries.size()), i, 1);
+      SpMat rows(static_cast<Eigen::Index>(entries.size()), 2 * n);
+      rows.setFromTriplets(entries.begin(), entries.end());
+      const VecX give = gives ? VecX::LinSpaced(rows.rows(), 0.1, 2) : VecX();
+      const ConstrainedSystem system(K, component, 2, {});
+      const auto like = system.constrain(rows, {}, gives ? VecX(3 * give) : give);
+      const VecX u = system.constrain_like(like, other, rows, {}, give).solve(b);
+      const VecX expected =
+          ConstrainedSystem(other, component, 2, {}).constrain(rows, {}, give).solve(b);
+      EXPECT_LE((u - expected).norm(), 1e-12 * expected.norm()) << step << gives;
+    }
+}
+
 }  // namespace
 }  // namespace littoral

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/optimization/paraboloid_rows.h"
+
 namespace littoral {
 namespace {
 
@@ -39,6 +41,48 @@ ParaboloidResult solved(const Program& program, double tolerance = 1e-9,
 
 void expect_near(const VecX& x, const VecX& known, double tolerance) {
   EXPECT_LT((x - known).cwiseAbs().maxCoeff(), tolerance) << x.transpose();
+}
+
+TEST(ParaboloidProgram, RowsAgreeWithGradientsWrittenOut) {
+  using At = paraboloid::RowAt<6, 2>;
+  const Program::Row x = (Program::Row() << 3, 1, -2, 0.5, 2, 1).finished();
+  const Program::Row dx = (Program::Row() << -1, 2, 1, 0.3, -0.7, 4).finished();
+  const Program::Point p{Program::Row::LinSpaced(6, -1, 2),
+                         {Program::Row::LinSpaced(6, 2, 5), Program::Row::Unit(3)}};
+  const Program::Transform T = (Program::Transform() << 0.5, 2, -1, 3).finished();
+  Eigen::Matrix<double, 2, 6> TG;
+  TG << p.g[0].transpose(), p.g[1].transpose();
+  TG = T * TG;
+  const Program::Row a = p.q - 0.5 * TG.transpose() * (TG * x);
+  const At at{p, T};
+  const At::Small y = at.slopes(x), dy = at.slopes(dx);
+  EXPECT_NEAR(at.value(7, x), 7 + p.q.dot(x) - 0.25 * (TG * x).squaredNorm(), 1e-12);
+  EXPECT_NEAR(at.slope(y, dx, dy), a.dot(dx), 1e-12);
+  Program::Row sum = x;
+  at.add_gradient(-2, y, sum);
+  at.add(0.5, dy, sum);
+  expect_near(sum, x - 2 * a + 0.5 * p.q + TG.transpose() * dy, 1e-12);
+  for (int d = 0; d < 2; ++d) expect_near(at.slope_row(d), TG.row(d).transpose(), 1e-12);
+}
+
+TEST(ParaboloidProgram, StepsEndWhereTheFirstRowDoes) {
+  // s + t b - t^2 bend, s + t ds and z + t dz of three rows; the least zero of each kind counts.
+  paraboloid::Steps steps;
+  paraboloid::Row<2> r;
+  r.s = 2, r.z = 1, r.exact = true;
+  steps.add(r, 1, 0.1);  // positive up to 11.7
+  EXPECT_EQ(steps.to_primal, 2);
+  steps.add(r, 1, 3);  // zero at 1
+  EXPECT_NEAR(steps.to_primal, 1, 1e-15);
+  r.exact = false, r.ds = -4, r.dz = -0.8;
+  steps.add(r, 100, 0);
+  EXPECT_NEAR(steps.to_primal, 0.5, 1e-15);
+  EXPECT_NEAR(steps.to_dual, 1.25, 1e-15);
+  r.ds = 1, r.dz = -4;
+  steps.add(r, 0, 0);
+  EXPECT_NEAR(steps.to_primal, 0.5, 1e-15);
+  EXPECT_NEAR(steps.to_dual, 0.25, 1e-15);
+  EXPECT_EQ(steps.primal(), 0.99 * 0.5);
 }
 
 TEST(ParaboloidProgram, FindsTheRimOfTwoDisks) {

@@ -106,7 +106,10 @@ TEST(SpaceValues, OneValueOfAllIsAddedByEveryMethod) {
   const Grid grid = test::cube_grid(5, 1.6);
   const MatX3 at = test::random_points(20, 1.5);
   for (const MethodInfo& info : Registry<SpaceDomain>::instance().infos()) {
-    const AnyMethod method = AnyMethod::named(info.name);
+    OptionValues options;
+    for (const OptionInfo& option : info.options)  // for those that iterate
+      if (option.name == "tolerance") options.emplace_back("tolerance", "0.1");
+    const AnyMethod method = AnyMethod::named(info.name, options);
     const Sdf zero = signed_distance(sphere, method);
     const Sdf four = signed_distance(sphere, std::vector<double>{4}, method);
     const VecX expected = (zero.sample(grid).values.array() + 4).matrix();
@@ -151,20 +154,20 @@ TEST(SpaceValues, ClosedSurfacesCountUpOutsideAndDownInside) {
 
 TEST(SpaceValues, ConcentricSpheresAreLevelSetsOfOneDistance) {
   Valued shells;
-  const PolygonSoup sphere = test::octasphere_soup(5);
+  const PolygonSoup sphere = test::octasphere_soup(3);
   PolygonSoup outer = sphere;
   outer.points *= 2;
   shells.add(sphere, Vec3::Zero(), 0);
   shells.add(outer, Vec3::Zero(), 1);
   const Sdf sdf = signed_distance(shells.surface, shells.values);
   for (const auto& row : test::random_points(200, 2).rowwise())
-    EXPECT_NEAR(sdf(row.transpose()), row.norm() - 1, 5e-3);
-  const Grid grid = test::cube_grid(24, 2.6);
+    EXPECT_NEAR(sdf(row.transpose()), row.norm() - 1, 0.04);
+  const Grid grid = test::cube_grid(14, 2.6);
   for (const char* constraint : {"none", "zero-set", "soft"}) {
     const Sdf heat = signed_distance(shells.surface, shells.values,
                                      AnyMethod::named("signed-heat", {{"constraint", constraint}}));
     const auto radius = [](const Vec3& x) { return x.norm() - 1; };
-    EXPECT_LT(test::mean_error(grid, heat.sample(grid).values, radius), 0.05) << constraint;
+    EXPECT_LT(test::mean_error(grid, heat.sample(grid).values, radius), 0.08) << constraint;
   }
 }
 

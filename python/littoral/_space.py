@@ -44,8 +44,9 @@ class SDF(Reported):
     what has holes is completed over them, then measured. values: what distance is counted from
     [length], one number, or one for each face or point; points without normals are then balls of
     radius -value, united. flip reverses all normals; estimate_normals makes those of a cloud,
-    without which there is an InputError. Callable at points, from several threads. Points that are not n x 3 or 3 finite real numbers raise TypeError
-    or InputError.
+    without which and without values there is an InputError. Callable at points, from several
+    threads. Points that are not n x 3 or 3 finite real numbers raise TypeError or InputError;
+    values that the method cannot tell apart raise UnsupportedError.
 
     >>> import littoral
     >>> sdf = littoral.SDF(littoral.examples.cube())

@@ -267,7 +267,7 @@ def test_sources_in_space_have_values(cube: littoral.Mesh) -> None:
     assert balls.bounds[0].max() <= (centres - 0.29).min(axis=0).max()
     np.testing.assert_array_equal(littoral.SDF(cube, values=0.5)(x), littoral.SDF(cube)(x) + 0.5)
     two = littoral.Mesh(
-        np.vstack([cube.points, cube.points + [3, 0, 0]]),
+        np.vstack([cube.points, np.add(cube.points, [3, 0, 0])]),
         np.vstack([np.reshape(cube.corners, (-1, 3)), np.reshape(cube.corners, (-1, 3)) + 8]),
     )
     n = len(cube.corners) // 3

@@ -111,6 +111,20 @@ std::vector<typename P2Shape<D>::Point> quarter_points() {
   return points;
 }
 
+/// Whether a quadratic has no negative coefficient as a form in barycentrics, so that it is nowhere
+/// negative.
+template <int D>
+bool is_positive_form(const typename P2Shape<D>::Values& s) {
+  using Shape = P2Shape<D>;
+  for (int i = 0; i < Shape::corners; ++i)
+    if (!(s[i] >= 0)) return false;
+  for (int k = 0; k < Shape::edges; ++k) {
+    const auto [i, j] = Shape::edge(k);
+    if (!(4 * s[Shape::corners + k] >= s[i] + s[j])) return false;
+  }
+  return true;
+}
+
 /// Value and slopes on the element whose corners are 0 and the unit vectors.
 template <int D>
 typename QuadraticProgram<D>::Program::Point reference_rows(const typename P2Shape<D>::Point& b) {
@@ -343,6 +357,7 @@ std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>
     };
     for (int i = 0; i < Shape::corners; ++i) slack[i] = slack_at(Shape::corner(i));
     for (int k = 0; k < Shape::edges; ++k) slack[Shape::corners + k] = slack_at(Shape::middle(k));
+    if (is_positive_form<D>(slack)) continue;
     const auto [least, b] = p2_minimum<D>(slack);
     // Next to a lone source, where u is small, a dip of v moves the source by sqrt(v).
     const double least_u = (alone_ ? 1e-3 : 1) * h2;

@@ -6,6 +6,7 @@
 
 #include "base/index.h"
 #include "littoral/error.h"
+#include "methods/regularized/weighted_laplacian.h"
 #include "solve/optimization/bounded_values.h"
 
 namespace littoral {
@@ -13,6 +14,9 @@ namespace littoral {
 namespace {
 
 constexpr double gap_over_tolerance = 10;  // residuals below the tolerance do not bound the gap
+constexpr double most_flops = 1000;  // of a factorization for every number of the factor: beyond,
+                                     // as among many tets, a factorization costs more iterations
+                                     // than it saves
 
 /// alpha of eq. 11 from alpha-hat (7.1); in space alpha, a length, scales with the cube root of the
 /// volume.
@@ -260,6 +264,19 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
     problem.solve = [&constrained, in_quadratic](const VecX& b, double rho) {
       return VecX(constrained.solve(b) / (in_quadratic + rho));
+    };
+    admm_options.least = std::max(admm_options.least, alpha / problem.length());
+    problem.solve_cells = [&, in_quadratic](const VecX& rho,
+                                            const SpRows& D) -> SplitProblem::Solve {
+      if (constrained.flops_of_number() > most_flops) return nullptr;
+      const auto matrix = weighted_laplacian(
+          C.L, D, problem.G, VecX(rho.head(C.A.size()).array() + in_quadratic), dim, task);
+      if (!matrix) return nullptr;
+      VecX give = held.give;
+      give.tail(held.bound.size()).array() /= rho.tail(held.bound.size()).array();
+      return
+          [weighted = laplacian(task)->constrain_like(constrained, *matrix, held.rows, task, give)](
+              const VecX& b) { return weighted.solve(b); };
     };
   }
   return admm(problem, admm_options, state, task);

@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t grain = 16384;
 
 constexpr int check_every = 5;
+constexpr int cells_from = 10;           // iteration in which cells get penalties of their own
+constexpr int cells_again = 30;          // and new ones; then after as many more, or half of all
+constexpr double over_multiplier = 4.0;  // which are this many times their multipliers
 
 class Admm {
  public:
@@ -33,7 +36,8 @@ class Admm {
       state_.w = state_.z;
       state_.rho = o_.rho * p_.length();
     }
-    pull_ = state_.z - state_.w;
+    rho_ = VecX::Constant(p_.A.size(), state_.rho);
+    update_pull();
   }
 
   AdmmResult run() {
@@ -56,8 +60,12 @@ class Admm {
       const double ratio =
           std::max(result.primal / primal_tolerance_, result.dual / dual_tolerance_);
       progress_ = std::max(progress_, 1 / (1 + std::log10(std::max(1.0, ratio))) * 0.95);
-      if (changes_left > 0 && change_penalty(result, k)) --changes_left;
+      if (next_of_cells_ > 0 && k >= next_of_cells_ && penalties_of_cells())
+        next_of_cells_ = k < cells_again ? cells_again : k + std::max(cells_again, k / 2);
+      else if (!solve_cells_ && changes_left > 0 && change_penalty(result, k))
+        --changes_left;
     }
+    if (solve_cells_) set_penalties(VecX::Constant(rho_.size(), state_.rho));
     result.u = allowed();
     return result;
   }
@@ -91,25 +99,37 @@ class Admm {
       old_w_ = w;
     }
     multiply(D_, pull_, force_, task_);
-    force_ = p_.b + state_.rho * force_;
-    u_ = p_.solve(force_, state_.rho);
+    force_ += p_.b;
+    u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
     multiply(p_.G, u_, g_, task_);
     // Over-relaxation: G u is replaced by a mixture with the old z.
-    const double relax = o_.relaxation, rho = state_.rho;
+    const double relax = o_.relaxation;
     for_cells([&](Eigen::Index c, Eigen::Index i) {
+      const double rho = rho_[c];
       double s[3];
       for (int d = 0; d < p_.dim; ++d) s[d] = relax * g_[i + d] + (1 - relax) * z[i + d] + w[i + d];
       p_.energy->prox(c, rho, s, z.data() + i);
       for (int d = 0; d < p_.dim; ++d) {
         w[i + d] = s[d] - z[i + d];
-        pull_[i + d] = z[i + d] - w[i + d];
+        pull_[i + d] = rho * (z[i + d] - w[i + d]);
       }
     });
   }
 
+  void update_pull() {
+    pull_.resize(state_.z.size());
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      for (int d = 0; d < p_.dim; ++d) pull_[i + d] = rho_[c] * (state_.z[i + d] - state_.w[i + d]);
+    });
+  }
+
   double force_of(const VecX& z) {
-    multiply(D_, z, force_, task_);
-    return state_.rho * force_.norm() / total_;
+    VecX y(z.size());
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      for (int d = 0; d < p_.dim; ++d) y[i + d] = rho_[c] * z[i + d];
+    });
+    multiply(D_, y, force_, task_);
+    return force_.norm() / total_;
   }
 
   /// Supplement 8, in units in which the total weight is 1.
@@ -136,9 +156,43 @@ class Admm {
     if (dual > 10 * primal) factor = 0.5;
     if (factor == 1) return false;
     state_.rho *= factor;
-    state_.w /= factor;
-    pull_ = state_.z - state_.w;
+    set_penalties(factor * rho_);
     next_change_ = k + 1 + k / 10;
+    return true;
+  }
+
+  /// Other penalties for the same multipliers.
+  void set_penalties(VecX rho) {
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      for (int d = 0; d < p_.dim; ++d) state_.w[i + d] *= rho_[c] / rho[c];
+    });
+    rho_ = std::move(rho);
+    update_pull();
+  }
+
+  /// Cells whose multipliers differ by orders of magnitude, as next to a source and far from it,
+  /// converge at the same pace where each has a penalty in proportion. False if there is no solve.
+  bool penalties_of_cells() {
+    if (!p_.solve_cells) {
+      next_of_cells_ = 0;
+      return false;
+    }
+    const double least = o_.least * p_.length();
+    VecX rho(rho_.size());
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      rho[c] = over_multiplier * std::max(least, rho_[c] * state_.w.segment(i, p_.dim).norm());
+    });
+    solve_cells_ = nullptr;  // one factor at a time
+    try {
+      solve_cells_ = p_.solve_cells(rho, D_);
+    } catch (const SolveError&) {  // not positive definite to working precision, or too large
+    }
+    if (!solve_cells_) {  // and none ever
+      set_penalties(VecX::Constant(rho_.size(), state_.rho));
+      next_of_cells_ = 0;
+      return false;
+    }
+    set_penalties(std::move(rho));
     return true;
   }
 
@@ -156,7 +210,11 @@ class Admm {
     g *= shrink;
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
     const double uPu = squared(u_);
-    const VecX y = state_.rho * (old_w_ + g_ - old_z_);
+    VecX y(g_.size());
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      for (int d = 0; d < p_.dim; ++d)
+        y[i + d] = rho_[c] * (old_w_[i + d] + g_[i + d] - old_z_[i + d]);
+    });
     const double phi = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(
@@ -176,9 +234,11 @@ class Admm {
   const Task& task_;
   SpRows D_;
   double total_;
-  VecX u_, g_, force_, pull_, old_z_, old_w_;  // pull: z - w
+  SplitProblem::Solve solve_cells_;            // with rho_, where cells have their own
+  VecX rho_;                                   // cells; state_.rho is that of all until then
+  VecX u_, g_, force_, pull_, old_z_, old_w_;  // pull: rho (z - w)
   double primal_tolerance_ = 0, dual_tolerance_ = 0, progress_ = 0;
-  int next_change_ = 0;
+  int next_change_ = 0, next_of_cells_ = cells_from;
 };
 
 }  // namespace

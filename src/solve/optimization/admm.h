@@ -20,9 +20,13 @@ struct SplitProblem {
   VecX A;       // cells, positive: the weights of the cells and of all norms over them
   int dim = 2;  // numbers a cell
   SpRows G;     // dim cells x unknowns
-  std::function<VecX(const VecX& u)> quadratic;          // P u; empty: P = 0
+  std::function<VecX(const VecX& u)> quadratic;  // P u; empty: P = 0
+  using Solve = std::function<VecX(const VecX& b)>;
   std::function<VecX(const VecX& b, double rho)> solve;  // argmin 1/2 u^T (P + rho G^T A G) u - b^T
                                                          // u over the u that are allowed
+  /// The same for a penalty of each cell, factored for it; D is divergence(). Empty, or an empty
+  /// answer: there is no such solve.
+  std::function<Solve(const VecX& rho, const SpRows& D)> solve_cells;
   const GradientEnergy* energy = nullptr;
   std::function<VecX(VecX u)> allowed;  // empty: all u; otherwise the nearest u, in some sense,
                                         // that meets what `energy` asks beside the gauge
@@ -40,6 +44,7 @@ struct AdmmOptions {
   int max_iterations = 10000;
   double relaxation = 1.8;     // over-relaxation (3.4.3)
   int penalty_changes = 1000;  // at most (3.4.1); 0 keeps rho
+  double least = 0.02;  // penalty of a cell in multiples of 4 lengths, where cells have theirs
 };
 
 /// z and the scaled multiplier y / rho: what a later solve may start from.
@@ -65,7 +70,9 @@ struct AdmmResult {
 };
 
 /// Minimises; the last iterate comes back with converged = false when iterations run out. Starts
-/// from `state` if it is not empty and leaves its last state there.
+/// from `state` if it is not empty and leaves its last state there. Where there is `solve_cells`,
+/// every cell has a penalty of its own from the 10th iteration on, in proportion to its multiplier,
+/// and anew after 30, 60, 90, 135, 205, ... iterations.
 AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
                 const Task& task);
 

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/index.h"
-#include "base/parallel.h"
 #include "solve/direct/cholesky.h"
 #include "solve/optimization/paraboloid_rows.h"
 
@@ -13,8 +12,6 @@ namespace littoral {
 
 namespace {
 using namespace paraboloid;
-
-constexpr std::size_t elements_at_once = 256;  // elements per piece of a parallel loop
 
 /// One run of the interior-point method.
 ///
@@ -36,6 +33,8 @@ class Run {
   using Local = typename Matrix::Local;
   using Inserter = typename ParaboloidSolver<K, D>::Inserter;
   using At = RowAt<K, D>;
+  using Row = paraboloid::Row<D>;
+  using Small = typename At::Small;
 
   Run(const Matrix& matrix, const Program& program, const VecX& x0,
       const ParaboloidOptions& options, const Task& task)
@@ -57,7 +56,7 @@ class Run {
     // A large first mu: 300 times the mean of s z that the objective, about `size`, suggests.
     mu_ = 300 * x0.cwiseAbs().maxCoeff() * std::max(program.c.sum(), 1e-300) / total_weight_;
     for (Row& r : rows_.row) {
-      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      const double g = at(r).value(r.bound, matrix_.gather(x_, r.element));
       r.s = std::max(g, 0.1 * r.size);
       r.z = mu_ * weight_[r.element] / r.s;
       r.exact = r.s == g;
@@ -68,6 +67,7 @@ class Run {
     ParaboloidResult best{.x = x_};
     double best_merit = infinity;
     int rounds = 0;
+    double next_stage = first_stage;  // of looking for dips early
     for (int iteration = 0;; ++iteration) {
       if (!refresh()) break;
       ParaboloidResult now = measure();
@@ -79,12 +79,17 @@ class Run {
       now.converged = now.gap < options_.tolerance && now.primal_residual < options_.tolerance &&
                       now.dual_residual < 10 * options_.tolerance;
       if (merit < best_merit || now.converged) std::tie(best, best_merit) = std::pair(now, merit);
-      // Dips show early; what is missing in the end is put in where there was still room for it.
-      const bool early = rounds == 0 && std::max(now.gap, now.dual_residual) < 1e-2;
+      // Most dips show early, when there is room for what they ask for; the last that show are put
+      // in where there was still room for them.
+      const double left = std::max(now.gap, now.dual_residual);
+      const bool early = !now.converged && left < next_stage;
+      while (next_stage > left) next_stage *= 0.3;
+      if (next_stage < last_stage) next_stage = 0;
       if (insert && rounds < most_rounds && (early || now.converged)) {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
-        if (rounds++ == 0) set_anchor();
+        if (!early) ++rounds;
+        if (early || anchor_x_.size() == 0) set_anchor();
         if (!found.empty()) {
           insert_rows(found);
           best_merit = infinity;
@@ -103,31 +108,13 @@ class Run {
   }
 
  private:
-  static constexpr int most_rounds = 8, correctors = 2;  // of insertion; of Gondzio's, where steps
+  static constexpr int most_rounds = 8, correctors = 4;  // of insertion in the end; of Gondzio's
+  static constexpr double first_stage = 0.3, last_stage = 5e-3;  // gaps
 
-  At at(const Row& r, const Local& x) const {
-    return At(r, rows_.points[r.point], program_.transform[r.element], x);
-  }
+  At at(const Row& r) const { return {rows_.points[r.point], program_.transform[r.element]}; }
 
   // ---- loops over elements; contributions are kept per element and added up in order
 
-  /// Calls f(element, partial) with a partial result per piece, combined in order.
-  template <class Partial, class F, class Combine>
-  Partial for_elements(F&& f, Combine&& combine) {
-    std::vector<Partial> partial((local_.size() + elements_at_once - 1) / elements_at_once);
-    parallel_for(local_.size(), elements_at_once, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / elements_at_once]);
-    });
-    Partial total{};
-    for (const Partial& p : partial) combine(total, p);
-    return total;
-  }
-  template <class F>
-  void each_element(F&& f) {
-    parallel_for(local_.size(), elements_at_once, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin; e < end; ++e) f(e);
-    });
-  }
   template <class F>
   void for_rows(int element, F&& f) {
     for (int i = rows_.first[element]; i < rows_.first[element + 1]; ++i) f(rows_.row[i]);
@@ -153,9 +140,9 @@ class Run {
         r.element = e;
         r.point = rows_.add_point(inserted[next].point);
         r.size = inserted[next].tau;
-        const double there = at(r, matrix_.gather(anchor_x_, e)).g;
-        const double here = at(r, matrix_.gather(x_, e)).g;
-        r.anchor_s = std::max(there, 1e-4 * r.size);
+        const double there = at(r).value(0, matrix_.gather(anchor_x_, e));
+        const double here = at(r).value(0, matrix_.gather(x_, e));
+        r.anchor_s = std::max({there, -here, 1e-4 * r.size});
         r.anchor_z = 0.1 * anchor_mu_ * weight_[e] / r.anchor_s;
         if (here < 0)
           back = std::max(back, std::min(0.3, there > 0 ? -1.5 * here / (there - here) : 1));
@@ -167,7 +154,7 @@ class Run {
     rows_.index(matrix_.n_elements());
     x_ += back * (anchor_x_ - x_);
     for (Row& r : rows_.row) {
-      const double g = at(r, matrix_.gather(x_, r.element)).g;
+      const double g = at(r).value(r.bound, matrix_.gather(x_, r.element));
       const double s = r.s + back * (r.anchor_s - r.s);
       r.exact = g >= 0.5 * s;
       r.s = r.exact ? g : s;
@@ -184,23 +171,24 @@ class Run {
       bool outside = false;
     };
     const Sums sums = for_elements<Sums>(
+        local_.size(),
         [&](int e, Sums& sum) {
           const Local x = matrix_.gather(x_, e);
           Eigen::Matrix<double, K, K> N = Eigen::Matrix<double, K, K>::Zero();
           Local dual = Local::Zero(), right = Local::Zero();
-          for_rows(e, [&](const Row& r) {
-            const At p = at(r, x);
-            const double residual = r.exact ? 0 : r.s - p.g;
+          for_rows(e, [&](Row& r) {
+            const At p = at(r);
+            r.y = p.slopes(x);
+            r.residual = r.exact ? 0 : r.s - p.value(r.bound, x, r.y);
             sum.gap += r.s * r.z;
-            sum.primal = std::max(sum.primal, std::abs(residual) / r.size);
+            sum.primal = std::max(sum.primal, std::abs(r.residual) / r.size);
             sum.outside = sum.outside || !(r.s > 0 && r.z > 0);
-            dual += r.z * p.a;
-            right += (r.z * residual / r.s) * p.a;
-            N.noalias() += (r.z / r.s * p.a) * p.a.transpose();
-            for (int d = 0; d < D; ++d) {
-              const Local G = p.adjoint(Eigen::Matrix<double, D, 1>::Unit(d));
-              N.noalias() += (0.5 * r.z * G) * G.transpose();
-            }
+            Local a = Local::Zero();
+            p.add_gradient(1, r.y, a);
+            dual += r.z * a;
+            right += (r.z * r.residual / r.s) * a;
+            add_square(r.z / r.s, a, N);
+            for (int d = 0; d < D; ++d) add_square(0.5 * r.z, p.slope_row(d), N);
           });
           local_[e] = dual;
           local_scaled_[e] = right;
@@ -239,14 +227,14 @@ class Run {
       sigma = std::max(sigma, 0.5);
       steps = correct(sigma, 0);
     }
-    for (int k = 0; k < correctors && steps.least() < 0.5; ++k)
+    for (int k = 0; k < correctors && steps.least() < 0.9; ++k)
       if (!recentre(sigma, steps)) break;
     const double primal = steps.primal(), dual = steps.dual();
     x_ += primal * dx_;
-    each_element([&, a = primal, b = dual](int e) {
+    each_element(local_.size(), [&, a = primal, b = dual](int e) {
       const Local x = matrix_.gather(x_, e);
       for_rows(e, [&](Row& r) {
-        const double g = at(r, x).g, s = r.s + a * r.ds;
+        const double g = at(r).value(r.bound, x), s = r.s + a * r.ds;
         r.exact = g > (r.exact ? 1e-3 * r.s : 0.1 * s);
         r.s = r.exact ? g : std::max(s, 1e-3 * r.s);
         r.z += b * r.dz;
@@ -267,21 +255,23 @@ class Run {
   double predict() {
     solve(predictor_);
     const Steps steps = for_elements<Steps>(
+        local_.size(),
         [&](int e, Steps& limits) {
-          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          const Local dx = matrix_.gather(dx_, e);
           Local second = Local::Zero(), centre = Local::Zero();
           for_rows(e, [&](Row& r) {
-            const At p = at(r, x);
-            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
-            const auto y = p.slopes(dx);
-            r.bend = 0.25 * y.squaredNorm();
-            r.ds = b - residual;
+            const At p = at(r);
+            const Small dy = p.slopes(dx);
+            const double b = p.slope(r.y, dx, dy);
+            r.bend = 0.25 * dy.squaredNorm();
+            r.ds = b - r.residual;
             r.dz = -r.z - r.z * r.ds / r.s;
             limits.add(r, b, r.bend);
             r.cross = r.ds * r.dz;
             r.cross = std::clamp(r.cross, -10 * r.s * r.z, 10 * r.s * r.z);
-            second += ((r.z * r.bend - r.cross) / r.s) * p.a - (0.5 * r.dz) * p.adjoint(y);
-            centre += (mu_ * weight_[e] / r.s) * p.a;
+            const double of_a = (r.z * r.bend - r.cross) / r.s;
+            p.add(of_a, (-0.5 * of_a) * r.y - (0.5 * r.dz) * dy, second);
+            p.add_gradient(mu_ * weight_[e] / r.s, r.y, centre);
           });
           local_[e] = second;
           local_scaled_[e] = centre;
@@ -300,7 +290,7 @@ class Run {
 
   /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.
   Steps correct(double sigma, double second) {
-    each_element([&](int e) {
+    each_element(local_.size(), [&](int e) {
       for_rows(e, [&](Row& r) {
         r.target = sigma * mu_ * weight_[e] - second * r.cross;
         r.bend *= second;
@@ -314,14 +304,16 @@ class Run {
   /// The rows' directions that go with dx.
   Steps direction(double keep) {
     return for_elements<Steps>(
+        local_.size(),
         [&](int e, Steps& limits) {
-          const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+          const Local dx = matrix_.gather(dx_, e);
           for_rows(e, [&](Row& r) {
-            const At p = at(r, x);
-            const double residual = r.exact ? 0 : r.s - p.g, b = p.a.dot(dx);
-            r.ds = b - keep * residual - r.bend;
+            const At p = at(r);
+            const Small dy = p.slopes(dx);
+            const double b = p.slope(r.y, dx, dy);
+            r.ds = b - keep * r.residual - r.bend;
             r.dz = (r.target - r.z * r.ds) / r.s - r.z;
-            limits.add(r, b, 0.25 * p.slopes(dx).squaredNorm());
+            limits.add(r, b, 0.25 * dy.squaredNorm());
           });
         },
         Steps::combine);
@@ -332,18 +324,20 @@ class Run {
     const double p = std::min(1.0, 1.2 * steps.primal() + 0.1);
     const double d = std::min(1.0, 1.2 * steps.dual() + 0.1);
     const double aim = std::max(sigma, 1e-4) * mu_;
-    each_element([&](int e) {
-      const Local x = matrix_.gather(x_, e), dx = matrix_.gather(dx_, e);
+    each_element(local_.size(), [&](int e) {
+      const Local dx = matrix_.gather(dx_, e);
       const double low = 0.1 * aim * weight_[e], high = 10 * aim * weight_[e];
       Local right = Local::Zero();
       for_rows(e, [&](Row& r) {
-        const At at_x = at(r, x);
-        const double bend = r.exact ? 0.25 * at_x.slopes(dx).squaredNorm() : 0;
-        const double ds = r.exact ? at_x.a.dot(dx) - p * bend : r.ds;
+        double ds = r.ds;
+        if (r.exact) {
+          const Small dy = at(r).slopes(dx);
+          ds = at(r).slope(r.y, dx, dy) - p * 0.25 * dy.squaredNorm();
+        }
         const double v = (r.s + p * ds) * (r.z + d * r.dz);
         r.change = v < low ? low - v : v > high ? std::max(high - v, -high) : 0;
         r.target += r.change;
-        right += (r.change / r.s) * at_x.a;
+        if (r.change != 0) at(r).add_gradient(r.change / r.s, r.y, right);
       });
       local_[e] = right;
     });

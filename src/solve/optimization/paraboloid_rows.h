@@ -8,25 +8,30 @@
 #include <vector>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "solve/optimization/paraboloid_program.h"
 
 namespace littoral::paraboloid {
 
 /// A row and its interior-point state: slack s, multiplier z.
+template <int D>
 struct Row {
   int element = 0, point = 0;
   double bound = 0, size = 1;
   double s = 0, z = 0;
-  bool exact = false;     // s is g(x); otherwise s - g(x) is still to be removed
-  double ds = 0, dz = 0;  // direction
-  double cross = 0;       // ds dz of the predictor
-  double bend = 0;        // |T G dx|^2 / 4 of the predictor
-  double target = 0;      // of s z
-  double change = 0;      // of the target, on trial
+  bool exact = false;   // s is g(x); otherwise s - g(x) is still to be removed
+  double residual = 0;  // s - g(x), as it was when Newton's equations were set up
+  Eigen::Matrix<double, D, 1> y = Eigen::Matrix<double, D, 1>::Zero();  // T G x, likewise
+  double ds = 0, dz = 0;                                                // direction
+  double cross = 0;                                                     // ds dz of the predictor
+  double bend = 0;    // |T G dx|^2 / 4 of the predictor
+  double target = 0;  // of s z
+  double change = 0;  // of the target, on trial
   double anchor_s = 0, anchor_z = 0;
 };
 
-/// What one row is at one x.
+/// A row's functions of x: its sums over an element's unknowns are made without forming the
+/// gradient a = q - (T G)^T y / 2, y = T G x, for every use.
 template <int K, int D>
 struct RowAt {
   using Program = ParaboloidProgram<K, D>;
@@ -35,28 +40,45 @@ struct RowAt {
 
   const typename Program::Point& p;
   const typename Program::Transform& T;
-  double g;  // of x
-  Local a;   // gradient of g
 
-  RowAt(const Row& row, const typename Program::Point& point,
-        const typename Program::Transform& transform, const Local& x)
-      : p(point), T(transform) {
-    const Small y = slopes(x);
-    g = row.bound + p.q.dot(x) - 0.25 * y.squaredNorm();
-    a = p.q - 0.5 * adjoint(y);
-  }
   Small slopes(const Local& x) const {
     Small y;
     for (int d = 0; d < D; ++d) y[d] = p.g[d].dot(x);
     return T * y;
   }
-  Local adjoint(const Small& y) const {
+  /// g, given the slopes of x.
+  double value(double bound, const Local& x, const Small& y) const {
+    return bound + p.q.dot(x) - 0.25 * y.squaredNorm();
+  }
+  double value(double bound, const Local& x) const { return value(bound, x, slopes(x)); }
+  /// a^T dx, given the slopes of dx.
+  double slope(const Small& y, const Local& dx, const Small& dy) const {
+    return p.q.dot(dx) - 0.5 * y.dot(dy);
+  }
+  /// sum += q + (T G)^T y, both with factors.
+  void add(double of_q, const Small& y, Local& sum) const {
     const Small v = T.transpose() * y;
-    Local out = v[0] * p.g[0];
-    for (int d = 1; d < D; ++d) out += v[d] * p.g[d];
-    return out;
+    sum += of_q * p.q;
+    for (int d = 0; d < D; ++d) sum += v[d] * p.g[d];
+  }
+  /// Row d of T G.
+  Local slope_row(int d) const {
+    Local row = T(d, 0) * p.g[0];
+    for (int k = 1; k < D; ++k) row += T(d, k) * p.g[k];
+    return row;
+  }
+  /// sum += factor a.
+  void add_gradient(double factor, const Small& y, Local& sum) const {
+    add(factor, (-0.5 * factor) * y, sum);
   }
 };
+
+/// N += factor a a^T.
+template <int K>
+void add_square(double factor, const Eigen::Matrix<double, K, 1>& a,
+                Eigen::Matrix<double, K, K>& N) {
+  for (int k = 0; k < K; ++k) N.col(k) += (factor * a[k]) * a;
+}
 
 /// The largest step that keeps a slack s >= 0 on its way s + t b - t^2 bend, bend >= 0.
 inline double step_to_zero(double s, double b, double bend) {
@@ -64,9 +86,9 @@ inline double step_to_zero(double s, double b, double bend) {
   return down > 0 ? 2 * s / down : infinity;
 }
 
-/// How far a direction may be followed, and what becomes of s^T z.
+/// How far a direction may be followed (2: at least so far), and what becomes of s^T z.
 struct Steps {
-  double to_primal = infinity, to_dual = to_primal;
+  double to_primal = 2, to_dual = 2;
   double s_dz = 0, ds_z = 0, ds_dz = 0;
 
   // What is taken: not all of the way to the boundary.
@@ -76,12 +98,15 @@ struct Steps {
   double sum() const { return primal() + dual(); }
 
   /// b = a^T dx and bend = |T G dx|^2 / 4 say where g goes.
-  void add(const Row& r, double b, double bend) {
-    if (r.exact)
-      to_primal = std::min(to_primal, step_to_zero(r.s, b, bend));
-    else if (r.ds < 0)
-      to_primal = std::min(to_primal, -r.s / r.ds);
-    if (r.dz < 0) to_dual = std::min(to_dual, -r.z / r.dz);
+  template <int D>
+  void add(const Row<D>& r, double b, double bend) {
+    if (r.exact) {
+      if (r.s + to_primal * (b - to_primal * bend) < 0)
+        to_primal = std::min(to_primal, step_to_zero(r.s, b, bend));
+    } else if (r.s + to_primal * r.ds < 0) {
+      to_primal = -r.s / r.ds;
+    }
+    if (r.z + to_dual * r.dz < 0) to_dual = -r.z / r.dz;
     s_dz += r.s * r.dz;
     ds_z += r.ds * r.z;
     ds_dz += r.ds * r.dz;
@@ -99,6 +124,7 @@ struct Steps {
 template <int K, int D>
 struct ParaboloidRows {
   using Program = ParaboloidProgram<K, D>;
+  using Row = paraboloid::Row<D>;
 
   std::vector<Row> row;    // ascending elements
   std::vector<int> first;  // elements + 1
@@ -136,5 +162,27 @@ struct ParaboloidRows {
     row.push_back(r);
   }
 };
+
+/// Calls f(element, partial) for n elements, in pieces with a partial result each, which are
+/// combined in order.
+template <class Partial, class F, class Combine>
+Partial for_elements(std::size_t n, F&& f, Combine&& combine) {
+  constexpr std::size_t at_once = 256;
+  std::vector<Partial> partial((n + at_once - 1) / at_once);
+  parallel_for(n, at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / at_once]);
+  });
+  Partial total{};
+  for (const Partial& p : partial) combine(total, p);
+  return total;
+}
+
+/// Calls f(element).
+template <class F>
+void each_element(std::size_t n, F&& f) {
+  parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) f(e);
+  });
+}
 
 }  // namespace littoral::paraboloid

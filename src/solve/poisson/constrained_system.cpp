@@ -1,5 +1,6 @@
 #include "solve/poisson/constrained_system.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/dense_decompositions.h"
@@ -82,8 +83,27 @@ void ConstrainedSystem::constrain_many(const SpMat& A, const VecX& give, Constra
     penalised.setFromTriplets(others.begin(), others.end());
     K = with_rows(K, penalised, Eigen::Map<const VecX>(weight.data(), weight.size()));
   }
-  constrained.factor_ =
-      std::make_shared<const DefiniteSystem>(eliminated(K, constrained.pinned_), task);
+  K = eliminated(K, constrained.pinned_);
+  constrained.factor_ = of_many_
+                            ? std::make_shared<const DefiniteSystem>(std::move(K), of_many_, task)
+                            : std::make_shared<const DefiniteSystem>(std::move(K), task);
+}
+
+ConstrainedSystem::Constrained ConstrainedSystem::constrain_like(const Constrained& like,
+                                                                 SpMat matrix, const SpMat& rows,
+                                                                 const Task& task,
+                                                                 const VecX& give) const {
+  ConstrainedSystem other = *this;
+  other.K_ = std::make_shared<const SpMat>(std::move(matrix));
+  const auto& structure = like.factor_->structure();
+  if (like.factor_ == factor_) {
+    other.factor_ =
+        std::make_shared<const DefiniteSystem>(eliminated(*other.K_, pinned_), structure, task);
+  } else {
+    other.factor_ = nullptr;
+    other.of_many_ = structure;
+  }
+  return other.constrain(rows, task, give);
 }
 
 ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A, const Task& task,
@@ -180,6 +200,10 @@ VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
       u[i] -= shift[c];
   }
   return u;
+}
+
+double ConstrainedSystem::Constrained::flops_of_number() const {
+  return factor_->structure()->flops() / std::max(1.0, factor_->nonzeros());
 }
 
 VecX ConstrainedSystem::Constrained::solve(const VecX& b) const {

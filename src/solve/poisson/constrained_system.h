@@ -27,6 +27,9 @@ class ConstrainedSystem {
    public:
     /// One pass through a factor for each column.
     VecX solve(const VecX& b) const;
+    /// Multiply-adds of the factorization for every number of the factor: what constrain_like costs
+    /// beside a solve.
+    double flops_of_number() const;
 
    private:
     friend class ConstrainedSystem;
@@ -52,6 +55,11 @@ class ConstrainedSystem {
   /// what is minimised.
   Constrained constrain(const SpMat& rows, const Task& task, const VecX& give = {}) const;
 
+  /// The same for a matrix with the pattern of K, on the structure that `like`, made by this system
+  /// from rows with the same pattern, is factored on.
+  Constrained constrain_like(const Constrained& like, SpMat matrix, const SpMat& rows,
+                             const Task& task, const VecX& give = {}) const;
+
  private:
   void constrain_many(const SpMat& rows, const VecX& give, Constrained& constrained,
                       const Task& task) const;
@@ -61,6 +69,7 @@ class ConstrainedSystem {
   int n_components_;
   std::vector<char> pinned_;
   std::shared_ptr<const DefiniteSystem> factor_;  // none where many rows are expected
+  std::shared_ptr<const Elimination> of_many_;    // structure for many rows, if it is known
 };
 
 }  // namespace littoral

@@ -71,12 +71,15 @@ def measure(program: str, faces: int) -> dict[str, Any]:
         lines = ("signed_curve\n" + "".join(f"v {i}\n" for i in circle) for circle in circles)
         curve.write_text("".join(lines))
         command = [program, "distance", str(mesh), "-s", str(curve), "-o", str(out), "--json"]
+        command += ["--method", "signed-heat", "--threads", "1"]
         with (Path(folder) / "report.json").open("w") as report:
             child = subprocess.Popen(command, stdout=report)
             _, status, used = os.wait4(child.pid, 0)
         if status != 0:
             raise RuntimeError(f"{' '.join(command)} failed with status {status}")
         result = json.loads((Path(folder) / "report.json").read_text())
+        stages = " ".join(f"{k} {v:.3g}" for k, v in result["timings"].items())
+        print(f"{len(triangles):,} faces, clock: {stages}", file=sys.stderr, flush=True)
         phi = np.load(out)
     error = np.abs(np.abs(phi.reshape(-1)) - exact) / exact.max()
     return {

@@ -19,7 +19,7 @@ if [ "$processor" != "$(uname -m)" ]; then
 fi
 build/venv/bin/pip wheel . --no-deps --no-build-isolation --disable-pip-version-check -q -w "$raw" \
   "${settings[@]}"
-PATH="$PWD/build/venv/bin:$PATH" LD_LIBRARY_PATH="$PWD/$build/python/manylinux/cmeel.prefix/lib" \
+PATH="$PWD/build/venv/bin:$PATH" \
   build/venv/bin/auditwheel repair -w "$raw/repaired" "$raw"/littoral-*.whl >"$raw/log" 2>&1 ||
   { cat "$raw/log" >&2; exit 1; }
 case $(ls "$raw/repaired") in

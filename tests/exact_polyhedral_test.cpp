@@ -45,6 +45,33 @@ TEST(ExactPolyhedral, PlaneFromVerticesEdgesFacesAndSeveral) {
   }
 }
 
+/// What the vertices of a flat place divide is one again behind them: the number of windows of a
+/// triangle does not grow with the mesh, and the answer is the same.
+TEST(ExactPolyhedral, RaysDividedOnAFlatPlaceComeTogether) {
+  for (const int n : {20, 80}) {
+    const SurfaceMesh mesh(test::jittered_grid_soup(n, n, 0.3));
+    MatX3 line(2, 3);
+    line << 0.21, 0.33, 0, 0.52, 0.61, 0;
+    const Vec3 a = line.row(0), ab = Vec3(line.row(1)) - a;
+    for (const bool curve : {false, true}) {
+      Report report;
+      const VecX d = test::geodesic(test::exact_once, mesh,
+                                    curve ? test::space_curve(line, false)
+                                          : from({SurfacePoint::in_face(77, 0.2, 0.5, 0.3)}),
+                                    report)
+                         .distance;
+      EXPECT_LT(report.iterations.front().second, 8 * mesh.n_faces()) << n << " " << curve;
+      const Vec3 from_point = mesh.position(SurfacePoint::in_face(77, 0.2, 0.5, 0.3));
+      for (int v = 0; v < mesh.n_vertices(); ++v) {
+        const Vec3 p = mesh.point(v);
+        const double x = std::clamp(ab.dot(p - a) / ab.squaredNorm(), 0.0, 1.0);
+        const double expected = curve ? (p - a - x * ab).norm() : (p - from_point).norm();
+        EXPECT_NEAR(d[v], expected, curve ? 1e-9 : 1e-12) << n << " " << curve << " " << v;
+      }
+    }
+  }
+}
+
 /// So many sources that more goes on at the same time than is left to one thread.
 TEST(ExactPolyhedral, SameBitsForAnyThreadCount) {
   const SurfaceMesh mesh(test::jittered_grid_soup(200, 200, 0.3));

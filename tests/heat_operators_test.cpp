@@ -86,9 +86,10 @@ class HeatOperators : public testing::TestWithParam<CheckedMesh> {
   }
   /// The connection Laplacian as a real matrix on interleaved pairs, whichever form it has.
   VecX diffuse_operator(const VecX& x) const {
-    if (!ops.vector.complex_linear()) return ops.vector.L_real.selfadjointView<Eigen::Lower>() * x;
+    if (!ops.vector.complex_linear())
+      return ops.vector.L_real({}).selfadjointView<Eigen::Lower>() * x;
     const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), x.size() / 2);
-    const VecXc y = ops.vector.L.selfadjointView<Eigen::Lower>() * z;
+    const VecXc y = ops.vector.L({}).selfadjointView<Eigen::Lower>() * z;
     return Eigen::Map<const VecX>(reinterpret_cast<const double*>(y.data()), x.size());
   }
 
@@ -174,7 +175,7 @@ TEST_P(NodalPlane, LinearFunctionsAndConstantFieldsAreExact) {
   const VecX Y = ops.vector.to_cells.apply(X);
   EXPECT_LE((g - Y).cwiseAbs().maxCoeff(), 1e-8);
   const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(X.data()), ops.vector.n);
-  const VecXc Lz = ops.vector.L.selfadjointView<Eigen::Lower>() * z;
+  const VecXc Lz = ops.vector.L({}).selfadjointView<Eigen::Lower>() * z;
   EXPECT_LE(Lz.cwiseAbs().maxCoeff(), 1e-9);
   const VecX Lx = C.L.selfadjointView<Eigen::Lower>() * x;
   for (int v = 0; v < mesh.n_vertices(); ++v)
@@ -221,7 +222,7 @@ TEST(HeatOperatorsPlane, ConstantFieldsAreInTheNullSpaceOfTheConnectionLaplacian
   ASSERT_TRUE(ops.vector.complex_linear());
   const VecX x = constant_field(mesh, T, Complex(0.6, 0.8));
   const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), T.n_edges());
-  const VecXc y = ops.vector.L.selfadjointView<Eigen::Lower>() * z;
+  const VecXc y = ops.vector.L({}).selfadjointView<Eigen::Lower>() * z;
   EXPECT_LE(y.cwiseAbs().maxCoeff(), 1e-10);
   // Averaged to a face it is the same vector, in the face's frame.
   const VecX cells = ops.vector.to_cells.apply(x);
@@ -277,9 +278,9 @@ TEST(HeatOperatorsPlane, RealAndComplexFormsHaveTheSameEnergy) {
   VecX x = VecX::Zero(2 * joint.vector.n);
   for (int i = 0; i < 2 * alone.vector.n; ++i) x[i] = u(random);
   const Eigen::Map<const VecXc> z(reinterpret_cast<const Complex*>(x.data()), alone.vector.n);
-  const VecXc y = alone.vector.L.selfadjointView<Eigen::Lower>() * z;
+  const VecXc y = alone.vector.L({}).selfadjointView<Eigen::Lower>() * z;
   const double energy = z.dot(y).real();
-  const VecX real_y = joint.vector.L_real.selfadjointView<Eigen::Lower>() * x;
+  const VecX real_y = joint.vector.L_real({}).selfadjointView<Eigen::Lower>() * x;
   EXPECT_NEAR(x.dot(real_y), energy, 1e-10 * energy);
 }
 

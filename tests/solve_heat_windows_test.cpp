@@ -12,7 +12,7 @@ namespace littoral {
 namespace {
 
 SpMatC heat_matrix(const VectorDiffusion& V, double t) {
-  SpMatC A = V.L * Complex(t);
+  SpMatC A = V.L({}) * Complex(t);
   for (int i = 0; i < V.n; ++i) A.coeffRef(i, i) += V.M[i] > 0 ? V.M[i] : 1.0;
   A.makeCompressed();
   return A;
@@ -53,7 +53,7 @@ Both solve_both(const VectorDiffusion& V, const VecX& X0, double time_scale) {
   if (!field) return both;
   both.n_windows = report.iterations.back().second;
   both.windows = directions(V, *field);
-  const HeatSystem<Complex> system(*A, 1, size, SolveHint::many_rhs, {}, order);
+  const HeatSystem<Complex> system(A, 1, size, SolveHint::many_rhs, {}, order);
   both.passes = directions(V, system.solve(as_complex(X0), V.piece, {}, report));
   both.n_passes = report.iterations.back().second;
   return both;
@@ -144,7 +144,7 @@ TEST(HeatWindows, HeldVectorsAreHeld) {
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const VecX size = decay_lengths(V.M, t);
-  const HeatSystem<Complex> system(*A, 1, size, SolveHint::many_rhs, {});
+  const HeatSystem<Complex> system(A, 1, size, SolveHint::many_rhs, {});
   const auto field = system.solve_prescribed(held, V.piece, {}, report);
   double worst = 0, residual = 0;
   int one = 0;  // the field has one layer, in units of its own: make a held vector one long

@@ -169,6 +169,39 @@ TEST(TetValues, HeatOfVerticesMeetsWhereValuePlusDistanceAgree) {
   EXPECT_GT(test::tet_errors(mesh, same, exact).mean, 0.06);
 }
 
+// Arrival times of one function at many vertices. A solve for each would be 48 and err by 0.068.
+TEST(TetValues, HeatOfManyValuesTakesEightSolves) {
+  const int n = 12;
+  const TetMesh mesh = test::tet_box(n);
+  const Vec3 a(0.2, 0.3, 0.25), b(0.8, 0.6, 0.7);
+  const auto arrival = [&](const Vec3& x) {
+    return std::min((x - a).norm(), 0.1 + (x - b).norm());
+  };
+  TetSources sources;
+  for (int i = 0; i < 50; ++i) {
+    sources.vertices.push_back((37 * i + 5) % mesh.n_vertices());
+    sources.values.push_back(arrival(mesh.points.row(sources.vertices.back())));
+  }
+  const auto exact = [&](const Vec3& x) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sources.values.size(); ++i)
+      least = std::min(
+          least, sources.values[i] + (x - mesh.points.row(sources.vertices[i]).transpose()).norm());
+    return least;
+  };
+  Report report;
+  const VecX phi = test::tet_mesh_distance(mesh, sources, SpaceSignedHeat{}, report);
+  EXPECT_THAT(report.iterations, testing::Contains(testing::Pair("heat solves", 8)));
+  EXPECT_LT(test::tet_errors(mesh, phi, exact).mean, 0.068);
+  // Values that no range of numbers holds together take a solve of their own.
+  sources.values.back() = 1e5;
+  sources.values.front() = 1e6;
+  Report again;
+  const VecX apart = test::tet_mesh_distance(mesh, sources, SpaceSignedHeat{}, again);
+  EXPECT_THAT(again.iterations, testing::Contains(testing::Pair("heat solves", 10)));
+  EXPECT_TRUE(apart.allFinite());
+}
+
 TEST(TetValues, WhatIsShadowedIsToldOf) {
   TetMesh mesh = test::tet_box(4);
   mesh.points *= 2;

@@ -17,6 +17,7 @@
 #include "littoral/distance.h"
 #include "littoral/space.h"
 #include "littoral/through_tets.h"
+#include "spatial/grid_values.h"
 
 namespace littoral::fuzz {
 
@@ -339,11 +340,22 @@ void check_tets(const MethodCase& given, double seconds, Failures& out) {
 
 void check_space(const MethodCase& given, double seconds, Failures& out) {
   const Budget budget(seconds);
-  const Sdf sdf = signed_distance(given.soup, given.choice(), {}, budget.context());
+  const std::vector<double>& counted = given.space_values;
+  const Sdf sdf = signed_distance(given.soup, counted, given.choice(), {}, budget.context());
   const Volume volume = sdf.sample(given.grid, budget.context());
   out.require(static_cast<std::size_t>(volume.values.size()) == given.grid.n_nodes(),
               "not one value for each node");
   out.require(volume.values.allFinite(), "a value that is not finite");
+  const auto [low, high] = std::minmax_element(counted.begin(), counted.end());
+  if (counted.empty() || *low == *high || given.method == "signed-heat") return;
+  const VecX d = sdf.closest(grid_points(given.grid), budget.context()).distances;
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    const double phi = volume.values[i], off = 1e-9 * (1 + d[i]);
+    const bool up = phi > *low + d[i] - off && phi < *high + d[i] + off;
+    const bool down = phi > *low - d[i] - off && phi < *high - d[i] + off;
+    out.require(up || down, "not between the least and the greatest value, up or down");
+    if (out.list.size() > 3) return;
+  }
 }
 
 }  // namespace

@@ -85,6 +85,12 @@ MethodCase random_case(Choices& choose) {
     for (int k = 0; k < 3; ++k) out.grid.n[k] = choose.between(choose.chance(0.1) ? 1 : 2, 7);
     out.grid.origin = Vec3::Constant(-1.5);
     out.grid.spacing = Vec3::Constant(0.4 + choose.unit());
+    if (choose.chance(0.25)) {
+      int n = out.soup.n_faces() > 0 ? out.soup.n_faces() : out.soup.n_vertices();
+      if (choose.chance(0.3)) n = choose.below(3);
+      for (int i = 0; i < n; ++i) out.space_values.push_back(0.4 * (choose.below(3) - 1));
+      if (choose.chance(0.3)) out.soup.normals.resize(0, 3);
+    }
     return out;
   }
   out.soup = surface_for(choose, info);
@@ -168,6 +174,7 @@ std::string description(const MethodCase& given) {
     out << "\n";
     print(out, given.tet_sources.surface);
   }
+  for (const double value : given.space_values) out << "# value " << value << "\n";
   if (given.grid.n[0] > 0)
     out << "# grid " << given.grid.n[0] << " " << given.grid.n[1] << " " << given.grid.n[2]
         << " by " << given.grid.spacing[0];

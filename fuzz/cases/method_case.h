@@ -25,6 +25,7 @@ struct MethodCase {
   TetMesh tets;
   TetSources tet_sources;
   Grid grid;
+  std::vector<double> space_values;  // of the soup's faces or points
 
   AnyMethod choice() const { return AnyMethod::named(method, options); }
 };

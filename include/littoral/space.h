@@ -77,7 +77,7 @@ class Sdf {
   /// the grid. Throws InputError for a box that misses the input, IoError where memory will not do.
   Volume sample(const Grid& grid, const Context& context = {}) const;
 
-  /// The corners of the box around the input: 2 x 3 [length].
+  /// The corners of the box around the input and the balls of its negative values: 2 x 3 [length].
   Eigen::Matrix<double, 2, 3> bounds() const;
   /// Of the preparation.
   const Report& report() const;
@@ -98,6 +98,14 @@ Sdf signed_distance(const PolygonSoup& input, const AnyMethod& method = {},
                     const Orientation& orientation = {}, const Context& context = {});
 Sdf signed_distance(const Mesh& input, const AnyMethod& method = {},
                     const Orientation& orientation = {}, const Context& context = {});
+/// The same counted from values [length]: one for all, or one for each face or each point of a
+/// cloud. Around closed surfaces the least of c + d outside and the greatest of c - d inside, d
+/// being the distance to what has the value c; around points without normals, which have no sides,
+/// the least of c + d, negative in balls of radius -c. Throws UnsupportedError where values differ
+/// and the method takes one alone, or has to complete the input.
+Sdf signed_distance(const PolygonSoup& input, std::vector<double> values,
+                    const AnyMethod& method = {}, const Orientation& orientation = {},
+                    const Context& context = {});
 /// A volume of signed distance, linear between nodes; outside its box a bound of the distance.
 Sdf signed_distance(const Volume& volume);
 /// Signed distance to what a volume bounds: voxels of a mask, a density above `threshold` (without

@@ -115,15 +115,16 @@ void bind_sdf(nb::module_& m) {
   nb::class_<Sdf>(m, "Sdf")
       .def_static(
           "of",
-          [](const Mesh& mesh, const std::string& method, const OptionValues& values, bool flip,
-             bool estimate_normals, const Settings* settings) {
+          [](const Mesh& mesh, const std::string& method, const OptionValues& options,
+             const std::vector<double>& values, bool flip, bool estimate_normals,
+             const Settings* settings) {
             return released(settings, [&](const Context& context) {
-              return signed_distance(mesh, AnyMethod::named(method, values),
+              return signed_distance(mesh.soup(), values, AnyMethod::named(method, options),
                                      {flip, estimate_normals}, context);
             });
           },
-          nb::arg("input"), nb::arg("method"), nb::arg("options"), nb::arg("flip"),
-          nb::arg("estimate_normals"), nb::arg("settings").none())
+          nb::arg("input"), nb::arg("method"), nb::arg("options"), nb::arg("values"),
+          nb::arg("flip"), nb::arg("estimate_normals"), nb::arg("settings").none())
       .def_static("of_volume", [](const Volume& volume) { return signed_distance(volume); })
       .def(
           "at",

@@ -275,6 +275,7 @@ class Sdf:
         input: Mesh,
         method: str,
         options: Sequence[tuple[str, str]],
+        values: Sequence[float],
         flip: bool,
         estimate_normals: bool,
         settings: Settings | None,

@@ -41,15 +41,18 @@ class SDF(Reported):
 
     `SDF(V, F)`: vertices x 3 and faces; `SDF(P, N)`: points x 3 and normals x 3; `SDF(mesh)`: what
     `as_surface` takes. method: of `littoral.methods()["Distance in space"]`; without one, "auto":
-    what has holes is completed over them, then measured. flip reverses all normals;
-    estimate_normals makes those of a cloud, without which there is an InputError. Callable at
-    points, from several threads. Points that are not n x 3 or 3 finite real numbers raise TypeError
+    what has holes is completed over them, then measured. values: what distance is counted from
+    [length], one number, or one for each face or point; points without normals are then balls of
+    radius -value, united. flip reverses all normals; estimate_normals makes those of a cloud,
+    without which there is an InputError. Callable at points, from several threads. Points that are not n x 3 or 3 finite real numbers raise TypeError
     or InputError.
 
     >>> import littoral
     >>> sdf = littoral.SDF(littoral.examples.cube())
     >>> sdf([[.5, .5, .5], [.5, .5, 2]]).tolist()
     [-0.5, 1.0]
+    >>> littoral.SDF([[0, 0, 0], [3, 0, 0]], values=[-1, -0.5])([2, 0, 0]).item()
+    0.5
     """
 
     def __init__(
@@ -58,6 +61,7 @@ class SDF(Reported):
         F: Any = None,
         *,
         method: str | None = None,
+        values: Any = None,
         flip: bool = False,
         estimate_normals: bool = False,
         threads: int | None = None,
@@ -65,11 +69,15 @@ class SDF(Reported):
         **options: Any,
     ) -> None:
         self.input = as_cloud_or_surface(V, F)
-        self._made = (method, flip, estimate_normals, options)
+        counted: list[float] = []
+        if values is not None:
+            counted = floats(np.atleast_1d(as_array(values, "values")), "values").tolist()
+        self._made = (method, flip, estimate_normals, {**options, "values": values})
         self._handle = _core.Sdf.of(
             self.input._handle,
             method or "",
             option_texts(options),
+            counted,
             bool(flip),
             bool(estimate_normals),
             settings(threads, progress),

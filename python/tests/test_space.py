@@ -257,6 +257,30 @@ def test_tet_sources_have_values() -> None:
         littoral.tet_distance(mesh, slab, values=[1, 2, 3])
 
 
+def test_sources_in_space_have_values(cube: littoral.Mesh) -> None:
+    x = np.random.default_rng(4).uniform(-2, 2, (50, 3))
+    centres, radii = np.random.default_rng(5).uniform(-1, 1, (9, 3)), np.linspace(0.1, 0.3, 9)
+    balls = littoral.SDF(centres, values=-radii)
+    exact = (np.linalg.norm(x[:, None] - centres, axis=2) - radii).min(axis=1)
+    np.testing.assert_allclose(balls(x), exact, atol=1e-12)
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(balls))(x), balls(x))
+    assert balls.bounds[0].max() <= (centres - 0.29).min(axis=0).max()
+    np.testing.assert_array_equal(littoral.SDF(cube, values=0.5)(x), littoral.SDF(cube)(x) + 0.5)
+    two = littoral.Mesh(
+        np.vstack([cube.points, cube.points + [3, 0, 0]]),
+        np.vstack([np.reshape(cube.corners, (-1, 3)), np.reshape(cube.corners, (-1, 3)) + 8]),
+    )
+    n = len(cube.corners) // 3
+    sdf = littoral.SDF(two, values=np.repeat([0.25, -0.5], n))
+    at = [[-1, 0.5, 0.5], [2.5, 0.5, 0.5], [0.5, 0.5, 0.5], [3.5, 0.5, 0.5]]
+    np.testing.assert_allclose(sdf(at), [1.25, 0, -0.25, -1])
+    for values in ([0.1, 0.2], np.full(2 * n, np.nan)):
+        with pytest.raises(littoral.InputError):
+            littoral.SDF(two, values=values)
+    with pytest.raises(littoral.UnsupportedError, match="auto, winding"):
+        littoral.SDF(two, values=np.repeat([0.25, -0.5], n), method="hopf-cole")
+
+
 def test_many_queries_are_answered_block_by_block(cube):
     sdf = littoral.SDF(cube)
     x = np.random.default_rng(2).uniform(-1, 2, (300_000, 3))

@@ -33,8 +33,10 @@ bool is_packed(const std::filesystem::path& path) {
   throw IoError("cannot read " + path.string() + ": " + why, "cannot-read");
 }
 
-std::string all_of(std::FILE* file, const std::filesystem::path& path) {
+/// size: of the file, where that is known.
+std::string all_of(std::FILE* file, const std::filesystem::path& path, std::uintmax_t size) {
   std::string bytes;
+  if (size > 0 && size < bytes.max_size()) bytes.reserve(static_cast<std::size_t>(size));
   std::array<char, 1 << 16> block;
   while (const std::size_t n = std::fread(block.data(), 1, block.size(), file))
     bytes.append(block.data(), n);
@@ -79,7 +81,7 @@ std::string read_bytes(const std::filesystem::path& path) {
   if (is_standard_stream(path)) {
     static std::atomic<bool> read = false;  // not kept: it may be large
     if (read.exchange(true)) cannot_read(path, "standard input was read before");
-    return all_of(stdin, path);
+    return all_of(stdin, path, 0);
   }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) cannot_read(path, "it is a directory");
@@ -89,7 +91,7 @@ std::string read_bytes(const std::filesystem::path& path) {
                           (path.string().starts_with("~")
                                ? "; '~' is the home folder only without quotes, in the shell"
                                : ""));
-  std::string bytes = all_of(file.get(), path);
+  std::string bytes = all_of(file.get(), path, std::filesystem::file_size(path, ignored));
   return is_packed(path) ? without_gzip(bytes, path.string()) : bytes;
 }
 

@@ -8,10 +8,12 @@
 // imaginary part. Symmetric matrices store their lower triangle only. All lengths are in `unit`s of
 // the domain.
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/task.h"
 #include "littoral/types.h"
 #include "operators/linear_map.h"
 
@@ -43,11 +45,13 @@ struct Pinch {
 
 /// Vector fields that can be diffused: the connection Laplacian on the dofs.
 struct VectorDiffusion {
-  int n = 0;               // dofs
-  VecX M;                  // dofs; lumped mass [length^2]
-  SpMatC L;                // dofs x dofs, lower triangle, Hermitian positive semidefinite;
-                           //   empty if frames cannot be chosen so that it is complex-linear
-  SpMat L_real;            // then: 2 dofs x 2 dofs, lower triangle, symmetric
+  int n = 0;  // dofs
+  VecX M;     // dofs; lumped mass [length^2]
+  // The largest matrices there are, made when they are asked for:
+  std::function<SpMatC(const Task&)> L;      // dofs x dofs, lower triangle, Hermitian positive
+                                             //   semidefinite; none if frames cannot be chosen so
+                                             //   that it is complex-linear
+  std::function<SpMat(const Task&)> L_real;  // then: 2 dofs x 2 dofs, lower triangle, symmetric
   Rows<int, 2> ends;       // dofs x 2: the nodes a dof lies between; no rows where dofs are
                            //   not edges between nodes
   bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
@@ -57,7 +61,7 @@ struct VectorDiffusion {
   int n_pieces = 0;
   std::vector<Pinch> pinches;
 
-  bool complex_linear() const { return L.rows() > 0; }
+  bool complex_linear() const { return static_cast<bool>(L); }
 };
 
 /// One domain's operators.

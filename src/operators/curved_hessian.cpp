@@ -11,11 +11,12 @@ constexpr double without_area = 2e-6;  // a + b - c over the longest side
 
 /// The connection Laplacian as real 2 x 2 blocks, both triangles.
 SpMat real_laplacian(const VectorDiffusion& V) {
-  if (!V.complex_linear()) return V.L_real.selfadjointView<Eigen::Lower>();
+  if (!V.complex_linear()) return V.L_real({}).selfadjointView<Eigen::Lower>();
+  const SpMatC connection = V.L({});
   Triplets entries;
-  entries.reserve(V.L.nonZeros() * 8);
-  for (int j = 0; j < V.L.outerSize(); ++j)
-    for (SpMatC::InnerIterator it(V.L, j); it; ++it) {
+  entries.reserve(connection.nonZeros() * 8);
+  for (int j = 0; j < connection.outerSize(); ++j)
+    for (SpMatC::InnerIterator it(connection, j); it; ++it) {
       const int i = it.row();
       const double a = it.value().real(), b = it.value().imag();
       auto put = [&](int row, int col, double re, double im) {

@@ -40,7 +40,7 @@ VecX grid_divergence(const Grid& grid, const Directions& Y, const Task& task) {
 }
 
 GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
-                   const std::vector<int>& part) {
+                   const std::vector<int>& part, const std::vector<double>& value) {
   struct Place {
     std::size_t cell;
     int part;
@@ -67,11 +67,11 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
   });
   // Row by row, as they are stored: there are so many columns that sorting by them takes long.
   std::vector<int> row_begin{0}, columns;
-  std::vector<double> row_weight, coefficients;
+  std::vector<double> row_weight, row_value, coefficients;
   std::vector<int> row_part;
   for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
     std::array<double, 8> sum{};
-    double total = 0;
+    double total = 0, valued = 0;
     for (to = from; to < places.size() && places[to].cell == places[from].cell &&
                     places[to].part == places[from].part;
          ++to) {
@@ -81,6 +81,7 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
         sum[c] += weights[p] * (c & 1 ? t[0] : 1 - t[0]) * (c & 2 ? t[1] : 1 - t[1]) *
                   (c & 4 ? t[2] : 1 - t[2]);
       total += weights[p];
+      if (!value.empty()) valued += weights[p] * value[p];
     }
     for (int c = 0; c < 8; ++c)  // in the order of the nodes
       if (sum[c] != 0) {
@@ -90,11 +91,13 @@ GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
       }
     row_begin.push_back(int_size(columns));
     row_weight.push_back(total);
+    row_value.push_back(total > 0 ? valued / total : 0);
     if (!part.empty()) row_part.push_back(places[from].part);
   }
   GridRows rows;
   rows.part = std::move(row_part);
   rows.weight = Eigen::Map<const VecX>(row_weight.data(), row_weight.size());
+  rows.value = Eigen::Map<const VecX>(row_value.data(), row_value.size());
   rows.A =
       Eigen::Map<const decltype(rows.A)>(rows.weight.size(), grid.n_nodes(), int_size(columns),
                                          row_begin.data(), columns.data(), coefficients.data());

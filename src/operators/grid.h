@@ -35,9 +35,10 @@ struct GridRows {
   Eigen::SparseMatrix<double, Eigen::RowMajor> A;  // rows x nodes, row sums 1
   VecX weight;                                     // rows: sum of the points' weights
   std::vector<int> part;                           // rows; empty: points have none
+  VecX value;                                      // rows: of the points in the mean; 0 of none
 };
 GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
-                   const std::vector<int>& part = {});
+                   const std::vector<int>& part = {}, const std::vector<double>& value = {});
 
 /// A unit vector at each node from one that is dear to evaluate and smooth far from the sources.
 ///

@@ -169,7 +169,8 @@ Operators nodal_operators(const NodalSurface& S) {
   V.n = n;
   V.at_nodes = true;
   V.M = C.M;
-  V.L = matrix_of(n, assembly.connection);
+  const auto L = std::make_shared<const SpMatC>(matrix_of(n, assembly.connection));
+  V.L = [L](const Task&) { return *L; };
   V.to_cells = NodalCells::mean(assembly.cells);
   V.h = S.spacing;
   V.piece = C.component;

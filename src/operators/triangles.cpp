@@ -338,9 +338,9 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   for (int f = 0; f < T->n_faces(); ++f)
     for (int k = 0; k < 3; ++k) V.M[T->side_edge(f, k)] += ops.scalar.A[f] / 3;  // eq. 7
   if (T->has_seams)
-    V.L_real = connection_laplacian_real(*T);
+    V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };
   else
-    V.L = connection_laplacian(*T, task);
+    V.L = [T](const Task& making) { return connection_laplacian(*T, making); };
   V.to_cells = edges_to_faces(T);
   V.h = T->mean_edge_length / 2;
   task.checkpoint();

@@ -9,21 +9,30 @@
 
 namespace littoral {
 
+std::vector<int> parts_of_faces(const PolygonSoup& surface) {
+  const std::vector<int> first = same_positions(surface.points);
+  DisjointSets joined(surface.n_vertices());
+  for (int f = 0; f < surface.n_faces(); ++f)
+    for (const int v : surface.face(f)) joined.join(first[surface.face(f)[0]], first[v]);
+  std::map<int, int> number;
+  std::vector<int> part;
+  for (int f = 0; f < surface.n_faces(); ++f) {
+    const int root = joined.find(first[surface.face(f)[0]]);
+    part.push_back(number.try_emplace(root, static_cast<int>(number.size())).first->second);
+  }
+  return part;
+}
+
 std::vector<int> parts_of_samples(const PolygonSoup& surface, const OrientedPoints& samples) {
   std::vector<int> part(static_cast<std::size_t>(samples.size()), 0);
   if (surface.n_faces() == 0) return part;
   const PolygonSoup triangles = triangulate(surface);
-  const std::vector<int> first = same_positions(triangles.points);
-  DisjointSets joined(triangles.n_vertices());
-  for (int f = 0; f < triangles.n_faces(); ++f)
-    for (int k = 1; k < 3; ++k)
-      joined.join(first[triangles.face(f)[0]], first[triangles.face(f)[k]]);
+  const std::vector<int> of_face = parts_of_faces(triangles);
   const NearestSource nearest(triangles, samples);
   std::map<int, int> number;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const int f = nearest.triangle_at(samples.points.row(static_cast<Eigen::Index>(i)));
-    const int root = joined.find(first[triangles.face(f)[0]]);
-    part[i] = number.try_emplace(root, static_cast<int>(number.size())).first->second;
+    const int of = of_face[nearest.triangle_at(samples.points.row(static_cast<Eigen::Index>(i)))];
+    part[i] = number.try_emplace(of, static_cast<int>(number.size())).first->second;
   }
   return part;
 }

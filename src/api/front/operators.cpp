@@ -99,7 +99,7 @@ SurfaceOperators surface_operators(const Mesh& mesh, const Context& context) {
       }
       out.D = SpMat(out.G.transpose()) * weight.asDiagonal();
     }
-    if (ops.vector.complex_linear()) out.connection = whole(ops.vector.L);
+    if (ops.vector.complex_linear()) out.connection = whole(ops.vector.L({}));
     out.connection_mass = ops.vector.M * unit2;
     out.vector_at = ops.vector.ends;
     return out;

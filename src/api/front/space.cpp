@@ -9,6 +9,7 @@
 #include "api/space/isosurfaces.h"
 #include "api/space/sampled_distance.h"
 #include "api/space/sdf.h"
+#include "api/space/valued_sources.h"
 #include "api/space/volume_meaning.h"
 #include "base/lazy.h"
 #include "littoral/error.h"
@@ -67,6 +68,7 @@ Sdf made_of(CsgShapes shapes, const Context& context) {
   }
   if (!anywhere) {
     longest_side(impl->shapes);  // complains about inputs that cannot be measured from
+    for (const Shape& shape : impl->shapes.all) check_values(shape.surface, shape.request.values);
     return Sdf(std::move(impl));
   }
   impl->function = run(context, [&](const Task& task) {
@@ -199,8 +201,14 @@ const Report& Sdf::report() const { return impl_->report; }
 
 Sdf signed_distance(const PolygonSoup& input, const AnyMethod& method,
                     const Orientation& orientation, const Context& context) {
+  return signed_distance(input, std::vector<double>{}, method, orientation, context);
+}
+
+Sdf signed_distance(const PolygonSoup& input, std::vector<double> values, const AnyMethod& method,
+                    const Orientation& orientation, const Context& context) {
   CsgShapes shapes;
-  shapes.all.push_back({input, {}, {method, orientation.flip, orientation.estimate_normals}});
+  shapes.all.push_back(
+      {input, {}, {method, orientation.flip, orientation.estimate_normals, std::move(values)}});
   return made_of(std::move(shapes), context);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "api/space/filling.h"
@@ -45,11 +46,24 @@ Grid grid_about(const MatX3& points, const Grid* given, double spacing) {
   return grid;
 }
 
+/// Throws where values differ, as what completes an input has none.
+void check_complete(const SpaceInput& input, const LevelPatch* patch) {
+  if (input.values.empty() || (patch && patch->faces.rows() == 0)) return;
+  throw UnsupportedError(std::string(input.is_cloud() ? "clouds" : "surfaces with holes") +
+                         " of different values cannot be completed: methods winding and "
+                         "closest-point measure to what is there, signed-heat takes level sets of "
+                         "one function");
+}
+
 std::unique_ptr<const CompletedDistance> completed(const SpaceInput& input, const Grid* grid,
                                                    double spacing, Task task, Report& report) {
-  if (!input.is_cloud())
-    return std::make_unique<const CompletedSurface>(input.surface.points, input.triangles(),
-                                                    spacing, input.flipped, task, report);
+  if (!input.is_cloud()) {
+    auto distance = std::make_unique<const CompletedSurface>(
+        input.surface.points, input.triangles(), spacing, input.flipped, task, report);
+    check_complete(input, &distance->patch());
+    return distance;
+  }
+  check_complete(input, nullptr);
   Tori fit;
   fit.noisy = true;
   auto tori = fit_tori(input, fit, task.stage(0.2, "fitting"), report);
@@ -119,7 +133,8 @@ std::vector<Method<SpaceDomain>> automatic_space_methods() {
        {"grid", "set of points", "tet lattice", "tetgen mesh"},
        {},
        "surfaces: Barill et al.: Fast Winding Numbers for Soups and Clouds (2018); clouds: Feng: "
-       "Generalized Distance and Winding (2026), chapter 5"},
+       "Generalized Distance and Winding (2026), chapter 5",
+       true},
       none,
       [](const SpaceDomain& domain, const SpaceAutomatic&, SolveHint, const Task&, Report& report) {
         if (domain.grid) {

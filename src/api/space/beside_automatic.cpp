@@ -59,7 +59,7 @@ void check_beside_automatic(const PolygonSoup& input, const Grid& grid,
   try {
     Report spare;
     const SpaceRequest automatic{AnyMethod(SpaceAutomatic{}), request.flip,
-                                 request.estimate_normals};
+                                 request.estimate_normals, request.values};
     expected =
         query_distance(input, positions(grid, nodes), automatic, nullptr, std::move(task), spare);
   } catch (const InputError&) {

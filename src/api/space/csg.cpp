@@ -4,6 +4,7 @@
 
 #include "api/space/beside_automatic.h"
 #include "api/space/sampled_distance.h"
+#include "api/space/valued_sources.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -40,8 +41,9 @@ void add_box(const Shape& shape, Box& box) {
     box.add(grid.point(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1));
   } else {
     const Box one = bounding_box(shape.surface);
-    box.add(one.low);
-    box.add(one.high);
+    const double reach = reach_of_values(shape.request.values);
+    box.add(one.low.array() - reach);
+    box.add(one.high.array() + reach);
   }
 }
 
@@ -87,7 +89,8 @@ double longest_side(const CsgShapes& shapes) {
 
 Grid choose_grid(const CsgShapes& shapes, const GridOptions& request) {
   check_combination(shapes.csg, shapes.all.size());
-  if (shapes.plain()) return choose_grid(shapes.all.front().surface, request);
+  if (shapes.plain() && reach_of_values(shapes.all.front().request.values) == 0)
+    return choose_grid(shapes.all.front().surface, request);
   const bool anything = request.resolution || request.spacing || request.bounds;
   if (shapes.all.size() == 1 && shapes.all.front().field && !anything)
     return shapes.all.front().field->grid;
@@ -162,7 +165,7 @@ std::shared_ptr<const PointwiseDistance> pointwise_distance(const CsgShapes& sha
   if (shapes.plain()) {
     const auto& [surface, field, request] = shapes.all.front();
     if (has_automatic(surface, request)) {
-      const Grid grid = choose_grid(surface, {.resolution = 32});
+      const Grid grid = choose_grid(shapes, {.resolution = 32});
       const std::vector<Eigen::Index> nodes = compared_nodes(grid);
       const Task part = task.stage(0.1, "checking");
       check_beside_automatic(surface, grid, nodes,

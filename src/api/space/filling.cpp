@@ -10,6 +10,7 @@
 #include "domain/tet/tet_lattice.h"
 #include "io/tet/tetgen.h"
 #include "methods/heat/signed_heat_tets.h"
+#include "sources/tet_source_values.h"
 #include "spatial/grid_values.h"
 #include "spatial/triangulate.h"
 
@@ -57,8 +58,8 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
     places.push_back(lattice.locate(source.points.row(i)));
     cubes.push_back(places.back().tet < 0 ? -1 : lattice.cube_of(places.back().tet));
   }
-  const TetSourceSystem terms =
-      tet_source_system(mesh, *ops, source, places, cubes, parts_to_hold(input, options));
+  const TetSourceSystem terms = tet_source_system(
+      mesh, *ops, source, places, cubes, parts_to_hold(input, options), input.sample_values);
   if (terms.outside > 0)
     report.warn("samples-outside",
                 counted(terms.outside, "sample of the input lies", "samples of the input lie") +
@@ -126,10 +127,12 @@ SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const 
   TetMesh mesh =
       tetgen_about(surface, local, filling, task.stage(0.3, "waiting for tetgen"), report);
   const TetDomain domain{std::make_shared<const TetMesh>(std::move(mesh))};
+  TetSources from{surface, {}, false, sources.flip, false};
+  if (!sources.values.empty()) from.values = values_of_triangles(soup, sources.values);
+  for (double& c : from.values) c /= frame.unit;
   Report inner;
   const VecX values =
-      solve_once<TetDomain>(options, domain, {surface, {}, false, sources.flip, false},
-                            task.stage(0.6, "distance"), inner);
+      solve_once<TetDomain>(options, domain, from, task.stage(0.6, "distance"), inner);
   inner.options.clear();
   report.merge(inner);
   SpaceAnswer answer;
@@ -159,7 +162,7 @@ Method<SpaceDomain> heat_filling_method(MethodInfo info) {
                         Report& report) {
           const bool lattice = domain.tets->by == TetFilling::By::lattice;
           options = settled(options, !lattice);
-          check_level_sets(options);
+          check_level_sets(options, !sources.values.empty());
           return lattice
                      ? through_lattice(sources, *domain.grid, options, task, report)
                      : through_tetgen(sources, *domain.grid, *domain.tets, options, task, report);

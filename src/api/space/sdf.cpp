@@ -7,6 +7,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/tori_cloud.h"
+#include "api/space/valued_sources.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -19,8 +20,9 @@ namespace {
 
 SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const SpaceRequest& request,
                   const Task& task, Report& report) {
-  return solve_once<SpaceDomain>(request.method, domain,
-                                 {input, request.flip, request.estimate_normals}, task, report);
+  return solve_from_values(request.method, domain,
+                           {input, request.flip, request.estimate_normals, request.values}, task,
+                           report);
 }
 
 }  // namespace

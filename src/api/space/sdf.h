@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "api/space/space_domain.h"
 #include "base/task.h"
@@ -21,6 +22,7 @@ struct SpaceRequest {
   AnyMethod method;               // none: SpaceAutomatic
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
+  std::vector<double> values{};   // what distance is counted from, as of SpaceSources [length]
 };
 
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little

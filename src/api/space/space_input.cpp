@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
+#include "sources/tet_source_values.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -94,6 +95,12 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
     }
     input.samples = sample_cloud(surface, report);
     report.sizes.emplace_back("points", surface.n_vertices());
+  }
+  if (!sources.values.empty()) {
+    std::vector<double> each = sources.values;
+    for (double& c : each) c /= frame.unit;
+    input.values = input.is_cloud() ? each : values_of_triangles(soup, each);
+    input.sample_values = values_of_samples(surface, input.samples, input.values);
   }
   report.sizes.emplace_back("samples", static_cast<double>(input.samples.size()));
   task.checkpoint();

@@ -18,6 +18,9 @@ struct SpaceSources {
   const PolygonSoup& soup;
   bool flip = false;              // reverse all normals: the other side is positive
   bool estimate_normals = false;  // of a cloud, instead of those it has
+  // What distance is counted from [length]: nothing, one number for all, or one for each face or
+  // each point of a cloud.
+  std::vector<double> values{};
 };
 
 /// The same in a frame's units: triangles, or points with normals, and samples.
@@ -26,6 +29,7 @@ struct SpaceInput {
   OrientedPoints samples;   // of it, as fine as was asked for
   std::vector<Torus> tori;  // at the points, where the file held fitted ones; or empty
   bool flipped = false;     // normals were reversed
+  std::vector<double> values, sample_values;  // of triangles or points, and of samples; or empty
 
   bool is_cloud() const { return surface.n_faces() == 0; }
   MatX3i triangles() const;  // faces x 3

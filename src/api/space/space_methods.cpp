@@ -64,7 +64,7 @@ template <class S>
 Method<SpaceDomain> closest_point_method(const std::string& summary, const std::string& reference,
                                          SignRule rule) {
   static const OptionTable<S> none;
-  return make_pointwise_method({S::method, summary, {}, {}, reference}, none,
+  return make_pointwise_method({S::method, summary, {}, {}, reference, true}, none,
                                [rule](const SpaceInput& input, const S&, const Task&, Report&) {
                                  return input.is_cloud()
                                             ? closest_point_distance(input.samples, rule)
@@ -97,14 +97,14 @@ namespace {
 VecX heat_on_grid(const SpaceInput& input, const Grid& grid, SpaceSignedHeat& options, Task& task,
                   Report& report) {
   options = settled(options, false);
-  check_level_sets(options);
+  check_level_sets(options, !input.values.empty());
   if (options.sharpen)
     check_memory(grid_sharpening_memory(static_cast<double>(grid.n_nodes())),
                  "sharpening on a grid of " + std::to_string(grid.n_nodes()) + " nodes",
                  "lower option resolution, or leave out option sharpen");
   VecX phi = signed_heat_grid(grid, input.samples, options,
                               task.stage(options.sharpen ? 0.2 : 1, "signed heat"), report,
-                              parts_to_hold(input, options));
+                              parts_to_hold(input, options), input.sample_values);
   if (!options.sharpen) return phi;
   Operators ops;
   ops.domain = "grid";
@@ -122,7 +122,8 @@ std::vector<Method<SpaceDomain>> space_heat_methods() {
       "directions.",
       {},
       {},
-      "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)"};
+      "Feng, Crane: A Heat Method for Generalized Signed Distance (2024)",
+      true};
   Method<SpaceDomain> heat = make_grid_method(info, space_heat_options(), heat_on_grid);
   heat.info.domains = {"grid", "tet lattice", "tetgen mesh"};
   heat.prepare = [on_grid = heat.prepare, through_tets = heat_filling_method(info).prepare](

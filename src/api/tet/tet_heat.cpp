@@ -79,19 +79,6 @@ TetProblem problem_on(const Part& part, std::shared_ptr<const TetOperators> ops,
   return problem;
 }
 
-/// Throws where values of sources differ and the options know one alone.
-void check_values(const TetProblem& problem, const SpaceSignedHeat& options) {
-  if (problem.values.empty()) return;
-  if (options.constraint == SpaceConstraint::level_sets)
-    throw InputError(
-        "option constraint: level-sets finds the values of surfaces and does not go with sources "
-        "of different values",
-        "options-conflict");
-  if (options.sharpen)
-    throw UnsupportedError("option sharpen does not go with sources of different values",
-                           "options-conflict");
-}
-
 VecX solve_on(const TetHeatSolver& heat, const TetProblem& problem, const SpaceSignedHeat& options,
               const Task& task, Report& report) {
   const double edge = mean_edge(*problem.mesh, problem.tets_with_sources());
@@ -156,8 +143,7 @@ std::vector<Method<TetDomain>> heat_tet_methods() {
             [heat = std::make_shared<const HeatThroughTets>(on)](
                 const TetProblem& problem, SpaceSignedHeat& options, Task& task, Report& report) {
               options = settled(options, true);
-              check_level_sets(options);
-              check_values(problem, options);
+              check_level_sets(options, !problem.values.empty());
               if (options.constraint != SpaceConstraint::level_sets)
                 return heat->solve(problem, options, task, report);
               TetProblem with_parts = problem;

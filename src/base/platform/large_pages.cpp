@@ -5,28 +5,71 @@
 #endif
 
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace littoral {
 
 #if defined(__linux__)
+
+namespace {
+
+/// Memory from the system: none, or to be given back.
+struct Mapping {
+  void* at = nullptr;
+  std::size_t bytes = 0;
+};
+
+void unmap(const Mapping& mapping) {
+  if (mapping.at) munmap(mapping.at, mapping.bytes);
+}
+
+thread_local int keepers = 0;
+thread_local Mapping spare;
+
+}  // namespace
+
+KeepLargePages::KeepLargePages() { ++keepers; }
+
+KeepLargePages::~KeepLargePages() {
+  if (--keepers == 0) unmap(std::exchange(spare, {}));
+}
+
 std::shared_ptr<void> large_pages(std::size_t bytes) {
   constexpr std::size_t page = std::size_t(1) << 21;
   if (bytes < 2 * page) return nullptr;
-  const std::size_t whole = bytes + page;  // so that it can begin where a large page does
-  void* const memory =
-      mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return nullptr;
-  std::shared_ptr<void> all(memory, [whole](void* at) { munmap(at, whole); });
-  const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(memory)) % page;
-  void* const begin = static_cast<char*>(memory) + into;
+  // So that it can begin where a large page does; what is to be kept has room for a little more.
+  const std::size_t least = bytes + page, whole = least + (keepers > 0 ? bytes / 8 : 0);
+  Mapping mapping = std::exchange(spare, {});
+  const bool again = mapping.bytes >= least;
+  if (!again) {
+    unmap(mapping);
+    mapping = {mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0),
+               whole};
+    if (mapping.at == MAP_FAILED) return nullptr;
+  }
+  std::shared_ptr<void> all(mapping.at, [mapping](void*) {
+    if (keepers == 0 || spare.bytes >= mapping.bytes)
+      unmap(mapping);
+    else
+      unmap(std::exchange(spare, mapping));
+  });
+  const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(mapping.at)) % page;
+  void* const begin = static_cast<char*>(mapping.at) + into;
+  if (again) {
+    std::memset(begin, 0, bytes);
+    return {std::move(all), begin};
+  }
 #if defined(MADV_HUGEPAGE)
   (void)madvise(begin, bytes / page * page, MADV_HUGEPAGE);  // small pages do as well
 #endif
   return {std::move(all), begin};
 }
+
 #else
 std::shared_ptr<void> large_pages(std::size_t) { return nullptr; }
+KeepLargePages::KeepLargePages() = default;
+KeepLargePages::~KeepLargePages() = default;
 #endif
 
 }  // namespace littoral

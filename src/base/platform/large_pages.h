@@ -10,4 +10,14 @@ namespace littoral {
 /// null where it is too little for that to pay, or the system has no such memory.
 std::shared_ptr<void> large_pages(std::size_t bytes);
 
+/// While one lives, its thread hands out again what it is given back: pages of the system take
+/// longer to come than to be zeroed.
+class KeepLargePages {
+ public:
+  KeepLargePages();
+  ~KeepLargePages();
+  KeepLargePages(const KeepLargePages&) = delete;
+  KeepLargePages& operator=(const KeepLargePages&) = delete;
+};
+
 }  // namespace littoral

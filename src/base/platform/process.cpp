@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <system_error>
@@ -71,37 +70,5 @@ void end_process(std::string_view text, int status) noexcept {
 void wait_for_the_end() noexcept {
   while (true) ::pause();
 }
-
-struct KeepSignalHandlers::Watcher {
-  static constexpr int signals[2] = {SIGTERM, SIGABRT};
-  struct sigaction before[2] = {};
-  std::atomic<bool> over{false};
-  std::thread thread;
-
-  Watcher() {
-    for (int k = 0; k < 2; ++k) sigaction(signals[k], nullptr, &before[k]);
-    thread = std::thread([this] { watch(); });
-  }
-  ~Watcher() {
-    over = true;
-    thread.join();
-  }
-  Watcher(const Watcher&) = delete;
-  Watcher& operator=(const Watcher&) = delete;
-
-  void watch() {
-    for (int restored = 0; restored != 3 && !over; std::this_thread::yield())
-      for (int k = 0; k < 2; ++k) {
-        struct sigaction now = {};
-        sigaction(signals[k], nullptr, &now);
-        if (now.sa_handler == before[k].sa_handler) continue;
-        sigaction(signals[k], &before[k], nullptr);
-        restored |= 1 << k;
-      }
-  }
-};
-
-KeepSignalHandlers::KeepSignalHandlers() : watcher_(new Watcher) {}
-KeepSignalHandlers::~KeepSignalHandlers() { delete watcher_; }
 
 }  // namespace littoral

@@ -25,18 +25,4 @@ void on_interrupt(std::function<void()> react);
 /// Waits until the process ends.
 [[noreturn]] void wait_for_the_end() noexcept;
 
-/// Puts the handlers of SIGTERM and SIGABRT back as soon as a library has replaced them with its
-/// own, while it is in scope.
-class KeepSignalHandlers {
- public:
-  KeepSignalHandlers();
-  ~KeepSignalHandlers();
-  KeepSignalHandlers(const KeepSignalHandlers&) = delete;
-  KeepSignalHandlers& operator=(const KeepSignalHandlers&) = delete;
-
- private:
-  struct Watcher;
-  Watcher* watcher_;
-};
-
 }  // namespace littoral

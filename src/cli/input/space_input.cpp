@@ -1,13 +1,18 @@
 #include "cli/input/space_input.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "api/space/input_queries.h"
 #include "api/space/volume_meaning.h"
 #include "api/tet/tet_boundary.h"
+#include "base/counted.h"
 #include "base/option_table.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/write.h"
 #include "littoral/error.h"
+#include "sources/parts_of_samples.h"
 
 namespace littoral::cli {
 
@@ -67,6 +72,17 @@ void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset) 
                           "move the surface outward, or if negative inward" + unit))
         ->type_name("D");
   add_meaning_options(verb, texts);
+}
+
+void add_values_option(CLI::App& verb, SpaceArguments& texts) {
+  verb.add_option("--values", texts.values,
+                  std::string("what distance is counted from: one for all of INPUT, one for each "
+                              "connected part of a surface, in the order of their first faces, or "
+                              "one for each point of a cloud [") +
+                      length_unit_text +
+                      "]; or the name of the field of a cloud that holds them. Of points without "
+                      "normals the least of value plus distance: balls where values are negative")
+      ->type_name("C,...");
 }
 
 void add_confidence_option(CLI::App& verb, bool& confidence) {
@@ -162,6 +178,42 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
   return shape;
 }
 
+/// One value for all of the input, or one for each face or point.
+std::vector<double> values_of(const std::string& text, const CsgShapes& shapes,
+                              const InputSize& size) {
+  if (shapes.all.size() > 1 || shapes.all.front().field)
+    throw InputError(
+        "option values is for one mesh, soup or cloud; a volume and shapes that are "
+        "combined are moved by option offset",
+        "options-conflict");
+  const PolygonSoup& input = shapes.all.front().surface;
+  if (const auto field = input.scalars.find(text); field != input.scalars.end()) {
+    if (input.n_faces() > 0)
+      throw InputError("option values: a surface has values for its parts, and " + text +
+                           " has them at its vertices",
+                       "options-conflict");
+    return {field->second.begin(), field->second.end()};
+  }
+  std::vector<double> values = parse_lengths("values", text, size);
+  if (values.size() == 1) return values;
+  std::vector<int> part;
+  if (input.n_faces() > 0) {
+    part = parts_of_faces(input);
+  } else {
+    part.resize(static_cast<std::size_t>(input.n_vertices()));
+    std::iota(part.begin(), part.end(), 0);
+  }
+  const int n = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
+  if (values.size() != static_cast<std::size_t>(n))
+    throw InputError("option values: there are " + std::to_string(values.size()) + " numbers for " +
+                         (input.n_faces() > 0 ? counted(n, "connected part", "connected parts")
+                                              : counted(n, "point", "points")),
+                     "sizes-differ");
+  std::vector<double> of_elements;
+  for (const int p : part) of_elements.push_back(values[static_cast<std::size_t>(p)]);
+  return of_elements;
+}
+
 /// Of the options that were given, those that a method has.
 OptionValues known_options(const std::string& method, const GivenOptions& given) {
   OptionValues out;
@@ -221,6 +273,10 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session) {
     check_method<SpaceDomain>(shape.request.method);
   }
   check_combination(shapes.csg, shapes.all.size());
+  if (!texts.values.empty()) {
+    std::vector<double> values = values_of(texts.values, shapes, size);
+    shapes.all.front().request.values = std::move(values);
+  }
   return shapes;
 }
 

@@ -23,6 +23,7 @@ struct SpaceArguments {
   std::vector<std::string> unite, intersect, subtract;
   std::string operand_method;
   std::string blend, offset;
+  std::string values;
   bool redistance = false;
   std::string meaning = "auto", threshold;  // of volumes
 };
@@ -36,6 +37,8 @@ void add_space_method(CLI::App& verb, SpaceArguments& texts);
 /// Adds what makes one shape of several, and --redistance. The verb `offset` has offsets of its
 /// own.
 void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset = true);
+/// Adds --values, what distance is counted from.
+void add_values_option(CLI::App& verb, SpaceArguments& texts);
 /// Adds --confidence.
 void add_confidence_option(CLI::App& verb, bool& confidence);
 /// How sure inside and outside are at points (n x 3), 0 to 1. Throws InputError unless there is one

@@ -72,6 +72,10 @@ OffsetLengths lengths_of(const OffsetArguments& arguments, const InputSize& size
 void offset_curves(OffsetArguments& arguments, std::size_t count, Session& session) {
   if (!arguments.wall.empty())
     throw InputError("option shell is for shapes in space", "options-conflict");
+  if (!arguments.space.values.empty())
+    throw InputError(
+        "option values is for shapes in space; files of --sources hold the values of curves",
+        "options-conflict");
   check_level_outputs(arguments.out, count, {io::Kind::sources});
   const AnyMethod method = arguments.method.method();
   check_method<SurfaceDomain>(method);
@@ -97,7 +101,7 @@ void offset_curves(OffsetArguments& arguments, std::size_t count, Session& sessi
 }
 
 /// Signed distance, and the surfaces that it was measured from: the input and what completes it;
-/// none where there are several shapes or points.
+/// none where there are several shapes or points, or values that distance is counted from.
 struct DistanceAround {
   Volume distance;
   PolygonSoup input, completion;
@@ -148,7 +152,8 @@ std::optional<DistanceAround> distance_around(OffsetArguments& arguments, Sessio
   around.distance.values = std::move(answer.at_nodes);
   around.completion = std::move(answer.completion);
   around.exact = std::move(answer.function);
-  if (shapes.plain()) around.input = std::move(shapes.all.front().surface);
+  if (shapes.plain() && shapes.all.front().request.values.empty())
+    around.input = std::move(shapes.all.front().surface);
   return around;
 }
 
@@ -229,6 +234,7 @@ void add_options(CLI::App& verb, OffsetArguments& arguments, Session& session) {
   verb.add_flag("--flip", session.flip, "reverse every signed curve, or all normals");
   verb.add_flag("--estimate-normals", arguments.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
+  add_values_option(verb, arguments.space);
   add_grid_options(verb, arguments.space);
   add_shape_options(verb, arguments.space, false);
   const auto& on_surfaces = Registry<SurfaceDomain>::instance();

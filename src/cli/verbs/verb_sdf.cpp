@@ -139,9 +139,10 @@ void run_sdf(SdfArguments& arguments, Session& session) {
   if (arguments.field == "winding") {
     const Shape& shape = shapes.all.front();
     if (shapes.all.size() != 1 || shape.field || shapes.csg.offset != 0 ||
-        !shape.request.method.name().empty() || !arguments.space.method.options.empty())
+        !shape.request.method.name().empty() || !arguments.space.method.options.empty() ||
+        !shape.request.values.empty())
       throw InputError(
-          "option field winding takes one mesh, soup or cloud, no method and no offset",
+          "option field winding takes one mesh, soup or cloud, no method, no offset and no values",
           "options-conflict");
     volume.values =
         grid_winding(shape.surface, volume.grid, shape.request, session.task(), session.report,
@@ -210,6 +211,7 @@ void add_sdf(CLI::App& program, Session& session) {
       ->check(number_between(0, 1e6))
       ->type_name("W");
   add_confidence_option(verb, arguments->confidence);
+  add_values_option(verb, arguments->space);
   add_space_method(verb, arguments->space);
   add_shape_options(verb, arguments->space);
   add_plan_option(verb, session);

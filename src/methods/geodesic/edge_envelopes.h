@@ -82,6 +82,8 @@ class EdgeEnvelopes {
       joined.insert(joined.end(), last, batch.end());
       all.swap(joined);
     }
+    rejoin(all, start, length);
+    rejoin(all, end, length);
     n_held_ += double(all.size()) - double(before);
     return least;
   }
@@ -113,6 +115,28 @@ class EdgeEnvelopes {
   double n_held() const { return n_held_; }
 
  private:
+  /// Neighbours near p whose rays are the same, to rounding, become one again: on a flat place the
+  /// rays that a vertex divides come together behind it.
+  static void rejoin(std::vector<Window>& all, double p, double length) {
+    const auto there =
+        std::partition_point(all.begin(), all.end(), [&](const Window& w) { return w.b1 < p; });
+    std::size_t i = std::size_t(std::max<std::ptrdiff_t>(there - all.begin(), 1)) - 1;
+    for (int pair = 0; pair < 2 && i + 1 < all.size(); ++pair) {
+      const Window &w = all[i], &next = all[i + 1];
+      if (next.b0 - w.b1 > narrow_share * length || !w.same_rays(next)) {
+        ++i;
+        continue;
+      }
+      Window joined = next.b1 - next.b0 > w.b1 - w.b0 ? next : w;
+      joined.b0 = w.b0;
+      joined.b1 = next.b1;
+      joined.depth = std::max(w.depth, next.depth);
+      joined.measure_ends();
+      all[i] = joined;
+      all.erase(all.begin() + std::ptrdiff_t(i) + 1);
+    }
+  }
+
   /// Lets every window say for itself that it has gone on.
   static void close(WindowList& list) {
     if (!list.none_open) return;

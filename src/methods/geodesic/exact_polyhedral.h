@@ -23,13 +23,14 @@ struct ExactDistance {
 ///
 /// Windows of straight rays are carried from edge to edge, nearly in the order of their distance
 /// (Mitchell, Mount and Papadimitriou, "The discrete geodesic problem", 1987). Each edge keeps the
-/// nearest window at each of its points, from whichever of its triangles; all that are new go on
-/// together, as in Qin et al., "Fast and exact discrete geodesic computation based on triangle-
-/// oriented wavefront propagation", 2016. They are cut where a path along the edge is shorter,
-/// thrown away where vertices nearby prove them useless (Chen and Han 1990; Xin and Wang,
-/// "Improving Chen and Han's algorithm on the discrete geodesic problem", 2009). Any topology: rays
-/// that reach an edge of many triangles go on into each; paths bend only at vertices with more than
-/// a full turn around them, on the boundary and where the surface is not a manifold.
+/// nearest window at each of its points, from whichever of its triangles, and neighbours with the
+/// same rays, to rounding, as one; all that are new go on together, as in Qin et al., "Fast and
+/// exact discrete geodesic computation based on triangle-oriented wavefront propagation", 2016.
+/// They are cut where a path along the edge is shorter, thrown away where vertices nearby prove
+/// them useless (Chen and Han 1990; Xin and Wang, "Improving Chen and Han's algorithm on the
+/// discrete geodesic problem", 2009). Any topology: rays that reach an edge of many triangles go on
+/// into each; paths bend only at vertices with more than a full turn around them, on the boundary
+/// and where the surface is not a manifold.
 ///
 /// More than `most_windows` (0: 1000 a triangle and at least 1e7) are not followed: from there on
 /// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A

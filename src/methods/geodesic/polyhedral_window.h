@@ -9,6 +9,7 @@
 namespace littoral {
 
 inline constexpr double slack_share = 1e-12;   // of the distance: nearer by less is a tie
+inline constexpr double same_share = 2e-15;    // of the distance: images this near are one
 inline constexpr double narrow_share = 1e-12;  // of the edge: narrower stretches are left out
 
 /// Rays that cross an edge within [b0, b1]. Coordinates: the edge on the real axis from its tail at
@@ -50,6 +51,14 @@ struct Window {
   double least() const {
     if (parallel || x <= b0 || x >= b1) return std::min(d0, d1);
     return behind - y;
+  }
+
+  /// Whether these and the rays of the next window on the edge are the same, to rounding.
+  bool same_rays(const Window& next) const {
+    const double image = same_share * (parallel ? 1 : std::abs(x) + std::abs(y));
+    return source == next.source && page == next.page && parallel == next.parallel && open &&
+           next.open && std::abs(behind - next.behind) <= same_share * d1 &&
+           std::abs(x - next.x) <= image && std::abs(y - next.y) <= image;
   }
 
   /// Cuts off what is reached sooner along the edge from its tail, at distance `tail`: at every p

@@ -29,8 +29,9 @@ ScalarHeat::ScalarHeat(const Calculus& C, double t, SolveHint hint, const Orderi
                        const Task& task)
     : root_t_(std::sqrt(t)) {
   auto system = [&](const std::vector<char>& dropped) {
-    return std::make_shared<const HeatSystem<double>>(heat_matrix(C, t, dropped), 1,
-                                                      decay_lengths(C.M, t), hint, task, order);
+    return std::make_shared<const HeatSystem<double>>(
+        std::make_shared<const SpMat>(heat_matrix(C, t, dropped)), 1, decay_lengths(C.M, t), hint,
+        task, order);
   };
   neumann_ = system(std::vector<char>(C.boundary.size(), 0));
   if (std::find(C.boundary.begin(), C.boundary.end(), 1) != C.boundary.end())

@@ -161,10 +161,10 @@ Sharpened sharpened(const Calculus& C, double unit, const SpMat& source,
   if (options.solver == SharpenSolver::pdhg) {
     result = pdhg(problem, C.M, start, admm_options, task);
   } else {
-    const SpMat matrix = eliminated(with_rows(C.L, band.R, w), gone);
+    const auto matrix = [&] { return eliminated(with_rows(C.L, band.R, w), gone); };
     const bool large = dim == 3 && n > most_for_a_factor;
     const DefiniteSystem K = large ? DefiniteSystem::by_multigrid(matrix, unknowns_of(band.R))
-                                   : DefiniteSystem(matrix, task);
+                                   : DefiniteSystem(matrix(), task);
     VecX last = start;
     problem.solve = [&](const VecX& b, double rho) {
       VecX rhs = b / rho;

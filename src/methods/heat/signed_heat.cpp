@@ -77,10 +77,12 @@ SignedHeatSolver::SignedHeatSolver(std::shared_ptr<const Operators> ops, double 
                                    Task task, Diffusions diffusions, SolveHint hint)
     : ops_(std::move(ops)),
       hint_(hint),
-      order_(dissection(ops_->scalar.L, task.stage(0.2, "order"))),
-      poisson_(std::make_shared<const Poisson>(
-          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-          task.stage(0.2, "factor Poisson"), order_, solver_for(hint))) {
+      order_(
+          std::make_shared<const Ordering>(dissection(ops_->scalar.L, task.stage(0.2, "order")))),
+      poisson_(std::make_shared<const Poisson>(std::shared_ptr<const SpMat>(ops_, &ops_->scalar.L),
+                                               ops_->scalar.component, ops_->scalar.n_components,
+                                               task.stage(0.2, "factor Poisson"), *order_,
+                                               solver_for(hint))) {
   factor_heat(time_scale, diffusions, task);
 }
 
@@ -88,7 +90,7 @@ void SignedHeatSolver::factor_heat(double time_scale, Diffusions diffusions, Tas
   root_t_ = ops_->vector.h * std::sqrt(time_scale);
   const double t = root_t_ * root_t_;
   if (diffusions.scalars)
-    scalar_heat_.emplace(ops_->scalar, t, hint_, order_, task.stage(0.2, "factor heat"));
+    scalar_heat_.emplace(ops_->scalar, t, hint_, *order_, task.stage(0.2, "factor heat"));
   if (diffusions.vectors)
     heat_.emplace(ops_->vector, t, hint_, order_, task.stage(0.4, "factor vector heat"));
 }

@@ -71,7 +71,7 @@ class SignedHeatSolver {
 
   std::shared_ptr<const Operators> ops_;
   SolveHint hint_;
-  Ordering order_;  // of the nodes
+  std::shared_ptr<const Ordering> order_;  // of the nodes
   std::shared_ptr<const Poisson> poisson_;
   double root_t_ = 0;
   std::optional<VectorHeat> heat_;

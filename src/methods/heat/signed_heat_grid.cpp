@@ -53,10 +53,20 @@ SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming) {
   return options;
 }
 
-void check_level_sets(const SpaceSignedHeat& options) {
-  if (options.constraint == SpaceConstraint::level_sets && options.sharpen)
+void check_level_sets(const SpaceSignedHeat& options, bool different_values) {
+  const bool level_sets = options.constraint == SpaceConstraint::level_sets;
+  if (level_sets && options.sharpen)
     throw InputError("option sharpen holds one zero set and does not go with constraint level-sets",
                      "options-conflict");
+  if (!different_values) return;
+  if (level_sets)
+    throw InputError(
+        "option constraint: level-sets finds the values of surfaces and does not go with sources "
+        "of different values",
+        "options-conflict");
+  if (options.sharpen)
+    throw UnsupportedError("option sharpen does not go with sources of different values",
+                           "options-conflict");
 }
 
 HeldRows held_rows(const SpaceSignedHeat& options, const VecX& weight, double scale,
@@ -72,7 +82,8 @@ HeldRows held_rows(const SpaceSignedHeat& options, const VecX& weight, double sc
 }
 
 VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const SpaceSignedHeat& given,
-                      Task task, Report& report, const std::vector<int>& part) {
+                      Task task, Report& report, const std::vector<int>& part,
+                      const std::vector<double>& value) {
   const SpaceSignedHeat options = settled(given, false);
   const double h = sample_spacing(source);
   const double root_t = std::sqrt(options.time_scale) * h;
@@ -102,7 +113,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   Y.resize(0, 3);
   GridPoisson(grid.n, grid.spacing).solve(phi, solve_stage);
   solve_stage.checkpoint(1);
-  const GridRows rows = grid_rows(grid, source.points, source.areas, part);
+  const GridRows rows = grid_rows(grid, source.points, source.areas, part, value);
   constrain_stage.checkpoint();
   if (rows.A.rows() == 0) {
     report.warn("box-misses-input",
@@ -112,7 +123,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   }
   const auto constraint = options.constraint;
   const auto shift_to_mean_zero = [&] {
-    phi.array() -= rows.weight.dot(rows.A * phi) / rows.weight.sum();
+    phi.array() -= rows.weight.dot(rows.A * phi - rows.value) / rows.weight.sum();
   };
   if (constraint == SpaceConstraint::none) {
     shift_to_mean_zero();
@@ -122,7 +133,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   HeldRows held = held_rows(options, rows.weight, grid.spacing.prod() * h, rows.part);
   const ConstraintRows constraints{rows.A, std::move(held.softness),
                                    zero_set_tolerance * grid.spacing.minCoeff(),
-                                   std::move(held.group)};
+                                   std::move(held.group), rows.value};
   // Rows that are held exactly nearly depend on one another, which blocks do not help.
   const bool by_blocks =
       constraint == SpaceConstraint::soft && rows.A.rows() >= least_rows_for_blocks;

@@ -19,8 +19,9 @@ const OptionTable<SpaceSignedHeat>& space_heat_options();
 /// follow the input.
 SpaceSignedHeat settled(SpaceSignedHeat options, bool conforming);
 
-/// Throws InputError for level sets with sharpen, which holds one zero set.
-void check_level_sets(const SpaceSignedHeat& options);
+/// Throws InputError for level sets with sharpen, which holds one zero set, and, where sources have
+/// different values, for level sets; UnsupportedError for sharpen there.
+void check_level_sets(const SpaceSignedHeat& options, bool different_values);
 
 /// Generalized signed distance to the source at the nodes [length]. h is `sample_spacing(source)`.
 ///
@@ -30,10 +31,11 @@ void check_level_sets(const SpaceSignedHeat& options);
 /// noise and holes cell by cell. soft = w: penalty w times the area in the cell over h, which
 /// follows the source at the scale of h.
 /// level-sets: one value along each part of the source, their mean by area 0. part: of each sample;
-/// empty: all are one.
+/// empty: all are one. value: what distance is counted from at each sample, which takes the place
+/// of 0, in the mean over a cell; empty: 0.
 VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source,
                       const SpaceSignedHeat& options, Task task, Report& report,
-                      const std::vector<int>& part = {});
+                      const std::vector<int>& part = {}, const std::vector<double>& value = {});
 
 /// What is held of the rows of a source, for `solve_constrained`, and the shift of its answer.
 struct HeldRows {

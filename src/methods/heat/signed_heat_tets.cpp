@@ -1,10 +1,12 @@
 #include "methods/heat/signed_heat_tets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/counted.h"
 #include "base/index.h"
@@ -19,7 +21,9 @@ namespace littoral {
 
 namespace {
 
-constexpr double point_time = 4;  // around points, in units of the time elsewhere
+constexpr double point_time = 4;    // around points, in units of the time elsewhere
+constexpr int most_sets = 8;        // of values that are diffused together
+constexpr double widest_set = 300;  // their range in decay lengths: exp(-300) is a number
 
 /// Step II, one vector a tet; zeros in tets of some volume are counted.
 MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
@@ -34,6 +38,24 @@ MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
     }
   }
   return X;
+}
+
+/// Values in ascending order whose sources are diffused in one solve. Each value by itself takes
+/// directions from the strongest source alone; what is summed takes a mean of them where two are as
+/// strong. So the first few are apart, and neighbours among more: one solve for each of as many
+/// sets, and more only where values of one are too far apart for one range of numbers.
+std::vector<std::vector<double>> diffused_together(const VecX& values, double root_t) {
+  const std::set<double> all(values.begin(), values.end());
+  std::vector<std::vector<double>> sets(std::min<std::size_t>(most_sets, all.size()));
+  std::size_t rank = 0;
+  for (const double c : all) sets[rank++ % sets.size()].push_back(c);
+  std::vector<std::vector<double>> out;
+  for (const std::vector<double>& set : sets)
+    for (const double c : set) {
+      if (c == set.front() || c - out.back().front() > widest_set * root_t) out.emplace_back();
+      out.back().push_back(c);
+    }
+  return out;
 }
 
 }  // namespace
@@ -120,17 +142,23 @@ VecX TetHeatSolver::unsigned_distance(const TetSourceSystem& system, double h, d
     const auto factor = vertices_.get(t, [&] {
       return Cholesky<double>(SpMat(t * ops.L + SpMat(mass.asDiagonal())), heat_stage);
     });
-    // Step II: Y = -grad u / |grad u| of the sources of one value that are strongest, weakened by
+    // Step II: Y = -grad u / |grad u| of the sources that are strongest, weakened by
     // exp(-value / sqrt(t)).
     int zeros = 0;
     VecX strongest = VecX::Constant(ops.volumes.size(), -infinity);
     MatX3 X = MatX3::Zero(ops.volumes.size(), 3);
-    for (const double value : std::set<double>(system.value.begin(), system.value.end())) {
-      heat_stage.checkpoint();  // each value takes a solve
-      const VecX own = (system.value.array() == value).cast<double>();
+    const auto sets = diffused_together(system.value, std::sqrt(t));
+    report.iterations.emplace_back("heat solves", sets.size());
+    for (const std::vector<double>& together : sets) {
+      heat_stage.checkpoint();  // each takes a solve
+      VecX own = VecX::Zero(system.value.size());
+      for (Eigen::Index r = 0; r < own.size(); ++r)
+        if (std::binary_search(together.begin(), together.end(), system.value[r]))
+          own[r] = std::exp((together.front() - system.value[r]) / std::sqrt(t));
       const MatX3 slope = ops.gradient(factor->solve(VecX(system.A.transpose() * own)));
       for (Eigen::Index i = 0; i < X.rows(); ++i) {
-        const double strength = std::log(slope.row(i).stableNorm()) - value / std::sqrt(t);
+        const double strength =
+            std::log(slope.row(i).stableNorm()) - together.front() / std::sqrt(t);
         if (!(strength > strongest[i])) continue;
         strongest[i] = strength;
         X.row(i) = -slope.row(i);

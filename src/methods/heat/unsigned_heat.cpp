@@ -26,8 +26,9 @@ UnsignedHeatSolver::UnsignedHeatSolver(std::shared_ptr<const Operators> ops,
       order_(dissection(ops_->scalar.L, task.stage(0.3, "order"))),
       heat_(ops_->scalar, root_t_ * root_t_, hint, order_, task.stage(0.4, "factor heat")),
       poisson_(std::make_shared<const Poisson>(
-          ops_->scalar.L, ops_->scalar.component, ops_->scalar.n_components,
-          task.stage(0.3, "factor Poisson"), order_, solver_for(hint))) {}
+          std::shared_ptr<const SpMat>(ops_, &ops_->scalar.L), ops_->scalar.component,
+          ops_->scalar.n_components, task.stage(0.3, "factor Poisson"), order_, solver_for(hint))) {
+}
 
 UnsignedHeatSolver UnsignedHeatSolver::with_time_scale(double time_scale, const Task& task) const {
   UnsignedHeatSolver out = *this;

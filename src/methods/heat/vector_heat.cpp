@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace littoral {
 
 namespace {
 
-/// M + t L, lower triangle; dofs without mass get a unit diagonal.
+/// M + t L, lower triangle, in the place of L, as Eigen would copy it; dofs without mass get a unit
+/// diagonal.
 template <class Scalar>
-Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, const VecX& M,
-                                        double t) {
-  const Eigen::Index block = L.rows() / M.size();
-  Eigen::SparseMatrix<Scalar> A = L;  // no temporary matrices: this is the largest one there is
+std::shared_ptr<const Eigen::SparseMatrix<Scalar>> heat_matrix(
+    const std::function<Eigen::SparseMatrix<Scalar>(const Task&)>& L, const VecX& M, double t,
+    const Task& task) {
+  const std::shared_ptr<Eigen::SparseMatrix<Scalar>> made(new Eigen::SparseMatrix<Scalar>(L(task)));
+  Eigen::SparseMatrix<Scalar>& A = *made;
+  const Eigen::Index block = A.rows() / M.size();
   A.makeCompressed();
   A.coeffs() *= t;
   std::vector<int> missing;
@@ -26,11 +30,11 @@ Eigen::SparseMatrix<Scalar> heat_matrix(const Eigen::SparseMatrix<Scalar>& L, co
   }
   for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
   A.makeCompressed();
-  return A;
+  return made;
 }
 
-VecXc to_complex(const VecX& X) {
-  return Eigen::Map<const VecXc>(reinterpret_cast<const Complex*>(X.data()), X.size() / 2);
+Eigen::Map<const VecXc> as_complex(const VecX& X) {
+  return {reinterpret_cast<const Complex*>(X.data()), X.size() / 2};
 }
 
 ScaledField<double> as_pairs(ScaledField<Complex> field) {
@@ -41,36 +45,54 @@ ScaledField<double> as_pairs(ScaledField<Complex> field) {
 
 }  // namespace
 
-VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint hint, const Ordering& nodes,
-                       const Task& task) {
-  Ordering order = V.at_nodes          ? nodes
-                   : V.ends.rows() > 0 ? between_nodes(nodes, V.ends)
+VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint hint,
+                       std::shared_ptr<const Ordering> nodes, const Task& task)
+    : t_(t), hint_(hint), nodes_(std::move(nodes)) {
+  if (largest_to_factor(hint) >= (V.complex_linear() ? 1 : 2) * V.M.size())
+    kept_ = std::make_shared<const System>(system(V, task));
+}
+
+VectorHeat::System VectorHeat::system(const VectorDiffusion& V, const Task& task) const {
+  Ordering order = V.at_nodes          ? *nodes_
+                   : V.ends.rows() > 0 ? between_nodes(*nodes_, V.ends)
                                        : Ordering();
   task.checkpoint();
   if (V.complex_linear())
-    complex_ = std::make_shared<const HeatSystem<Complex>>(
-        heat_matrix(V.L, V.M, t), 1, decay_lengths(V.M, t), hint, task, std::move(order));
-  else
-    real_ = std::make_shared<const HeatSystem<double>>(
-        heat_matrix(V.L_real, V.M, t), 2, decay_lengths(V.M, t), hint, task, std::move(order));
+    return {std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t_, task), 1,
+                                                        decay_lengths(V.M, t_), hint_, task,
+                                                        std::move(order)),
+            nullptr};
+  return {nullptr, std::make_shared<const HeatSystem<double>>(heat_matrix(V.L_real, V.M, t_, task),
+                                                              2, decay_lengths(V.M, t_), hint_,
+                                                              task, std::move(order))};
+}
+
+ScaledField<double> VectorHeat::solve(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                                      Report& report) const {
+  const System S = kept_ ? *kept_ : system(V, task);
+  return S.complex ? as_pairs(S.complex->solve(as_complex(X0), V.piece, task, report))
+                   : S.real->solve(X0, V.piece, task, report);
 }
 
 CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
                               Report& report) const {
-  auto X = complex_ ? as_pairs(complex_->solve(to_complex(X0), V.piece, task, report))
-                    : real_->solve(X0, V.piece, task, report);
+  auto X = solve(V, X0, task, report);
   restore_units(X, X0, V.piece);
   return cell_field(V.to_cells, X);
 }
 
 CellField VectorHeat::diffuse_prescribed(const VectorDiffusion& V, const VecX& values,
                                          const Task& task, Report& report) const {
-  const auto X =
-      complex_ ? as_pairs(complex_->solve_prescribed(to_complex(values), V.piece, task, report))
-               : real_->solve_prescribed(values, V.piece, task, report);
-  return cell_field(V.to_cells, X);
+  const System S = kept_ ? *kept_ : system(V, task);
+  return cell_field(
+      V.to_cells,
+      S.complex ? as_pairs(S.complex->solve_prescribed(as_complex(values), V.piece, task, report))
+                : S.real->solve_prescribed(values, V.piece, task, report));
 }
 
-double VectorHeat::nonzeros() const { return complex_ ? complex_->nonzeros() : real_->nonzeros(); }
+double VectorHeat::nonzeros() const {
+  if (!kept_) return 0;
+  return kept_->complex ? kept_->complex->nonzeros() : kept_->real->nonzeros();
+}
 
 }  // namespace littoral

@@ -15,9 +15,10 @@ namespace littoral {
 /// (M + t L) X = X0 (eq. 12); immutable.
 class VectorHeat {
  public:
-  /// nodes: the order of elimination of the nodes between which the dofs lie.
-  VectorHeat(const VectorDiffusion& V, double t, SolveHint hint, const Ordering& nodes,
-             const Task& task);
+  /// nodes: the order of elimination of the nodes between which the dofs lie. A matrix that is too
+  /// large to be factored is made for each solve and given up: it takes more memory than time.
+  VectorHeat(const VectorDiffusion& V, double t, SolveHint hint,
+             std::shared_ptr<const Ordering> nodes, const Task& task);
 
   /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
   CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
@@ -30,8 +31,18 @@ class VectorHeat {
   double nonzeros() const;
 
  private:
-  std::shared_ptr<const HeatSystem<Complex>> complex_;  // one of the two
-  std::shared_ptr<const HeatSystem<double>> real_;
+  struct System {  // one of the two
+    std::shared_ptr<const HeatSystem<Complex>> complex;
+    std::shared_ptr<const HeatSystem<double>> real;
+  };
+  System system(const VectorDiffusion& V, const Task& task) const;
+  ScaledField<double> solve(const VectorDiffusion& V, const VecX& X0, const Task& task,
+                            Report& report) const;
+
+  double t_;
+  SolveHint hint_;
+  std::shared_ptr<const Ordering> nodes_;
+  std::shared_ptr<const System> kept_;
 };
 
 }  // namespace littoral

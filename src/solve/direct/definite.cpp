@@ -32,11 +32,11 @@ std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, cons
   return K;
 }
 
-SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {
+SpMat with_rows(SpMat lower, const SpMat& R, const VecX& W) {
   const SpMat WR = W.asDiagonal() * R;
   const SpMat P = SpMat(R.transpose()) * WR;
-  SpMat K = lower;
-  K += SpMat(P.triangularView<Eigen::Lower>());
+  SpMat K = lower + SpMat(P.triangularView<Eigen::Lower>());
+  SpMat().swap(lower);
   K.makeCompressed();
   return K;
 }
@@ -96,15 +96,20 @@ DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& chan
 }
 
 struct DefiniteSystem::LazyMultigrid {
-  explicit LazyMultigrid(std::vector<int> stiff_unknowns) : stiff(std::move(stiff_unknowns)) {}
+  LazyMultigrid(std::function<SpMat()> matrix, std::vector<int> stiff_unknowns)
+      : lower(std::move(matrix)), stiff(std::move(stiff_unknowns)) {}
 
-  const BandedMultigrid& of(const SpMat& A, const Task& task) {
+  const BandedMultigrid& get(const Task& task) {
     const std::lock_guard lock(mutex);
-    if (!multigrid) multigrid.emplace(A, stiff, task);
+    if (!multigrid) {
+      multigrid.emplace(lower(), stiff, task);
+      lower = nullptr;
+    }
     return *multigrid;
   }
 
   std::mutex mutex;
+  std::function<SpMat()> lower;
   const std::vector<int> stiff;
   std::optional<BandedMultigrid> multigrid;
 };
@@ -115,10 +120,9 @@ double DefiniteSystem::nonzeros() const {
   return multigrid_->multigrid ? multigrid_->multigrid->nonzeros() : 0;
 }
 
-DefiniteSystem DefiniteSystem::by_multigrid(SpMat lower, std::vector<int> stiff) {
+DefiniteSystem DefiniteSystem::by_multigrid(std::function<SpMat()> lower, std::vector<int> stiff) {
   DefiniteSystem out;
-  out.A_ = std::make_shared<const SpMat>(std::move(lower));
-  out.multigrid_ = std::make_shared<LazyMultigrid>(std::move(stiff));
+  out.multigrid_ = std::make_shared<LazyMultigrid>(std::move(lower), std::move(stiff));
   return out;
 }
 
@@ -127,19 +131,26 @@ MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
   MatX x(b.rows(), b.cols());
   Report each;
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    x.col(k) = multigrid_->of(*A_, task).solve(b.col(k), 1e-6, task, each);
+    x.col(k) = multigrid_->get(task).solve(b.col(k), 1e-6, task, each);
   return x;
 }
 
 VecX DefiniteSystem::improved(const VecX& x, const VecX& b, const Task& task) const {
   constexpr double left = 0.03;  // in the energy norm
   Report unread;
-  return x + multigrid_->of(*A_, task).solve(b - times_symmetric(*A_, x), left, task, unread);
+  return x + multigrid_->get(task).solve(residual(x, b, task), left, task, unread);
+}
+
+VecX DefiniteSystem::residual(const VecX& x, const VecX& b, const Task& task) const {
+  if (!multigrid_) return b - times_symmetric(*A_, x);
+  VecX r;
+  multiply(multigrid_->get(task).matrix(), x, r, task);
+  return b - r;
 }
 
 double DefiniteSystem::relative_residual(const VecX& x, const VecX& b) const {
   const double scale = b.norm();
-  return scale > 0 ? (b - times_symmetric(*A_, x)).norm() / scale : x.norm();
+  return scale > 0 ? residual(x, b, {}).norm() / scale : x.norm();
 }
 
 VecX DefiniteSystem::solve(const VecX& b) const {
@@ -148,7 +159,7 @@ VecX DefiniteSystem::solve(const VecX& b) const {
 }
 
 VecX DefiniteSystem::solve(const VecX& b, const Task& task, Report& report) const {
-  if (multigrid_) return multigrid_->of(*A_, task).solve(b, 1e-11, task, report);
+  if (multigrid_) return multigrid_->get(task).solve(b, 1e-11, task, report);
   // One step of conjugate gradients is iterative refinement.
   constexpr int max_steps = 60;
   constexpr double enough = 1e-14;

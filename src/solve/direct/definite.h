@@ -1,6 +1,7 @@
 #pragma once
 // Symmetric positive definite systems solved to working accuracy, and changes to their matrices.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,7 +22,7 @@ VecX times_symmetric(const SpMat& lower, const VecX& x);
 std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W);
 
 /// The same whatever the pattern.
-SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W);
+SpMat with_rows(SpMat lower, const SpMat& R, const VecX& W);
 
 /// K with the rows and columns of the marked unknowns those of the identity. Lower triangles.
 SpMat eliminated(const SpMat& K, const std::vector<char>& gone);
@@ -43,8 +44,9 @@ class DefiniteSystem {
   DefiniteSystem patched(SpMat lower, const std::vector<int>& changed, const Task& task) const;
 
   /// No factor: a Laplacian with penalties on few unknowns, `stiff`, by BandedMultigrid, which the
-  /// first solve sets up: systems that others are made from are often not solved themselves.
-  static DefiniteSystem by_multigrid(SpMat lower, std::vector<int> stiff);
+  /// first solve sets up: systems that others are made from are often not solved themselves. lower:
+  /// makes the matrix, which is given up afterwards.
+  static DefiniteSystem by_multigrid(std::function<SpMat()> lower, std::vector<int> stiff);
 
   VecX solve(const VecX& b) const;
   /// The same where it may take long.
@@ -67,8 +69,9 @@ class DefiniteSystem {
   DefiniteSystem() = default;
   void factor(const Task& task, const std::shared_ptr<const Elimination>& structure,
               bool to_be_patched);
+  VecX residual(const VecX& x, const VecX& b, const Task& task) const;
 
-  std::shared_ptr<const SpMat> A_;
+  std::shared_ptr<const SpMat> A_;                  // none with multigrid, which has its own
   std::shared_ptr<const Cholesky<double>> factor_;  // one of the two
   struct LazyMultigrid;
   std::shared_ptr<LazyMultigrid> multigrid_;

@@ -5,20 +5,11 @@
 #include <utility>
 
 #include "base/index.h"
-#include "littoral/error.h"
+#include "solve/direct/now_and_then.h"
 
 namespace littoral {
 
 namespace {
-
-void stop_if_cancelled(const Task& task) {
-  if (task.cancelled()) throw Cancelled();
-}
-
-/// The same in step i of a loop of short steps.
-void stop_now_and_then(int i, const Task& task) {
-  if (i % 65536 == 0) stop_if_cancelled(task);
-}
 
 /// Strictly lower triangle of a renumbered symmetric matrix: rows of each column, and by rows.
 struct Pattern {

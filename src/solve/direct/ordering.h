@@ -11,9 +11,9 @@ namespace littoral {
 /// order[k]: the unknown that is eliminated k-th.
 using Ordering = std::vector<int>;
 
-/// Nested dissection of the graph of a symmetric matrix given by its lower triangle (Eigen's
-/// approximate minimum degree in builds without METIS). The same matrix always gets the same order.
-/// Throws Cancelled within 0.05 s of a request.
+/// Nested dissection of the graph of a symmetric matrix given by its lower triangle. The same
+/// pattern always gets the same order, on any number of threads and in every build.
+/// Throws Cancelled within 0.1 s of a request.
 template <class Scalar>
 Ordering dissection(const Eigen::SparseMatrix<Scalar>& lower, const Task& task);
 

@@ -16,9 +16,7 @@ namespace littoral {
 namespace {
 
 constexpr double front = 1e-250;  // entries below this share of the largest: the next layer
-constexpr std::size_t largest_factor = 4'000'000'000;  // bytes, for many solves
-// Orders beyond which the factor's size is not even asked for.
-constexpr Eigen::Index largest_order = 8'000'000, largest_order_for_one_solve = 1'500'000;
+constexpr std::size_t largest_factor = 4'000'000'000;       // bytes, for many solves
 constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
 
 /// An order of the blocks, from the graph of their first unknowns.
@@ -37,15 +35,18 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
 
 }  // namespace
 
+Eigen::Index largest_to_factor(SolveHint hint) {
+  return hint == SolveHint::single_rhs ? 1'500'000 : 8'000'000;
+}
+
 template <class Scalar>
-HeatSystem<Scalar>::HeatSystem(Matrix lower, int block, VecX size, SolveHint hint, const Task& task,
-                               Ordering order)
-    : A_(std::make_shared<const Matrix>(std::move(lower))),
+HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size,
+                               SolveHint hint, const Task& task, Ordering order)
+    : A_(std::move(lower)),
       block_(block),
       order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
       windows_(A_, block, std::move(size), order_) {
-  if (A_->rows() > (hint == SolveHint::single_rhs ? largest_order_for_one_solve : largest_order))
-    return;
+  if (A_->rows() > largest_to_factor(hint)) return;
   const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
   const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar))
@@ -59,8 +60,9 @@ Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
 }
 
 template <class Scalar>
-ScaledField<Scalar> HeatSystem<Scalar>::solve(const Vector& b, const std::vector<int>& piece,
-                                              const Task& task, Report& report) const {
+ScaledField<Scalar> HeatSystem<Scalar>::solve(const Eigen::Ref<const Vector>& b,
+                                              const std::vector<int>& piece, const Task& task,
+                                              Report& report) const {
   const std::vector<double> largest = largest_of_pieces(b, piece);
   Vector r(b.size());
   std::vector<int> reached(piece.size(), -1);

@@ -22,6 +22,9 @@ inline PoissonSolver solver_for(SolveHint hint) {
                                        : PoissonSolver::automatic;
 }
 
+/// Unknowns of a HeatSystem beyond which the size of a factor is not even asked for.
+Eigen::Index largest_to_factor(SolveHint hint);
+
 /// A positive definite matrix whose inverse decays exponentially; immutable.
 template <class Scalar>
 class HeatSystem {
@@ -33,16 +36,16 @@ class HeatSystem {
   /// complex unknowns has 2). size: blocks; sqrt(M / t), see HeatWindows. order: of elimination, of
   /// the blocks; found here if empty. One factorization is made if it takes less than 4 GB for many
   /// solves, .4 GB for one.
-  HeatSystem(Matrix lower, int block, VecX size, SolveHint hint, const Task& task,
-             Ordering order = {});
+  HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size, SolveHint hint,
+             const Task& task, Ordering order = {});
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
   /// good to 1e-250 of its largest entry; the rest is solved again from the residual that
   /// truncating there leaves, which lives next to the front, scaled to 1; and so on. `piece` names
   /// the block's connected piece; each piece of b is scaled to largest entry 1 first, as pieces do
   /// not interact.
-  ScaledField<Scalar> solve(const Vector& b, const std::vector<int>& piece, const Task& task,
-                            Report& report) const;
+  ScaledField<Scalar> solve(const Eigen::Ref<const Vector>& b, const std::vector<int>& piece,
+                            const Task& task, Report& report) const;
 
   /// The same with x prescribed as `values` on the blocks where that is not zero, and b = 0
   /// elsewhere.

@@ -7,16 +7,17 @@
 
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/platform/large_pages.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 
 namespace littoral {
 
 namespace {
-constexpr double window = 50;            // decay lengths kept of every window
-constexpr double shortest_overlap = 30;  // and solved for beyond: the error made at the far end
+constexpr double window = 60;            // decay lengths kept of every window
+constexpr double shortest_overlap = 24;  // and solved for beyond: the error made at the far end
                                          // arrives at what is kept exp(-2 * overlap) times smaller
-constexpr double longest_overlap = 120;
+constexpr double longest_overlap = 96;
 constexpr double around_prescribed =
     18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
@@ -105,6 +106,29 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
 }
 
 template <class Scalar>
+std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> blocks) const {
+  constexpr int outside = -2, in_none = -1;
+  std::vector<int> part(position_.size(), outside);
+  for (const int i : blocks) part[i] = in_none;
+  std::vector<std::vector<int>> out;
+  for (const int first : blocks) {
+    if (part[first] != in_none) continue;
+    const int number = int_size(out);
+    std::vector<int> own(1, first);
+    part[first] = number;
+    for (std::size_t k = 0; k < own.size(); ++k)  // grows meanwhile
+      for (int e = begin_[own[k]]; e < begin_[own[k] + 1]; ++e)
+        if (part[to_[e]] == in_none) {
+          part[to_[e]] = number;
+          own.push_back(to_[e]);
+        }
+    std::sort(own.begin(), own.end(), [&](int i, int j) { return position_[i] < position_[j]; });
+    out.push_back(std::move(own));
+  }
+  return out;
+}
+
+template <class Scalar>
 typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
     const std::vector<int>& blocks, const std::vector<char>& known, const Vector& x, Vector r,
     std::vector<int>& local, const Task& task) const {
@@ -161,6 +185,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
                                                               const Task& task,
                                                               Report& report) const {
   const FlushSubnormals flush;
+  const KeepLargePages keep;
   const int n = position_.size();
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
@@ -209,23 +234,25 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     while (kept < order.size() && d[order[kept]] <= reach) ++kept;
     for (end = kept; end < order.size() && d[order[end]] <= reach + overlap;) ++end;
     if (kept == start) return std::nullopt;  // steps longer than a window
-    std::vector<int> blocks(order.begin() + start, order.begin() + end);
-    std::sort(blocks.begin(), blocks.end(),
-              [&](int i, int j) { return position_[i] < position_[j]; });
-    Vector r = Vector::Zero(index(blocks.size()) * block_);
-    if (windows == 0)
-      for (std::size_t k = 0; k < blocks.size(); ++k)
-        r.segment(index(k) * block_, block_) = b.segment(Eigen::Index(blocks[k]) * block_, block_);
-    const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
     double top = 0;
-    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k)
-      if (d[blocks[k]] <= reach) top = std::max(top, block_magnitude(z, k, block_));
+    for (const std::vector<int>& blocks : parts({&order[start], &order[start] + (end - start)})) {
+      Vector r = Vector::Zero(index(blocks.size()) * block_);
+      if (windows == 0)
+        for (std::size_t k = 0; k < blocks.size(); ++k)
+          r.segment(index(k) * block_, block_) =
+              b.segment(Eigen::Index(blocks[k]) * block_, block_);
+      const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
+      for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
+        if (d[blocks[k]] > reach) continue;
+        top = std::max(top, block_magnitude(z, k, block_));
+        field.x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(k * block_, block_);
+      }
+    }
     if (!(top > 0) || !std::isfinite(top)) return std::nullopt;
-    for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
-      const int i = blocks[k];
-      if (d[i] > reach) continue;
-      if (!(block_magnitude(z, k, block_) > negligible * top)) return std::nullopt;
-      field.x.segment(Eigen::Index(i) * block_, block_) = z.segment(k * block_, block_) / top;
+    for (std::size_t k = start; k < kept; ++k) {
+      const Eigen::Index i = order[k];
+      if (!(block_magnitude(field.x, i, block_) > negligible * top)) return std::nullopt;
+      field.x.segment(i * block_, block_) /= top;
       field.layer[i] = windows;
       known[i] = 1;
     }
@@ -241,22 +268,26 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
                                    const Task& task) const {
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
-  Vector sum = Vector::Zero(field.x.size());
-  VecX size = VecX::Zero(field.x.size());
-  std::vector<char> front(position_.size(), 0);
+  std::vector<int> front(position_.size(), -1);  // blocks: place among those
+  int n_front = 0;
+  for (std::size_t i = 0; i < front.size(); ++i)
+    for (int e = begin_[i]; e < begin_[i + 1] && front[i] < 0; ++e)
+      if (field.layer[i] >= 0 && field.layer[to_[e]] > field.layer[i]) front[i] = n_front++;
+  Vector sum = Vector::Zero(Eigen::Index{n_front} * block_);
+  VecX size = VecX::Zero(sum.size());
   auto add = [&](Eigen::Index i, Eigen::Index j, const Scalar& a) {
     const Eigen::Index bi = i / block_, bj = j / block_;
-    if (field.layer[bi] < 0 || field.layer[bj] < 0) return;
+    if (front[bi] < 0 || field.layer[bj] < 0) return;
     double unit = 1;
     if (field.layer[bj] > field.layer[bi]) {
       unit = field.scale[field.layer[bj]];
-      front[bi] = 1;
     } else if (field.layer[bj] < field.layer[bi]) {
       unit = 1 / field.scale[field.layer[bi]];
     }
     const Scalar term = a * field.x[j] * unit;
-    sum[i] += term;
-    size[i] += magnitude(term);
+    const Eigen::Index at = Eigen::Index{front[bi]} * block_ + i % block_;
+    sum[at] += term;
+    size[at] += magnitude(term);
   };
   for (int j = 0; j < A_->outerSize(); ++j) {
     if (j % 65536 == 0 && task.cancelled()) throw Cancelled();
@@ -266,9 +297,12 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
     }
   }
   double worst = 0;
-  for (Eigen::Index i = 0; i < sum.size(); ++i)
-    if (front[i / block_] && size[i] > 0 && b[i] == Scalar(0))
-      worst = std::max(worst, magnitude(sum[i]) / size[i]);
+  for (std::size_t i = 0; i < front.size(); ++i)
+    for (int k = 0; k < block_ && front[i] >= 0; ++k) {
+      const Eigen::Index at = Eigen::Index{front[i]} * block_ + k;
+      if (size[at] > 0 && b[index(i) * block_ + k] == Scalar(0))
+        worst = std::max(worst, magnitude(sum[at]) / size[at]);
+    }
   return worst;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/task.h"
@@ -42,6 +43,9 @@ class HeatWindows {
 
  private:
   std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
+  /// The connected parts of a region, which are solved one by one; each in the order of
+  /// elimination.
+  std::vector<std::vector<int>> parts(std::span<const int> blocks) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
   std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<double>& d,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -45,9 +47,8 @@ SpMat lower_block(const SpRows& A, const std::vector<int>& unknowns) {
 
 }  // namespace
 
-BandedMultigrid::BandedMultigrid(const SpMat& lower, const std::vector<int>& stiff,
-                                 const Task& task)
-    : multigrid_(lower, task) {
+BandedMultigrid::BandedMultigrid(SpMat lower, const std::vector<int>& stiff, const Task& task)
+    : multigrid_(std::move(lower), task) {
   if (stiff.empty()) return;
   band_ = around(multigrid_.matrix(), stiff, band_width);
   band_factor_ = factor_for_preconditioning(lower_block(multigrid_.matrix(), band_), task);
@@ -62,23 +63,28 @@ void BandedMultigrid::add_in_band(const VecX& r, VecX& x) const {
   for (std::size_t k = 0; k < band_.size(); ++k) x[band_[k]] += dx[k];
 }
 
-VecX BandedMultigrid::precondition(const VecX& b, const Task& task) const {
-  if (band_.empty()) return multigrid_.cycle(b, task);
+void BandedMultigrid::precondition(const VecX& b, VecX& x, Work& work, const Task& task) const {
+  if (band_.empty()) {
+    multigrid_.cycle(b, x, work.cycle, task);
+    return;
+  }
   const SpRows& A = multigrid_.matrix();
-  VecX x = VecX::Zero(b.size()), r = b;
-  VecX in_band(band_.size());
+  VecX& in_band = work.in_band;
+  in_band.resize(index(band_.size()));
   for (std::size_t k = 0; k < band_.size(); ++k) in_band[k] = b[band_[k]];
+  x.setZero(b.size());
   add_in_band(in_band, x);
+  work.r = b;
   for (int i : band_)
-    for (SpRows::InnerIterator it(A, i); it; ++it) r[it.col()] -= it.value() * x[i];
-  x += multigrid_.cycle(r, task);
+    for (SpRows::InnerIterator it(A, i); it; ++it) work.r[it.col()] -= it.value() * x[i];
+  multigrid_.cycle(work.r, work.dx, work.cycle, task);
+  x += work.dx;
   for (std::size_t k = 0; k < band_.size(); ++k) {
     double sum = b[band_[k]];
     for (SpRows::InnerIterator it(A, band_[k]); it; ++it) sum -= it.value() * x[it.col()];
     in_band[k] = sum;
   }
   add_in_band(in_band, x);
-  return x;
 }
 
 VecX BandedMultigrid::solve(const VecX& b, double tolerance, const Task& task,
@@ -86,7 +92,10 @@ VecX BandedMultigrid::solve(const VecX& b, double tolerance, const Task& task,
   const SpRows& A = multigrid_.matrix();
   VecX x = VecX::Zero(b.size());
   if (!(b.cwiseAbs().maxCoeff() > 0)) return x;
-  VecX r = b, z = precondition(r, task), p = z, Ap;
+  Work work;
+  VecX r = b, z, p, Ap;
+  precondition(r, z, work, task);
+  p = z;
   double rz = r.dot(z);
   const double start = rz, enough = tolerance * tolerance * start;
   int step = 0;
@@ -97,7 +106,7 @@ VecX BandedMultigrid::solve(const VecX& b, double tolerance, const Task& task,
     if (!(curvature > 0)) break;
     x += (rz / curvature) * p;
     r -= (rz / curvature) * Ap;
-    z = precondition(r, task);
+    precondition(r, z, work, task);
     const double before = rz;
     rz = r.dot(z);
     p = z + (rz / before) * p;

@@ -16,18 +16,24 @@ namespace littoral {
 /// band that is solved exactly before and after each multigrid cycle.
 class BandedMultigrid {
  public:
-  /// lower: lower triangle. stiff: unknowns with penalties.
-  BandedMultigrid(const SpMat& lower, const std::vector<int>& stiff, const Task& task);
+  /// lower: lower triangle, given up once it is read. stiff: unknowns with penalties.
+  BandedMultigrid(SpMat lower, const std::vector<int>& stiff, const Task& task);
 
   /// x with A x = b up to `tolerance` in the energy norm, as the preconditioner measures it.
   /// Iterations go to the report, with the status "not converged" where 500 do not suffice.
   /// Throws Cancelled within 0.2 s of a request.
   VecX solve(const VecX& b, double tolerance, const Task& task, Report& report) const;
 
+  const SpRows& matrix() const { return multigrid_.matrix(); }
   double nonzeros() const;
 
  private:
-  VecX precondition(const VecX& r, const Task& task) const;
+  struct Work {
+    Multigrid::Work cycle;
+    VecX r, dx;  // all unknowns
+    VecX in_band;
+  };
+  void precondition(const VecX& b, VecX& x, Work& work, const Task& task) const;
   void add_in_band(const VecX& r, VecX& x) const;
 
   Multigrid multigrid_;

@@ -27,6 +27,31 @@ VecX inverse_row_sums(const SpRows& A) {
   return s;
 }
 
+/// Chebyshev iteration on [lowest, 1] (Saad, Iterative methods for sparse linear systems,
+/// algorithm 12.1), preconditioned by the row sums: as good on any number of threads. d, Ax: room.
+void smooth(const SpRows& A, const VecX& inverse_size, const VecX& b, VecX& x, bool from_zero,
+            VecX& d, VecX& Ax, const Task& task) {
+  constexpr double middle = 0.5 * (1 + lowest), half = 0.5 * (1 - lowest), sigma = middle / half;
+  d.resize(b.size());
+  double rho = 1 / sigma;
+  if (from_zero) x.resize(b.size());
+  for (int k = 0; k < degree; ++k) {
+    const bool zero = from_zero && k == 0;
+    if (!zero) multiply(A, x, Ax, task);
+    const double rho_next = k == 0 ? rho : 1 / (2 * sigma - rho);
+    const double keep = k == 0 ? 0 : rho_next * rho;
+    const double step = k == 0 ? 1 / middle : 2 * rho_next / half;
+    rho = rho_next;
+    parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (Eigen::Index i = index(begin); i < index(end); ++i) {
+        const double r = inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
+        d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
+        x[i] = zero ? d[i] : x[i] + d[i];
+      }
+    });
+  }
+}
+
 SpMat lower_triangle(const SpRows& A) {
   Triplets entries;
   for (int i = 0; i < A.rows(); ++i)
@@ -39,17 +64,23 @@ SpMat lower_triangle(const SpRows& A) {
 
 }  // namespace
 
-Multigrid::Multigrid(const SpMat& lower, const Task& task) {
-  levels_.push_back({full_rows(lower)});
+Multigrid::Multigrid(SpMat lower, const Task& task) {
+  levels_.emplace_back().A = full_rows(lower);
+  SpMat().swap(lower);
+  return_freed_memory();
   double strong = strength;
   while (levels_.back().A.rows() > largest_coarsest) {
     Level& level = levels_.back();
     level.P = smoothed_aggregation(level.A, strong, task);
-    if (static_cast<double>(level.P.cols()) > 0.7 * static_cast<double>(level.A.rows()))
+    if (static_cast<double>(level.P.cols()) > 0.7 * static_cast<double>(level.A.rows())) {
+      SpRows().swap(level.P);
       break;  // next to nothing is coupled
-    level.R = transposed(level.P);
+    }
     level.inverse_size = inverse_row_sums(level.A);
-    levels_.push_back({product(level.R, product(level.A, level.P, task), task)});
+    const SpRows AP = product(level.A, level.P, task);
+    level.R = transposed(level.P);
+    SpRows coarse = product(level.R, AP, task);
+    levels_.emplace_back().A.swap(coarse);
     strong /= 2;
   }
   coarsest_ = factor_for_preconditioning(lower_triangle(levels_.back().A), task);
@@ -77,46 +108,32 @@ double Multigrid::nonzeros() const {
   return sum;
 }
 
-void Multigrid::smooth(const Level& level, const VecX& b, VecX& x, bool from_zero,
-                       const Task& task) const {
-  // Chebyshev iteration on [lowest, 1] (Saad, Iterative methods for sparse linear systems,
-  // algorithm 12.1), preconditioned by the row sums: as good on any number of threads.
-  constexpr double middle = 0.5 * (1 + lowest), half = 0.5 * (1 - lowest), sigma = middle / half;
-  VecX d(b.size()), Ax;
-  double rho = 1 / sigma;
-  if (from_zero) x.resize(b.size());
-  for (int k = 0; k < degree; ++k) {
-    const bool zero = from_zero && k == 0;
-    if (!zero) multiply(level.A, x, Ax, task);
-    const double rho_next = k == 0 ? rho : 1 / (2 * sigma - rho);
-    const double keep = k == 0 ? 0 : rho_next * rho;
-    const double step = k == 0 ? 1 / middle : 2 * rho_next / half;
-    rho = rho_next;
-    parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
-      for (Eigen::Index i = begin; i < index(end); ++i) {
-        const double r = level.inverse_size[i] * (zero ? b[i] : b[i] - Ax[i]);
-        d[i] = (k == 0 ? 0 : keep * d[i]) + step * r;
-        x[i] = zero ? d[i] : x[i] + d[i];
-      }
-    });
+void Multigrid::cycle_at(std::size_t k, const VecX& b, VecX& x, Work& work,
+                         const Task& task) const {
+  if (k + 1 == levels_.size()) {
+    x = coarsest_->solve(b);
+    return;
   }
-}
-
-VecX Multigrid::cycle_at(std::size_t k, const VecX& b, const Task& task) const {
-  if (k + 1 == levels_.size()) return coarsest_->solve(b);
   const Level& level = levels_[k];
-  VecX x, r, coarse;
-  smooth(level, b, x, true, task);
-  multiply(level.A, x, r, task);
-  r = b - r;
-  multiply(level.R, r, coarse, task);
-  coarse = cycle_at(k + 1, coarse, task);
-  multiply(level.P, coarse, r, task);
-  x += r;
-  smooth(level, b, x, false, task);
-  return x;
+  Work::OfLevel& own = work.levels[k];
+  smooth(level.A, level.inverse_size, b, x, true, own.d, own.r, task);
+  multiply(level.A, x, own.r, task);
+  parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index i = index(begin); i < index(end); ++i) own.r[i] = b[i] - own.r[i];
+  });
+  Work::OfLevel& coarse = work.levels[k + 1];
+  multiply(level.R, own.r, coarse.b, task);
+  cycle_at(k + 1, coarse.b, coarse.x, work, task);
+  multiply(level.P, coarse.x, own.r, task);
+  parallel_for(b.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (Eigen::Index i = index(begin); i < index(end); ++i) x[i] += own.r[i];
+  });
+  smooth(level.A, level.inverse_size, b, x, false, own.d, own.r, task);
 }
 
-VecX Multigrid::cycle(const VecX& r, const Task& task) const { return cycle_at(0, r, task); }
+void Multigrid::cycle(const VecX& b, VecX& x, Work& work, const Task& task) const {
+  work.levels.resize(levels_.size());
+  cycle_at(0, b, x, work, task);
+}
 
 }  // namespace littoral

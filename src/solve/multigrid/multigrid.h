@@ -1,6 +1,7 @@
 #pragma once
 // Smoothed aggregation multigrid (Vanek, Mandel, Brezina 1996), as a preconditioner.
 
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -16,11 +17,19 @@ namespace littoral {
 /// number of unknowns. Immutable; the same bits for any number of threads.
 class Multigrid {
  public:
-  /// lower: lower triangle. Throws Cancelled within 0.2 s of a request.
-  Multigrid(const SpMat& lower, const Task& task);
+  /// lower: lower triangle, given up once it is read. Throws Cancelled within 0.2 s of a request.
+  Multigrid(SpMat lower, const Task& task);
 
-  /// One symmetric V-cycle from zero: a positive definite approximation of A^-1 r.
-  VecX cycle(const VecX& r, const Task& task) const;
+  /// Vectors that cycles use again and again; of one solve.
+  struct Work {
+    struct OfLevel {
+      VecX b, x, r, d;
+    };
+    std::vector<OfLevel> levels;
+  };
+
+  /// One symmetric V-cycle from zero: x becomes a positive definite approximation of A^-1 b.
+  void cycle(const VecX& b, VecX& x, Work& work, const Task& task) const;
 
   const SpRows& matrix() const { return levels_.front().A; }
   double nonzeros() const;  // of all levels' matrices, prolongations and the coarsest factor
@@ -32,10 +41,9 @@ class Multigrid {
     SpRows P = {}, R = {};   // prolongation from the next level and its transpose
   };
 
-  void smooth(const Level& level, const VecX& b, VecX& x, bool from_zero, const Task& task) const;
-  VecX cycle_at(std::size_t level, const VecX& r, const Task& task) const;
+  void cycle_at(std::size_t level, const VecX& b, VecX& x, Work& work, const Task& task) const;
 
-  std::vector<Level> levels_;  // the last one is factored
+  std::deque<Level> levels_;  // the last one is factored; a vector would copy them as it grows
   std::shared_ptr<const Cholesky<double>> coarsest_;
 };
 

@@ -27,11 +27,23 @@ std::vector<int> first_of_components(const std::vector<int>& component, int n_co
 
 /// L with an entry on the whole diagonal, so that every matrix made from it has one pattern with
 /// the diagonal first in every column.
-SpMat with_diagonal(const SpMat& L) {
-  SpMat I(L.rows(), L.cols());
+std::shared_ptr<const SpMat> with_diagonal(std::shared_ptr<const SpMat> L) {
+  bool whole = L->isCompressed();
+  for (Eigen::Index j = 0; whole && j < L->cols(); ++j) {
+    const int first = L->outerIndexPtr()[j];
+    whole = first < L->outerIndexPtr()[j + 1] && L->innerIndexPtr()[first] == j;
+  }
+  if (whole) return L;
+  SpMat I(L->rows(), L->cols());
   I.setIdentity();
-  SpMat K = L + 0.0 * I;
+  SpMat K = *L + 0.0 * I;
   K.makeCompressed();
+  return std::make_shared<const SpMat>(std::move(K));
+}
+
+/// K with `d` added to the diagonal at the unknowns `at`.
+SpMat lifted(SpMat K, const std::vector<int>& at, double d) {
+  for (const int i : at) K.valuePtr()[K.outerIndexPtr()[i]] += d;
   return K;
 }
 
@@ -76,35 +88,47 @@ std::optional<ConstantRows> constant_rows(const LevelRows& rows, const std::vect
 // Beyond, the factor costs too much memory, or more time than the iterations of one solve.
 constexpr int largest_direct = 2'000'000, largest_for_one_solve = 400'000;
 
-DefiniteSystem solved_by(PoissonSolver solver, SpMat K, const Ordering& order, const Task& task) {
+}  // namespace
+
+Poisson::Poisson(std::shared_ptr<const SpMat> L, std::vector<int> component, int n_components,
+                 const Task& task, const Ordering& order, PoissonSolver solver)
+    : L_(with_diagonal(std::move(L))),
+      mean_diagonal_(mean_diagonal(*L_)),
+      component_(std::move(component)),
+      first_(first_of_components(component_, n_components)),
+      free_(unconstrained(solver, order, task)) {}
+
+Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
+                 const Ordering& order, PoissonSolver solver)
+    : Poisson(std::make_shared<const SpMat>(L), std::move(component), n_components, task, order,
+              solver) {}
+
+DefiniteSystem Poisson::unconstrained(PoissonSolver solver, const Ordering& order,
+                                      const Task& task) const {
+  const std::vector<int> at = loose(std::vector<char>(first_.size(), 0));
   const int largest = solver == PoissonSolver::automatic ? largest_direct : largest_for_one_solve;
-  if (solver == PoissonSolver::multigrid || (solver != PoissonSolver::direct && K.rows() > largest))
-    return DefiniteSystem::by_multigrid(std::move(K), {});
+  if (solver == PoissonSolver::multigrid ||
+      (solver != PoissonSolver::direct && L_->rows() > largest))
+    return DefiniteSystem::by_multigrid(
+        [L = L_, at, d = mean_diagonal_] { return lifted(*L, at, d); }, {});
+  SpMat K = pinned(at);
   auto structure = structure_of(K, order, task);
   return {std::move(K), std::move(structure), task, true};
 }
 
-}  // namespace
-
-Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
-                 const Ordering& order, PoissonSolver solver)
-    : L_(with_diagonal(L)),
-      mean_diagonal_(mean_diagonal(L_)),
-      component_(std::move(component)),
-      first_(first_of_components(component_, n_components)),
-      free_(solved_by(solver, pinned(std::vector<char>(n_components, 0)), order, task)) {}
-
-SpMat Poisson::pinned(const std::vector<char>& fixed) const {
-  // Every component that nothing else holds gets a spring from its first unknown to 0. It bears no
-  // force if b sums to 0, and changes one entry of the matrix only.
-  SpMat K = L_;
-  const double d = mean_diagonal_;
-  const auto lift = [&](Eigen::Index i) { K.valuePtr()[K.outerIndexPtr()[i]] += d; };
-  for (Eigen::Index i = 0; i < K.rows(); ++i)
-    if (component_[i] < 0) lift(i);
+std::vector<int> Poisson::loose(const std::vector<char>& fixed) const {
+  // Unknowns in no equation, and the first of every component that nothing else holds: that gets a
+  // spring to 0, which bears no force if b sums to 0, and changes one entry of the matrix only.
+  std::vector<int> at;
+  for (std::size_t i = 0; i < component_.size(); ++i)
+    if (component_[i] < 0) at.push_back(static_cast<int>(i));
   for (std::size_t c = 0; c < first_.size(); ++c)
-    if (!fixed[c]) lift(first_[c]);
-  return K;
+    if (!fixed[c]) at.push_back(first_[c]);
+  return at;
+}
+
+SpMat Poisson::pinned(const std::vector<int>& loose) const {
+  return lifted(*L_, loose, mean_diagonal_);
 }
 
 std::vector<char> Poisson::components_of(const SpMat& A) const {
@@ -129,10 +153,16 @@ VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
   return x;
 }
 
-DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
+DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
                                      const std::vector<char>& fixed, const Task& task) const {
+  const std::vector<int> at = loose(fixed);
   if (free_.iterates())
-    return DefiniteSystem::by_multigrid(with_rows(K, A, weight), unknowns_of(A));
+    return DefiniteSystem::by_multigrid(
+        [L = L_, at, d = mean_diagonal_, A, weight] {
+          return with_rows(lifted(*L, at, d), A, weight);
+        },
+        unknowns_of(A));
+  const SpMat K = pinned(at);
   if (auto in_place = with_rows_in_place(K, A, weight)) {
     if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
     std::vector<int> changed = unknowns_of(A);
@@ -149,7 +179,7 @@ DefiniteSystem Poisson::with_penalty(const SpMat& K, const SpMat& A, const VecX&
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                          Report& report, const VecX& value) const {
   const auto fixed = components_of(A);
-  const DefiniteSystem system = with_penalty(pinned(fixed), A, weight, fixed, task);
+  const DefiniteSystem system = with_penalty(A, weight, fixed, task);
   VecX pulled = b;
   if (value.size() > 0) pulled += A.transpose() * weight.cwiseProduct(value);
   VecX x = system.solve(pulled, task, report);
@@ -201,9 +231,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   // left for it; dependent rows only make multipliers y that are not unique.
   const double w = 1e7 * mean_diagonal_;
   const auto fixed = components_of(rows.A);
-  const SpMat K0 = pinned(fixed);
-  const DefiniteSystem system =
-      with_penalty(K0, rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
+  const std::vector<int> sprung = loose(fixed);
+  const DefiniteSystem system = with_penalty(rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
   const SpMat At = rows.A.transpose();
   std::optional<SymmetricFactor> rest;
   if (n_free > 0) {
@@ -217,7 +246,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     }
     rest.emplace(0.5 * (S + S.transpose()));
   }
-  VecX x = VecX::Zero(L_.rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
+  VecX x = VecX::Zero(L_->rows()), c = VecX::Zero(n_free), y = VecX::Zero(rows.A.rows());
   const VecX value = rows.value.size() > 0 ? rows.value : y;
   VecX miss = -value;  // A x - B c - value
   double violation = 0, residual = 0;
@@ -227,7 +256,10 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     task.checkpoint();
     const VecX force = y + w * miss;
     VecX r = b - At * force;
-    if (step > 0) r -= times_symmetric(K0, x);
+    if (step > 0) {
+      r -= times_symmetric(*L_, x);
+      for (const int i : sprung) r[i] -= mean_diagonal_ * x[i];
+    }
     const VecX u = system.approximate(r, task);
     VecX dx = u;
     if (n_free > 0) {

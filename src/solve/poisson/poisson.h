@@ -2,6 +2,7 @@
 // min 1/2 x^T L x - b^T x for a positive semidefinite L whose null space is the constants of each
 // component, without and with linear constraints.
 
+#include <memory>
 #include <vector>
 
 #include "base/task.h"
@@ -28,9 +29,12 @@ enum class PoissonSolver { automatic, automatic_for_one_solve, direct, multigrid
 /// values at points of a mesh do) change few columns of the factor: the rest is shared.
 class Poisson {
  public:
-  /// L: lower triangle. component: per unknown, -1 for unknowns in no equation. order: of
-  /// elimination; dissection(L) if empty. Automatic: by multigrid above 2M unknowns, for one solve
-  /// above 400k.
+  /// L: lower triangle, shared, or copied. component: per unknown, -1 for unknowns in no equation.
+  /// order: of elimination; dissection(L) if empty. Automatic: by multigrid above 2M unknowns, for
+  /// one solve above 400k.
+  Poisson(std::shared_ptr<const SpMat> L, std::vector<int> component, int n_components,
+          const Task& task, const Ordering& order = {},
+          PoissonSolver solver = PoissonSolver::automatic);
   Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
           const Ordering& order = {}, PoissonSolver solver = PoissonSolver::automatic);
 
@@ -50,13 +54,15 @@ class Poisson {
   bool iterates() const { return free_.iterates(); }
 
  private:
-  SpMat pinned(const std::vector<char>& fixed) const;
+  std::vector<int> loose(const std::vector<char>& fixed) const;
+  SpMat pinned(const std::vector<int>& loose) const;
+  DefiniteSystem unconstrained(PoissonSolver solver, const Ordering& order, const Task& task) const;
   std::vector<char> components_of(const SpMat& A) const;
   void drop_constants(const std::vector<char>& fixed, VecX& x) const;
-  DefiniteSystem with_penalty(const SpMat& K, const SpMat& A, const VecX& weight,
-                              const std::vector<char>& fixed, const Task& task) const;
+  DefiniteSystem with_penalty(const SpMat& A, const VecX& weight, const std::vector<char>& fixed,
+                              const Task& task) const;
 
-  SpMat L_;
+  std::shared_ptr<const SpMat> L_;  // with an entry on the whole diagonal
   double mean_diagonal_;
   std::vector<int> component_;
   std::vector<int> first_;  // per component

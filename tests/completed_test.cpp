@@ -210,8 +210,9 @@ TEST(Completed, SaysWhatIsDoubtful) {
     const VecX values = by_default(nothing, grid, report);
     EXPECT_EQ(report.status, "uncertain");
     EXPECT_THAT(report.warnings, Contains(HasSubstr("encloses nothing")));
-    if (completed_size(report, "free edges") > 0)
+    if (completed_size(report, "free edges") > 0) {
       EXPECT_EQ(completed_size(report, "patch triangles"), 0);
+    }
     EXPECT_GE(values.minCoeff(), 0);
   }
   // A sphere with a fin as large as itself.

@@ -224,7 +224,10 @@ void check_values(const MethodCase& given, const Mesh& mesh, const VecX& values,
   const bool is_positive = is_unsigned(given.sources);
   const bool leaves_curves_out = has_option(given, "bounding-only", "on");
   const double rounding = 1e-12 * mesh.points().cwiseAbs().maxCoeff();
-  const double excess = excess_of(given, report, size, edge) + lent_to_points(mesh);
+  double excess = excess_of(given, report, size, edge) + lent_to_points(mesh);
+  // Sides of needles are lengthened by up to a millionth there, and a way has fewer than vertices.
+  if (given.method == "regularized" || given.method == "belyaev-fayolle")
+    excess += 1e-6 * edge * static_cast<double>(mesh.n_vertices());
   for (Eigen::Index v = 0; v < values.size(); ++v) {
     const std::string at = " at vertex " + std::to_string(v);
     if (std::isfinite(bound[v]) && !leaves_curves_out)

@@ -83,7 +83,7 @@ def test_what_has_no_meaning_is_refused(run: Run, tmp_path: Path) -> None:
         (("p.xyz", "--values=-1", "--domain", "tets"), "not through tets"),
     ):
         assert text in run("sdf", *words, "-o", "d.npy", status=2).stderr, words
-    curves = ("two.obj", "--vertex", 0, "--distance", 0.1, "--values", 1, "-o", "l.obj")
+    curves = ("two.obj", "--curve-vertices", "0,1", "--distance", 0.1, "--values", 1, "-o", "l.obj")
     assert "option --values" in run("offset", *curves, status=2).stderr
 
 

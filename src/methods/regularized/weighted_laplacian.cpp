@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "littoral/error.h"
 
 namespace littoral {
 

@@ -30,8 +30,8 @@ Vec3 place(const SurfaceMesh& mesh, int face, const std::array<double, 3>& b) {
   return mesh.position(P::in_face(face, b[0], b[1], b[2]));
 }
 
-/// What every prepared set must satisfy.
-void expect_sound(const SurfaceMesh& mesh, const PlacedSources& prepared) {
+/// What every prepared set must satisfy. whole: no piece was left out.
+void expect_sound(const SurfaceMesh& mesh, const PlacedSources& prepared, bool whole = true) {
   const double size = mesh.points().cwiseAbs().maxCoeff();
   ASSERT_EQ(prepared.n_curves, static_cast<int>(prepared.nodes.size()));
   for (std::size_t i = 0; i < prepared.pieces.size(); ++i) {
@@ -53,7 +53,7 @@ void expect_sound(const SurfaceMesh& mesh, const PlacedSources& prepared) {
       EXPECT_EQ(piece.a[(side + 2) % 3], 0);
       EXPECT_EQ(piece.b[(side + 2) % 3], 0);
     }
-    if (i > 0 && prepared.pieces[i - 1].curve == piece.curve) {
+    if (whole && i > 0 && prepared.pieces[i - 1].curve == piece.curve) {
       const CurvePiece& last = prepared.pieces[i - 1];
       EXPECT_LE((place(mesh, last.face, last.b) - a).stableNorm(), 1e-11 * size);
     }
@@ -252,7 +252,10 @@ TEST(TracePieces, PropertyRandomSourcesAreSound) {
       RC_ASSERT(mesh.n_components() > 1);  // the only reason to refuse these
       return;
     }
-    expect_sound(mesh, prepared);
+    const bool whole = std::none_of(
+        report.warnings.begin(), report.warnings.end(),
+        [](const Warning& w) { return w.text.find("repeat a vertex") != std::string::npos; });
+    expect_sound(mesh, prepared, whole);
     RC_ASSERT(!testing::Test::HasFailure());
     Report other;
     const PlacedSources again = place_sources(mesh, one_curve(prepared.nodes[0]), other);

@@ -30,7 +30,7 @@ struct MethodInfo {
   std::vector<std::string> domains;  // that it runs on: "triangle mesh"
   std::vector<OptionInfo> options;
   std::string reference;          // the paper
-  bool different_values = false;  // takes sources whose values differ (surfaces)
+  bool different_values = false;  // takes sources whose values differ
 };
 
 /// Options by name and text; those that are not named have their defaults.

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/task.h"
-#include "littoral/error.h"
 #include "littoral/types.h"
 
 namespace littoral {
@@ -57,7 +57,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
   }
   std::vector<TriangleTerms<Scalar>> batch;
   for (Eigen::Index first = 0; first < unknowns.rows(); first += at_once) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     const Eigen::Index count = std::min(at_once, unknowns.rows() - first);
     batch.resize(count);
     parallel_for(batch.size(), triangle_grain, [&](std::size_t i, std::size_t last) {
@@ -76,7 +76,7 @@ Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, co
         value[end[column]++] = t.beside[k];
       }
   }
-  if (task.cancelled()) throw Cancelled();
+  stop_if_cancelled(task);
   // Sorts the columns and adds up what is in the same place, in the order it came.
   parallel_for(n, column_grain, [&](std::size_t j, std::size_t last) {
     for (; j < last; ++j) {

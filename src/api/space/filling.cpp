@@ -128,8 +128,7 @@ SpaceAnswer through_tetgen(const SpaceSources& sources, const Grid& grid, const 
       tetgen_about(surface, local, filling, task.stage(0.3, "waiting for tetgen"), report);
   const TetDomain domain{std::make_shared<const TetMesh>(std::move(mesh))};
   TetSources from{surface, {}, false, sources.flip, false};
-  if (!sources.values.empty()) from.values = values_of_triangles(soup, sources.values);
-  for (double& c : from.values) c /= frame.unit;
+  if (!sources.values.empty()) from.values = values_of_triangles(soup, frame.local(sources.values));
   Report inner;
   const VecX values =
       solve_once<TetDomain>(options, domain, from, task.stage(0.6, "distance"), inner);

@@ -3,6 +3,7 @@
 // computed.
 
 #include <cmath>
+#include <vector>
 
 #include "base/index.h"
 #include "littoral/types.h"
@@ -35,6 +36,10 @@ struct Frame {
   Vec3 local(const Vec3& p) const { return (p - centre) / unit; }
   Grid local(const Grid& grid) const { return {grid.n, local(grid.origin), grid.spacing / unit}; }
   MatX3 local(const MatX3& p) const { return (p.rowwise() - centre.transpose()) / unit; }
+  std::vector<double> local(std::vector<double> lengths) const {
+    for (double& length : lengths) length /= unit;
+    return lengths;
+  }
   MatX3 global(const MatX3& p) const { return (unit * p).rowwise() + centre.transpose(); }
   Torus local(Torus t) const { return scaled(t, local(t.q), 1 / unit); }
   Torus global(Torus t) const { return scaled(t, centre + unit * t.q, unit); }

@@ -97,8 +97,7 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
     report.sizes.emplace_back("points", surface.n_vertices());
   }
   if (!sources.values.empty()) {
-    std::vector<double> each = sources.values;
-    for (double& c : each) c /= frame.unit;
+    const std::vector<double> each = frame.local(sources.values);
     input.values = input.is_cloud() ? each : values_of_triangles(soup, each);
     input.sample_values = values_of_samples(surface, input.samples, input.values);
   }

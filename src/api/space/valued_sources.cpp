@@ -19,6 +19,11 @@ namespace littoral {
 
 namespace {
 
+/// Faces, or points of a cloud.
+std::size_t n_sources(const PolygonSoup& input) {
+  return static_cast<std::size_t>(input.n_faces() > 0 ? input.n_faces() : input.n_vertices());
+}
+
 /// The input with its values, in a frame's units.
 struct ValuedInput {
   Frame frame;
@@ -41,13 +46,12 @@ struct ValuedInput {
     return input.n_faces() > 0 ? triangulate(out) : out;
   }
   std::vector<double> own_values(const PolygonSoup& input, const std::vector<double>& given) const {
-    const bool faces = input.n_faces() > 0;
-    const auto n = static_cast<std::size_t>(faces ? input.n_faces() : input.n_vertices());
-    std::vector<double> each = given.size() == n ? given : std::vector<double>(n, given.front());
-    for (double& c : each) c /= frame.unit;
+    const std::size_t n = n_sources(input);
+    const std::vector<double> each =
+        frame.local(given.size() == n ? given : std::vector<double>(n, given.front()));
     if (!std::all_of(each.begin(), each.end(), [](double c) { return std::isfinite(c); }))
       throw InputError("the values are too large for an input of this size", "too-large");
-    return faces ? values_of_triangles(input, each) : each;
+    return input.n_faces() > 0 ? values_of_triangles(input, each) : each;
   }
 };
 
@@ -131,8 +135,8 @@ void shift(SpaceAnswer& answer, double by) {
     answer.function = std::make_shared<const Shifted>(std::move(answer.function), by);
 }
 
-/// By corners and middles of faces, or by points: c_i > c_j + d(i, j).
-/// Unless a method has, by paths through tets.
+/// Warns of sources that others reach sooner, c_i > c_j + d(i, j), by corners and middles of faces
+/// or by points, unless a method has done so by paths through tets.
 void tell_shadowed(const ValuedInput& input, const Task& task, Report& report) {
   for (const Warning& told : report.warnings)
     if (told.code == "source-shadowed") return;
@@ -203,11 +207,10 @@ SpaceAnswer without_sides(const std::string& method, const SpaceDomain& domain,
 }  // namespace
 
 void check_values(const PolygonSoup& input, const std::vector<double>& values) {
-  const bool surface = input.n_faces() > 0;
-  const auto n = static_cast<std::size_t>(surface ? input.n_faces() : input.n_vertices());
+  const std::size_t n = n_sources(input);
   if (values.size() > 1 && values.size() != n)
     throw InputError("there are " + std::to_string(values.size()) + " values for " +
-                         std::to_string(n) + (surface ? " faces" : " points"),
+                         std::to_string(n) + (input.n_faces() > 0 ? " faces" : " points"),
                      "sizes-differ");
   for (const double c : values)
     if (!std::isfinite(c)) throw InputError("the value of a source is not finite", "not-finite");

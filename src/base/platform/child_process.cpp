@@ -14,6 +14,7 @@
 #include <system_error>
 #include <thread>
 
+#include "base/now_and_then.h"
 #include "base/platform/child_start.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
@@ -134,7 +135,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   int state = 0;
   ChildEnd result;
   while (!child.has_ended(state)) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     if (std::chrono::duration<double>(Clock::now() - begin).count() > timeout) {
       child.end();
       result.timed_out = true;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/now_and_then.h"
 #include "base/parallel.h"
-#include "littoral/error.h"
 
 namespace littoral {
 
@@ -22,7 +22,7 @@ std::optional<SpMat> weighted_laplacian(const SpMat& L, const SpRows& D, const S
   SpMat K = L;
   std::atomic<bool> same = true;
   parallel_for(L.cols(), columns_at_once, [&](std::size_t first, std::size_t end) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     std::vector<double> plain;
     for (int j = static_cast<int>(first); j < static_cast<int>(end); ++j) {
       const int* const begin = L.innerIndexPtr() + L.outerIndexPtr()[j];

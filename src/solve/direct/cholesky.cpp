@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
 #include "base/platform/large_pages.h"
@@ -28,7 +29,7 @@ void subtract_trapezoid(int rows, int m, int k, const Scalar* A, int lda, Scalar
   const int width =
       std::clamp(static_cast<int>(enough / (double(rows) * std::max(1, k) + 1)), 64, 1 << 20);
   for (int j = 0; j < m; j += width) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     const int w = std::min(width, m - j);
     Scalar* D = C + j + index(j) * ldc;
     dense::subtract_square(w, k, A + j, lda, D, ldc);
@@ -117,7 +118,7 @@ void Cholesky<Scalar>::factor(const Matrix& lower, const std::vector<char>& stal
 
 template <class Scalar>
 void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& task) {
-  if (task.cancelled()) throw Cancelled();
+  stop_if_cancelled(task);
   const Elimination& E = *structure_;
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/index.h"
-#include "solve/direct/now_and_then.h"
+#include "base/now_and_then.h"
 
 namespace littoral {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel_forest.h"
 #include "solve/direct/bisection.h"
 #include "solve/direct/minimum_degree.h"
-#include "solve/direct/now_and_then.h"
 
 namespace littoral {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "base/now_and_then.h"
 #include "littoral/error.h"
 #include "solve/direct/nested_dissection.h"
-#include "solve/direct/now_and_then.h"
 
 namespace littoral {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/index.h"
-#include "solve/direct/now_and_then.h"
+#include "base/now_and_then.h"
 
 namespace littoral {
 
@@ -33,17 +33,19 @@ void Separator::start(const Graph& graph) {
 void Separator::refined(const Graph& graph, const std::vector<int>& coarse_of, const Task& task) {
   std::swap(side_, coarse_side_);
   start(graph);
-  weight_ = {};
   for (int v = 0; v < graph.size(); ++v) {
     stop_now_and_then(v, task);
     side_[v] = coarse_side_[coarse_of[v]];
-    weight_[side_[v]] += graph.weight[v];
-    if (side_[v] == 2) members_.push_back(v);
   }
+  count_sides();
 }
 
 void Separator::restore(const std::vector<signed char>& sides) {
   side_ = sides;
+  count_sides();
+}
+
+void Separator::count_sides() {
   weight_ = {};
   members_.clear();
   for (int v = 0; v < graph_->size(); ++v) {

@@ -48,6 +48,7 @@ class Separator {
     int vertex, pulled_end;
   };
 
+  void count_sides();
   void add(int v);
   void begin_pass(int to);
   void offer(int v);

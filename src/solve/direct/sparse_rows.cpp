@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel.h"
-#include "littoral/error.h"
 
 namespace littoral {
 
@@ -54,7 +54,7 @@ void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   const double* a = A.valuePtr();
   const double* from = x.data();
   parallel_for(A.rows(), row_grain, [&](std::size_t i, std::size_t end) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     for (; i < end; ++i) {
       double sum = 0;
       for (int e = begin[i]; e < begin[i + 1]; ++e) sum += a[e] * from[to[e]];
@@ -79,7 +79,7 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
     Piece& piece = pieces[first / grain];
     std::vector<int> place(B.cols(), -1);
     for (std::size_t i = first; i < end; ++i) {
-      if (i % 4096 == 0 && task.cancelled()) throw Cancelled();
+      if (i % 4096 == 0) stop_if_cancelled(task);
       const int start = piece.to.size();
       for (int e = A.outerIndexPtr()[i]; e < A.outerIndexPtr()[i + 1]; ++e) {
         const int k = A.innerIndexPtr()[e];

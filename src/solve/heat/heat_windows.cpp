@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/platform/large_pages.h"
-#include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 
 namespace littoral {
@@ -86,7 +86,7 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
     buckets[0].emplace_back(0, i);
   }
   for (std::size_t b = 0; b < buckets.size() && static_cast<double>(b) <= limit; ++b) {
-    if (task.cancelled()) throw Cancelled();
+    stop_if_cancelled(task);
     for (std::size_t k = 0; k < buckets[b].size(); ++k) {  // grows meanwhile
       const auto [at, i] = buckets[b][k];
       if (at > d[i]) continue;
@@ -290,7 +290,7 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
     size[at] += magnitude(term);
   };
   for (int j = 0; j < A_->outerSize(); ++j) {
-    if (j % 65536 == 0 && task.cancelled()) throw Cancelled();
+    stop_now_and_then(j, task);
     for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
       add(it.row(), j, it.value());
       if (it.row() != j) add(j, it.row(), Eigen::numext::conj(it.value()));

@@ -116,19 +116,17 @@ class Admm {
     });
   }
 
-  void update_pull() {
-    pull_.resize(state_.z.size());
+  VecX times_penalties(VecX v) const {
     for_cells([&](Eigen::Index c, Eigen::Index i) {
-      for (int d = 0; d < p_.dim; ++d) pull_[i + d] = rho_[c] * (state_.z[i + d] - state_.w[i + d]);
+      for (int d = 0; d < p_.dim; ++d) v[i + d] *= rho_[c];
     });
+    return v;
   }
 
+  void update_pull() { pull_ = times_penalties(state_.z - state_.w); }
+
   double force_of(const VecX& z) {
-    VecX y(z.size());
-    for_cells([&](Eigen::Index c, Eigen::Index i) {
-      for (int d = 0; d < p_.dim; ++d) y[i + d] = rho_[c] * z[i + d];
-    });
-    multiply(D_, y, force_, task_);
+    multiply(D_, times_penalties(z), force_, task_);
     return force_.norm() / total_;
   }
 
@@ -210,11 +208,7 @@ class Admm {
     g *= shrink;
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
     const double uPu = squared(u_);
-    VecX y(g_.size());
-    for_cells([&](Eigen::Index c, Eigen::Index i) {
-      for (int d = 0; d < p_.dim; ++d)
-        y[i + d] = rho_[c] * (old_w_[i + d] + g_[i + d] - old_z_[i + d]);
-    });
+    const VecX y = times_penalties(old_w_ + g_ - old_z_);
     const double phi = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(

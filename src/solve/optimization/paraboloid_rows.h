@@ -163,14 +163,15 @@ struct ParaboloidRows {
   }
 };
 
+inline constexpr std::size_t elements_at_once = 256;  // of a piece of a parallel loop
+
 /// Calls f(element, partial) for n elements, in pieces with a partial result each, which are
 /// combined in order.
 template <class Partial, class F, class Combine>
 Partial for_elements(std::size_t n, F&& f, Combine&& combine) {
-  constexpr std::size_t at_once = 256;
-  std::vector<Partial> partial((n + at_once - 1) / at_once);
-  parallel_for(n, at_once, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / at_once]);
+  std::vector<Partial> partial((n + elements_at_once - 1) / elements_at_once);
+  parallel_for(n, elements_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) f(e, partial[begin / elements_at_once]);
   });
   Partial total{};
   for (const Partial& p : partial) combine(total, p);
@@ -180,7 +181,7 @@ Partial for_elements(std::size_t n, F&& f, Combine&& combine) {
 /// Calls f(element).
 template <class F>
 void each_element(std::size_t n, F&& f) {
-  parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, elements_at_once, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) f(e);
   });
 }

@@ -81,7 +81,7 @@ void ConstrainedSystem::constrain_many(const SpMat& A, const VecX& give, Constra
   if (!weight.empty()) {
     SpMat penalised(weight.size(), K.cols());
     penalised.setFromTriplets(others.begin(), others.end());
-    K = with_rows(K, penalised, Eigen::Map<const VecX>(weight.data(), weight.size()));
+    K = with_rows(std::move(K), penalised, Eigen::Map<const VecX>(weight.data(), weight.size()));
   }
   K = eliminated(K, constrained.pinned_);
   constrained.factor_ = of_many_

@@ -1,5 +1,5 @@
 #pragma once
-// Loops of many short steps that can be stopped.
+// Loops that can be stopped and have no progress to tell of.
 
 #include "base/task.h"
 #include "littoral/error.h"

@@ -16,8 +16,8 @@
 #include "littoral/error.h"
 #include "methods/winding/shortest_completion.h"
 #include "one_call.h"
-#include "sources/conform.h"
-#include "sources/curve_ends.h"
+#include "sources/curves/conform.h"
+#include "sources/curves/curve_ends.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -23,8 +23,7 @@ CsgShapes ball_by(const AnyMethod& method, PolygonSoup soup) {
 
 PolygonSoup every_second_turned(PolygonSoup soup) {
   for (int f = 0; f < soup.n_faces(); f += 2)
-    std::swap(soup.corners[static_cast<std::size_t>(3 * f)],
-              soup.corners[static_cast<std::size_t>(3 * f + 1)]);
+    std::swap(soup.corners[3 * f], soup.corners[3 * f + 1]);
   return soup;
 }
 

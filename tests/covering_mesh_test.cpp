@@ -13,7 +13,7 @@
 #include "littoral/error.h"
 #include "one_call.h"
 #include "shared_data.h"
-#include "sources/retriangulate_sources.h"
+#include "sources/surface/retriangulate_sources.h"
 #include "spatial/triangulate.h"
 #include "test_meshes.h"
 

@@ -209,7 +209,7 @@ TEST(DelaunayWinding, WithAFreeBoundaryItIsNearTheAngle) {
   std::vector<int> line;
   for (int j = 10; j <= 20; ++j) line.push_back(j * (n + 1) + 13);
   std::vector<char> on_line(static_cast<std::size_t>(mesh.n_vertices()), 0);
-  for (const int v : line) on_line[static_cast<std::size_t>(v)] = 1;
+  for (const int v : line) on_line[v] = 1;
   // RMS difference from the angle under which the line is seen, up to a constant.
   const auto error = [&](BoundaryCondition boundary, bool delaunay) {
     Report report;
@@ -224,7 +224,7 @@ TEST(DelaunayWinding, WithAFreeBoundaryItIsNearTheAngle) {
     for (int f = 0; f < mesh.n_faces(); ++f)
       for (int k = 0; k < 3; ++k) {
         const int v = mesh.face(f)[k];
-        if (on_line[static_cast<std::size_t>(v)] != 0) continue;
+        if (on_line[v] != 0) continue;
         double angle = 0;
         for (std::size_t i = 1; i < line.size(); ++i) {
           const Vec3 a = mesh.point(line[i - 1]) - mesh.point(v);

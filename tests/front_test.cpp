@@ -133,15 +133,12 @@ TEST(FrontDistance, ASolverServesManySourcesFromManyThreads) {
   const Square square(12);
   const DistanceSolver solver(square.mesh(), SignedHeat{});
   std::vector<VecX> alone(8), together(8);
-  for (int i = 0; i < 8; ++i)
-    alone[static_cast<std::size_t>(i)] = solver.solve(square.line(i + 2)).values;
+  for (int i = 0; i < 8; ++i) alone[i] = solver.solve(square.line(i + 2)).values;
   const DistanceSolver fresh(square.mesh(), SignedHeat{});
   std::vector<std::thread> threads;
   for (int i = 0; i < 8; ++i)
-    threads.emplace_back([&, i] {
-      together[static_cast<std::size_t>(i)] =
-          fresh.solve(square.line(i + 2), {.threads = 1}).values;
-    });
+    threads.emplace_back(
+        [&, i] { together[i] = fresh.solve(square.line(i + 2), {.threads = 1}).values; });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(alone, together);
   EXPECT_EQ(solver.report().domain, "triangle mesh");

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -112,7 +112,7 @@ std::pair<double, double> off_level(const SurfaceMesh& mesh, const Sources& sour
   const PlacedSources placed = place_sources(mesh, sources, report);
   VecX value(static_cast<Eigen::Index>(placed.pieces.size())), length = value, off = value;
   for (Eigen::Index i = 0; i < value.size(); ++i) {
-    const CurvePiece& piece = placed.pieces[static_cast<std::size_t>(i)];
+    const CurvePiece& piece = placed.pieces[i];
     value[i] = 0;
     length[i] = piece.length;
     for (std::size_t k = 0; k < 3; ++k)
@@ -121,9 +121,7 @@ std::pair<double, double> off_level(const SurfaceMesh& mesh, const Sources& sour
   off = value;
   for (int c = 0; c < placed.n_curves && by_curve; ++c) {
     double sum = 0, total = 0;
-    const auto on = [&](Eigen::Index i) {
-      return placed.pieces[static_cast<std::size_t>(i)].curve == c;
-    };
+    const auto on = [&](Eigen::Index i) { return placed.pieces[i].curve == c; };
     for (Eigen::Index i = 0; i < value.size(); ++i)
       if (on(i)) {
         sum += length[i] * value[i];

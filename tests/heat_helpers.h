@@ -9,8 +9,8 @@
 #include "methods/heat/signed_heat.h"
 #include "methods/heat/unsigned_heat.h"
 #include "operators/triangles.h"
-#include "sources/pieces.h"
-#include "sources/triangle_source_system.h"
+#include "sources/surface/pieces.h"
+#include "sources/systems/triangle_source_system.h"
 
 namespace littoral::test {
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
-#include "sources/source_parts.h"
+#include "sources/systems/source_parts.h"
 #include "test_meshes.h"
 
 namespace littoral {

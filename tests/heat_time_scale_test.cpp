@@ -14,7 +14,7 @@
 #include "methods/geodesic/fast_marching.h"
 #include "methods/heat/time_scale.h"
 #include "one_call.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 #include "subdivided_meshes.h"
 
 namespace littoral {

@@ -4,7 +4,7 @@
 
 #include "heat_helpers.h"
 #include "one_call.h"
-#include "sources/retriangulate_sources.h"
+#include "sources/surface/retriangulate_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {

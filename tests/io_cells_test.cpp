@@ -37,7 +37,7 @@ std::map<std::array<int, 3>, int> faces_of_tets(const TetMesh& mesh) {
   for (int t = 0; t < mesh.n_tets(); ++t)
     for (int k = 0; k < 4; ++k) {
       std::array<int, 3> face{};
-      for (int j = 0; j < 3; ++j) face[static_cast<std::size_t>(j)] = mesh.tets(t, (k + j) % 4);
+      for (int j = 0; j < 3; ++j) face[j] = mesh.tets(t, (k + j) % 4);
       std::ranges::sort(face);
       ++faces[face];
     }
@@ -56,7 +56,7 @@ CellMesh mixed_cube(int n, unsigned seed) {
   cells.name = "cube";
   cells.points = MatX3::Zero(all, 3);
   const auto node = [&](int i, int j, int k) {
-    const int v = numbers[static_cast<std::size_t>((i * (n + 1) + j) * (n + 1) + k)];
+    const int v = numbers[(i * (n + 1) + j) * (n + 1) + k];
     cells.points.row(v) = Eigen::RowVector3d(i, j, k) / n;
     return v;
   };
@@ -73,7 +73,7 @@ CellMesh mixed_cube(int n, unsigned seed) {
                                    node(i + 1, j, k + 1),
                                    node(i + 1, j + 1, k + 1),
                                    node(i, j + 1, k + 1)};
-        const int tip = numbers[static_cast<std::size_t>(centre++)];
+        const int tip = numbers[centre++];
         cells.points.row(tip) = Eigen::RowVector3d(i + 0.5, j + 0.5, k + 0.5) / n;
         if (column_of_prisms) {
           cells.add(0, CellMesh::prism, std::array{v[0], v[1], v[2], v[4], v[5], v[6]});
@@ -87,10 +87,7 @@ CellMesh mixed_cube(int n, unsigned seed) {
                                    {2, 6, 7, 3},
                                    {3, 7, 4, 0}})
             cells.add(0, CellMesh::pyramid,
-                      std::array{v[static_cast<std::size_t>(base[0])],
-                                 v[static_cast<std::size_t>(base[1])],
-                                 v[static_cast<std::size_t>(base[2])],
-                                 v[static_cast<std::size_t>(base[3])], tip});
+                      std::array{v[base[0]], v[base[1]], v[base[2]], v[base[3]], tip});
         } else {
           cells.add(0, CellMesh::hexahedron, v);
         }
@@ -189,7 +186,7 @@ struct MshSample {
     const int n = static_cast<int>(points.size());
     const auto node = [](int v) { return 10 + 3 * v; };
     const auto place = [&](int v) {
-      for (const double x : points[static_cast<std::size_t>(v)]) number(x);
+      for (const double x : points[v]) number(x);
     };
     if (version == 22) {
       out += std::to_string(n) + "\n";
@@ -214,7 +211,7 @@ struct MshSample {
       if (version == 41) large(1), large(count);
     }
     for (int e = 0; e < count; ++e) {
-      const auto& [type, corners] = elements[static_cast<std::size_t>(e)];
+      const auto& [type, corners] = elements[e];
       if (version == 22) {
         if (!binary) small(e + 1);
         small(type);

@@ -46,7 +46,7 @@ PolygonSoup polygons() {
   soup.add_face(std::vector<int>{0, 1, 2});
   soup.add_face(std::vector<int>{5, 4, 3, 2});
   std::vector<int> all(300);
-  for (int v = 0; v < 300; ++v) all[static_cast<std::size_t>(v)] = v;
+  for (int v = 0; v < 300; ++v) all[v] = v;
   soup.add_face(all);
   soup.lines = {{0, 1, 2}, {2, 3}, {7, 7, 9}};
   VecX distance = soup.points.col(0).array().sin();

@@ -1,5 +1,5 @@
 // Oriented points on level sets of sampled values: on the surface to third order, evenly spread.
-#include "sources/level_points.h"
+#include "sources/space/level_points.h"
 
 #include <gtest/gtest.h>
 

@@ -46,7 +46,7 @@ TEST(MortonOrder, OfCornersOfACubeFollowsTheirBits) {
   MatX3 corners(8, 3);
   for (int w = 0; w < 8; ++w) corners.row(7 - w) << (w & 1), (w >> 1 & 1), (w >> 2);
   const std::vector<int> order = morton_order(corners);
-  for (int w = 0; w < 8; ++w) EXPECT_EQ(order[static_cast<std::size_t>(w)], 7 - w);
+  for (int w = 0; w < 8; ++w) EXPECT_EQ(order[w], 7 - w);
 }
 
 TEST(MortonOrder, TakesAnyNumbers) {

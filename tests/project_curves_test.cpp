@@ -1,4 +1,4 @@
-#include "sources/project_curves.h"
+#include "sources/curves/project_curves.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "io/read.h"
 #include "littoral/error.h"
 #include "shared_data.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -6,8 +6,8 @@
 
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/quadratic/quadratic.h"
-#include "sources/p2_sources.h"
-#include "sources/pieces.h"
+#include "sources/surface/p2_sources.h"
+#include "sources/surface/pieces.h"
 
 namespace littoral::test {
 

@@ -11,7 +11,7 @@
 #include "one_call.h"
 #include "operators/tet_operators.h"
 #include "regularized_helpers.h"
-#include "sources/boundary_curves.h"
+#include "sources/curves/boundary_curves.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -102,7 +102,7 @@ TEST(Samples, DistancesOfACubeAreExact) {
     const Vec3 x = surface.row(i), normal = samples.surface_normals.row(i);
     ASSERT_GT(normal.dot(x), 0.5) << "outward";
     if (x.cwiseAbs().maxCoeff() - x.cwiseAbs().minCoeff() > 0.2 &&
-        samples.surface_kinds[static_cast<std::size_t>(i)] == SampleKind::uniform) {
+        samples.surface_kinds[i] == SampleKind::uniform) {
       Eigen::Index axis = 0;
       x.cwiseAbs().maxCoeff(&axis);
       Vec3 others = x.cwiseAbs();
@@ -166,7 +166,7 @@ TEST(Samples, SharpPointsOfACubeAreAtItsEdges) {
   for (Eigen::Index i = 0; i < 4000; ++i) {
     Vec3 x = points.row(i).cwiseAbs();
     std::sort(x.begin(), x.end());
-    const bool sharp = samples.surface_kinds[static_cast<std::size_t>(i)] == SampleKind::sharp;
+    const bool sharp = samples.surface_kinds[i] == SampleKind::sharp;
     if (x[1] > 1 - 2 * 2.4 / 23) ++near_edge[sharp ? 1 : 0];  // within two cells
   }
   EXPECT_EQ(near_edge[1], 2000);

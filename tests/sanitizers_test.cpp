@@ -35,7 +35,7 @@ TEST(SanitizersDeathTest, FaultsEndTheProgram) {
   const Eigen::VectorXd three = Eigen::VectorXd::Zero(3);
   EXPECT_DEATH(hidden_value<double>(three.coeff(ten)), "AddressSanitizer: heap-");
   EXPECT_DEATH(hidden_value<double>(three[ten]), "Assertion");
-  EXPECT_DEATH(hidden_value<double>(five[static_cast<std::size_t>(ten)]), "Assertion");
+  EXPECT_DEATH(hidden_value<double>(five[ten]), "Assertion");
   EXPECT_DEATH(hidden_value<double>(five.data()[ten]), "AddressSanitizer: heap-");
   EXPECT_DEATH(hidden_value<double>(INT_MAX - 2 + ten), "signed integer overflow");
   EXPECT_DEATH(hidden_value<double>(static_cast<int>(1e30 * ten)), "outside the range");

@@ -172,7 +172,7 @@ TEST(SceneStyle, SequentialMapsGetSteadilyLighterOrDarker) {
         io::ColourMap::grey, io::ColourMap::heat}) {
     const auto& colours = io::colour_map(map);
     const auto light = [&](int i) {
-      const io::Rgb& c = colours[static_cast<std::size_t>(i)];
+      const io::Rgb& c = colours[i];
       return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
     };
     const double way = light(255) > light(0) ? 1 : -1;

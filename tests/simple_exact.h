@@ -9,7 +9,7 @@
 
 #include "domain/mesh/edge_sides.h"
 #include "simple_window.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral::test::simple {
 

@@ -240,7 +240,7 @@ TEST(Parallel, EveryThreadFlushesSubnormalsAsItsCallerDoes) {
     std::fill(seen.begin(), seen.end(), 0);
     parallel_forest(std::vector<int>(seen.size(), -1), Walk::from_leaves, [&](int i) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
-      seen[static_cast<std::size_t>(i)] = flushes();
+      seen[i] = flushes();
     });
     const auto in_forest = std::count(seen.begin(), seen.end(), 1);
     EXPECT_EQ(in_loop, in_forest);

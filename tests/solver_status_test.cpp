@@ -8,7 +8,7 @@
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/error.h"
 #include "solve/optimization/pdhg.h"
-#include "sources/p2_sources.h"
+#include "sources/surface/p2_sources.h"
 
 namespace littoral {
 namespace {

@@ -15,7 +15,7 @@
 #include "io/sources/write_sources.h"
 #include "littoral/error.h"
 #include "one_call.h"
-#include "sources/surface_points.h"
+#include "sources/surface/surface_points.h"
 #include "test_meshes.h"
 
 namespace littoral {

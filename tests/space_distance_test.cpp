@@ -157,8 +157,7 @@ TEST(SpaceDistance, FlippingNegatesAndOrderDoesNotMatter) {
   PolygonSoup relabelled = torus;
   for (int f = 0; f < torus.n_faces(); ++f)
     for (int k = 0; k < 3; ++k)
-      relabelled.corners[static_cast<std::size_t>(3 * f + k)] =
-          torus.face(torus.n_faces() - 1 - f)[static_cast<std::size_t>((k + 1) % 3)];
+      relabelled.corners[3 * f + k] = torus.face(torus.n_faces() - 1 - f)[(k + 1) % 3];
   const Grid grid = test::cube_grid(17, 1.2);
   Report report;
   SpaceRequest flipped = by("signed-heat");

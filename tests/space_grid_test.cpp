@@ -41,8 +41,8 @@ TEST(CosineTransform, PutsACosineIntoOneCoefficientAndComesBack) {
     Eigen::Index largest = 0;
     c.cwiseAbs().maxCoeff(&largest);
     EXPECT_NEAR(std::abs(c[largest]), v.norm(), 1e-12 * v.norm());
-    EXPECT_EQ(transform.frequencies(0)[static_cast<std::size_t>(largest % n[0])], f[0]);
-    EXPECT_EQ(transform.frequencies(2)[static_cast<std::size_t>(largest / (n[0] * n[1]))], f[2]);
+    EXPECT_EQ(transform.frequencies(0)[largest % n[0]], f[0]);
+    EXPECT_EQ(transform.frequencies(2)[largest / (n[0] * n[1])], f[2]);
     transform.backward(c, Task());
     EXPECT_LT((c - v).norm(), 1e-12 * v.norm());
   }
@@ -197,7 +197,7 @@ TEST(HeldPoisson, OneValueAlongEachGroupAgreesWithTheSaddlePointSystem) {
   const auto& [grid, n, rows, m, b, poisson] = held;
   ASSERT_GE(m, 4);
   std::vector<int> group(static_cast<std::size_t>(m));
-  for (Eigen::Index r = 0; r < m; ++r) group[static_cast<std::size_t>(r)] = r % 2;
+  for (Eigen::Index r = 0; r < m; ++r) group[r] = r % 2;
   const auto solve = [&held](VecX& v) { held.poisson.solve(v, Task()); };
   VecX x = b;
   solve(x);
@@ -346,7 +346,7 @@ TEST(SignedHeatGrid, SoftConstraintLiesBetweenNoneAndZeroSet) {
     if (levels) {  // each at one value, zero between them
       for (const int sheet : {0, 1})
         for (Eigen::Index r = 0; r < at.size(); ++r)
-          if (rows.part[static_cast<std::size_t>(r)] == sheet) {
+          if (rows.part[r] == sheet) {
             EXPECT_NEAR(at[r], at[at.size() - 1] * (sheet == 0 ? -1 : 1), 0.005);
           }
     }

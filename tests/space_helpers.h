@@ -6,7 +6,7 @@
 
 #include "littoral/error.h"
 #include "littoral/volume.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 #include "test_meshes.h"
 
 namespace littoral::test {

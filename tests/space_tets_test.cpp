@@ -28,14 +28,14 @@ TEST(TetLattice, FillsTheCubeConformingly) {
   std::map<std::array<int, 3>, int> faces;
   for (int t = 0; t < mesh.n_tets(); ++t) {
     std::array<Vec3, 4> p;
-    for (int k = 0; k < 4; ++k) p[static_cast<std::size_t>(k)] = mesh.points.row(mesh.tets(t, k));
+    for (int k = 0; k < 4; ++k) p[k] = mesh.points.row(mesh.tets(t, k));
     const double six = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
     EXPECT_GT(six, 0);
     volume += six / 6;
     for (int k = 0; k < 4; ++k) {
       std::array<int, 3> face{};
       for (int j = 0, c = 0; j < 4; ++j)
-        if (j != k) face[static_cast<std::size_t>(c++)] = mesh.tets(t, j);
+        if (j != k) face[c++] = mesh.tets(t, j);
       std::sort(face.begin(), face.end());
       ++faces[face];
     }
@@ -76,9 +76,8 @@ TEST(TetLattice, LocatesPointsByTheirBarycentricCoordinates) {
     ASSERT_GE(p.tet, 0);
     Vec3 x = Vec3::Zero();
     for (int k = 0; k < 4; ++k) {
-      EXPECT_GE(p.barycentric[static_cast<std::size_t>(k)], -1e-9);
-      x += p.barycentric[static_cast<std::size_t>(k)] *
-           tets.mesh().points.row(tets.mesh().tets(p.tet, k)).transpose();
+      EXPECT_GE(p.barycentric[k], -1e-9);
+      x += p.barycentric[k] * tets.mesh().points.row(tets.mesh().tets(p.tet, k)).transpose();
     }
     EXPECT_LT((x - queries.row(i).transpose()).norm(), 1e-12);
   }

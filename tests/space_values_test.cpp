@@ -11,7 +11,7 @@
 #include "api/space/sdf.h"
 #include "base/parallel.h"
 #include "littoral/littoral.h"
-#include "sources/parts_of_samples.h"
+#include "sources/space/parts_of_samples.h"
 #include "space_helpers.h"
 #include "spatial/closest_on_triangle.h"
 #include "spatial/triangulate.h"
@@ -94,8 +94,8 @@ TEST(ValuedNearest, IsTheLeastAndTheGreatestOverAllSources) {
       EXPECT_NEAR(low.reach, least, 1e-14);
       EXPECT_NEAR(high.reach, greatest, 1e-14);
       EXPECT_NEAR(low.distance, (low.point - x).norm(), 1e-14);
-      EXPECT_EQ(low.reach, values[static_cast<std::size_t>(low.source)] + low.distance);
-      EXPECT_EQ(high.reach, values[static_cast<std::size_t>(high.source)] - high.distance);
+      EXPECT_EQ(low.reach, values[low.source] + low.distance);
+      EXPECT_EQ(high.reach, values[high.source] - high.distance);
     }
     const ValuedPoint far = nearest.least({1e200, 0, 0});
     EXPECT_NEAR(far.reach / 1e200, 1, 1e-12);
@@ -180,8 +180,7 @@ TEST(SpaceValues, PointsWithoutNormalsAreBallsUnited) {
   const auto exact = [&](const Vec3& x) {
     double least = infinity;
     for (int i = 0; i < 30; ++i)
-      least = std::min(
-          least, values[static_cast<std::size_t>(i)] + (centres.row(i).transpose() - x).norm());
+      least = std::min(least, values[i] + (centres.row(i).transpose() - x).norm());
     return least;
   };
   const Grid grid = test::cube_grid(9, 1.3);

@@ -99,10 +99,10 @@ TEST(PointTree, NumberedAnewItFindsTheSamePoints) {
   const std::vector<int> old = again.renumber();
   std::vector<int> sorted = old;
   std::sort(sorted.begin(), sorted.end());
-  for (int i = 0; i < 1000; ++i) ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(sorted[i], i);
   for (int i = 0; i < 50; ++i) {
     const Vec3 q = points.row(i) * 1.1;
-    EXPECT_EQ(old[static_cast<std::size_t>(again.nearest(q).point)], tree.nearest(q).point);
+    EXPECT_EQ(old[again.nearest(q).point], tree.nearest(q).point);
   }
 }
 

@@ -158,9 +158,7 @@ TEST(TracedScene, PicturesShowTheSurfaceForAnyNumberOfThreads) {
   options.towards_eye = Vec3::UnitZ();
   options.up = Vec3::UnitY();
   const io::Image image = draw_picture(scene, options);
-  const auto red = [&](int x, int y) {
-    return image.rgb[static_cast<std::size_t>(3 * (x + 64 * y))];
-  };
+  const auto red = [&](int x, int y) { return image.rgb[3 * (x + 64 * y)]; };
   EXPECT_GT(red(32, 32), 240);  // through the hole
   EXPECT_LT(red(7, 32), 215);
   EXPECT_LT(red(57, 32), 215);
@@ -277,7 +275,7 @@ TEST(TracedScene, OccludedShadingDarkensTheCornerBesideTheSlice) {
     for (int y = 0; y < 96; ++y) {
       for (int x = 0; x < 96; ++x) {
         const double r = std::hypot(x - 47.5, y - 47.5) / 44 * 1.1;
-        const int red = image.rgb[static_cast<std::size_t>(3 * (x + 96 * y))];
+        const int red = image.rgb[3 * (x + 96 * y)];
         if (red > 240 || r > 1 || (inner ? r > 0.65 : r < 0.85)) continue;
         sum += red;
         ++count;

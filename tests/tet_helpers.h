@@ -70,7 +70,7 @@ inline TetMesh tets_where(int n, const std::function<bool(const Vec3&)>& keep) {
 
 inline std::vector<char> used_vertices(const TetMesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices()), 0);
-  for (const int v : mesh.tets.reshaped()) used[static_cast<std::size_t>(v)] = 1;
+  for (const int v : mesh.tets.reshaped()) used[v] = 1;
   return used;
 }
 
@@ -90,7 +90,7 @@ inline TetErrors tet_errors(const TetMesh& mesh, const VecX& phi,
   int n = 0;
   const std::vector<char> used = used_vertices(mesh);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
-    if (used[static_cast<std::size_t>(v)] == 0) continue;
+    if (used[v] == 0) continue;
     const double error = std::abs(phi[v] - exact(mesh.points.row(v)));
     out.largest = std::isnan(error) ? infinity : std::max(out.largest, error);
     out.mean += error;

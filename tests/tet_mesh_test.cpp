@@ -63,9 +63,8 @@ TEST(TetLocator, FindsTheTetAndItsCoordinates) {
     ++inside;
     Vec3 y = Vec3::Zero();
     for (int k = 0; k < 4; ++k) {
-      EXPECT_GE(p.barycentric[static_cast<std::size_t>(k)], -1e-9);
-      y += p.barycentric[static_cast<std::size_t>(k)] *
-           mesh.points.row(mesh.tets(p.tet, k)).transpose();
+      EXPECT_GE(p.barycentric[k], -1e-9);
+      y += p.barycentric[k] * mesh.points.row(mesh.tets(p.tet, k)).transpose();
     }
     EXPECT_LT((x - y).norm(), 1e-12);
   }
@@ -231,16 +230,13 @@ TEST(TetMeshDistance, DoesNotDependOnPlaceScaleNumbersAndOrientation) {
   std::vector<int> order(static_cast<std::size_t>(mesh.n_vertices()));
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), random);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    mixed.points.row(order[static_cast<std::size_t>(v)]) = mesh.points.row(v);
+  for (int v = 0; v < mesh.n_vertices(); ++v) mixed.points.row(order[v]) = mesh.points.row(v);
   for (int t = 0; t < mesh.n_tets(); ++t) {
-    for (int k = 0; k < 4; ++k)
-      mixed.tets(t, k) = order[static_cast<std::size_t>(mesh.tets(mesh.n_tets() - 1 - t, k))];
+    for (int k = 0; k < 4; ++k) mixed.tets(t, k) = order[mesh.tets(mesh.n_tets() - 1 - t, k)];
     if (t % 2) std::swap(mixed.tets(t, 1), mixed.tets(t, 2));
   }
   const VecX psi = tet_distance(mixed, {ball, {}});
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    EXPECT_NEAR(psi[order[static_cast<std::size_t>(v)]], phi[v], 2e-3);
+  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_NEAR(psi[order[v]], phi[v], 2e-3);
 
   TetSources inward{ball, {}};
   inward.flip = true;

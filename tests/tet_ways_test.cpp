@@ -93,9 +93,7 @@ TEST(WaysThroughTets, RoundACylinderAreExact) {
     const std::vector<char> used = test::used_vertices(mesh);
     for (int v = 0; v < mesh.n_vertices(); ++v) {
       const Eigen::Vector2d d = mesh.points.row(v).head<2>().transpose().array() - 0.5;
-      if (used[static_cast<std::size_t>(v)] != 0 && mesh.points(v, 2) == 0 &&
-          d.norm() < radius + 1e-9)
-        corners.push_back(d);
+      if (used[v] != 0 && mesh.points(v, 2) == 0 && d.norm() < radius + 1e-9) corners.push_back(d);
     }
     std::sort(corners.begin(), corners.end(), [](const auto& u, const auto& v) {
       return std::atan2(u[1], u[0]) < std::atan2(v[1], v[0]);
@@ -117,10 +115,10 @@ void shake(TetMesh& mesh, double by, double radius, unsigned seed) {
   const Vec3 middle = Vec3::Constant(0.5);
   std::vector<char> is_boundary(static_cast<std::size_t>(mesh.n_vertices()), 0);
   const MatX3i boundary = boundary_faces(mesh);
-  for (const int v : boundary.reshaped()) is_boundary[static_cast<std::size_t>(v)] = 1;
+  for (const int v : boundary.reshaped()) is_boundary[v] = 1;
   std::vector<std::vector<int>> tets_at(static_cast<std::size_t>(mesh.n_vertices()));
   for (int t = 0; t < mesh.n_tets(); ++t)
-    for (const int v : mesh.tets.row(t)) tets_at[static_cast<std::size_t>(v)].push_back(t);
+    for (const int v : mesh.tets.row(t)) tets_at[v].push_back(t);
   const auto volume = [&](const MatX3& points, int t) {
     Eigen::Matrix3d edges;
     for (int k = 0; k < 3; ++k)
@@ -131,11 +129,11 @@ void shake(TetMesh& mesh, double by, double radius, unsigned seed) {
   std::uniform_real_distribution<double> jitter(-by, by);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const Vec3 x = was.row(v), d(jitter(random), jitter(random), jitter(random));
-    if (is_boundary[static_cast<std::size_t>(v)] == 0)
+    if (is_boundary[v] == 0)
       mesh.points.row(v) += d;
     else if ((x - middle).norm() < radius + 1e-9)
       mesh.points.row(v) = middle + radius * (x - middle + d).normalized();
-    const std::vector<int>& tets = tets_at[static_cast<std::size_t>(v)];
+    const std::vector<int>& tets = tets_at[v];
     if (std::any_of(tets.begin(), tets.end(),
                     [&](int t) { return volume(mesh.points, t) / volume(was, t) < 0.1; }))
       mesh.points.row(v) = x;
@@ -159,7 +157,7 @@ TEST(WaysThroughTets, RoundABallAreNeitherTooShortNorTooLong) {
     const VecX phi = automatic_tets(mesh, {{}, {tet_vertex_at(mesh, from)}});
     const std::vector<char> used = test::used_vertices(mesh);
     for (int v = 0; v < mesh.n_vertices(); ++v) {
-      if (used[static_cast<std::size_t>(v)] == 0) continue;
+      if (used[v] == 0) continue;
       const Vec3 a = from - middle, b = mesh.points.row(v).transpose() - middle;
       EXPECT_GT(phi[v], round_a_circle(inner, a, b) - 1e-9) << seed << " at " << b.transpose();
       EXPECT_LT(phi[v], round_a_circle(radius, a, b) + 1e-3) << seed << " at " << b.transpose();
@@ -194,7 +192,7 @@ void add_wall(TetMesh& mesh, double at, const std::function<bool(const Vec3&)>& 
       const int v = mesh.tets(t, k);
       const Vec3 x = mesh.points.row(v);
       if (std::abs(x[0] - at) > 1e-12 || !is_wall(x)) continue;
-      int& other = twin[static_cast<std::size_t>(v)];
+      int& other = twin[v];
       if (other < 0) {
         other = n + static_cast<int>(added.size());
         added.push_back(x);

@@ -10,7 +10,7 @@
 #include "field_helpers.h"
 #include "littoral/error.h"
 #include "methods/tori/tori.h"
-#include "sources/likely_outliers.h"
+#include "sources/space/likely_outliers.h"
 #include "torus_helpers.h"
 
 namespace littoral {

@@ -224,7 +224,7 @@ TEST(Tori, AnyNumberOfThreadsGivesTheSameBits) {
   cloud.normals = cloud.points;
   MatX3 at(3000, 3);
   const auto q = queries(3000, 14);
-  for (int i = 0; i < 3000; ++i) at.row(i) = q[static_cast<std::size_t>(i)];
+  for (int i = 0; i < 3000; ++i) at.row(i) = q[i];
   set_thread_count(1);
   const VecX one = evaluate(tori_fitted(cloud), at, nullptr, {});
   set_thread_count(3);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 
 namespace littoral::test {
 

@@ -6,7 +6,7 @@
 
 #include "constants.h"
 #include "littoral/error.h"
-#include "sources/trace.h"
+#include "sources/curves/trace.h"
 #include "test_meshes.h"
 
 namespace littoral {

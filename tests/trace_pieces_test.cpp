@@ -9,8 +9,8 @@
 #include <random>
 
 #include "littoral/error.h"
-#include "sources/pieces.h"
-#include "sources/surface_points.h"
+#include "sources/surface/pieces.h"
+#include "sources/surface/surface_points.h"
 #include "test_meshes.h"
 
 namespace littoral {

@@ -17,8 +17,8 @@
 #include "methods/heat/signed_heat.h"
 #include "methods/heat/unsigned_heat.h"
 #include "operators/triangles.h"
-#include "sources/triangle_source_system.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
+#include "sources/systems/triangle_source_system.h"
 
 using namespace littoral;
 

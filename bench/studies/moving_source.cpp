@@ -18,7 +18,7 @@
 #include "io/read.h"
 #include "littoral/error.h"
 #include "methods/quadratic/quadratic_program.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 
 namespace littoral {
 namespace {

@@ -88,7 +88,7 @@ void row(int n) {
       if (!std::isfinite(sum)) std::printf("not finite");
     }
     MatX3 batch(queries, 3);
-    for (int i = 0; i < queries; ++i) batch.row(i) = places[static_cast<std::size_t>(i)];
+    for (int i = 0; i < queries; ++i) batch.row(i) = places[i];
     double together = 1e9;
     for (int repeat = 0; repeat < repeats; ++repeat)
       together = std::min(together, microseconds(queries, [&] {

@@ -268,7 +268,7 @@ void check_order(const MethodCase& given, const VecX& values, const Budget& budg
   std::vector<int> order(static_cast<std::size_t>(given.soup.n_faces()));
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t k = order.size(); k > 1; --k)
-    std::swap(order[k - 1], order[static_cast<std::size_t>(choose.below(static_cast<int>(k)))]);
+    std::swap(order[k - 1], order[choose.below(static_cast<int>(k))]);
   PolygonSoup soup = given.soup;
   soup.face_offsets = {0};
   soup.corners.clear();

@@ -22,7 +22,7 @@ class Choices {
   bool chance(double share) { return unit() < share; }
   template <class T>
   const T& pick(const std::vector<T>& from) {
-    return from[static_cast<std::size_t>(below(static_cast<int>(from.size())))];
+    return from[below(static_cast<int>(from.size()))];
   }
 
  private:

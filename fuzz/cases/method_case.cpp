@@ -68,7 +68,7 @@ MethodCase random_case(Choices& choose) {
   const std::vector<MethodFamily> families = method_families();
   // Surfaces have most methods, and most ways to be broken.
   const int which = choose.chance(0.5) ? 0 : choose.below(static_cast<int>(families.size()));
-  const MethodFamily& family = families[static_cast<std::size_t>(which)];
+  const MethodFamily& family = families[which];
   const MethodInfo& info = choose.pick(family.methods);
   out.family = family.title;
   out.method = info.name;

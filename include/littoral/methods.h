@@ -19,6 +19,8 @@ struct OptionInfo {
   std::string fallback;              // default, as text
   std::string help;                  // one sentence
 
+  /// "number", "integer", "toggle", "choice" or "text".
+  std::string kind_name() const;
   /// "0 to 10", "on or off", "admm, pdhg", "any text".
   std::string range() const;
 };

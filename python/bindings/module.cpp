@@ -82,8 +82,7 @@ nb::dict as_dict(const OptionInfo& option) {
   out["choices"] = option.choices;
   out["default"] = option.fallback;
   out["help"] = option.help;
-  out["kind"] = std::vector<std::string>{"number", "integer", "toggle", "choice",
-                                         "text"}[static_cast<std::size_t>(option.kind)];
+  out["kind"] = option.kind_name();
   return out;
 }
 

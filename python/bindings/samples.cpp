@@ -9,8 +9,7 @@ namespace {
 
 VecXi kinds_of(const std::vector<SampleKind>& kinds) {
   VecXi out(static_cast<Eigen::Index>(kinds.size()));
-  for (Eigen::Index i = 0; i < out.size(); ++i)
-    out[i] = static_cast<int>(kinds[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.size(); ++i) out[i] = static_cast<int>(kinds[i]);
   return out;
 }
 

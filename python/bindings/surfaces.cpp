@@ -67,8 +67,7 @@ void bind_mesh(nb::module_& m) {
       .def("positions",
            [](const Mesh& mesh, const PointArrays& at) {
              MatX3 out(std::ssize(at.points), 3);
-             for (Eigen::Index i = 0; i < out.rows(); ++i)
-               out.row(i) = mesh.position(at.points[static_cast<std::size_t>(i)]);
+             for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = mesh.position(at.points[i]);
              return out;
            })
       .def("interpolate",
@@ -76,7 +75,7 @@ void bind_mesh(nb::module_& m) {
              const VecX given = values;
              VecX out(std::ssize(at.points));
              for (Eigen::Index i = 0; i < out.size(); ++i)
-               out[i] = mesh.interpolate(given, at.points[static_cast<std::size_t>(i)]);
+               out[i] = mesh.interpolate(given, at.points[i]);
              return out;
            })
       .def("write", [](const Mesh& mesh, const std::string& path) { write(mesh, path); });
@@ -104,7 +103,7 @@ void bind_sources(nb::module_& m) {
         VecXi on(n), element(n);
         MatX3 b(n, 3);
         for (Eigen::Index i = 0; i < n; ++i) {
-          const SurfacePoint& p = self.points[static_cast<std::size_t>(i)];
+          const SurfacePoint& p = self.points[i];
           on[i] = static_cast<int>(p.on);
           element[i] = p.element;
           b.row(i) << p.b[0], p.b[1], p.b[2];

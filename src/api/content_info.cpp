@@ -117,7 +117,7 @@ std::vector<InfoEntry> info_of(const io::TetFile& file) {
     for (int k = 0; k < 3; ++k)
       edges.row(k) = mesh.points.row(tet[k + 1]) - mesh.points.row(tet[0]);
     for (const int v : tet) {
-      used[static_cast<std::size_t>(v)] = 1;
+      used[v] = 1;
       low = low.cwiseMin(mesh.points.row(v).transpose());
       high = high.cwiseMax(mesh.points.row(v).transpose());
     }

@@ -191,9 +191,8 @@ std::string info_json(const std::vector<InfoEntry>& entries) {
 namespace {
 
 Json option_json(const OptionInfo& info) {
-  static constexpr const char* kinds[] = {"number", "integer", "toggle", "choice", "text"};
   Json out{{"name", info.name},
-           {"kind", kinds[static_cast<std::size_t>(info.kind)]},
+           {"kind", info.kind_name()},
            {"unit", info.unit},
            {"range", info.range()},
            {"default", option_value(info.fallback)},

@@ -30,6 +30,11 @@ std::string percent_text(double share) {
   return text;
 }
 
+std::string OptionInfo::kind_name() const {
+  static constexpr const char* names[] = {"number", "integer", "toggle", "choice", "text"};
+  return names[static_cast<int>(kind)];
+}
+
 std::string OptionInfo::range() const {
   switch (kind) {
     case Kind::toggle:

@@ -25,7 +25,7 @@ Grid grid_of(const Call& call, const json& grid) {
       throw InputError("a grid has 1 to 1000000 nodes along each axis");
     if (!(out.spacing[a] > 0) || !std::isfinite(out.spacing[a]) || !std::isfinite(out.origin[a]))
       throw InputError("a grid's origin must be finite and its spacing positive");
-    out.n[static_cast<std::size_t>(a)] = static_cast<int>(n[a]);
+    out.n[a] = static_cast<int>(n[a]);
   }
   if (n.prod() > 1 << 30)  // counted in 32 bits
     throw IoError("a grid of " + std::to_string(n.prod()) + " nodes does not fit into memory",

@@ -115,8 +115,7 @@ json located(Call& call) {
   const Mesh& mesh = call.object<Mesh>(0);
   const Sources sources = parse_sources(call.text(1), sources_name, mesh);
   MatX3 out(std::ssize(sources.points), 3);
-  for (Eigen::Index i = 0; i < out.rows(); ++i)
-    out.row(i) = mesh.position(sources.points[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = mesh.position(sources.points[i]);
   return call.put(out);
 }
 
@@ -129,7 +128,7 @@ json path_along(Call& call) {
   MatX3 positions(std::ssize(joined.points), 3);
   double length = 0;
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    positions.row(i) = mesh.position(joined.points[static_cast<std::size_t>(i)]);
+    positions.row(i) = mesh.position(joined.points[i]);
     if (i > 0) length += (positions.row(i) - positions.row(i - 1)).norm();
   }
   return {{"json", sources_text(joined, sources_name, mesh)},

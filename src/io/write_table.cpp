@@ -31,8 +31,7 @@ void write_separated(std::ostream& out, const Table& table, char separator) {
     out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? separator : '\n');
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     if (!table.rows_are.empty()) out << r << separator;
-    for (const TextColumn& column : table.carried)
-      out << csv_cell(column.cells[static_cast<std::size_t>(r)]) << separator;
+    for (const TextColumn& column : table.carried) out << csv_cell(column.cells[r]) << separator;
     for (Eigen::Index c = 0; c < x.cols(); ++c)
       out << exact_text(x(r, c)) << (c + 1 < x.cols() ? separator : '\n');
   }

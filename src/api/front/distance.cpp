@@ -108,8 +108,7 @@ DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>
   return rows_of(mesh, from, method, context, {size, [&](const VecX& row) {
                                                  VecX out(size);
                                                  for (Eigen::Index j = 0; j < size; ++j)
-                                                   out[j] = mesh.interpolate(
-                                                       row, to[static_cast<std::size_t>(j)]);
+                                                   out[j] = mesh.interpolate(row, to[j]);
                                                  return out;
                                                }});
 }

@@ -15,7 +15,7 @@
 #include "io/render/scene_style.h"
 #include "io/sources/write_sources.h"
 #include "littoral/error.h"
-#include "sources/trace.h"
+#include "sources/curves/trace.h"
 #include "spatial/finite_box.h"
 #include "spatial/triangulate.h"
 

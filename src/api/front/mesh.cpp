@@ -10,7 +10,7 @@
 #include "domain/volume/voxels.h"
 #include "littoral/error.h"
 #include "littoral/field.h"
-#include "sources/surface_points.h"
+#include "sources/surface/surface_points.h"
 #include "spatial/weld.h"
 
 namespace littoral {
@@ -30,7 +30,7 @@ PolygonSoup with_indices_checked(PolygonSoup soup) {
       offsets.back() != static_cast<int>(soup.corners.size()))
     throw InputError("the face offsets do not fit the corners", "sizes-differ");
   for (int f = 0; f < soup.n_faces(); ++f) {
-    if (offsets[static_cast<std::size_t>(f) + 1] < offsets[static_cast<std::size_t>(f)])
+    if (offsets[static_cast<std::size_t>(f) + 1] < offsets[f])
       throw InputError("the face offsets fall at face " + std::to_string(f), "sizes-differ");
     for (const int v : soup.face(f)) check("face " + std::to_string(f), v);
   }
@@ -131,8 +131,7 @@ double Mesh::interpolate(const VecX& values, const SurfacePoint& point) const {
     if (weight != 0) sum += weight * values[v];  // infinite values reach no farther than they must
   };
   if (point.on == SurfacePoint::On::edge) {
-    for (int k = 0; k < 2; ++k)
-      add(point.b[static_cast<std::size_t>(k)], mesh.edges()(point.element, k));
+    for (int k = 0; k < 2; ++k) add(point.b[k], mesh.edges()(point.element, k));
     return sum;
   }
   const auto face = mesh.face(point.element);  // polygons: coordinates on the first three corners

@@ -31,7 +31,7 @@ Eigen::Matrix<double, 3, 2> frame_in_space(const MatX3& points, const IntrinsicT
   Eigen::Matrix<double, 3, 2> frame;
   frame.col(0) = (b - a).normalized();
   const Vec3 normal = frame.col(0).cross(c - a).normalized();
-  frame.col(1) = double(T.orientation[static_cast<std::size_t>(t)]) * normal.cross(frame.col(0));
+  frame.col(1) = double(T.orientation[t]) * normal.cross(frame.col(0));
   return frame;
 }
 
@@ -40,7 +40,7 @@ SpMat gradient_in_space(const Mesh& mesh, const IntrinsicTriangulation& T, const
   Triplets entries;
   entries.reserve(static_cast<std::size_t>(9 * T.n_faces()));
   for (int f = 0; f < mesh.n_faces(); ++f) {
-    const int t = T.triangle_of_face[static_cast<std::size_t>(f)];
+    const int t = T.triangle_of_face[f];
     if (t < 0) continue;
     const auto frame = frame_in_space(mesh.points(), T, t);
     if (!frame.allFinite()) continue;  // a face without a plane
@@ -93,7 +93,7 @@ SurfaceOperators surface_operators(const Mesh& mesh, const Context& context) {
       out.A = VecX::Zero(mesh.n_faces());
       VecX weight = VecX::Zero(3 * out.A.size());
       for (int f = 0; f < mesh.n_faces(); ++f) {
-        const int t = T.triangle_of_face[static_cast<std::size_t>(f)];
+        const int t = T.triangle_of_face[f];
         if (t >= 0) out.A[f] = ops.scalar.A[t] * unit2;
         weight.segment<3>(3 * f).setConstant(out.A[f]);
       }
@@ -117,9 +117,9 @@ struct Factorization::Impl {
   /// Takes the mean over each part out of every column.
   void centre(MatX& B) const {
     MatX mean = MatX::Zero(std::ssize(first), B.cols());
-    for (Eigen::Index i = 0; i < n; ++i) mean.row(part[static_cast<std::size_t>(i)]) += B.row(i);
-    for (Eigen::Index p = 0; p < mean.rows(); ++p) mean.row(p) /= size[static_cast<std::size_t>(p)];
-    for (Eigen::Index i = 0; i < n; ++i) B.row(i) -= mean.row(part[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n; ++i) mean.row(part[i]) += B.row(i);
+    for (Eigen::Index p = 0; p < mean.rows(); ++p) mean.row(p) /= size[p];
+    for (Eigen::Index i = 0; i < n; ++i) B.row(i) -= mean.row(part[i]);
   }
 };
 
@@ -139,14 +139,11 @@ Factorization::Factorization(const SpMat& A, Definite definite, const Context& c
       impl->first.assign(static_cast<std::size_t>(parts), -1);
       impl->size.assign(static_cast<std::size_t>(parts), 0);
       for (int i = 0; i < A.rows(); ++i) {
-        const auto part = static_cast<std::size_t>(impl->part[static_cast<std::size_t>(i)]);
+        const auto part = static_cast<std::size_t>(impl->part[i]);
         if (impl->size[part]++ == 0) impl->first[part] = i;
       }
       lower.prune([&](Eigen::Index i, Eigen::Index j, double) {
-        const auto held = [&](Eigen::Index k) {
-          return impl->first[static_cast<std::size_t>(impl->part[static_cast<std::size_t>(k)])] ==
-                 k;
-        };
+        const auto held = [&](Eigen::Index k) { return impl->first[impl->part[k]] == k; };
         return !held(i) && !held(j);
       });
       for (const int i : impl->first) lower.coeffRef(i, i) = 1;

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
-#include "sources/level_points.h"
+#include "sources/space/level_points.h"
 
 namespace littoral {
 

@@ -10,7 +10,7 @@
 #include "domain/tet/tet_lattice.h"
 #include "io/tet/tetgen.h"
 #include "methods/heat/signed_heat_tets.h"
-#include "sources/tet_source_values.h"
+#include "sources/space/tet_source_values.h"
 #include "spatial/grid_values.h"
 #include "spatial/triangulate.h"
 

@@ -56,7 +56,7 @@ NearestOnInput::NearestOnInput(const PolygonSoup& input) {
     face.add_face(local);
     for (const int k : triangulate(face).corners) {
       if (corners.size() == 3 * face_of_.size()) face_of_.push_back(f);
-      corners.push_back(cycle[static_cast<std::size_t>(k)]);
+      corners.push_back(cycle[k]);
     }
   }
   corners_ =
@@ -80,10 +80,9 @@ NearestPoints NearestOnInput::at(const MatX3& queries, const Task& task) const {
     }
     const NearestPoint nearest = triangles_->closest_point(x);
     out.points.row(i) = nearest.point;
-    out.elements[i] = face_of_[static_cast<std::size_t>(nearest.face)];
+    out.elements[i] = face_of_[nearest.face];
     out.corners.row(i) = corners_.row(nearest.face);
-    for (int k = 0; k < 3; ++k)
-      out.barycentric(i, k) = nearest.barycentric[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) out.barycentric(i, k) = nearest.barycentric[k];
     out.distances[i] = nearest.distance;
   });
   return out;

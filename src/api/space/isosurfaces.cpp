@@ -129,7 +129,7 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
                                    " is solid: there is no surface at " +
                                    rounded_text(sides[2 * i + 1].level));
     for (int f = 0; f < inner.n_faces(); ++f)
-      std::reverse(inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f)],
+      std::reverse(inner.corners.begin() + inner.face_offsets[f],
                    inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f) + 1]);
     PolygonSoup wall = join_isosurfaces({outer, sides[2 * i + 1]});
     wall.scalars.clear();

@@ -12,7 +12,7 @@
 #include "methods/heat/finalize.h"
 #include "methods/regularized/regularized.h"
 #include "operators/grid.h"
-#include "sources/space_distances.h"
+#include "sources/space/space_distances.h"
 #include "spatial/grid_values.h"
 #include "spatial/winding_number.h"
 

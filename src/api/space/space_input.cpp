@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
-#include "sources/tet_source_values.h"
+#include "sources/space/tet_source_values.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -74,8 +74,7 @@ SpaceInput make_input(const SpaceSources& sources, const Frame& frame, double ma
     surface = triangulate(surface);
     if (sources.flip)
       for (int f = 0; f < surface.n_faces(); ++f)
-        std::swap(surface.corners[static_cast<std::size_t>(3 * f)],
-                  surface.corners[static_cast<std::size_t>(3 * f + 1)]);
+        std::swap(surface.corners[3 * f], surface.corners[3 * f + 1]);
     input.samples = sample_faces(surface, max_side, report, SamplesPerTriangle::one, task);
     report.sizes.emplace_back("faces", surface.n_faces());
   } else {

@@ -9,7 +9,7 @@
 #include "base/task.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/report.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 
 namespace littoral {
 

@@ -11,7 +11,7 @@
 #include "methods/implicit/closest_point.h"
 #include "methods/implicit/convolutional_distance.h"
 #include "methods/tori/tori.h"
-#include "sources/parts_of_samples.h"
+#include "sources/space/parts_of_samples.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {

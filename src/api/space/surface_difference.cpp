@@ -19,7 +19,7 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   const PolygonSoup triangles = triangulate(surface);
   std::vector<double> sum(1, 0.0);
   const auto corner = [&](int f, int k) -> Vec3 {
-    return triangles.points.row(triangles.face(f)[static_cast<std::size_t>(k)]);
+    return triangles.points.row(triangles.face(f)[k]);
   };
   const double unit =
       Frame(bounding_box(triangles)).unit;  // areas in squared lengths could overflow or vanish

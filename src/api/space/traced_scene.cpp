@@ -96,7 +96,7 @@ std::vector<io::TracedCloud> clouds_for_page(const CsgShapes& shapes, const Grid
     cloud.operation = name_of(s == 0 ? Boolean::unite : shapes.csg.operations[s - 1]);
     cloud.tori.resize(points.rows(), 16);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      const Torus& t = tori[static_cast<std::size_t>(i)];
+      const Torus& t = tori[i];
       cloud.tori.row(i) << points.row(i), t.rho, t.q.transpose(), t.log_weight, t.n.transpose(),
           t.k1, t.e1.transpose(), t.k2;
     }
@@ -132,7 +132,7 @@ void frame_thin_parts(const CsgShapes& shapes, const Grid& grid, double level, i
   scene.points.conservativeResize(points + n, 3);
   scene.triangles.conservativeResize(triangles + n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
-    scene.points.row(points + i) = inside[static_cast<std::size_t>(i)].transpose();
+    scene.points.row(points + i) = inside[i].transpose();
     scene.triangles.row(triangles + i).setConstant(static_cast<int>(points + i));
   }
 }

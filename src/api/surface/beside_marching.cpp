@@ -8,7 +8,7 @@
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "methods/geodesic/fast_marching.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

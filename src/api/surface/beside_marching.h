@@ -2,7 +2,7 @@
 // How far an answer is from another method's: what it says about itself without a known truth.
 
 #include "domain/intrinsic/intrinsic_triangulation.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 
 namespace littoral {
 

@@ -10,7 +10,7 @@
 #include "methods/heat/discontinuous.h"
 #include "methods/heat/finalize.h"
 #include "methods/heat/time_scale.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

@@ -7,10 +7,10 @@
 #include "domain/mesh/polygon_surface.h"
 #include "operators/nodal.h"
 #include "operators/triangles.h"
-#include "sources/nodal_source_system.h"
-#include "sources/refined_sources.h"
-#include "sources/source_values.h"
-#include "sources/triangle_source_system.h"
+#include "sources/surface/refined_sources.h"
+#include "sources/surface/source_values.h"
+#include "sources/systems/nodal_source_system.h"
+#include "sources/systems/triangle_source_system.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {

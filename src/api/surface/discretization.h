@@ -11,9 +11,9 @@
 #include "domain/mesh/nodal_surface.h"
 #include "operators/calculus.h"
 #include "operators/jump_calculus.h"
-#include "sources/known_distances.h"
-#include "sources/pieces.h"
-#include "sources/source_system.h"
+#include "sources/surface/known_distances.h"
+#include "sources/surface/pieces.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

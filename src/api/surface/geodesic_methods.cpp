@@ -7,8 +7,8 @@
 #include "base/stopwatch.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
-#include "sources/source_values.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/source_values.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

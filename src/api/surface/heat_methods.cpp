@@ -14,7 +14,7 @@
 #include "base/stopwatch.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/time_scale.h"
-#include "sources/source_values.h"
+#include "sources/surface/source_values.h"
 
 namespace littoral {
 

@@ -7,10 +7,10 @@
 #include "domain/mesh/covering_mesh.h"
 #include "methods/heat/time_scale.h"
 #include "operators/triangles.h"
-#include "sources/conform.h"
-#include "sources/retriangulate_sources.h"
-#include "sources/source_values.h"
-#include "sources/triangle_source_system.h"
+#include "sources/curves/conform.h"
+#include "sources/surface/retriangulate_sources.h"
+#include "sources/surface/source_values.h"
+#include "sources/systems/triangle_source_system.h"
 
 namespace littoral {
 

@@ -10,7 +10,7 @@
 #include "base/index.h"
 #include "base/option_table.h"
 #include "domain/mesh/face_orientation.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 #include "spatial/self_intersections.h"
 #include "spatial/triangulate.h"
 

@@ -15,8 +15,8 @@
 #include "domain/intrinsic/lengthened_sides.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "operators/triangles.h"
-#include "sources/surface_points.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/surface_points.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

@@ -2,8 +2,8 @@
 
 #include "api/surface/discretization.h"
 #include "api/surface/subdivided.h"
-#include "sources/completed_curves.h"
-#include "sources/p2_sources.h"
+#include "sources/curves/completed_curves.h"
+#include "sources/surface/p2_sources.h"
 
 namespace littoral {
 

@@ -7,7 +7,7 @@
 #include "api/surface/surface_domain.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/quadratic/quadratic.h"
-#include "sources/pieces.h"
+#include "sources/surface/pieces.h"
 
 namespace littoral {
 

@@ -17,7 +17,7 @@
 #include "operators/line_field.h"
 #include "operators/p2.h"
 #include "operators/triangles.h"
-#include "sources/known_distances.h"
+#include "sources/surface/known_distances.h"
 
 namespace littoral {
 

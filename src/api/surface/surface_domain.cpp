@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sources/source_values.h"
+#include "sources/surface/source_values.h"
 
 namespace littoral {
 

@@ -12,12 +12,12 @@
 #include "base/stopwatch.h"
 #include "littoral/error.h"
 #include "methods/winding/shortest_completion.h"
-#include "sources/completed_curves.h"
-#include "sources/conform.h"
-#include "sources/curve_ends.h"
-#include "sources/source_values.h"
-#include "sources/straighten.h"
-#include "sources/surface_points.h"
+#include "sources/curves/completed_curves.h"
+#include "sources/curves/conform.h"
+#include "sources/curves/curve_ends.h"
+#include "sources/curves/straighten.h"
+#include "sources/surface/source_values.h"
+#include "sources/surface/surface_points.h"
 
 namespace littoral {
 

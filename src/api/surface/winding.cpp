@@ -15,8 +15,8 @@
 #include "littoral/error.h"
 #include "methods/winding/dual_winding.h"
 #include "methods/winding/nonconforming_winding.h"
-#include "sources/conform.h"
-#include "sources/triangle_sources.h"
+#include "sources/curves/conform.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

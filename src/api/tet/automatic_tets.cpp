@@ -24,7 +24,7 @@
 #include "domain/tet/tet_sight.h"
 #include "methods/geodesic/tet_paths.h"
 #include "methods/implicit/settled_sides.h"
-#include "sources/surface_in_tets.h"
+#include "sources/space/surface_in_tets.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/pseudonormals.h"
 #include "spatial/triangulate.h"
@@ -76,7 +76,7 @@ class AutomaticThroughTets {
         on_->problem(sources, task.stage(0.1, "placing the sources"), report);
     const std::vector<char> reached = problem.reached();
     for (int c = 0; c < ops_.n_components; ++c)
-      if (reached[static_cast<std::size_t>(c)] == 0) report.unreachable_components.push_back(c);
+      if (reached[c] == 0) report.unreachable_components.push_back(c);
     const Stopwatch watch(report, "distance");
     VecX phi = problem.vertices.empty() ? from_surface(problem, sources.flip, task, report)
                                         : from_nodes(problem, sources, task, report);
@@ -84,9 +84,7 @@ class AutomaticThroughTets {
   }
 
  private:
-  int component_of_tet(int t) const {
-    return ops_.component[static_cast<std::size_t>(mesh_.tets(t, 0))];
-  }
+  int component_of_tet(int t) const { return ops_.component[mesh_.tets(t, 0)]; }
 
   /// A point is a triangle whose corners are one.
   VecX from_nodes(const TetProblem& problem, const TetSources& sources, Task& task,
@@ -96,9 +94,9 @@ class AutomaticThroughTets {
     const auto measure = [&](const MatX3i& faces, bool all_seen, double value) {
       TetPathSources from{mesh_.points, faces, {}, true};
       for (const auto& f : faces.rowwise()) {
-        int c = ops_.component[static_cast<std::size_t>(f[0])];
+        int c = ops_.component[f[0]];
         for (const int v : f)
-          if (ops_.component[static_cast<std::size_t>(v)] < 0) c = -1;
+          if (ops_.component[v] < 0) c = -1;
         from.component.push_back(c);
       }
       const TetPathResult found = paths(
@@ -116,8 +114,7 @@ class AutomaticThroughTets {
       by_value[value_of(i)].push_back(sources.vertices[i]);
     for (const auto& [value, vertices] : by_value) {
       MatX3i points(static_cast<Eigen::Index>(vertices.size()), 3);
-      for (Eigen::Index i = 0; i < points.rows(); ++i)
-        points.row(i).setConstant(vertices[static_cast<std::size_t>(i)]);
+      for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i).setConstant(vertices[i]);
       measure(points, false, value);
     }
     tell_bent(bent, report);
@@ -236,7 +233,7 @@ class AutomaticThroughTets {
           const double between = (mesh_.points.row(u) - mesh_.points.row(v)).norm();
           if (std::abs(phi[u]) + std::abs(phi[v]) <= longer * between) continue;
           ++wrong;
-          if (open) (*open)[static_cast<std::size_t>(component_of_tet(t))] = 1;
+          if (open) (*open)[component_of_tet(t)] = 1;
         }
     return {changes, wrong};
   }
@@ -267,9 +264,8 @@ class AutomaticThroughTets {
         task.stage(0.5, "distance"));
     tell_bent(found.bent, report);
     for (int v = 0; v < phi.size(); ++v) {
-      const int c = ops_.component[static_cast<std::size_t>(v)];
-      if (c < 0 || open[static_cast<std::size_t>(c)] == 0 || std::isinf(found.distance[v]))
-        continue;
+      const int c = ops_.component[v];
+      if (c < 0 || open[c] == 0 || std::isinf(found.distance[v])) continue;
       phi[v] = found.distance[v] * (found.side[v] != 0 ? found.side[v] : sign_at(v));
     }
     const auto [changes, wrong] = contradictions(phi);
@@ -304,8 +300,8 @@ class AutomaticThroughTets {
                       Report& report) const {
     VecX finite = heat;
     for (int v = 0; v < finite.size(); ++v) {
-      const int c = ops_.component[static_cast<std::size_t>(v)];
-      if (c < 0 || open[static_cast<std::size_t>(c)] == 0 || !std::isfinite(heat[v])) finite[v] = 1;
+      const int c = ops_.component[v];
+      if (c < 0 || open[c] == 0 || !std::isfinite(heat[v])) finite[v] = 1;
     }
     Report quiet;
     const PolygonSoup zero = isosurface(mesh_, finite, 0, quiet, task);
@@ -331,8 +327,7 @@ class AutomaticThroughTets {
     const Eigen::Index old = from.faces.rows();
     from.faces.conservativeResize(old + static_cast<Eigen::Index>(added.size()), 3);
     for (std::size_t i = 0; i < added.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        from.faces(old + static_cast<Eigen::Index>(i), k) = added[i][static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k) from.faces(old + static_cast<Eigen::Index>(i), k) = added[i][k];
     if (!sides) return;
     report.sizes.emplace_back("completed share of the zero set", area / (area + given));
     if (area > given)

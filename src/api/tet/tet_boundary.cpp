@@ -38,8 +38,8 @@ class CutBoundary {
     soup_.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
     VecX at(soup_.points.rows());
     for (Eigen::Index i = 0; i < at.size(); ++i) {
-      soup_.points.row(i) = points_[static_cast<std::size_t>(i)].head<3>();
-      at[i] = points_[static_cast<std::size_t>(i)][3];
+      soup_.points.row(i) = points_[i].head<3>();
+      at[i] = points_[i][3];
     }
     if (!field.empty()) soup_.scalars[field] = at;
     return std::move(soup_);
@@ -87,7 +87,7 @@ PolygonSoup triangles_of(const io::TetFile& file, const MatX3i& triangles) {
   PolygonSoup soup;
   std::vector<int> number(static_cast<std::size_t>(file.mesh.n_vertices()), -1), kept;
   for (const int v : triangles.reshaped<Eigen::RowMajor>()) {
-    int& n = number[static_cast<std::size_t>(v)];
+    int& n = number[v];
     if (n < 0) {
       n = static_cast<int>(kept.size());
       kept.push_back(v);
@@ -123,9 +123,8 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
     double value = 0;
     for (int k = 0; k < 4 && p.tet >= 0; ++k) {
       const double at_corner = values[mesh.tets(p.tet, k)];
-      value = std::isinf(value) || std::isinf(at_corner)
-                  ? infinity
-                  : value + p.barycentric[static_cast<std::size_t>(k)] * at_corner;
+      value = std::isinf(value) || std::isinf(at_corner) ? infinity
+                                                         : value + p.barycentric[k] * at_corner;
     }
     number.push_back(p.tet < 0 ? -1
                                : out.add_point({section.points(v, 0), section.points(v, 1),
@@ -134,8 +133,7 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
   for (int f = 0; f < section.n_faces(); ++f) {
     std::vector<int> corners;
     for (const int v : section.face(f))
-      if (number[static_cast<std::size_t>(v)] >= 0)
-        corners.push_back(number[static_cast<std::size_t>(v)]);
+      if (number[v] >= 0) corners.push_back(number[v]);
     out.add_polygon(corners);
   }
   return out.soup(field);

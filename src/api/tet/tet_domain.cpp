@@ -8,7 +8,7 @@
 #include "base/counted.h"
 #include "base/platform/memory.h"
 #include "base/run_interruptible.h"
-#include "sources/tet_source_values.h"
+#include "sources/space/tet_source_values.h"
 #include "spatial/triangulate.h"
 
 namespace littoral {
@@ -58,11 +58,10 @@ std::vector<int> TetProblem::tets_with_sources() const {
     if (p.tet >= 0 && ops->volumes[p.tet] > 0) tets.push_back(p.tet);
   if (!vertices.empty()) {
     std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
-    for (int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
+    for (int v : vertices) wanted[v] = 1;
     for (int t = 0; t < mesh->n_tets(); ++t)
       for (int k = 0; k < 4; ++k)
-        if (ops->volumes[t] > 0 && wanted[static_cast<std::size_t>(mesh->tets(t, k))] != 0)
-          tets.push_back(t);
+        if (ops->volumes[t] > 0 && wanted[mesh->tets(t, k)] != 0) tets.push_back(t);
   }
   std::sort(tets.begin(), tets.end());
   tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
@@ -71,8 +70,7 @@ std::vector<int> TetProblem::tets_with_sources() const {
 
 std::vector<char> TetProblem::reached() const {
   std::vector<char> out(static_cast<std::size_t>(ops->n_components), 0);
-  for (const int t : tets_with_sources())
-    out[static_cast<std::size_t>(ops->component[static_cast<std::size_t>(mesh->tets(t, 0))])] = 1;
+  for (const int t : tets_with_sources()) out[ops->component[mesh->tets(t, 0)]] = 1;
   if (std::count(out.begin(), out.end(), 1) == 0)
     throw InputError("no source vertex belongs to a tet", "nothing-there");
   return out;
@@ -117,11 +115,11 @@ std::map<int, TetNodeDistance> TetProblem::known(const std::vector<Eigen::Vector
         "sources of different values in tets need one of the methods auto and signed-heat");
   if (!vertices.empty()) {
     std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
-    for (const int v : vertices) wanted[static_cast<std::size_t>(v)] = 1;
+    for (const int v : vertices) wanted[v] = 1;
     std::map<int, TetNodeDistance> out;
     for (int t = 0; t < mesh->n_tets(); ++t)
       for (int k = 0; k < 4 && ops->volumes[t] > 0; ++k)
-        if (wanted[static_cast<std::size_t>(mesh->tets(t, k))] != 0)
+        if (wanted[mesh->tets(t, k)] != 0)
           out.emplace(node(t, k), TetNodeDistance{t, Eigen::Vector4d::Unit(k), 0});
     return out;
   }
@@ -180,7 +178,7 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   if (sources.boundary || !values.empty()) merge_vertices(vertices, problem.values);
   if (vertices.empty()) place(problem, sources, values, task, report);
   for (const int v : vertices)
-    if (ops_->component[static_cast<std::size_t>(v)] < 0)
+    if (ops_->component[v] < 0)
       report.warn("sources-outside",
                   "source vertex " + std::to_string(v) + " belongs to no tet and is left out");
   if (!problem.values.empty()) warn_of_shadowed(problem, report);
@@ -199,7 +197,7 @@ void TetDiscretization::warn_of_shadowed(const TetProblem& problem, Report& repo
       const auto at = value_at.find(mesh_->tets(t, k));
       if (at == value_at.end()) continue;
       TetPoint corner{t, {0, 0, 0, 0}};
-      corner.barycentric[static_cast<std::size_t>(k)] = 1;
+      corner.barycentric[k] = 1;
       sources.push_back({corner, at->second});
       value_at.erase(at);
     }

@@ -14,9 +14,9 @@
 #include "littoral/tet_mesh.h"
 #include "littoral/tet_sources.h"
 #include "operators/tet_operators.h"
-#include "sources/oriented_points.h"
-#include "sources/space_distances.h"
-#include "sources/tet_source_system.h"
+#include "sources/space/oriented_points.h"
+#include "sources/space/space_distances.h"
+#include "sources/space/tet_source_system.h"
 
 namespace littoral {
 

@@ -8,8 +8,8 @@
 #include "base/lazy.h"
 #include "methods/heat/sharpen.h"
 #include "methods/heat/signed_heat_tets.h"
-#include "sources/parts_of_samples.h"
-#include "sources/tet_source_values.h"
+#include "sources/space/parts_of_samples.h"
+#include "sources/space/tet_source_values.h"
 
 namespace littoral {
 
@@ -38,18 +38,16 @@ Part part_of(const TetMesh& mesh, const TetOperators& ops, int component) {
   Part part;
   part.number.assign(static_cast<std::size_t>(mesh.n_vertices()), -1);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
-    if (ops.component[static_cast<std::size_t>(v)] != component) continue;
-    part.number[static_cast<std::size_t>(v)] = static_cast<int>(part.vertices.size());
+    if (ops.component[v] != component) continue;
+    part.number[v] = static_cast<int>(part.vertices.size());
     part.vertices.push_back(v);
   }
   std::vector<int> corners;
   int n = 0;
   for (int t = 0; t < mesh.n_tets(); ++t) {
-    const bool here =
-        ops.volumes[t] > 0 && part.number[static_cast<std::size_t>(mesh.tets(t, 0))] >= 0;
+    const bool here = ops.volumes[t] > 0 && part.number[mesh.tets(t, 0)] >= 0;
     part.tets.push_back(here ? n++ : -1);
-    for (int k = 0; k < 4 && here; ++k)
-      corners.push_back(part.number[static_cast<std::size_t>(mesh.tets(t, k))]);
+    for (int k = 0; k < 4 && here; ++k) corners.push_back(part.number[mesh.tets(t, k)]);
   }
   part.mesh = std::make_shared<const TetMesh>(
       TetMesh{mesh.points(part.vertices, Eigen::all),
@@ -68,14 +66,14 @@ TetProblem problem_on(const Part& part, std::shared_ptr<const TetOperators> ops,
   problem.vertices.clear();
   if (!whole.vertices.empty()) problem.values.clear();
   for (std::size_t i = 0; i < whole.vertices.size(); ++i) {
-    const int n = part.number[static_cast<std::size_t>(whole.vertices[i])];
+    const int n = part.number[whole.vertices[i]];
     if (n < 0) continue;
     problem.vertices.push_back(n);
     if (!whole.values.empty()) problem.values.push_back(whole.values[i]);
   }
   merge_vertices(problem.vertices, problem.values);
   for (TetPoint& p : problem.places)
-    if (p.tet >= 0) p.tet = part.tets[static_cast<std::size_t>(p.tet)];
+    if (p.tet >= 0) p.tet = part.tets[p.tet];
   return problem;
 }
 
@@ -103,7 +101,7 @@ class HeatThroughTets {
     VecX phi = VecX::Constant(mesh.n_vertices(), infinity);
     for (int c = 0; c < ops.n_components; ++c) {
       const Task stage = solving.stage(1.0 / ops.n_components, "distance");
-      if (reached[static_cast<std::size_t>(c)] == 0) {
+      if (reached[c] == 0) {
         report.unreachable_components.push_back(c);
       } else if (ops.n_components == 1) {
         const auto heat =

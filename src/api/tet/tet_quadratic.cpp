@@ -22,10 +22,10 @@ Shape::Point local_node(int i) {
 std::vector<P2Source<3>> sources_of(const TetProblem& problem, const P2Tets& P) {
   std::vector<Shape::Point> local;
   for (int i = 0; i < Shape::nodes; ++i) local.push_back(local_node(i));
-  const auto element = [&](int t) { return P.element_of_tet[static_cast<std::size_t>(t)]; };
+  const auto element = [&](int t) { return P.element_of_tet[t]; };
   const auto node_of = [&](int t, int i) {
     const auto e = static_cast<std::size_t>(element(t));
-    return P.elements.node[e][static_cast<std::size_t>(i)];
+    return P.elements.node[e][i];
   };
   const auto known = problem.known(local, node_of, Around::alone);
   std::vector<P2Source<3>> out;

@@ -12,7 +12,7 @@
 #include "io/read.h"
 #include "io/write.h"
 #include "littoral/error.h"
-#include "sources/parts_of_samples.h"
+#include "sources/space/parts_of_samples.h"
 
 namespace littoral::cli {
 
@@ -210,7 +210,7 @@ std::vector<double> values_of(const std::string& text, const CsgShapes& shapes,
                                               : counted(n, "point", "points")),
                      "sizes-differ");
   std::vector<double> of_elements;
-  for (const int p : part) of_elements.push_back(values[static_cast<std::size_t>(p)]);
+  for (const int p : part) of_elements.push_back(values[p]);
   return of_elements;
 }
 

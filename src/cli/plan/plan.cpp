@@ -100,7 +100,7 @@ RunPlan plan_in_space(const CsgShapes& shapes, const Grid& grid, bool thorough) 
   RunPlan plan = plan_of_shapes(shapes, "grid", static_cast<double>(grid.n_nodes()));
   for (const auto& [name, a] :
        {std::pair("nodes along x", 0), {"nodes along y", 1}, {"nodes along z", 2}})
-    plan.sizes.emplace_back(name, grid.n[static_cast<std::size_t>(a)]);
+    plan.sizes.emplace_back(name, grid.n[a]);
   plan.sizes.emplace_back("spacing", grid.spacing.minCoeff());
   plan.work = surface_work(shapes, grid.spacing.minCoeff(), thorough);
   return plan;

@@ -14,7 +14,7 @@
 #include "io/read.h"
 #include "io/render/discs.h"
 #include "littoral/error.h"
-#include "sources/boundary_curves.h"
+#include "sources/curves/boundary_curves.h"
 
 namespace littoral::cli {
 

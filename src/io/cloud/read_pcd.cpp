@@ -201,7 +201,7 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
   if (!text) {
     for (std::int64_t r = 0; r < header.points; ++r)
       for (int k = 0; k < n_wanted; ++k) {
-        const auto i = static_cast<std::size_t>(where[static_cast<std::size_t>(k)]);
+        const auto i = static_cast<std::size_t>(where[k]);
         const Field& field = header.fields[i];
         const char* at = header.data == PcdData::binary
                              ? bytes.data() + body + r * stride + offset[i]
@@ -219,8 +219,8 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
     for (double& value : row) value = rows.number("a number");
     rows.expect_end();
     for (int k = 0; k < n_wanted; ++k) {
-      const auto i = static_cast<std::size_t>(where[static_cast<std::size_t>(k)]);
-      put(r, k, row[static_cast<std::size_t>(column[i])]);
+      const auto i = static_cast<std::size_t>(where[k]);
+      put(r, k, row[column[i]]);
     }
   }
   return cloud;

@@ -110,7 +110,7 @@ class GltfReader {
     if (!list.is_array() || list.size() != n)
       file_.fail(where + ": '" + key + "' must be " + std::to_string(n) + " numbers");
     for (int i = 0; i < n; ++i) {
-      const Json& number = list[static_cast<std::size_t>(i)];
+      const Json& number = list[i];
       if (!number.is_number())
         file_.fail(where + ": '" + key + "' must be " + std::to_string(n) + " numbers");
       value[i] = number.get<double>();
@@ -221,7 +221,7 @@ class GltfReader {
     for (const GltfPart& part : all) {
       std::vector<int> vertices(static_cast<std::size_t>(part.points.rows()), -1);
       const auto vertex = [&](int v) {
-        int& known = vertices[static_cast<std::size_t>(v)];
+        int& known = vertices[v];
         if (known >= 0) return known;
         const Vec3 p = to_world * Vec3(part.points.row(v));
         const Vec3 normal =
@@ -229,7 +229,7 @@ class GltfReader {
         if (part.mode == points) return known = add(part, v, p, normal);
         const int merged = merger.vertex(p[0], p[1], p[2], tag(part, v));
         if (merged == static_cast<int>(numbers.size())) numbers.push_back(add(part, v, p, normal));
-        known = numbers[static_cast<std::size_t>(merged)];
+        known = numbers[merged];
         // Normals are kept where each vertex has exactly one.
         const std::size_t at = 3 * static_cast<std::size_t>(known);
         if (keep_normals_ && Eigen::Map<const Vec3>(&normals_[at]) != normal) keep_normals_ = false;

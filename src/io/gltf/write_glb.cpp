@@ -149,12 +149,12 @@ Json attributes_of(const PolygonSoup& soup, const std::string& field, GlbParts& 
   }
   if (const auto shown = soup.scalars.find(field); shown != soup.scalars.end()) {
     const std::vector<Rgb> colours = value_colours(shown->second, field);
-    const std::size_t number = parts.add(
-        glb_vertices, glb_unsigned_short, "VEC4", n, [&](std::ostream& out, Eigen::Index v) {
-          for (const unsigned char byte : colours[static_cast<std::size_t>(v)])
-            store_little(out, linear(byte));
-          store_little(out, std::uint16_t{65535});
-        });
+    const std::size_t number = parts.add(glb_vertices, glb_unsigned_short, "VEC4", n,
+                                         [&](std::ostream& out, Eigen::Index v) {
+                                           for (const unsigned char byte : colours[v])
+                                             store_little(out, linear(byte));
+                                           store_little(out, std::uint16_t{65535});
+                                         });
     parts.accessor(number)["normalized"] = true;
     attributes["COLOR_0"] = number;
   }
@@ -171,11 +171,11 @@ void write_glb(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   const Json attributes = attributes_of(soup, field, parts);
   Json primitives = Json::array();
   const auto add = [&](int mode, const std::vector<int>& indices) {
-    const std::size_t accessor = parts.add(
-        glb_elements, glb_unsigned_int, "SCALAR", indices.size(),
-        [&](std::ostream& to, Eigen::Index i) {
-          store_little(to, static_cast<std::uint32_t>(indices[static_cast<std::size_t>(i)]));
-        });
+    const std::size_t accessor =
+        parts.add(glb_elements, glb_unsigned_int, "SCALAR", indices.size(),
+                  [&](std::ostream& to, Eigen::Index i) {
+                    store_little(to, static_cast<std::uint32_t>(indices[i]));
+                  });
     primitives.push_back(
         {{"attributes", attributes}, {"indices", accessor}, {"mode", mode}, {"material", 0}});
   };

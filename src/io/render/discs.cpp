@@ -81,7 +81,7 @@ void show_as_discs(Scene& scene) {
     for (int k = 0; k < 3; ++k) {
       const int i = scene.triangles(t, k), j = scene.triangles(t, (k + 1) % 3);
       const double length = (scene.points.row(i) - scene.points.row(j)).norm();
-      for (const int v : {i, j}) around[static_cast<std::size_t>(v)].push_back(length);
+      for (const int v : {i, j}) around[v].push_back(length);
     }
     const auto corner = scene.triangles.row(t);
     const double radius = covering_radius(scene.points.row(corner[0]), scene.points.row(corner[1]),
@@ -90,7 +90,7 @@ void show_as_discs(Scene& scene) {
   }
   std::vector<double> known;
   for (Eigen::Index v = 0; v < n; ++v) {
-    auto& lengths = around[static_cast<std::size_t>(v)];
+    auto& lengths = around[v];
     if (lengths.empty()) continue;
     scene.discs(v, 3) = std::min(overlap * covering[v], 2 * middle(lengths));
     known.push_back(scene.discs(v, 3));

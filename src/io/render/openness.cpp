@@ -54,11 +54,11 @@ class HeightMap {
     for (const bool across : {true, false}) {
       for (int j = 0; j < side_; ++j) {
         const auto item = [&](int i) -> float& { return across ? at(i, j) : at(j, i); };
-        for (int i = 0; i < side_; ++i) row[static_cast<std::size_t>(i)] = item(i);
+        for (int i = 0; i < side_; ++i) row[i] = item(i);
         for (int i = 0; i < side_; ++i) {
           const auto before = static_cast<std::size_t>(std::max(0, i - 1));
           const auto after = static_cast<std::size_t>(std::min(side_ - 1, i + 1));
-          item(i) = std::min({row[before], row[static_cast<std::size_t>(i)], row[after]});
+          item(i) = std::min({row[before], row[i], row[after]});
         }
       }
     }
@@ -98,7 +98,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 p = points.row(triangles(t, k));
-      used[static_cast<std::size_t>(triangles(t, k))] = 1;
+      used[triangles(t, k)] = 1;
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
@@ -137,7 +137,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
     if (!used[v]) continue;
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();  // 3 (mean of d), mean of 1
     for (int i = 0; i < directions; ++i) {
-      if (!seen[static_cast<std::size_t>(i)][v]) continue;
+      if (!seen[i][v]) continue;
       sum += Eigen::Vector4d(0, 0, 0, 1);
       sum.head<3>() += 3 * direction(i);
     }

@@ -51,12 +51,12 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
     for (int k = 0; k < 3; ++k) {
       const int v = triangles(t, k);
       if (std::abs(area.row(t).dot(normals.row(v))) < 0.766 * size) {
-        crease[static_cast<std::size_t>(v)] = true;
+        crease[v] = true;
       }
     }
   }
   for (Eigen::Index v = 0; v < normals.rows(); ++v) {
-    if (crease[static_cast<std::size_t>(v)] || !normals.row(v).allFinite()) {
+    if (crease[v] || !normals.row(v).allFinite()) {
       normals.row(v).setZero();
     }
   }
@@ -149,17 +149,15 @@ SurfaceRaster::SurfaceRaster(const Scene& scene, Openness open, const Camera& ca
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     const auto [first, last] = touched(t);
     for (int b = first; b <= last; ++b) {
-      band_triangles_[static_cast<std::size_t>(next[static_cast<std::size_t>(b)]++)] =
-          static_cast<int>(t);
+      band_triangles_[next[b]++] = static_cast<int>(t);
     }
   }
 }
 
 void SurfaceRaster::draw(int b, Band& band) const {
   std::vector<int> owner(band.nearness.size(), -1);
-  for (int i = band_offsets_[static_cast<std::size_t>(b)];
-       i < band_offsets_[static_cast<std::size_t>(b) + 1]; ++i) {
-    cover(band_triangles_[static_cast<std::size_t>(i)], band, owner);
+  for (int i = band_offsets_[b]; i < band_offsets_[static_cast<std::size_t>(b) + 1]; ++i) {
+    cover(band_triangles_[i], band, owner);
   }
   for (int y = band.y0; y < band.y1; ++y) {
     for (int x = 0; x < band.width; ++x) {

@@ -52,7 +52,7 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
       if (!polygons) continue;
       scene.faces.push_back(f);
       const int first = k > 2 ? 1 : 0, last = k + 1 < face.size() ? 4 : 0;
-      scene.inner_sides[static_cast<std::size_t>(t)] = static_cast<unsigned char>(first | last);
+      scene.inner_sides[t] = static_cast<unsigned char>(first | last);
     }
   }
   return scene;
@@ -75,8 +75,7 @@ void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) 
   const auto added = static_cast<Eigen::Index>(sources.points.size());
   scene.source_points.conservativeResize(before + added, 3);
   for (Eigen::Index i = 0; i < added; ++i) {
-    scene.source_points.row(before + i) =
-        mesh.position(sources.points[static_cast<std::size_t>(i)]).transpose();
+    scene.source_points.row(before + i) = mesh.position(sources.points[i]).transpose();
   }
 }
 

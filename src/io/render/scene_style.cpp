@@ -52,7 +52,7 @@ std::array<Rgb, 256> blend(const std::vector<Stop>& stops) {
     while (k + 1 < stops.size() && stops[k].at < x) ++k;
     const double t = (x - stops[k - 1].at) / (stops[k].at - stops[k - 1].at);
     const Vec3 lab = (1 - t) * to_oklab(stops[k - 1]) + t * to_oklab(stops[k]);
-    map[static_cast<std::size_t>(i)] = from_oklab(lab);
+    map[i] = from_oklab(lab);
   }
   return map;
 }
@@ -99,15 +99,14 @@ Rgb region_colour(long number) {
 #undef REGIONS
   const auto n = static_cast<long>(regions.size()) - 1;
   const long i = number == 0 ? 0 : number > 0 ? 1 + (number - 1) % n : n - (-number - 1) % n;
-  const Stop& stop = regions[static_cast<std::size_t>(i)];
+  const Stop& stop = regions[i];
   const auto byte = [](int c) { return static_cast<unsigned char>(c); };
   return {byte(stop.r), byte(stop.g), byte(stop.b)};
 }
 
 Rgb value_colour(const FieldStyle& style, double value) {
   if (style.discrete) return region_colour(std::lround(value));
-  return colour_map(
-      style.map)[static_cast<std::size_t>(std::lround(255 * colour_position(style, value)))];
+  return colour_map(style.map)[std::lround(255 * colour_position(style, value))];
 }
 
 namespace {

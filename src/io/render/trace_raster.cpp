@@ -45,7 +45,7 @@ TraceRaster::Seen TraceRaster::look(double x, double y) const {
     const NearestPoint nearest = near_->closest_point(eye + t * direction);
     Eigen::Vector4f open = Eigen::Vector4f::Zero();
     for (int k = 0; k < 3; ++k)
-      open += static_cast<float>(nearest.barycentric[static_cast<std::size_t>(k)]) *
+      open += static_cast<float>(nearest.barycentric[k]) *
               open_.row(trace_->triangles(nearest.face, k)).transpose();
     seen.lit = occlusion(open, towards);
   }

@@ -130,8 +130,7 @@ class Builder {
     scene.triangles.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (int k = 0; k < 3; ++k)
-        scene.triangles(static_cast<Eigen::Index>(t), k) =
-            triangles_[t][static_cast<std::size_t>(k)];
+        scene.triangles(static_cast<Eigen::Index>(t), k) = triangles_[t][k];
   }
 
  private:

@@ -241,13 +241,13 @@ class WindingReader {
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       const int a = point(segments_[s].first, segment_lines_[s]);
       const int b = point(segments_[s].second, segment_lines_[s]);
-      segments.emplace_back(same[static_cast<std::size_t>(a)], same[static_cast<std::size_t>(b)]);
+      segments.emplace_back(same[a], same[b]);
     }
     Sources sources;
     for (const auto& line : chain(segments, static_cast<int>(points_.size()))) {
       Curve curve;
-      for (int p : line) curve.nodes.push_back(points_[static_cast<std::size_t>(p)]);
-      curve.origin = here(lines_[static_cast<std::size_t>(line[0])]);
+      for (int p : line) curve.nodes.push_back(points_[p]);
+      curve.origin = here(lines_[line[0]]);
       sources.curves.push_back(std::move(curve));
     }
     sources.chains = chains_;

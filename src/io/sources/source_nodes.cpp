@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "littoral/error.h"
-#include "sources/surface_points.h"
+#include "sources/surface/surface_points.h"
 
 namespace littoral::io {
 
@@ -78,13 +78,11 @@ std::vector<std::vector<int>> chain(std::span<const Segment> segments, int n_poi
   const auto count = static_cast<std::size_t>(n_points);
   std::vector<int> next(count, none), ends(count, 0);  // the segment that begins at a point
   for (std::size_t s = 0; s < segments.size(); ++s) {
-    int& slot = next[static_cast<std::size_t>(segments[s].first)];
+    int& slot = next[segments[s].first];
     slot = slot == none ? static_cast<int>(s) : several;
-    ++ends[static_cast<std::size_t>(segments[s].second)];
+    ++ends[segments[s].second];
   }
-  const auto passes = [&](int point) {
-    return next[static_cast<std::size_t>(point)] >= 0 && ends[static_cast<std::size_t>(point)] == 1;
-  };
+  const auto passes = [&](int point) { return next[point] >= 0 && ends[point] == 1; };
   std::vector<bool> done(segments.size(), false);
   std::vector<std::vector<int>> lines;
   const auto walk = [&](std::size_t s) {
@@ -93,7 +91,7 @@ std::vector<std::vector<int>> chain(std::span<const Segment> segments, int n_poi
       done[s] = true;
       line.push_back(segments[s].second);
       if (!passes(line.back())) break;
-      s = static_cast<std::size_t>(next[static_cast<std::size_t>(line.back())]);
+      s = static_cast<std::size_t>(next[line.back()]);
     }
     lines.push_back(std::move(line));
   };

@@ -4,7 +4,7 @@
 
 #include "io/surface/surface_writers.h"
 #include "littoral/error.h"
-#include "sources/surface_points.h"
+#include "sources/surface/surface_points.h"
 
 namespace littoral::io {
 

@@ -119,7 +119,7 @@ void check_range(const LineScanner& scan, const ObjFile& file) {
   };
   for (std::size_t f = 0; f < file.face_line.size(); ++f) {
     for (int c = file.offsets[f]; c < file.offsets[f + 1]; ++c) {
-      check(file.corners[static_cast<std::size_t>(c)], file.face_line[f], "face");
+      check(file.corners[c], file.face_line[f], "face");
     }
   }
   for (std::size_t i = 0; i < file.polylines.size(); ++i) {
@@ -141,7 +141,7 @@ std::vector<double> per_vertex(const ObjFile& file, const std::vector<int>& refs
   };
   for (std::size_t c = 0; c < refs.size(); ++c) {
     if (refs[c] == none || static_cast<std::size_t>(refs[c]) >= count) continue;
-    int& slot = chosen[static_cast<std::size_t>(file.corners[c])];
+    int& slot = chosen[file.corners[c]];
     if (slot == none) slot = refs[c];
     if (slot != refs[c] && !std::ranges::equal(value(slot), value(refs[c]))) return {};
   }

@@ -212,10 +212,10 @@ class PlyReader {
       const auto v = static_cast<Eigen::Index>(r);
       for (std::size_t k = 0; k < 3; ++k) {
         const auto column = static_cast<Eigen::Index>(k);
-        soup_.points(v, column) = row_[static_cast<std::size_t>(position[k])];
-        if (normals) soup_.normals(v, column) = row_[static_cast<std::size_t>(normal[k])];
+        soup_.points(v, column) = row_[position[k]];
+        if (normals) soup_.normals(v, column) = row_[normal[k]];
       }
-      for (const auto& [i, values] : scalars) (*values)(v) = row_[static_cast<std::size_t>(i)];
+      for (const auto& [i, values] : scalars) (*values)(v) = row_[i];
     });
   }
 
@@ -243,9 +243,9 @@ class PlyReader {
     double last_line = 0;
     rows(element, unused, [&](std::uint64_t r) {
       const std::string edge = "edge " + std::to_string(r);
-      const int a = vertex(row_[static_cast<std::size_t>(tail)], edge.c_str());
-      const int b = vertex(row_[static_cast<std::size_t>(head)], edge.c_str());
-      const double number = line == unused ? 0 : row_[static_cast<std::size_t>(line)];
+      const int a = vertex(row_[tail], edge.c_str());
+      const int b = vertex(row_[head], edge.c_str());
+      const double number = line == unused ? 0 : row_[line];
       if (soup_.lines.empty() || soup_.lines.back().back() != a || number != last_line) {
         soup_.lines.push_back({a});
       }

@@ -67,7 +67,7 @@ void write_ply(std::ostream& out, const PolygonSoup& soup, const std::string& fi
     for (int k = 0; k < 3 && soup.normals.rows() > 0; ++k) store_little(out, soup.normals(v, k));
     for (const auto& [name, values] : soup.scalars) store_little(out, values(v));
     if (colours.empty()) continue;
-    for (const unsigned char byte : colours[static_cast<std::size_t>(v)]) store_little(out, byte);
+    for (const unsigned char byte : colours[v]) store_little(out, byte);
   }
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto face = soup.face(f);

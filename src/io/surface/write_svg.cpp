@@ -123,7 +123,7 @@ void write_svg(std::ostream& out, const PolygonSoup& soup, const std::string&) {
     out << "<path ";
     if (!colours.empty())
       out << "data-level=\"" << exact_text(levels->second(line.front())) << "\" stroke=\""
-          << hex(colours[static_cast<std::size_t>(line.front())]) << "\" ";
+          << hex(colours[line.front()]) << "\" ";
     out << thin << " d=\"";
     write_path(out, soup, plane, line);
     out << "\"/>\n";

@@ -113,7 +113,7 @@ void CellMesh::add_cone(std::span<const int> corners, std::span<const std::array
     std::array<int, 4> held{};
     std::size_t n = 0;
     for (const int k : side)
-      if (k >= 0) held[n++] = corners[static_cast<std::size_t>(k)];
+      if (k >= 0) held[n++] = corners[k];
     const std::span<const int> face(held.data(), n);
     if (std::ranges::find(face, tip) != face.end()) continue;
     fan(face, [&](int a, int b, int c) {

@@ -229,8 +229,7 @@ class MshReader {
 
   MshType type_of(std::int64_t type) const {
     if (type == 15) return {1, 1};  // a point
-    if (type > 0 && type < static_cast<std::int64_t>(msh_types.size()))
-      return msh_types[static_cast<std::size_t>(type)];
+    if (type > 0 && type < static_cast<std::int64_t>(msh_types.size())) return msh_types[type];
     scan_.unsupported("elements of type " + std::to_string(type) +
                       "; triangles, quads, tets, hexahedra, prisms and pyramids of first order are "
                       "read (Mesh.ElementOrder = 1)");

@@ -58,7 +58,7 @@ Facets facets_of(const PolygonSoup& surface, const TetgenRequest& request) {
     Vec3 p = request.low;
     for (int a = 0; a < 3; ++a)
       if ((w >> a & 1) != 0) p[a] = request.high[a];
-    corner[static_cast<std::size_t>(w)] = vertex(p, request.coarse);
+    corner[w] = vertex(p, request.coarse);
   }
   constexpr std::size_t sides[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
                                        {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};

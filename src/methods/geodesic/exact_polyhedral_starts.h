@@ -6,7 +6,7 @@
 
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "methods/geodesic/polyhedral_window.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

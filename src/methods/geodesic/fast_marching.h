@@ -4,7 +4,7 @@
 #include "base/task.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/report.h"
-#include "sources/triangle_sources.h"
+#include "sources/surface/triangle_sources.h"
 
 namespace littoral {
 

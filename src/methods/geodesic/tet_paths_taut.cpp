@@ -147,7 +147,7 @@ void TautInTets::open_tets(const Node& at) {
   const EdgeTurn& turn = at.turn;
   if (turn.a < 0) return;
   for (const int t : sight_.tets_at(turn.at_end() ? turn.end() : turn.a)) {
-    unsigned& seen = seen_[static_cast<std::size_t>(t)];
+    unsigned& seen = seen_[t];
     if (seen == stamp_ || (!turn.at_end() && !(mesh_.tets.row(t).array() == turn.b).any()))
       continue;
     seen = stamp_;
@@ -187,7 +187,7 @@ TautInTets::Nodes TautInTets::edges_in(const Node& p, const Node& c, const Node&
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const int a = mesh_.tets(t, i), b = mesh_.tets(t, j);
-        const std::vector<int>& ends = reentrant_[static_cast<std::size_t>(a)];
+        const std::vector<int>& ends = reentrant_[a];
         if (a >= b || !std::binary_search(ends.begin(), ends.end(), b)) continue;
         const double nothing = on_side * triangle.size();
         double above_a = triangle.above(point(a)), above_b = triangle.above(point(b));
@@ -198,7 +198,7 @@ TautInTets::Nodes TautInTets::edges_in(const Node& p, const Node& c, const Node&
       }
     for (int k = 0; k < 4; ++k)
       for (const int next : sight_.tets_of_face(t, k))
-        if (unsigned& seen = seen_[static_cast<std::size_t>(next)]; seen != stamp_) {
+        if (unsigned& seen = seen_[next]; seen != stamp_) {
           seen = stamp_;
           open_.push_back(next);
         }
@@ -289,7 +289,7 @@ void TautInTets::turn_onto_edges(Nodes& way) const {
     const Vec3 pull =
         (way[i].at - way[i - 1].at).normalized() + (way[i].at - way[i + 1].at).normalized();
     double least = -downhill;
-    for (const int w : reentrant_[static_cast<std::size_t>(v)]) {
+    for (const int w : reentrant_[v]) {
       const double slope = (point(w) - point(v)).normalized().dot(pull);
       if (!(slope < least)) continue;
       least = slope;

@@ -5,7 +5,7 @@
 
 #include "littoral/types.h"
 #include "methods/heat/yukawa_sum.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 #include "spatial/point_blocks.h"
 #include "spatial/point_tree.h"
 

@@ -8,7 +8,7 @@
 #include "littoral/report.h"
 #include "methods/heat/cell_field.h"
 #include "operators/calculus.h"
-#include "sources/source_system.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

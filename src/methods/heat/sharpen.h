@@ -6,7 +6,7 @@
 #include "littoral/options.h"
 #include "littoral/report.h"
 #include "operators/calculus.h"
-#include "sources/source_system.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

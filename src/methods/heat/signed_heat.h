@@ -13,7 +13,7 @@
 #include "methods/heat/vector_heat.h"
 #include "operators/calculus.h"
 #include "solve/poisson/poisson.h"
-#include "sources/source_system.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

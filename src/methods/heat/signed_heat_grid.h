@@ -8,7 +8,7 @@
 #include "littoral/options.h"
 #include "littoral/report.h"
 #include "operators/grid.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 
 namespace littoral {
 

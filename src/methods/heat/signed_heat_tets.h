@@ -10,7 +10,7 @@
 #include "operators/tet_operators.h"
 #include "solve/direct/cholesky.h"
 #include "solve/poisson/poisson.h"
-#include "sources/tet_source_system.h"
+#include "sources/space/tet_source_system.h"
 
 namespace littoral {
 

@@ -14,7 +14,7 @@
 #include "base/task.h"
 #include "littoral/report.h"
 #include "operators/calculus.h"
-#include "sources/source_system.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

@@ -10,7 +10,7 @@
 #include "methods/heat/scalar_heat.h"
 #include "operators/calculus.h"
 #include "solve/poisson/poisson.h"
-#include "sources/source_system.h"
+#include "sources/systems/source_system.h"
 
 namespace littoral {
 

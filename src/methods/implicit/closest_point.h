@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "methods/implicit/pointwise.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 
 namespace littoral {
 

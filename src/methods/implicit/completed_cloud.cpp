@@ -130,7 +130,7 @@ LevelPatch CompletedCloud::patch_beyond(double spacings, const MatX3& corners,
     const Vec3 a = corners.row(faces(f, 0)), b = corners.row(faces(f, 1)),
                c = corners.row(faces(f, 2));
     const Neighbour nearest = points_.nearest((a + b + c) / 3);
-    const double rho = tori_->tori()[static_cast<std::size_t>(nearest.point)].rho;
+    const double rho = tori_->tori()[nearest.point].rho;
     if (!(nearest.squared_distance > spacings * spacings * rho * rho)) continue;
     far.push_back(static_cast<int>(f));
     patch.area += (b - a).cross(c - a).norm() / 2;
@@ -140,11 +140,11 @@ LevelPatch CompletedCloud::patch_beyond(double spacings, const MatX3& corners,
   for (std::size_t i = 0; i < far.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const int v = faces(far[i], k);
-      if (number[static_cast<std::size_t>(v)] < 0) {
-        number[static_cast<std::size_t>(v)] = static_cast<int>(used.size());
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(used.size());
         used.push_back(v);
       }
-      patch.faces(index(i), k) = number[static_cast<std::size_t>(v)];
+      patch.faces(index(i), k) = number[v];
     }
   patch.points = corners(used, Eigen::all);
   patch.finest = spacing_;
@@ -163,7 +163,7 @@ CompletedCloud::Foot CompletedCloud::foot_of(const Vec3& x, double tori, int las
   double linear = 0, mean = 0, bubble = 27;
   for (int k = 0; k < 3; ++k) {
     const double at = at_corners_[faces_(nearest.face, k)];
-    const double weight = nearest.barycentric[static_cast<std::size_t>(k)];
+    const double weight = nearest.barycentric[k];
     linear += weight * at;
     mean += at / 3;
     bubble *= weight;

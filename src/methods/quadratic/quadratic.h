@@ -11,7 +11,7 @@
 #include "littoral/report.h"
 #include "operators/p2.h"
 #include "solve/optimization/paraboloid_program.h"
-#include "sources/p2_sources.h"
+#include "sources/surface/p2_sources.h"
 
 namespace littoral {
 

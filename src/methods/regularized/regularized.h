@@ -12,7 +12,7 @@
 #include "methods/regularized/regularized_part.h"
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
-#include "sources/known_distances.h"
+#include "sources/surface/known_distances.h"
 
 namespace littoral {
 

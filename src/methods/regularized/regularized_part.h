@@ -11,7 +11,7 @@
 #include "operators/calculus.h"
 #include "solve/optimization/admm.h"
 #include "solve/poisson/constrained_system.h"
-#include "sources/known_distances.h"
+#include "sources/surface/known_distances.h"
 
 namespace littoral {
 

@@ -7,8 +7,8 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
-#include "sources/likely_outliers.h"
-#include "sources/oriented_points.h"
+#include "sources/space/likely_outliers.h"
+#include "sources/space/oriented_points.h"
 
 namespace littoral {
 

@@ -10,7 +10,7 @@
 #include "methods/tori/jet.h"
 #include "methods/tori/torus_fit.h"
 #include "methods/tori/torus_kernels.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 #include "spatial/point_tree.h"
 #include "spatial/winding_number.h"
 
@@ -19,7 +19,7 @@ namespace littoral {
 /// How the blend is summed.
 enum class ToriPrecision { full, single };
 
-/// What becomes of points that hardly any neighbour agrees with (sources/likely_outliers.h).
+/// What becomes of points that hardly any neighbour agrees with (sources/space/likely_outliers.h).
 enum class ToriOutliers { keep, drop };
 
 /// A cloud's tori and their blend; immutable, may be asked from several threads.

@@ -10,7 +10,7 @@
 
 #include "base/task.h"
 #include "methods/tori/torus.h"
-#include "sources/oriented_points.h"
+#include "sources/space/oriented_points.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {

@@ -288,8 +288,8 @@ def test_files_are_named_in_what_is_wrong_with_them(run: Run, mesh: Path) -> Non
         (("winding", "square.obj", "--points", "nan.csv", "-o", "a.csv"), "nan.csv: point 1"),
     ):
         assert said in run(*words, status=2).stderr
-    words = ("distance", "square.obj", "--vertex=0", "-o", "a.csv", "--log", "missing/log")
-    assert "there is no folder missing" in run(*words, status=1).stderr
+    logged = ("distance", "square.obj", "--vertex=0", "-o", "a.csv", "--log", "missing/log")
+    assert "there is no folder missing" in run(*logged, status=1).stderr
 
 
 def test_what_was_meant_is_said(run: Run, mesh: Path) -> None:

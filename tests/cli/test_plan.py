@@ -66,7 +66,9 @@ def test_large_meshes_are_solved_in_parts(
     points = np.zeros((n + 1, n + 1, 3))
     points[..., :2] = np.stack(np.meshgrid(np.arange(n + 1), np.arange(n + 1)), axis=-1)
     first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1, 1)
-    corners = np.concatenate([first + [0, 1, n + 2], first + [0, n + 2, n + 1]])
+    corners = np.concatenate(
+        [first + np.array([0, *ends]) for ends in ((1, n + 2), (n + 2, n + 1))]
+    )
     faces = np.zeros(len(corners), dtype=[("n", "u1"), ("corners", "<i4", 3)])
     faces["n"], faces["corners"] = 3, corners
     head = f"ply\nformat binary_little_endian 1.0\nelement vertex {(n + 1) ** 2}\n"

@@ -358,7 +358,9 @@ def test_interrupt_stops_soon(cube: Path, tmp_path: Path) -> None:
 def test_winding_numbers_as_a_volume(run: Run, cube: Path, tmp_path: Path) -> None:
     (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n1,0,0\n1.3,0,0\n3,0,0\n")
     run("winding", cube, "--points", "points.csv", "--smoothing", 0.1, "-o", "a.csv")
-    assert [row[0] for row in results(tmp_path / "a.csv")] == pytest.approx([1, 0.5, 0, 0], abs=0.01)
+    assert [row[0] for row in results(tmp_path / "a.csv")] == pytest.approx(
+        [1, 0.5, 0, 0], abs=0.01
+    )
     grid = ("--resolution", 24)
     run("sdf", cube, "--field", "winding", *grid, "-o", "w.npy", "-o", "w.obj")
     run("sdf", cube, "--field", "winding", "--smoothing", 0.1, *grid, "-o", "s.obj")

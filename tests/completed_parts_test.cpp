@@ -89,6 +89,20 @@ TEST(BoundaryEdges, AreThoseOfTheChain) {
   EXPECT_EQ(of(loose), 0u);
 }
 
+TEST(BoundaryEdges, CopiesAreFacesWithTheSameCornersInTheSameSense) {
+  const PolygonSoup sphere = test::octasphere_soup(1);
+  const auto left = [](const PolygonSoup& soup) {
+    return without_copies(soup.points, triangles_of(soup));
+  };
+  EXPECT_EQ(left(sphere), triangles_of(sphere));
+  EXPECT_EQ(left(joined(sphere, sphere)), triangles_of(sphere));  // by position; the first stay
+  EXPECT_EQ(left(joined(sphere, test::reversed(sphere))).rows(), 2 * sphere.n_faces());
+  PolygonSoup begun_elsewhere = sphere;
+  const auto face = sphere.face(5);
+  begun_elsewhere.add_face(std::array{face[2], face[0], face[1]});
+  EXPECT_EQ(left(begun_elsewhere), triangles_of(sphere));
+}
+
 /// So many triangles by themselves with middles in a box about a place, and corners about these.
 PolygonSoup crowd(int n, const Vec3& place, const Vec3& box, const Vec3& size) {
   PolygonSoup soup;

@@ -202,6 +202,41 @@ TEST(Completed, SoupsAreOrientedByParityWhereTheirOrientationDisagrees) {
   EXPECT_FALSE(of_odd.warnings.empty());
 }
 
+TEST(Completed, FacesThatAreThereTwiceCountOnce) {
+  const PolygonSoup open = hemisphere(2, false), sphere = test::octasphere_soup(2);
+  for (const PolygonSoup& soup : {open, sphere}) {
+    // Some, among them faces on the rim; and all of them.
+    const PolygonSoup some =
+        joined(soup, part_of(soup, [](int f, const Vec3&) { return f % 7 == 0; }));
+    const Grid grid = test::cube_grid(17, 1.31);
+    Report of_once, of_some, of_all;
+    const VecX values = by_default(soup, grid, of_once);
+    expect_same(by_default(some, grid, of_some), values);
+    expect_same(by_default(joined(soup, soup), grid, of_all), values);
+    for (const Report* report : {&of_once, &of_some, &of_all}) {
+      EXPECT_THAT(report->warnings, IsEmpty());
+      EXPECT_EQ(completed_size(*report, "free edges"), completed_size(of_once, "free edges"));
+    }
+  }
+}
+
+TEST(Completed, FacesThatAPartNeedsToBeClosedStayThoughTheyAreCopies) {
+  // A tetrahedron inside a sphere that shares one of its faces; the sphere has a hole elsewhere.
+  PolygonSoup both = part_of(test::octasphere_soup(2), [](int f, const Vec3&) { return f != 9; });
+  const std::vector<int> base(both.face(0).begin(), both.face(0).end());
+  both.points.conservativeResize(both.n_vertices() + 1, 3);
+  const int apex = both.n_vertices() - 1;
+  both.points.row(apex).setZero();
+  both.add_face(base);
+  for (int k = 0; k < 3; ++k)
+    both.add_face(std::array{base[std::size_t((k + 1) % 3)], base[std::size_t(k)], apex});
+  Report report;
+  by_default(both, test::cube_grid(9, 1.31), report);
+  EXPECT_EQ(completed_size(report, "free edges"), 3);
+  for (const auto& [name, value] : report.sizes)
+    EXPECT_NE(name, "copies of faces left out of the sign");
+}
+
 TEST(Completed, SaysWhatIsDoubtful) {
   const Grid grid = test::cube_grid(15, 1.2);
   const PolygonSoup sheet = test::grid_soup(8, 8);

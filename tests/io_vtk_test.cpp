@@ -101,7 +101,35 @@ TEST(VtkSurfaces, WhatIsWrittenIsRead) {
   EXPECT_EQ(again.corners, soup.corners);
   EXPECT_EQ(again.face_offsets, soup.face_offsets);
   EXPECT_EQ(again.lines, soup.lines);
+  EXPECT_EQ(again.normals, soup.normals);
   EXPECT_EQ(again.scalars, soup.scalars);
+}
+
+TEST(VtkSurfaces, WhatHasNoValuesIsWrittenAsItIs) {
+  const PolygonSoup roof = test::read(polydata, ".vtk");
+  PolygonSoup bare;
+  bare.points = roof.points;
+  bare.face_offsets = roof.face_offsets;
+  bare.corners = roof.corners;
+  std::ostringstream out;
+  io::write_vtp(out, bare, "distance");
+  EXPECT_THAT(out.str(), ::testing::Not(HasSubstr("Scalars=")));
+  const PolygonSoup again = test::read(out.str(), ".vtp");
+  EXPECT_EQ(again.points, bare.points);
+  EXPECT_EQ(again.corners, bare.corners);
+  EXPECT_TRUE(again.scalars.empty());
+}
+
+// Programs of VTK draw points that are vertices, and no others.
+TEST(VtkSurfaces, PointsAloneAreVertices) {
+  PolygonSoup cloud;
+  cloud.points = test::read(polydata, ".vtk").points;
+  std::ostringstream out;
+  io::write_vtp(out, cloud, "distance");
+  EXPECT_THAT(out.str(), HasSubstr("NumberOfVerts=\"5\""));
+  const PolygonSoup again = test::read(out.str(), ".vtp");
+  EXPECT_EQ(again.points, cloud.points);
+  EXPECT_EQ(again.n_faces(), 0);
 }
 
 const std::string grid_begin =

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "api/space/sdf.h"
+#include "api/space/valued_sources.h"
 #include "base/parallel.h"
 #include "littoral/littoral.h"
 #include "sources/space/parts_of_samples.h"
@@ -282,11 +283,21 @@ TEST(SpaceValues, WhatCannotBeHadIsRefused) {
   const Grid grid = test::cube_grid(6, 2);
   for (const MethodInfo& info : Registry<SpaceDomain>::instance().infos()) {
     if (info.different_values) continue;
-    EXPECT_THROW(
-        signed_distance(boxes.surface, boxes.values, AnyMethod::named(info.name)).sample(grid),
-        UnsupportedError)
-        << info.name;
+    const auto sample = [&] {
+      signed_distance(boxes.surface, boxes.values, AnyMethod::named(info.name)).sample(grid);
+    };
+    EXPECT_THROW(sample(), UnsupportedError) << info.name;
   }
+  Report unheard;
+  const auto refused = [&](const SpaceDomain& domain) {
+    return test::message_of([&] {
+      solve_from_values(AnyMethod::named("tori"), domain,
+                        {boxes.surface, false, false, boxes.values}, Task(), unheard);
+    });
+  };
+  EXPECT_THAT(refused({grid, {}}), HasSubstr("on a grid these take them: auto, signed-heat, "
+                                             "winding, closest-point"));
+  EXPECT_THAT(refused({}), ::testing::EndsWith("these take them: auto, winding, closest-point"));
   SpaceSignedHeat levels, sharp;
   levels.constraint = SpaceConstraint::level_sets;
   sharp.sharpen = true;

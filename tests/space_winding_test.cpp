@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <random>
 
 #include "api/space/sdf.h"
 #include "littoral/error.h"
 #include "space_helpers.h"
+#include "spatial/dipole_moments.h"
 #include "spatial/triangulate.h"
 #include "spatial/winding_number.h"
 #include "test_meshes.h"
@@ -38,13 +40,75 @@ TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
   const WindingNumber winding(soup.points, faces);
   EXPECT_FALSE(winding.exact());
   const MatX3 queries = test::random_points(150, 1.6);
-  double worst = 0;
+  double worst = 0, sum = 0, worst_sign = 0;
   for (Eigen::Index i = 0; i < queries.rows(); ++i) {
     const Vec3 q = queries.row(i);
-    worst =
-        std::max(worst, std::abs(winding(q) - winding_number_brute_force(soup.points, faces, q)));
+    const double exact = winding_number_brute_force(soup.points, faces, q);
+    const double error = std::abs(winding(q) - exact);
+    worst = std::max(worst, error);
+    sum += error;
+    worst_sign = std::max(worst_sign, std::abs(winding(q, WindingNumber::sign_accuracy) - exact));
   }
   EXPECT_LT(worst, 1e-3);
+  EXPECT_LT(sum / 150, 1e-4);
+  EXPECT_LT(worst_sign, 3e-3);
+}
+
+/// What DipoleMoments::coefficients say of the field, by the formula at their declaration.
+double expanded(const DipoleMoments& moments, const Vec3& r, double unit) {
+  static_assert(dipole_degree == 4);
+  const auto M = moments.coefficients(unit);
+  const Vec3 u = r.normalized();
+  const double t = unit / r.norm(), z = u[2], zz = z * z;
+  const std::complex<double> along(u[0], u[1]);
+  const double q[4][5] = {{z, 1, 0, 0, 0},
+                          {zz - 1. / 3, z, 1, 0, 0},
+                          {z * (zz - 3. / 5), zz - 1. / 5, z, 1, 0},
+                          {zz * (zz - 6. / 7) + 3. / 35, z * (zz - 3. / 7), zz - 1. / 7, z, 1}};
+  double sum = 0;
+  std::size_t at = 0;
+  for (int l = 1; l <= dipole_degree; ++l)
+    for (int m = 0; m <= l; ++m) {
+      const auto power = std::pow(along, m);
+      double term = M[at++] * power.real();
+      if (m > 0) term += M[at++] * power.imag();
+      sum += std::pow(t, l - 1) * q[l - 1][m] * term;
+    }
+  return sum / r.squaredNorm();
+}
+
+TEST(DipoleMoments, LeaveAnErrorOfTheFourthOrder) {
+  const Vec3 r(0.7, -1.1, 0.9), d(0.11, 0.23, -0.17), a(0.3, -0.5, 0.8);
+  double before = 0;
+  for (const double scale : {1.0, 0.5, 0.25, 0.125}) {
+    DipoleMoments moments;
+    moments.add(scale * d, a);
+    const Vec3 x = r + scale * d;
+    const double error = std::abs(expanded(moments, r, 0.3) - a.dot(x) / std::pow(x.norm(), 3));
+    if (scale < 0.5) EXPECT_NEAR(before / error, 16, 3) << scale;
+    before = error;
+  }
+}
+
+TEST(DipoleMoments, AboutAnotherCentreAreThoseTakenThere) {
+  const MatX3 at = test::random_points(7, 1), areas = test::random_points(14, 1).bottomRows(7);
+  const Vec3 shift(0.4, -0.3, 0.2);
+  DipoleMoments here, there, moved;
+  for (Eigen::Index i = 0; i < at.rows(); ++i) {
+    here.add(at.row(i), areas.row(i));
+    there.add(Vec3(at.row(i)) + shift, areas.row(i));
+  }
+  moved.add(here, shift);
+  const auto expected = there.coefficients(0.5), found = moved.coefficients(0.5);
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(found[k], expected[k], 1e-10 * (1 + std::abs(expected[k]))) << k;
+}
+
+TEST(DipoleMoments, OfATinyClusterAreFinite) {
+  DipoleMoments moments;
+  moments.add(Vec3(1e-120, 0, 1e-130), Vec3(0, 1e-200, 0));
+  for (double c : moments.coefficients(1e-120)) EXPECT_TRUE(std::isfinite(c));
+  for (double c : moments.coefficients(0)) EXPECT_TRUE(std::isfinite(c));
 }
 
 TEST(WindingNumber, SmoothedIsTheConvolutionWithAGaussian) {

@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -76,6 +77,13 @@ def run(*arguments: object) -> tuple[float, float]:
     return used.ru_utime + used.ru_stime, memory * 2**20
 
 
+def asked(*arguments: object) -> dict[str, Any]:
+    """What --dry-run reports."""
+    words = [sys.argv[1], *map(str, arguments), "--threads", "1", "--dry-run", "--quiet", "--json"]
+    out: dict[str, Any] = json.loads(subprocess.check_output(words))
+    return out
+
+
 def fitted(sizes: list[float], runs: list[tuple[float, float]], order: int = 1) -> str:
     """Power law through two runs, and bytes for each element to this power."""
     (t0, _), (t1, memory) = runs
@@ -114,8 +122,7 @@ def near_surface(method: str, file: Path) -> str:
     work, seconds, memory = [], [], []
     for resolution in (96, 384):
         words = ("sdf", file, "--method", method, "--resolution", resolution, "-o", "a.npy")
-        command = [sys.argv[1], *map(str, words), "--dry-run", "--quiet", "--json"]
-        sizes = json.loads(subprocess.check_output(command))["sizes"]
+        sizes = asked(*words)["sizes"]
         work.append([sizes["nodes"], area / sizes["spacing"] ** 2])
         t, held = run(*words)
         seconds.append(t - START - FACE[0] * faces)

@@ -32,15 +32,30 @@ void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choic
   }
 }
 
+namespace {
+
+bool runs_on(const MethodInfo& method, const std::string& kind) {
+  return std::find(method.domains.begin(), method.domains.end(), kind) != method.domains.end();
+}
+
+}  // namespace
+
+void refuse_different_values(const MethodInfo& method, const std::string& kind,
+                             const std::vector<MethodInfo>& all) {
+  std::vector<std::string> able;
+  for (const MethodInfo& m : all)
+    if (m.different_values && runs_on(m, kind)) able.push_back(m.name);
+  throw UnsupportedError(
+      "method " + method.name + " measures from sources of one value, and these have several" +
+      (able.empty() ? "" : "; on a " + kind + " these take them: ") + listed(able));
+}
+
 void check_domain(const MethodInfo& method, const std::string& kind,
                   const std::vector<MethodInfo>& all) {
-  const auto runs = [&](const MethodInfo& m) {
-    return std::find(m.domains.begin(), m.domains.end(), kind) != m.domains.end();
-  };
-  if (runs(method)) return;
+  if (runs_on(method, kind)) return;
   std::vector<std::string> others;
   for (const MethodInfo& m : all)
-    if (runs(m)) others.push_back(m.name);
+    if (runs_on(m, kind)) others.push_back(m.name);
   const std::string on =
       listed(method.domains, [](const std::string& domain) { return "a " + domain; });
   throw UnsupportedError("method " + method.name + " runs on " + on + ", not on a " + kind +

@@ -132,7 +132,7 @@ std::vector<Method<D>> library_methods();
 
 /// What a domain adds to all methods, whatever they know of it: nothing, unless it says so.
 template <class D>
-std::shared_ptr<const Solver<D>> with_additions(const MethodInfo&,
+std::shared_ptr<const Solver<D>> with_additions(const MethodInfo&, const D&,
                                                 std::shared_ptr<const Solver<D>> solver) {
   return solver;
 }
@@ -190,6 +190,11 @@ class Registry {
 void check_domain(const MethodInfo& method, const std::string& kind,
                   const std::vector<MethodInfo>& all);
 
+/// For a method that measures from one value and is given several: throws UnsupportedError, naming
+/// those that take them on such a domain.
+[[noreturn]] void refuse_different_values(const MethodInfo& method, const std::string& kind,
+                                          const std::vector<MethodInfo>& all);
+
 /// Throws InputError, naming the methods that have it, where a choice without a name gives an
 /// option that the default has not.
 void check_options_of_default(const MethodInfo& fallback, const AnyMethod& choice,
@@ -220,7 +225,8 @@ std::shared_ptr<const Solver<D>> prepare(const AnyMethod& choice, const D& domai
   report.method = method->info.name;
   report.domain = domain.kind();
   check_domain(method->info, report.domain, Registry<D>::instance().infos());
-  return with_additions<D>(method->info, method->prepare(domain, options, hint, task, report));
+  return with_additions<D>(method->info, domain,
+                           method->prepare(domain, options, hint, task, report));
 }
 
 /// Both in a row.

@@ -306,6 +306,8 @@ std::string refused_text(const CLI::ParseError& error, CLI::App& program,
   const auto see = "; see " + name + " --help";
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
     const std::vector<std::string> extra = verb->remaining(true);
+    if (!extra.empty() && extra.front() == "%")
+      return "'%' stands apart from its number; write them as one, as in 2%";
     return "'" + (extra.empty() ? std::string() : extra.front()) +
            "' is one argument too many: " + name + " takes" + inputs +
            ", and files and values behind their options" + see;

@@ -115,14 +115,6 @@ void add_json_option(CLI::App& verb, Session& session);
 /// Adds --index-base.
 void add_index_option(CLI::App& verb, Session& session);
 
-/// Reads "0,0.5,-1"; throws InputError naming the option.
-std::vector<double> parse_numbers(const std::string& option, const std::string& text);
-double parse_number(const std::string& option, const std::string& text);
-/// Reads "0,1,2".
-Vec3 parse_position(const std::string& option, const std::string& text);
-/// Reads "0,1", ascending.
-std::array<double, 2> parse_range(const std::string& option, const std::string& text);
-
 /// Adds the file that a verb is about.
 CLI::Option* add_input_option(CLI::App& verb, const std::string& name, std::string& file,
                               const std::string& help);

@@ -32,18 +32,22 @@ bool begins_as(const std::string& text, const Format& format) {
   });
 }
 
-/// The formats whose files begin so.
-std::vector<const Format*> formats_beginning(const std::string& text) {
+/// The formats whose files are of this size and begin so: one of numbers alone whose size fits, or
+/// else those that have these words there.
+std::vector<const Format*> formats_beginning(std::string_view bytes, std::uint64_t size) {
+  const std::string text = beginning_of(bytes);
   std::vector<const Format*> found;
-  for (const Format& format : formats())
+  for (const Format& format : formats()) {
+    if (format.fits && format.fits(bytes, size)) return {&format};
     if (begins_as(text, format)) found.push_back(&format);
+  }
   return found;
 }
 
 }  // namespace
 
-std::string extension_told(std::string_view bytes) {
-  const std::vector<const Format*> found = formats_beginning(beginning_of(bytes));
+std::string extension_told(std::string_view bytes, std::uint64_t size) {
+  const std::vector<const Format*> found = formats_beginning(bytes, size);
   return found.size() == 1 ? std::string(found.front()->extension) : "";
 }
 
@@ -51,7 +55,8 @@ std::string extension_to_read(const std::filesystem::path& path) {
   const std::string named = extension_named(path);
   const Format* format = format_of(named);
   if (format && !format->exchanged) return named;
-  const std::string told = extension_told(first_bytes(path, 2 * looked_at));
+  const auto [bytes, size] = first_bytes(path, 2 * looked_at);
+  const std::string told = extension_told(bytes, size);
   if (told.empty() || (format && !format_of(told)->exchanged)) return named;
   return told;
 }
@@ -65,7 +70,7 @@ std::string contents_hint(std::string_view bytes, const std::string& extension) 
     return "it is a pointer of Git LFS: 'git lfs pull' fetches the file";
   if (text.starts_with("\x1f\x8b")) return "it is packed by gzip: name it " + extension + ".gz";
   std::string alike;
-  for (const Format* format : formats_beginning(text)) {
+  for (const Format* format : formats_beginning(bytes, bytes.size())) {
     if (format->extension == lower_case(extension)) return "";
     alike.append(alike.empty() ? "" : " or ").append(format->extension);
   }

@@ -1,6 +1,7 @@
 #pragma once
 // What the bytes of a file look like, for files that are not what their names say.
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,9 @@ namespace littoral::io {
 /// no format.
 std::string contents_hint(std::string_view bytes, const std::string& extension);
 
-/// The extension of the only format whose files begin so; empty where there is none or several.
-std::string extension_told(std::string_view bytes);
+/// The extension of the only format whose files begin so and may have this size [bytes]; empty
+/// where there is none or several.
+std::string extension_told(std::string_view bytes, std::uint64_t size);
 
 /// What `read` returns; its InputErrors of bad files end in the hint, unless they say the same.
 template <class Read>

@@ -2,6 +2,7 @@
 // The file formats, one row each. From the rows come the choice of reader and writer, what messages
 // and help say about extensions, and docs/reference/formats.md.
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -72,6 +73,8 @@ struct Format {
   /// How files begin after blanks, in lower case and with a blank for a line end; what begins with
   /// '<' may stand further on.
   std::vector<std::string_view> begins{};
+  /// Where files may begin anyhow: do these first bytes go with a file of this size?
+  bool (*fits)(std::string_view first, std::uint64_t size) = nullptr;
 
   bool (*available)() = nullptr;  // null: in every build
   std::string_view unless = "";   // why it is not

@@ -2,6 +2,7 @@
 // Reading files. Every reader answers any bytes with a value or an InputError naming file and line.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -59,8 +60,13 @@ Sources sources_from_lines(const PolygonSoup& soup, const std::string& name);
 /// Whole file; throws IoError naming it (missing, unreadable, a directory).
 std::string read_bytes(const std::filesystem::path& path);
 
-/// How a file begins, unpacked: `most` bytes at most; none of what is no plain file or cannot be
-/// read, such as standard input, which can be read but once.
-std::string first_bytes(const std::filesystem::path& path, std::size_t most);
+/// How a file begins, and its size as far as that is known [bytes], both unpacked.
+struct FirstBytes {
+  std::string bytes{};
+  std::uint64_t size = 0;
+};
+/// `most` bytes at most; none of what is no plain file or cannot be read, such as standard input,
+/// which can be read but once.
+FirstBytes first_bytes(const std::filesystem::path& path, std::size_t most);
 
 }  // namespace littoral::io

@@ -44,14 +44,17 @@ std::string all_of(std::FILE* file, const std::filesystem::path& path, std::uint
   return bytes;
 }
 
-/// Of a file of one member below 4 GiB, whose size stands at its end.
+/// How large a file of one member below 4 GiB is unpacked, by its last bytes.
+std::uint32_t unpacked_size(std::string_view last) {
+  return load_little<std::uint32_t>(last.data() + last.size() - sizeof(std::uint32_t));
+}
+
 std::string without_gzip(const std::string& packed, const std::string& name) {
   const std::string hint = "; unpack it with gzip -d and name the result";
   constexpr std::size_t least = 18;  // bytes of head and end
   if (packed.size() < least || packed.substr(0, 2) != "\x1f\x8b")
     throw InputError(name + ": not packed by gzip, as its name says", "bad-file");
-  const auto size = load_little<std::uint32_t>(packed.data() + packed.size() - 4);
-  auto bytes = unpack(packed, size, Packing::zlib_or_gzip);
+  auto bytes = unpack(packed, unpacked_size(packed), Packing::zlib_or_gzip);
   if (!bytes)
     throw InputError(name + ": damaged, of several parts, or beyond 4 GiB" + hint, "bad-file");
   return *std::move(bytes);
@@ -95,14 +98,26 @@ std::string read_bytes(const std::filesystem::path& path) {
   return is_packed(path) ? without_gzip(bytes, path.string()) : bytes;
 }
 
-std::string first_bytes(const std::filesystem::path& path, std::size_t most) {
+FirstBytes first_bytes(const std::filesystem::path& path, std::size_t most) {
   std::error_code none;
-  if (is_standard_stream(path) || !std::filesystem::is_regular_file(path, none)) return "";
+  if (is_standard_stream(path) || !std::filesystem::is_regular_file(path, none)) return {};
   const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) return "";
-  std::string bytes(most, '\0');
-  bytes.resize(std::fread(bytes.data(), 1, most, file.get()));
-  return is_packed(path) ? unpacked_beginning(bytes, most) : bytes;
+  if (!file) return {};
+  const auto read = [&](std::size_t count) {
+    std::string bytes(count, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, count, file.get()));
+    return bytes;
+  };
+  std::string bytes = read(most);
+  if (!is_packed(path)) {
+    const std::uintmax_t size = std::filesystem::file_size(path, none);
+    return {std::move(bytes), none ? 0 : size};
+  }
+  std::string last;
+  if (std::fseek(file.get(), -static_cast<long>(sizeof(std::uint32_t)), SEEK_END) == 0)
+    last = read(sizeof(std::uint32_t));
+  return {unpacked_beginning(bytes, most),
+          last.size() < sizeof(std::uint32_t) ? 0 : unpacked_size(last)};
 }
 
 }  // namespace littoral::io

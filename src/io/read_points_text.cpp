@@ -22,14 +22,17 @@ PointTable read_points_text(std::string_view bytes, const std::string& name) {
   PointTable table;
   if (rows.n_columns() > 0) {
     const auto xyz = rows.points();
-    std::vector<std::size_t> carried;  // the other columns
-    for (std::size_t c = 0; c < names.size(); ++c)
-      if (std::ranges::find(xyz, c) == xyz.end()) carried.push_back(c);
-    for (const std::size_t c : carried) table.carried.push_back({names[c], {}});
+    if (!names.empty()) table.columns.clear();
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      const auto axis = std::ranges::find(xyz, c);
+      table.columns.push_back({names[c], axis == xyz.end() ? PointColumn::no_axis
+                                                           : static_cast<int>(axis - xyz.begin())});
+    }
     while (rows.next()) {
       for (const std::size_t c : xyz) numbers.push_back(rows.number(c));
-      for (std::size_t k = 0; k < carried.size(); ++k)
-        table.carried[k].cells.push_back(rows.cells()[carried[k]]);
+      for (std::size_t c = 0; c < names.size(); ++c)
+        if (table.columns[c].axis == PointColumn::no_axis)
+          table.columns[c].cells.push_back(rows.cells()[c]);
     }
   }
   if (numbers.empty()) throw InputError(name + ": no points", "bad-file");

@@ -17,6 +17,7 @@ namespace littoral::io {
 ///   .ply  points, faces, lines, normals, all scalars (binary little endian, double properties;
 ///   lines
 ///         as edge elements, numbered by the property "line")
+///   .vtp  points, faces, lines, normals, all scalars
 ///   .off  points, faces, normals
 ///   .stl  triangles only (binary, single precision)
 /// Throws UnsupportedError for other extensions and for what a format cannot hold, InputError for
@@ -25,9 +26,9 @@ void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
                    const std::string& field = "distance");
 
 /// Writes one scalar per vertex, which may be +inf: .csv ("vertex,FIELD", 0-based), .npy (float64),
-/// .txt (%.17g a line), .vtp (with points, faces, lines and all scalars), or what write_surface
-/// takes except .off and .stl. A scalar "confidence" is a second column. Throws InputError where
-/// the soup has no such scalar, otherwise as write_surface.
+/// .txt (%.17g a line), or what write_surface takes except .off and .stl. A scalar "confidence" is
+/// a second column. Throws InputError where the soup has no such scalar, otherwise as
+/// write_surface.
 void write_field(const std::filesystem::path& path, const PolygonSoup& soup,
                  const std::string& field = "distance");
 

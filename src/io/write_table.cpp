@@ -23,15 +23,28 @@ std::string csv_cell(const std::string& name) {
   return cell + '"';
 }
 
+/// Of what the rows are at: a table that was written before has its results replaced.
+std::vector<const PointColumn*> columns_kept(const Table& table) {
+  std::vector<const PointColumn*> kept;
+  if (!table.at) return kept;
+  for (const PointColumn& column : table.at->columns)
+    if (std::ranges::find(table.names, column.name) == table.names.end()) kept.push_back(&column);
+  return kept;
+}
+
 void write_separated(std::ostream& out, const Table& table, char separator) {
   const Eigen::MatrixXd& x = table.columns;
+  const std::vector<const PointColumn*> kept = columns_kept(table);
   if (!table.rows_are.empty()) out << table.rows_are << separator;
-  for (const TextColumn& column : table.carried) out << csv_cell(column.name) << separator;
+  for (const PointColumn* column : kept) out << csv_cell(column->name) << separator;
   for (std::size_t c = 0; c < table.names.size(); ++c)
     out << csv_cell(table.names[c]) << (c + 1 < table.names.size() ? separator : '\n');
   for (Eigen::Index r = 0; r < x.rows(); ++r) {
     if (!table.rows_are.empty()) out << r << separator;
-    for (const TextColumn& column : table.carried) out << csv_cell(column.cells[r]) << separator;
+    for (const PointColumn* column : kept)
+      out << (column->axis == PointColumn::no_axis ? csv_cell(column->cells[r])
+                                                   : exact_text(table.at->points(r, column->axis)))
+          << separator;
     for (Eigen::Index c = 0; c < x.cols(); ++c)
       out << exact_text(x(r, c)) << (c + 1 < x.cols() ? separator : '\n');
   }

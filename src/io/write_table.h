@@ -11,10 +11,18 @@
 
 namespace littoral::io {
 
-/// A column of a file that is passed on.
-struct TextColumn {
+/// A column of a table of points: one of their coordinates, or cells that are passed on.
+struct PointColumn {
+  static constexpr int no_axis = -1;
   std::string name;
-  std::vector<std::string> cells;
+  int axis = no_axis;
+  std::vector<std::string> cells{};  // as they were read; none of coordinates
+};
+
+/// Points, and the columns of the table that they were in, in its order.
+struct PointTable {
+  MatX3 points{0, 3};
+  std::vector<PointColumn> columns{{"x", 0}, {"y", 1}, {"z", 2}};
 };
 
 /// Columns of numbers under names.
@@ -22,7 +30,9 @@ struct Table {
   std::vector<std::string> names;
   Eigen::MatrixXd columns;  // rows x names
   std::string rows_are{};   // "vertex": .csv files count the rows, from 0, in a first column
-  std::vector<TextColumn> carried{};  // .csv files have them first, as they were read
+  /// Where the rows are: .csv and .tsv files have these columns first, but those that have a name
+  /// of the table's own; .npz files have the points.
+  const PointTable* at = nullptr;
 };
 
 /// By extension. Throws UnsupportedError for formats of anything else, IoError naming the path.
@@ -39,12 +49,6 @@ void write_npy(std::ostream& out, const Table& table);
 /// The head of such a file; `shape` as "8," or "2, 3, 4", `type` as "<f8".
 void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest,
                       const std::string& type = "<f8");
-
-/// Points, and the other columns of the table that they were in.
-struct PointTable {
-  MatX3 points{0, 3};
-  std::vector<TextColumn> carried{};
-};
 
 /// A table of points: rows of cells between commas, semicolons, tabs or blanks. A first row that
 /// is no number names the columns, and x, y, z (or Px, Py, Pz; Points:0, Points:1, Points:2 of

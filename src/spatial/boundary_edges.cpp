@@ -93,6 +93,27 @@ std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i
   return out;
 }
 
+MatX3i without_copies(const MatX3& points, const MatX3i& faces) {
+  const std::vector<int> first = same_positions(points);
+  std::vector<std::array<int, 4>> keys(faces.rows());  // corners, the lowest first; the face
+  for (int f = 0; f < index(keys.size()); ++f) {
+    std::array<int, 3> at;
+    for (int k = 0; k < 3; ++k) at[k] = first[faces(f, k)];
+    std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
+    keys[f] = {at[0], at[1], at[2], f};
+  }
+  std::sort(keys.begin(), keys.end());
+  const auto same = [](const std::array<int, 4>& a, const std::array<int, 4>& b) {
+    return std::equal(a.begin(), a.begin() + 3, b.begin());
+  };
+  keys.erase(std::unique(keys.begin(), keys.end(), same), keys.end());
+  if (index(keys.size()) == faces.rows()) return faces;
+  std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a[3] < b[3]; });
+  MatX3i out(keys.size(), 3);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = faces.row(keys[i][3]);
+  return out;
+}
+
 std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces) {
   std::vector<std::array<int, 2>> edges = boundary_chain(points, faces);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

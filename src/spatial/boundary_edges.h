@@ -21,6 +21,11 @@ std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i
 std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i& faces,
                                                std::vector<char>* nothing = nullptr);
 
+/// The faces in their order, but for those with the corners of an earlier one, by position and in
+/// the same sense: the surface as a set, which is covered once. m x 3, as given where there are no
+/// copies.
+MatX3i without_copies(const MatX3& points, const MatX3i& faces);
+
 /// For each vertex, the lowest one at its position.
 std::vector<int> same_positions(const MatX3& points);
 

@@ -16,27 +16,35 @@ namespace {
 
 constexpr int lanes = winding_lanes;
 
-// g(c) = (c - q) / |c - q|^3 about the cluster's centre, r = centre - q:
-//   a.g = a.r/R^3 + [tr M - 3 r.M r/R^2]/R^3 + [-3/2 second.r + 15/2 cubic(r)/R^2]/R^5.
+// The expansion of dipole_moments.h, degree by degree: its polynomials in u_z stand beside their
+// coefficients.
 [[gnu::always_inline]] inline float far_sum(const ClusterLanes& c, const float* q, float accuracy,
                                             unsigned& near) {
+  static_assert(dipole_degree == 4);
   alignas(32) std::array<float, lanes> value;
   alignas(32) std::array<std::int32_t, lanes> is_far;
   const float qx = q[0], qy = q[1], qz = q[2], squared = accuracy * accuracy;
+  const auto& M = c.moments;
   for (int l = 0; l < lanes; ++l) {
-    const float x = c.x[l] - qx, y = c.y[l] - qy, z = c.z[l] - qz;
-    const float r2 = x * x + y * y + z * z, reach = squared * c.radius[l] * c.radius[l];
+    const float rx = c.x[l] - qx, ry = c.y[l] - qy, rz = c.z[l] - qz;
+    const float r2 = rx * rx + ry * ry + rz * rz, reach = squared * c.radius[l] * c.radius[l];
     is_far[l] = std::bit_cast<std::int32_t>(reach - r2) >> 31;  // the sign
-    const float i2 = 1 / r2, i3 = i2 * std::sqrt(i2);
-    const float quadratic = c.first[0][l] * x * x + c.first[1][l] * y * y + c.first[2][l] * z * z +
-                            c.first[3][l] * x * y + c.first[4][l] * y * z + c.first[5][l] * z * x;
-    const float cubic = x * (x * (c.cubic[0][l] * x + c.cubic[3][l] * y + c.cubic[4][l] * z) +
-                             c.cubic[9][l] * y * z) +
-                        y * (y * (c.cubic[1][l] * y + c.cubic[5][l] * x + c.cubic[6][l] * z)) +
-                        z * (z * (c.cubic[2][l] * z + c.cubic[7][l] * x + c.cubic[8][l] * y));
-    const float second = c.sx[l] * x + c.sy[l] * y + c.sz[l] * z;
-    const float v = i3 * (c.ax[l] * x + c.ay[l] * y + c.az[l] * z + c.trace[l] -
-                          3 * quadratic * i2 + i2 * (-1.5f * second + 7.5f * cubic * i2));
+    const float i2 = 1 / r2, i1 = std::sqrt(i2), t = c.radius[l] * i1;
+    const float x = rx * i1, y = ry * i1, z = rz * i1, zz = z * z;
+    const float c2 = x * x - y * y, s2 = 2 * x * y;
+    const float c3 = x * c2 - y * s2, s3 = x * s2 + y * c2;
+    const float c4 = c2 * c2 - s2 * s2, s4 = 2 * c2 * s2;
+    const float first = M[0][l] * z + (M[1][l] * x + M[2][l] * y);
+    const float second =
+        M[3][l] * (zz - 1.f / 3) + z * (M[4][l] * x + M[5][l] * y) + (M[6][l] * c2 + M[7][l] * s2);
+    const float third = M[8][l] * (z * (zz - 3.f / 5)) +
+                        (zz - 1.f / 5) * (M[9][l] * x + M[10][l] * y) +
+                        z * (M[11][l] * c2 + M[12][l] * s2) + (M[13][l] * c3 + M[14][l] * s3);
+    const float fourth = M[15][l] * (zz * (zz - 6.f / 7) + 3.f / 35) +
+                         (z * (zz - 3.f / 7)) * (M[16][l] * x + M[17][l] * y) +
+                         (zz - 1.f / 7) * (M[18][l] * c2 + M[19][l] * s2) +
+                         z * (M[20][l] * c3 + M[21][l] * s3) + (M[22][l] * c4 + M[23][l] * s4);
+    const float v = i2 * (first + t * (second + t * (third + t * fourth)));
     value[l] = std::bit_cast<float>(std::bit_cast<std::int32_t>(v) & is_far[l]);
   }
   unsigned bits = 0;

@@ -4,20 +4,18 @@
 
 #include <array>
 
+#include "spatial/dipole_moments.h"
+
 namespace littoral {
 
 constexpr int winding_lanes = 8;
 
-/// Moments of the vector areas of eight clusters, each about its own centre, contracted as the
-/// expansion needs them. Single precision: they are far away.
+/// Expansions of the fields of eight clusters, each about its own centre. Single precision: they
+/// are far away.
 struct ClusterLanes {
   using Lanes = std::array<float, winding_lanes>;
-  alignas(32) Lanes x, y, z, radius;  // centre, and how far from it the items reach
-  Lanes ax, ay, az;                   // sum of vector areas a
-  Lanes trace;                        // of the first moment, sum of a d^T
-  std::array<Lanes, 6> first;         // its symmetric part: xx yy zz xy yz zx
-  Lanes sx, sy, sz;                   // 2 sum Q_iik + sum Q_kjj, Q = sum of a (d d^T)
-  std::array<Lanes, 10> cubic;        // Q r r r: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz
+  alignas(32) Lanes x, y, z, radius;               // centre, and how far from it the items reach
+  std::array<Lanes, dipole_coefficients> moments;  // DipoleMoments::coefficients(radius)
 };
 
 /// Corners a, b, c of eight triangles; unused lanes hold one point three times.

@@ -39,40 +39,14 @@ double sum_of_angles(const AngleLanes& angles) {
   return std::atan2(im_so_far, re_so_far) + 2 * M_PI * turns;
 }
 
-/// Adds an item to the moments; `triangle` is null for points.
-template <class Moments>
-void add(Moments& m, const Vec3& centre, const Vec3& a, const Triangle* triangle) {
-  const Vec3 d = centre - m.centre;
-  Eigen::Matrix3d dd = d * d.transpose();  // mean of (x - centre)(x - centre)^T over the item
-  if (triangle != nullptr) {
-    // Over a triangle: (sum of the corners' products + 9 d d^T) / 12.
-    dd *= 9;
-    for (const Vec3& corner : *triangle) {
-      const Vec3 e = corner - m.centre;
-      dd += e * e.transpose();
-      m.radius = std::max(m.radius, e.norm());
-    }
-    dd /= 12;
-  } else {
-    m.radius = std::max(m.radius, d.norm());
-  }
-  m.area += a;
-  m.trace += a.dot(d);
-  const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-  for (int p = 0; p < 6; ++p) {
-    const auto [i, j] = pair[p];
-    m.first[p] += i == j ? a[i] * d[i] : a[i] * d[j] + a[j] * d[i];
-  }
-  m.second += 2 * (dd * a) + dd.trace() * a;
-  // sum_ijk a_i dd_jk r_i r_j r_k by monomial: xxx yyy zzz xxy xxz yyx yyz zzx zzy xyz.
-  auto& s = m.cubic;
-  for (int i = 0; i < 3; ++i) s[i] += a[i] * dd(i, i);
-  const int mixed[6][2] = {{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}};
-  for (int p = 0; p < 6; ++p) {
-    const auto [i, j] = mixed[p];
-    s[3 + p] += a[j] * dd(i, i) + 2 * a[i] * dd(i, j);
-  }
-  s[9] += 2 * (a[0] * dd(1, 2) + a[1] * dd(0, 2) + a[2] * dd(0, 1));
+/// Adds a triangle about a centre: four points and weights, exact for cubic polynomials, and so for
+/// all moments up to degree four.
+void add_triangle(DipoleMoments& moments, const Triangle& t, const Vec3& area, const Vec3& centre) {
+  static_assert(dipole_degree == 4);
+  const Vec3 middle = (t[0] + t[1] + t[2]) / 3 - centre;
+  moments.add(middle, -27.0 / 48 * area);
+  for (const Vec3& corner : t)
+    moments.add(0.6 * middle + 0.4 * (corner - centre), 25.0 / 48 * area);
 }
 
 }  // namespace
@@ -147,29 +121,43 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3& normals, const Ve
 }
 
 void WindingNumber::build(const Items& items) {
-  std::vector<Moments> moments;
-  for (const Cluster& c : items.tree.clusters) {
-    Moments m;
-    m.centre.setZero();
-    double weight = 0;
-    for (int i = c.begin; i < c.end; ++i) {
-      const std::size_t at = i;
-      m.centre += items.centres[at] * items.areas[at].norm();
-      weight += items.areas[at].norm();
+  if (items.centres.empty()) return;
+  for (const Vec3& a : items.areas) total_ += a;
+  const auto& clusters = items.tree.clusters;
+  std::vector<Expansion> expansions(clusters.size());
+  for (std::size_t at = clusters.size(); at-- > 0;) {  // children stand behind their parents
+    const Cluster& cluster = clusters[at];
+    Expansion& e = expansions[at];
+    const auto each_point = [&](auto&& visit) {
+      for (int i = cluster.begin; i < cluster.end; ++i)
+        if (items.triangles.empty())
+          visit(items.centres[i]);
+        else
+          for (const Vec3& corner : items.triangles[i]) visit(corner);
+    };
+    if (cluster.child < 0) {
+      e.low.setConstant(infinity), e.high.setConstant(-infinity);
+      each_point([&](const Vec3& x) { e.low = e.low.cwiseMin(x), e.high = e.high.cwiseMax(x); });
+    } else {
+      const Expansion &a = expansions[cluster.child], &b = expansions[cluster.child + 1];
+      e.low = a.low.cwiseMin(b.low), e.high = a.high.cwiseMax(b.high);
     }
-    if (weight > 0)
-      m.centre /= weight;
-    else if (c.begin < c.end)
-      m.centre = items.centres[c.begin];
-    for (int i = c.begin; i < c.end; ++i) {
-      const std::size_t at = i;
-      add(m, items.centres[at], items.areas[at],
-          items.triangles.empty() ? nullptr : &items.triangles[at]);
+    e.centre = (e.low + e.high) / 2;
+    double squared = 0;
+    each_point([&](const Vec3& x) { squared = std::max(squared, (x - e.centre).squaredNorm()); });
+    e.radius = std::sqrt(squared);
+    if (cluster.child >= 0) {
+      for (int child : {cluster.child, cluster.child + 1})
+        e.moments.add(expansions[child].moments, expansions[child].centre - e.centre);
+      continue;
     }
-    moments.push_back(m);
+    for (int i = cluster.begin; i < cluster.end; ++i)
+      if (items.triangles.empty())
+        e.moments.add(items.centres[i] - e.centre, items.areas[i]);
+      else
+        add_triangle(e.moments, items.triangles[i], items.areas[i], e.centre);
   }
-  total_ = moments.front().area;
-  if (!items.centres.empty()) root_ = add_node(items, moments, 0);
+  root_ = add_node(items, expansions, 0);
 }
 
 int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
@@ -196,7 +184,8 @@ int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
   return int_size(triangle_leaves_) - 1;
 }
 
-int WindingNumber::add_node(const Items& items, const std::vector<Moments>& moments, int root) {
+int WindingNumber::add_node(const Items& items, const std::vector<Expansion>& expansions,
+                            int root) {
   const auto& clusters = items.tree.clusters;
   const std::vector<int> members = items.tree.opened(root, winding_lanes);
   const int at = nodes_.size();
@@ -209,19 +198,16 @@ int WindingNumber::add_node(const Items& items, const std::vector<Moments>& mome
       node.moments.x[l] = 1e9f;  // of no area: counts as far, and adds nothing
       continue;
     }
-    const Moments& m = moments[members[l]];
+    const Expansion& e = expansions[members[l]];
     ClusterLanes& to = node.moments;
     const auto f = [](double x) { return static_cast<float>(x); };
-    to.x[l] = f(m.centre[0]), to.y[l] = f(m.centre[1]), to.z[l] = f(m.centre[2]);
-    to.radius[l] = f(m.radius);
-    to.ax[l] = f(m.area[0]), to.ay[l] = f(m.area[1]), to.az[l] = f(m.area[2]);
-    to.trace[l] = f(m.trace);
-    to.sx[l] = f(m.second[0]), to.sy[l] = f(m.second[1]), to.sz[l] = f(m.second[2]);
-    for (std::size_t k = 0; k < m.first.size(); ++k) to.first[k][l] = f(m.first[k]);
-    for (std::size_t k = 0; k < m.cubic.size(); ++k) to.cubic[k][l] = f(m.cubic[k]);
+    to.x[l] = f(e.centre[0]), to.y[l] = f(e.centre[1]), to.z[l] = f(e.centre[2]);
+    to.radius[l] = f(e.radius);
+    const auto moments = e.moments.coefficients(e.radius);
+    for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k][l] = f(moments[k]);
     const Cluster& cluster = clusters[members[l]];
     node.child[l] =
-        cluster.child < 0 ? -1 - add_leaf(items, cluster) : add_node(items, moments, members[l]);
+        cluster.child < 0 ? -1 - add_leaf(items, cluster) : add_node(items, expansions, members[l]);
   }
   nodes_[at] = node;
   return at;
@@ -279,13 +265,13 @@ double WindingNumber::clustered_sum(const Vec3& q, double accuracy, Work* work) 
 /// timed, so that one mesh is summed in one way everywhere.
 double WindingNumber::nanoseconds_of_clusters(const Vec3& half) const {
   constexpr int probes = 64;
-  constexpr double accuracy = 2.3, beyond = 0.1;
+  constexpr double beyond = 0.1;
   const Vec3 reach = half.array() + beyond * half.maxCoeff();
   Work work;
   for (int i = 0; i < probes; ++i) {
     const Vec3 even(0.8191725133961645 * i, 0.6710436067037893 * i, 0.5497004779019703 * i);
     const Vec3 inside = even - even.array().floor().matrix();
-    clustered_sum((2 * inside - Vec3::Ones()).cwiseProduct(reach), accuracy, &work);
+    clustered_sum((2 * inside - Vec3::Ones()).cwiseProduct(reach), sign_accuracy, &work);
   }
   return (ns_a_node * work.nodes + ns_a_leaf * work.leaves) / probes;
 }

@@ -8,18 +8,23 @@
 #include "littoral/types.h"
 #include "spatial/cluster_tree.h"
 #include "spatial/crossing_number.h"
+#include "spatial/dipole_moments.h"
 #include "spatial/winding_kernels.h"
 
 namespace littoral {
 
 /// Sum of signed solid angles over 4 pi: 1 inside a closed surface whose normals point outward, 0
 /// outside, in between where it is broken. Exact where the triangles' boundary has no edges or few
-/// (crossing_number.h), or where that is faster. Otherwise far clusters are expanded to second
-/// order (Barill et al., "Fast winding numbers for soups and clouds", 2018); near triangles count
-/// exactly (van Oosterom and Strackee 1983), near points as dipoles. Immutable, may be evaluated
-/// from several threads.
+/// (crossing_number.h), or where that is faster. Otherwise far clusters are expanded
+/// (Barill et al., "Fast winding numbers for soups and clouds", 2018; here to the third order of
+/// the distance from their centres: dipole_moments.h); near triangles count exactly (van Oosterom
+/// and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several threads.
 class WindingNumber {
  public:
+  static constexpr double usual_accuracy = 2.6;
+  /// For comparisons with 1/2, to which errors of 3e-3 do not matter.
+  static constexpr double sign_accuracy = 2;
+
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
   /// corner that is not finite count as nothing.
   WindingNumber(const MatX3& points, const MatX3i& faces);
@@ -27,23 +32,20 @@ class WindingNumber {
   /// points, normals: n x 3, normals of unit length; areas: n. All finite.
   WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas);
 
-  /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 3 keeps
-  /// the error below 1e-3, 2.3 below 3e-3; infinity sums exactly.
-  double operator()(const Vec3& query, double accuracy = 3) const;
+  /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 2.6
+  /// keeps the error below 1e-3, 2 below 3e-3; infinity sums exactly.
+  double operator()(const Vec3& query, double accuracy = usual_accuracy) const;
 
   /// Whether values are exact whatever the accuracy.
   bool exact() const { return exact_; }
 
  private:
-  // Moments of the vector area about the centre, contracted as the expansion needs them.
-  struct Moments {
-    Vec3 centre;
+  // A cluster from far away.
+  struct Expansion {
+    Vec3 low, high;  // box of its items
+    Vec3 centre;     // middle of the box
     double radius = 0;
-    Vec3 area = Vec3::Zero();        // sum of vector areas a
-    double trace = 0;                // of the first moment, sum of a d^T
-    std::array<double, 6> first{};   // its symmetric part: xx yy zz xy yz zx
-    Vec3 second = Vec3::Zero();      // 2 sum Q_iik + sum Q_kjj, Q = sum of a (d d^T)
-    std::array<double, 10> cubic{};  // Q r r r by monomial
+    DipoleMoments moments;  // of the vector area, about the centre
   };
   using Triangle = std::array<Vec3, 3>;
 
@@ -64,7 +66,7 @@ class WindingNumber {
   void set_frame(const MatX3& points);
   void build(const Items& items);
   int add_leaf(const Items& items, const Cluster& cluster);
-  int add_node(const Items& items, const std::vector<Moments>& moments, int root);
+  int add_node(const Items& items, const std::vector<Expansion>& expansions, int root);
   double leaf_sum(int leaf, const double* q) const;
   /// What a sum over clusters looks at.
   struct Work {

@@ -27,6 +27,13 @@ def square(n: int) -> str:
     return "\n".join(lines) + "\n"
 
 
+def results(path: Path) -> list[list[float]]:
+    """The rows of a .csv of results at points, without these: x, y, z come first."""
+    head, *lines = path.read_text().splitlines()
+    assert head.startswith("x,y,z,")
+    return [[float(x) for x in line.split(",")[3:]] for line in lines]
+
+
 @pytest.fixture
 def run(tmp_path: Path) -> Run:
     """Runs the program in the test's folder and checks the status and the shape of its messages."""

@@ -143,6 +143,27 @@ def test_contour_of_a_plane(run: Run, tmp_path: Path) -> None:
     run("contour", "field.obj", "--level", "1", "--field", "no", "-o", "x.obj", status=2)
 
 
+def test_vtp_holds_what_has_no_values(run: Run, tmp_path: Path) -> None:
+    """Surfaces, lines and clouds, wherever one is written."""
+    plane_field(tmp_path)
+    (tmp_path / "square.obj").write_text(square(10))
+    run("convert", "square.obj", "-o", "a.vtp")
+    assert facts(run, "a.vtp") == facts(run, "square.obj")
+    run("convert", "a.vtp", "-o", "a.obj")
+    run("convert", "square.obj", "-o", "b.obj")
+    assert (tmp_path / "a.obj").read_bytes() == (tmp_path / "b.obj").read_bytes()
+    run("contour", "field.obj", "--level", "0.25,0.55", "-o", "l.vtp")
+    assert facts(run, "l.vtp")["lines"] == 2
+    run("sdf", "square.obj", "--resolution", 16, "--level", 0.1, "-o", "s.vtp", "-o", "v.vti")
+    run("contour", "v.vti", "--level", "0.1", "-o", "c.vtp")
+    run("offset", "square.obj", "--resolution", 16, "--distance", 0.1, "-o", "o.vtp")
+    run("repair", "square.obj", "--resolution", 16, "--thicken", 0.2, "-o", "r.vtp", "--quiet")
+    for name in ("s.vtp", "c.vtp", "o.vtp", "r.vtp"):
+        assert facts(run, name)["closed"], name
+    run("query", "square.obj", "--points", "square.obj", "-o", "p.vtp")
+    assert facts(run, "p.vtp")["vertices"] == 121
+
+
 def test_methods(run: Run) -> None:
     methods = json.loads(run("methods", "--json").stdout)
     names = [m["name"] for m in methods]

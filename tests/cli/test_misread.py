@@ -125,12 +125,36 @@ def test_columns_of_points_are_found_by_name(run: Run, tmp_path: Path) -> None:
     run("query", "d.nrrd", "--points", "p.csv", "-o", "v.csv", "-o", "v.npy")
     assert column(tmp_path / "v.csv", "distance") == pytest.approx([0.3, -0.2], abs=0.01)
     lines = (tmp_path / "v.csv").read_text().splitlines()
-    assert lines[0] == "id,tag,distance"
-    assert lines[2].startswith('8,"b, c",-0.')
+    assert lines[0] == "id,z,x,y,tag,distance"
+    assert lines[2].startswith('8,0.4,0,0,"b, c",-0.')
     assert np.load(tmp_path / "v.npy").shape == (2,)
     (tmp_path / "p.csv").write_text("id;x;y;z\n7;0.9;0;0\n")
     run("query", "d.nrrd", "--points", "p.csv", "-o", "v.csv")
     assert column(tmp_path / "v.csv", "distance") == pytest.approx([0.3], abs=0.01)
+
+
+def test_tables_of_results_have_the_points(run: Run, tmp_path: Path) -> None:
+    """Whatever they came from; results that are there already are replaced."""
+    write_nrrd(tmp_path / "d.nrrd", 24, sphere)
+    points = np.array([[0.9, 0, 0], [0, 0, 0.4]])
+    np.save(tmp_path / "p.npy", points)
+    (tmp_path / "p.txt").write_text("0.9 0 0\n0 0 0.4\n")
+    (tmp_path / "p.obj").write_text("v 0.9 0 0\nv 0 0 0.4\n")
+    (tmp_path / "p.csv").write_text("x,y,z\n0.90,0,0\n0,0,4e-1\n")
+    for name in ("p.npy", "p.txt", "p.obj", "p.csv"):
+        run("query", "d.nrrd", "--points", name, "--gradient", "-o", "v.csv", "-o", "v.npz")
+        rows = [line.split(",") for line in (tmp_path / "v.csv").read_text().splitlines()]
+        assert rows[0] == ["x", "y", "z", "distance", "gradient_x", "gradient_y", "gradient_z"]
+        assert [row[:3] for row in rows[1:]] == [["0.9", "0", "0"], ["0", "0", "0.4"]]
+        held = np.load(tmp_path / "v.npz")
+        assert held["points"].tolist() == points.tolist()
+        assert held["distance"].tolist() == [float(row[3]) for row in rows[1:]]
+    run("query", "d.nrrd", "--points", "v.csv", "--offset", 1, "-o", "w.csv")
+    rows = [line.split(",") for line in (tmp_path / "w.csv").read_text().splitlines()]
+    assert rows[0] == ["x", "y", "z", "gradient_x", "gradient_y", "gradient_z", "distance"]
+    assert float(rows[1][-1]) == pytest.approx(-0.7, abs=0.01)
+    run("query", "d.nrrd", "--points", "v.npz", "-o", "w.tsv")
+    assert (tmp_path / "w.tsv").read_text().startswith("x\ty\tz\tdistance\n")
 
 
 @pytest.mark.parametrize(
@@ -252,6 +276,27 @@ def test_what_is_misspelt_is_named(
     run: Run, mesh: Path, arguments: tuple[str, ...], words: str
 ) -> None:
     assert words in run(*arguments, status=2).stderr
+
+
+def test_files_are_named_in_what_is_wrong_with_them(run: Run, mesh: Path) -> None:
+    (mesh.parent / "nan.obj").write_text("v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n")
+    (mesh.parent / "nan.csv").write_text("x,y,z\n0,0,1\n1,nan,1\n")
+    for words, said in (
+        (("sdf", "nan.obj", "-o", "a.vti"), "nan.obj: vertex 1 has coordinates"),
+        (("sdf", "square.obj", "--unite", "nan.obj", "-o", "a.vti"), "nan.obj: vertex 1"),
+        (("query", "square.obj", "--points", "nan.csv", "-o", "a.csv"), "nan.csv: point 1"),
+        (("winding", "square.obj", "--points", "nan.csv", "-o", "a.csv"), "nan.csv: point 1"),
+    ):
+        assert said in run(*words, status=2).stderr
+    logged = ("distance", "square.obj", "--vertex=0", "-o", "a.csv", "--log", "missing/log")
+    assert "there is no folder missing" in run(*logged, status=1).stderr
+
+
+def test_what_was_meant_is_said(run: Run, mesh: Path) -> None:
+    apart = run("offset", "square.obj", "--distance", "2", "%", "-o", "a.ply", status=2).stderr
+    assert "write them as one, as in 2%" in apart
+    made = run("convert", "square.obj", "-o", "a.vti", status=2).stderr
+    assert "littoral sdf makes the one of distance to it" in made
 
 
 def test_lists_of_vertices(run: Run, mesh: Path) -> None:

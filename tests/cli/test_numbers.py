@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Run
+from conftest import Run, results
 
 N = 17
 BALL = np.linalg.norm(np.indices((N, N, N)) - (N - 1) / 2, axis=0) < 5
@@ -21,7 +21,7 @@ def field(tmp_path: Path) -> Path:
 
 
 def middle(folder: Path) -> float:
-    return float((folder / "v.csv").read_text().splitlines()[1])
+    return results(folder / "v.csv")[0][0]
 
 
 @pytest.mark.parametrize("kind", ["npy", "vol"])
@@ -74,6 +74,8 @@ def test_a_mask_cut_off_by_its_box_is_taken(run: Run, field: Path) -> None:
         (("distance", "square.obj", "--vertex=1,"), "a number is missing in '1,'"),
         (("distance", "square.obj", "--at", "0,5,0,5,0,0"), "three numbers, x,y,z, found 6"),
         (("render", "sdf.npz", "--slice", "101%"), "101% is not on the way"),
+        (("offset", "square.obj", "--distance", "5mm"), "no unit but that of the input"),
+        (("offset", "square.obj", "--distance", "five"), "'five' is not a finite number ["),
     ],
 )
 def test_lists_that_are_not_what_was_meant(
@@ -202,5 +204,5 @@ def test_tables_between_tabs(run: Run, field: Path, head: str) -> None:
     (field / "p.tsv").write_text(f"{head}\na, b\t8\t8\t8\nc\t8\t8\t2\n")
     run("query", "sdf.npz", "--points", "p.tsv", "-o", "v.tsv")
     rows = [line.split("\t") for line in (field / "v.tsv").read_text().splitlines()]
-    assert rows[0] == ["id", "distance"]
-    assert [float(row[1]) for row in rows[1:]] == pytest.approx([-5, 1], abs=0.1)
+    assert rows[0] == [*head.split("\t"), "distance"]
+    assert [float(row[4]) for row in rows[1:]] == pytest.approx([-5, 1], abs=0.1)

@@ -78,6 +78,35 @@ def test_contents_tell_what_names_do_not(run: Run, tmp_path: Path) -> None:
     assert len((tmp_path / "out/status.jsonl").read_text().splitlines()) == 1
 
 
+def binary_stl(head: bytes = b"", n: int = 2) -> bytes:
+    """n triangles, each after an 80-byte header and their number."""
+    triangles = [struct.pack("<12fH", 0, 0, 1, 0, 0, i, 1, 0, i, 0, 1, i, 0) for i in range(n)]
+    return head.ljust(80, b" ") + struct.pack("<I", n) + b"".join(triangles)
+
+
+@pytest.mark.parametrize("head", [b"", b"solid part", b"ply or what", b"\0" * 80, b"v 1 2 3\n"])
+def test_binary_stl_is_told_by_its_size(run: Run, tmp_path: Path, head: bytes) -> None:
+    """It begins anyhow, and holds 50 bytes for each triangle that it counts."""
+    (tmp_path / "a.stl").write_bytes(binary_stl(head))
+    facts = run("info", "a.stl").stdout
+    for name in ("a", "a.dat", "a.dat.gz"):
+        contents = binary_stl(head)
+        (tmp_path / name).write_bytes(gzip.compress(contents) if name[-2:] == "gz" else contents)
+        assert run("info", name).stdout == facts
+    (tmp_path / "a.ply").write_bytes(binary_stl(head))
+    assert "look like .stl: name it so" in run("info", "a.ply", status=2).stderr
+
+
+def test_what_is_nearly_binary_stl_is_not_taken_for_it(run: Run, tmp_path: Path) -> None:
+    whole = binary_stl()
+    one_more = whole[:80] + struct.pack("<I", 3) + whole[84:]
+    none = binary_stl(n=0)
+    for contents in (whole[:-1], whole + b"\0", whole[:83], whole[:84], one_more, none, 184 * b" "):
+        (tmp_path / "a.dat").write_bytes(contents)
+        said = run("info", "a.dat", status=2).stderr
+        assert "the extension is '.dat'" in said
+
+
 def test_what_is_damaged_alone_is_not_called_another_format(run: Run, tmp_path: Path) -> None:
     (tmp_path / "a.obj").write_text(OBJ.replace("f 1 2 3", "f 1 2 9"))
     assert "look like" not in run("info", "a.obj", status=2).stderr

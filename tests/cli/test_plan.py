@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from conftest import PROGRAM, Run, square
 from test_reports import SCHEMA, check
@@ -54,6 +55,29 @@ def test_a_plan_has_the_sizes_and_grows_with_them(run: Run, mesh: Path) -> None:
     asked = plan(run, "sdf", "square.obj", "--method=winding", "-o", "a.vti")
     assert asked["method"] == "winding"
     assert asked["plan"]["reason"].startswith("asked for: ")
+
+
+@pytest.mark.parametrize(("method", "most"), [("signed-heat", 2200), ("unsigned-heat", 1500)])
+def test_large_meshes_are_solved_in_parts(
+    run: Run, tmp_path: Path, method: str, most: float
+) -> None:
+    """Tori of 999,936 faces take 1,739 and 1,177 MB (docs/measurements/performance.md)."""
+    n = 700
+    points = np.zeros((n + 1, n + 1, 3))
+    points[..., :2] = np.stack(np.meshgrid(np.arange(n + 1), np.arange(n + 1)), axis=-1)
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).reshape(-1, 1)
+    corners = np.concatenate(
+        [first + np.array([0, *ends]) for ends in ((1, n + 2), (n + 2, n + 1))]
+    )
+    faces = np.zeros(len(corners), dtype=[("n", "u1"), ("corners", "<i4", 3)])
+    faces["n"], faces["corners"] = 3, corners
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {(n + 1) ** 2}\n"
+    head += "".join(f"property double {axis}\n" for axis in "xyz")
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    (tmp_path / "large.ply").write_bytes(head.encode() + points.tobytes() + faces.tobytes())
+    words = ("distance", "large.ply", "--vertex=0", "--method", method, "-o", "a.npy")
+    planned = plan(run, *words)["plan"]
+    assert most / 2 < planned["memory_mb"] < most
 
 
 def test_a_dry_run_finds_what_is_wrong(run: Run, mesh: Path) -> None:

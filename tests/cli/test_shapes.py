@@ -7,7 +7,7 @@ import zlib
 from pathlib import Path
 
 import pytest
-from conftest import Run
+from conftest import Run, results
 
 
 def spiral(n: int) -> list[tuple[float, float, float]]:
@@ -46,7 +46,7 @@ def balls(tmp_path: Path) -> Path:
 
 
 def values(path: Path) -> list[float]:
-    return [float(line.split(",")[0]) for line in path.read_text().splitlines()[1:]]
+    return [row[0] for row in results(path)]
 
 
 @pytest.mark.parametrize(

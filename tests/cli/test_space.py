@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, Run, wait_for_handler
+from conftest import PROGRAM, Run, results, wait_for_handler
 
 CUBE = """v -1 -1 -1
 v 1 -1 -1
@@ -36,25 +36,30 @@ def cube(tmp_path: Path) -> Path:
     return tmp_path / "cube.obj"
 
 
-def rows(path: Path) -> list[list[float]]:
-    lines = path.read_text().splitlines()
-    return [[float(x) for x in line.split(",")] for line in lines[1:]]
-
-
 def test_query_gives_values_and_gradients(run: Run, cube: Path, tmp_path: Path) -> None:
     run("query", "cube.obj", "--points", "points.csv", "--gradient", "-o", "a.csv", "-o", "a.npy")
-    middle, outside = rows(tmp_path / "a.csv")
+    middle, outside = results(tmp_path / "a.csv")
     assert middle[0] == pytest.approx(-1)
     assert outside == pytest.approx([2, 1, 0, 0])
     assert b"(2, 4)" in (tmp_path / "a.npy").read_bytes()
     run("query", "cube.obj", "--points", "points.csv", "--flip", "-o", "b.csv", "-o", "b.ply")
-    assert [row[0] for row in rows(tmp_path / "b.csv")] == pytest.approx([1, -2])
+    assert [row[0] for row in results(tmp_path / "b.csv")] == pytest.approx([1, -2])
+
+
+@pytest.mark.parametrize("how", [(), ("--flip",), ("--method", "winding"), ("--offset", 0)])
+def test_zero_has_no_sign(run: Run, cube: Path, tmp_path: Path, how: tuple[str, ...]) -> None:
+    """On the surface, whichever side its points count to."""
+    places = ["1,0,0", "-1,0,0", "1,1,1", "0,0,-1", "0.3,1,0.2", "0,-1,0"]
+    (tmp_path / "on.csv").write_text("x,y,z\n" + "\n".join(places) + "\n")
+    run("query", "cube.obj", "--points", "on.csv", *how, "-o", "a.csv", "-o", "a.npy")
+    rows = (tmp_path / "a.csv").read_text().splitlines()[1:]
+    assert rows == [f"{place},0" for place in places]
 
 
 @pytest.mark.parametrize("method", ["closest-point", "hopf-cole", "planar", "log-sum-exp", "tori"])
 def test_every_method_answers(run: Run, cube: Path, tmp_path: Path, method: str) -> None:
     run("query", "cube.obj", "--points", "points.csv", "--method", method, "-o", "a.csv")
-    middle, outside = rows(tmp_path / "a.csv")
+    middle, outside = results(tmp_path / "a.csv")
     assert middle[0] < -0.8
     assert outside[0] == pytest.approx(2, abs=0.4)
 
@@ -88,12 +93,12 @@ def test_confidence_stands_beside_the_distance(run: Run, cube: Path, tmp_path: P
     (tmp_path / "p.csv").write_text("x,y,z\n" + "\n".join(",".join(map(str, p)) for p in points))
     asked = ["query", "open.obj", "--points", "p.csv", "--confidence"]
     run(*asked, "-o", "a.csv")
-    assert (tmp_path / "a.csv").read_text().splitlines()[0] == "distance,confidence"
-    gap, below = rows(tmp_path / "a.csv")
+    assert (tmp_path / "a.csv").read_text().splitlines()[0] == "x,y,z,distance,confidence"
+    gap, below = results(tmp_path / "a.csv")
     assert gap[1] < 0.2
     assert below[1] > 0.6
     run(*asked, "--gradient", "-o", "a.csv")
-    assert [row[4] for row in rows(tmp_path / "a.csv")] == [gap[1], below[1]]
+    assert [row[4] for row in results(tmp_path / "a.csv")] == [gap[1], below[1]]
 
     sdf = ["sdf", "open.obj", "--resolution", 12, "--confidence"]
     run(*sdf, "-o", "a.vti", "-o", "a.ply")
@@ -124,7 +129,7 @@ def test_what_is_doubtful_is_said(run: Run, cube: Path, tmp_path: Path) -> None:
     (tmp_path / "odd.obj").write_text("\n".join([*corners, *turned[:2], *right[2:]]) + "\n")
     result = run("query", "odd.obj", "--points", "points.csv", "-o", "a.csv")
     assert "orientation of faces disagrees" in result.stderr
-    assert [row[0] for row in rows(tmp_path / "a.csv")] == pytest.approx([-1, 2])
+    assert [row[0] for row in results(tmp_path / "a.csv")] == pytest.approx([-1, 2])
 
 
 def test_sdf_on_tets(run: Run, cube: Path, tmp_path: Path) -> None:
@@ -145,7 +150,7 @@ def test_clouds_without_normals_name_the_remedy(run: Run, tmp_path: Path) -> Non
     error = run("query", "c.xyz", "--points", "q.txt", "-o", "a.csv", status=2).stderr
     assert "--estimate-normals computes some" in error
     run("query", "c.xyz", "--points", "q.txt", "--estimate-normals", "-o", "a.csv")
-    middle, outside = rows(tmp_path / "a.csv")
+    middle, outside = results(tmp_path / "a.csv")
     assert middle[0] == pytest.approx(-1, abs=0.05)
     assert outside[0] == pytest.approx(1, abs=0.05)
 
@@ -172,16 +177,16 @@ def ball(tmp_path: Path) -> Path:
 def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -> None:
     asked = ["query", "ball.xyz", "--points", "q.csv"]
     run(*asked, "--method", "tori", "--gradient", "-o", "a.csv")
-    middle, outside = rows(tmp_path / "a.csv")
+    middle, outside = results(tmp_path / "a.csv")
     assert middle[0] == pytest.approx(-1, abs=1e-3)
     assert outside == pytest.approx([2, 1, 0, 0], abs=1e-2)
     run("fit-tori", "ball.xyz", "-o", "tori.ply")
     run("query", "tori.ply", "--points", "q.csv", "--gradient", "-o", "b.csv")
-    assert rows(tmp_path / "b.csv")[1] == pytest.approx(outside, abs=1e-9)
+    assert results(tmp_path / "b.csv")[1] == pytest.approx(outside, abs=1e-9)
     run("query", "tori.ply", "--points", "q.csv", "--flip", "-o", "c.csv")
-    assert rows(tmp_path / "c.csv")[1][0] == pytest.approx(-outside[0], abs=1e-9)
+    assert results(tmp_path / "c.csv")[1][0] == pytest.approx(-outside[0], abs=1e-9)
     report = run(*asked, "--json", "-o", "d.csv").stdout
-    assert rows(tmp_path / "d.csv")[1][0] == pytest.approx(2, abs=1e-2)
+    assert results(tmp_path / "d.csv")[1][0] == pytest.approx(2, abs=1e-2)
     assert json.loads(report)["method"] == "auto"
     run("fit-tori", "ball.xyz", "-o", "tori.obj", status=2)
 
@@ -189,7 +194,7 @@ def test_tori_are_fitted_saved_and_asked(run: Run, ball: Path, tmp_path: Path) -
 def test_tori_fitted_in_other_ways(run: Run, ball: Path, tmp_path: Path) -> None:
     for options in (["--fit", "learned"], ["--single"], ["--drop-outliers"]):
         run("query", "ball.xyz", "--points", "q.csv", "--method", "tori", *options, "-o", "a.csv")
-        middle, outside = rows(tmp_path / "a.csv")
+        middle, outside = results(tmp_path / "a.csv")
         assert middle[0] == pytest.approx(-1, abs=2e-3)
         assert outside[0] == pytest.approx(2, abs=1e-2)
     (tmp_path / "w.txt").write_text("littoral-torus-fit 1\n24 8\n0 0 nan")
@@ -204,11 +209,11 @@ def test_tori_fitted_in_other_ways(run: Run, ball: Path, tmp_path: Path) -> None
 def test_winding_numbers_in_space(run: Run, cube: Path, ball: Path, tmp_path: Path) -> None:
     for name, slack in (("cube.obj", 1e-9), ("ball.xyz", 1e-2)):
         run("winding", name, "--points", "q.csv", "-o", "w.csv")
-        middle, outside = rows(tmp_path / "w.csv")
+        middle, outside = results(tmp_path / "w.csv")
         assert middle[0] == pytest.approx(1, abs=slack)
         assert outside[0] == pytest.approx(0, abs=slack)
     run("winding", "cube.obj", "--points", "q.csv", "--flip", "-o", "w.csv")
-    assert rows(tmp_path / "w.csv")[0][0] == pytest.approx(-1)
+    assert results(tmp_path / "w.csv")[0][0] == pytest.approx(-1)
     run("winding", "cube.obj", "--points", "q.csv", "-s", "x.txt", "-o", "w.csv", status=2)
 
 
@@ -353,7 +358,9 @@ def test_interrupt_stops_soon(cube: Path, tmp_path: Path) -> None:
 def test_winding_numbers_as_a_volume(run: Run, cube: Path, tmp_path: Path) -> None:
     (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n1,0,0\n1.3,0,0\n3,0,0\n")
     run("winding", cube, "--points", "points.csv", "--smoothing", 0.1, "-o", "a.csv")
-    assert [row[0] for row in rows(tmp_path / "a.csv")] == pytest.approx([1, 0.5, 0, 0], abs=0.01)
+    assert [row[0] for row in results(tmp_path / "a.csv")] == pytest.approx(
+        [1, 0.5, 0, 0], abs=0.01
+    )
     grid = ("--resolution", 24)
     run("sdf", cube, "--field", "winding", *grid, "-o", "w.npy", "-o", "w.obj")
     run("sdf", cube, "--field", "winding", "--smoothing", 0.1, *grid, "-o", "s.obj")
@@ -363,7 +370,7 @@ def test_winding_numbers_as_a_volume(run: Run, cube: Path, tmp_path: Path) -> No
         result = run("sdf", name, "--method", "closest-point", *grid, "-o", "d.obj", "--json")
         assert result.returncode == 0
         run("query", name, "--points", "points.csv", "-o", "b.csv")
-        assert [row[0] for row in rows(tmp_path / "b.csv")] == pytest.approx(
+        assert [row[0] for row in results(tmp_path / "b.csv")] == pytest.approx(
             [-1, 0, 0.3, 2], abs=0.1
         )
 

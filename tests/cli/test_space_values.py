@@ -76,7 +76,7 @@ def test_what_has_no_meaning_is_refused(run: Run, tmp_path: Path) -> None:
     for words, text in (
         (("two.obj", "--values", "1,2,3"), "3 numbers for 2 connected parts"),
         (("p.xyz", "--values", "1,2,3"), "3 numbers for 2 points"),
-        (("two.obj", "--values", "0,1", "--method", "planar"), "one value of all the input"),
+        (("two.obj", "--values", "0,1", "--method", "planar"), "on a grid these take them: auto, "),
         (("two.obj", "--values", "0,1", "--unite", "two.obj"), "one mesh, soup or cloud"),
         (("two.obj", "--values", "0,1", "--field", "winding"), "no values"),
         (("two.obj", "--values", "0,x"), "values"),

@@ -245,9 +245,7 @@ SpaceAnswer solve_from_values(const AnyMethod& method, const SpaceDomain& domain
     return answer;
   }
   if (!info.different_values)
-    throw UnsupportedError("method " + info.name +
-                           " measures from one value of all the input, and this has several: "
-                           "auto, winding, closest-point and signed-heat take them");
+    refuse_different_values(info, domain.kind(), Registry<SpaceDomain>::instance().infos());
   SpaceAnswer answer = solve_once(method, domain, sources, task.stage(0.6, "distance"), report);
   const auto input = std::make_shared<const ValuedInput>(soup, values);
   tell_shadowed(*input, task, report);

@@ -11,18 +11,17 @@ namespace {
 /// A method that measures from the least value of the sources.
 class FromLeastValue final : public Solver<SurfaceDomain> {
  public:
-  FromLeastValue(const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> method)
-      : name_(info.name), different_(info.different_values), method_(std::move(method)) {}
+  FromLeastValue(MethodInfo info, std::string kind,
+                 std::shared_ptr<const Solver<SurfaceDomain>> method)
+      : info_(std::move(info)), kind_(std::move(kind)), method_(std::move(method)) {}
 
   SurfaceAnswer solve(const Sources& sources, Task task, Report& report) const override {
     const ValueRange range = value_range(sources);
     const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
     if ((range.low == 0 && range.high == 0) || !finite)  // an error that names the source
       return method_->solve(sources, task, report);
-    if (!range.same() && !different_)
-      throw UnsupportedError("method " + name_ +
-                             " measures from sources of one value, and these have several: auto, "
-                             "exact, fast-marching, signed-heat and unsigned-heat take them");
+    if (!range.same() && !info_.different_values)
+      refuse_different_values(info_, kind_, Registry<SurfaceDomain>::instance().infos());
     SurfaceAnswer answer = method_->solve(shifted_values(sources, -range.low), task, report);
     answer.values.array() += range.low;
     if (answer.shown)
@@ -32,8 +31,8 @@ class FromLeastValue final : public Solver<SurfaceDomain> {
   }
 
  private:
-  std::string name_;
-  bool different_;
+  MethodInfo info_;
+  std::string kind_;
   std::shared_ptr<const Solver<SurfaceDomain>> method_;
 };
 
@@ -41,8 +40,9 @@ class FromLeastValue final : public Solver<SurfaceDomain> {
 
 template <>
 std::shared_ptr<const Solver<SurfaceDomain>> with_additions<SurfaceDomain>(
-    const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> solver) {
-  return std::make_shared<const FromLeastValue>(info, std::move(solver));
+    const MethodInfo& info, const SurfaceDomain& domain,
+    std::shared_ptr<const Solver<SurfaceDomain>> solver) {
+  return std::make_shared<const FromLeastValue>(info, domain.kind(), std::move(solver));
 }
 
 std::string SurfaceDomain::kind() const {

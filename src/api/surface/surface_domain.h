@@ -42,7 +42,8 @@ SurfaceDomain domain_of(const SurfaceMesh& mesh, const MatX3* face_normals = nul
 /// any method; where values differ and the method cannot, UnsupportedError.
 template <>
 std::shared_ptr<const Solver<SurfaceDomain>> with_additions<SurfaceDomain>(
-    const MethodInfo& info, std::shared_ptr<const Solver<SurfaceDomain>> solver);
+    const MethodInfo& info, const SurfaceDomain& domain,
+    std::shared_ptr<const Solver<SurfaceDomain>> solver);
 
 template <>
 std::vector<Method<SurfaceDomain>> library_methods();

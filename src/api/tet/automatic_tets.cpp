@@ -36,7 +36,6 @@ namespace {
 constexpr double near_source = 0.5;  // mean edges: the zero set there is the source itself
 constexpr double longer = 1 + 1e-3;  // than a surface between two vertices allows: their distances
 constexpr double contradicting = 0.01;  // share of the sign changes
-constexpr double sign_accuracy = 2.3;   // errors of .003 do not matter to integers
 
 /// A surface or cloud, as far as it tells the sides of its faces.
 struct Sides {
@@ -208,7 +207,8 @@ class AutomaticThroughTets {
     parallel_for(
         static_cast<std::size_t>(side.size()), 1024, [&](std::size_t begin, std::size_t end) {
           for (auto v = static_cast<Eigen::Index>(begin); v < static_cast<Eigen::Index>(end); ++v)
-            side[v] = settled.inside(mesh_.points.row(v), sign_accuracy) > 0 ? -1 : 1;
+            side[v] =
+                settled.inside(mesh_.points.row(v), WindingNumber::sign_accuracy) > 0 ? -1 : 1;
         });
   }
 

@@ -1,6 +1,7 @@
 #include "cli/input/lengths.h"
 
 #include "base/option_table.h"
+#include "cli/input/numbers.h"
 #include "cli/session.h"
 #include "littoral/error.h"
 

@@ -5,6 +5,7 @@
 
 #include "api/space/input_queries.h"
 #include "base/option_table.h"
+#include "cli/input/numbers.h"
 #include "cli/input/surface_input.h"
 #include "littoral/error.h"
 

@@ -8,6 +8,7 @@
 #include "api/tet/tet_boundary.h"
 #include "base/counted.h"
 #include "base/option_table.h"
+#include "cli/input/numbers.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -175,6 +176,11 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
   shape.request.flip = session.flip;
   const auto* tets = std::get_if<io::TetFile>(&content);
   shape.surface = tets ? boundary_of(*tets) : std::get<PolygonSoup>(std::move(content));
+  try {
+    bounding_box(shape.surface);  // complains
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what(), e.code());
+  }
   return shape;
 }
 
@@ -304,7 +310,8 @@ CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::s
       .add_option("--points", points,
                   help + "the vertices of any surface or cloud file, or " +
                       io::read_extensions({io::Kind::table}) +
-                      " with columns x, y, z; .csv passes other columns on")
+                      " with columns x, y, z; results in .csv and .tsv stand behind all columns of "
+                      "the table")
       ->type_name("FILE");
 }
 
@@ -320,12 +327,18 @@ void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::str
 io::PointTable read_queries(const std::string& file) {
   const io::Format& format = io::format_to_read(
       io::extension_to_read(file), file, {io::Kind::table, io::Kind::surface, io::Kind::cloud});
-  if (format.read_table) return format.read_table(io::read_bytes(file), file);
-  return {io::read_surface(file).points, {}};
+  io::PointTable queries = format.read_table ? format.read_table(io::read_bytes(file), file)
+                                             : io::PointTable{io::read_surface(file).points};
+  for (Eigen::Index i = 0; i < queries.points.rows(); ++i)
+    if (!queries.points.row(i).allFinite())
+      throw InputError(file + ": point " + std::to_string(i) +
+                           ", counted from 0, has coordinates that are not finite",
+                       "not-finite");
+  return queries;
 }
 
 void write_at_points(const std::string& file, const io::PointTable& queries, io::Table table) {
-  table.carried = queries.carried;
+  table.at = &queries;
   if (io::is_written_as(file, {io::Kind::table})) return io::write_table(file, table);
   PolygonSoup cloud;
   cloud.points = queries.points;

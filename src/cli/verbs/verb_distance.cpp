@@ -7,6 +7,7 @@
 #include "api/tet/tet_domain.h"
 #include "base/stopwatch.h"
 #include "cli/input/method_options.h"
+#include "cli/input/numbers.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
 #include "cli/plan/plan.h"

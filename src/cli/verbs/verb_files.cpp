@@ -10,6 +10,7 @@
 #include "api/tet/tet_boundary.h"
 #include "base/counted.h"
 #include "cli/input/lengths.h"
+#include "cli/input/numbers.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
@@ -83,6 +84,11 @@ PolygonSoup welded(const PolygonSoup& soup, const std::string& distance, Session
 }
 
 void convert_soup(PolygonSoup soup, const FileArguments& arguments, Session& session) {
+  if (io::is_written_as(arguments.out, {Kind::volume}) &&
+      !io::is_written_as(arguments.out, soup_outputs))
+    throw InputError(arguments.out + " holds a volume, and " + arguments.in +
+                         " is none: littoral sdf makes the one of distance to it",
+                     "unknown-format");
   check_outputs({arguments.out}, soup_outputs);
   const bool field_only = !io::is_written_as(arguments.out, {Kind::surface});
   const std::string field = choose_field(soup, arguments.field, arguments.in, !field_only);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "api/space/isosurfaces.h"
+#include "cli/input/numbers.h"
 #include "cli/input/space_input.h"
 #include "cli/output.h"
 #include "cli/plan/plan.h"

@@ -8,6 +8,7 @@
 #include "api/space/traced_scene.h"
 #include "api/tet/tet_boundary.h"
 #include "base/platform/temporary_folder.h"
+#include "cli/input/numbers.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"

@@ -123,10 +123,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
 
 // Many binary files begin with "solid", so the size decides first.
 bool is_text(std::string_view bytes) {
-  if (bytes.size() >= header_size) {
-    const std::uint64_t count = load_little<std::uint32_t>(bytes.data() + 80);
-    if (bytes.size() == header_size + count * triangle_size) return false;
-  }
+  if (is_binary_stl(bytes, bytes.size())) return false;
   std::string_view text = bytes.starts_with("\xEF\xBB\xBF") ? bytes.substr(3) : bytes;
   while (!text.empty() && (is_blank(text[0]) || text[0] == '\r' || text[0] == '\n')) {
     text.remove_prefix(1);
@@ -136,6 +133,12 @@ bool is_text(std::string_view bytes) {
 }
 
 }  // namespace
+
+bool is_binary_stl(std::string_view first, std::uint64_t size) {
+  if (first.size() < header_size) return false;
+  const std::uint64_t count = load_little<std::uint32_t>(first.data() + 80);
+  return count > 0 && size == header_size + count * triangle_size;
+}
 
 PolygonSoup read_stl(std::string_view bytes, const std::string& name) {
   PolygonSoup soup = is_text(bytes) ? read_text(bytes, name) : read_binary(bytes, name);

@@ -3,6 +3,7 @@
 // answers any bytes with what they say or an InputError. Points are kept even where they are not
 // finite.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -42,6 +43,9 @@ PolygonSoup read_vtp(std::string_view bytes, const std::string& name);
 /// STL, ascii or binary: told apart by the size that the triangle count asks for, not by the first
 /// word. Corners at the same position are merged; facet normals are ignored.
 PolygonSoup read_stl(std::string_view bytes, const std::string& name);
+/// True if a file of this size [bytes] that begins so is 84 bytes and 50 for each of the triangles
+/// that it counts there, one at least. Only chance, 1 in 4e9, makes another file such a one.
+bool is_binary_stl(std::string_view first, std::uint64_t size);
 
 /// Point cloud of records "v x y z" and "vn x y z" in any order; as many normals as points, or
 /// none.

@@ -33,7 +33,8 @@ void write_3mf(std::ostream& out, const PolygonSoup& soup, const std::string& fi
 /// side of the axis along which they are flat. Throws UnsupportedError where they are flat along
 /// none.
 void write_svg(std::ostream& out, const PolygonSoup& soup, const std::string& field);
-/// VTK's XML polygon data with one scalar per point (appended raw data).
+/// VTK's XML polygon data with normals and all scalars (appended raw data); `field`, where the soup
+/// has it, is the one that programs show first. Points alone are vertices of their own.
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field);
 /// Text as it stands between quotes in XML.
 std::string xml_text(const std::string& plain);

@@ -1,5 +1,6 @@
 // One scalar per vertex.
 
+#include <array>
 #include <cstdint>
 
 #include "base/option_table.h"
@@ -77,10 +78,13 @@ void AppendedArrays::announce(const char* type, const std::string& name, int com
 }
 
 void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& field) {
-  Cells faces, lines;
+  Cells points_alone, lines, faces;
   for (int f = 0; f < soup.n_faces(); ++f) faces.add(soup.face(f));
   for (const auto& line : soup.lines) lines.add(line);
+  if (soup.n_faces() == 0 && soup.lines.empty())  // of points alone a program of VTK shows these
+    for (int v = 0; v < soup.n_vertices(); ++v) points_alone.add(std::array{v});
 
+  const bool normals = soup.normals.rows() > 0;
   AppendedArrays arrays(out);
   const auto cells = [&](const char* element, const Cells& set) {
     out << '<' << element << ">\n";
@@ -90,15 +94,19 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   };
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-      << "<Piece NumberOfPoints=\"" << soup.n_vertices()
-      << "\" NumberOfVerts=\"0\" NumberOfLines=\"" << soup.lines.size()
-      << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << soup.n_faces()
-      << "\">\n<PointData Scalars=\"" << xml_text(field) << "\">\n";
+      << "<Piece NumberOfPoints=\"" << soup.n_vertices() << "\" NumberOfVerts=\""
+      << points_alone.ends.size() << "\" NumberOfLines=\"" << soup.lines.size()
+      << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << soup.n_faces() << "\">\n<PointData";
+  if (soup.scalars.contains(field)) out << " Scalars=\"" << xml_text(field) << '"';
+  if (normals) out << " Normals=\"Normals\"";
+  out << ">\n";
   const auto points = static_cast<std::size_t>(soup.n_vertices());
+  if (normals) arrays.announce("Float64", "Normals", 3, 24 * points);
   for (const auto& [name, values] : soup.scalars) arrays.announce("Float64", name, 1, 8 * points);
   out << "</PointData>\n<Points>\n";
   arrays.announce("Float64", "Points", 3, 24 * points);
   out << "</Points>\n";
+  if (!points_alone.ends.empty()) cells("Verts", points_alone);
   cells("Lines", lines);
   cells("Polys", faces);
   out << "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
@@ -107,9 +115,11 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
     store_little(out, static_cast<std::uint64_t>(8 * count));
     for (std::size_t i = 0; i < count; ++i) store_little(out, data[i]);
   };
+  if (normals) block(soup.normals.data(), 3 * points);
   for (const auto& [name, values] : soup.scalars) block(values.data(), points);
   block(soup.points.data(), 3 * points);
-  for (const Cells* set : {&lines, &faces}) {
+  for (const Cells* set : {&points_alone, &lines, &faces}) {
+    if (set == &points_alone && set->ends.empty()) continue;
     block(set->connectivity.data(), set->connectivity.size());
     block(set->ends.data(), set->ends.size());
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/option_table.h"
 #include "io/render/scene_style.h"
 #include "io/surface/surface_writers.h"
 #include "littoral/error.h"
@@ -37,8 +38,8 @@ DrawnPlane plane_of(const PolygonSoup& soup) {
     if (size[k] < size[flat]) flat = k;
   // Rounding of a computed plane is no height.
   if (!(size[flat] <= 1e-9 * size.maxCoeff()))
-    throw UnsupportedError("the points fill " + exact_text(size[0]) + " x " + exact_text(size[1]) +
-                               " x " + exact_text(size[2]) +
+    throw UnsupportedError("the points fill " + rounded_text(size[0]) + " x " +
+                               rounded_text(size[1]) + " x " + rounded_text(size[2]) +
                                "; SVG is for lines and regions in a plane x, y or z = constant",
                            "unsupported-file");
   DrawnPlane plane;

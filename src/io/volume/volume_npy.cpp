@@ -306,7 +306,7 @@ Content read_npy(std::string_view bytes, const std::string& name, const std::str
 }
 
 PointTable read_npy_points(std::string_view bytes, const std::string& name) {
-  return {npy_points(read_npy_array(bytes, name), name), {}};
+  return {npy_points(read_npy_array(bytes, name), name)};
 }
 
 void write_npy_volume(std::ostream& out, const Volume& volume, const VolumeWriteOptions&) {

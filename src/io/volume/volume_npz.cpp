@@ -166,11 +166,15 @@ PointTable read_npz_points(std::string_view bytes, const std::string& name) {
   const NpyArray& points = choose_array(
       arrays, {"points"}, "points, N x 3", name,
       [](const NpyArray& array) { return array.shape.size() == 2 && array.shape[1] == 3; }, chosen);
-  return {npy_points(points, name + ": " + chosen), {}};
+  return {npy_points(points, name + ": " + chosen)};
 }
 
 void write_npz(std::ostream& out, const Table& table) {
   std::vector<std::pair<std::string, std::string>> members;
+  if (table.at)
+    members.emplace_back("points.npy", npy_bytes([&](std::ostream& to) {
+                           write_npy(to, {{"x", "y", "z"}, table.at->points});
+                         }));
   for (std::size_t c = 0; c < table.names.size(); ++c)
     members.emplace_back(table.names[c] + ".npy", npy_bytes([&](std::ostream& to) {
                            write_npy(to, {{""}, table.columns.col(static_cast<Eigen::Index>(c))});

@@ -17,8 +17,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double sign_accuracy = 2.3;  // errors of .003 do not matter to a comparison with 1/2
-
 /// Distance and gradient from the nearest point, its normal (for queries on the surface) and a
 /// side.
 DistanceSample signed_sample(const Vec3& x, const Vec3& nearest, double distance, bool inside,
@@ -63,14 +61,15 @@ class ToTriangles : public PointwiseDistance {
     Task stages = task;
     VecX values = bvh_->distances(grid, stages.stage(0.7, "distance"));
     set_signs(
-        grid, infinity, [&](const Vec3& x) { return (*winding_)(x, sign_accuracy) > 0.5; },
+        grid, infinity,
+        [&](const Vec3& x) { return (*winding_)(x, WindingNumber::sign_accuracy) > 0.5; },
         stages.stage(0.3, "sign"), values);
     return values;
   }
 
  private:
   bool is_inside(const Vec3& x, const NearestPoint& foot) const {
-    return winding_ ? (*winding_)(x, sign_accuracy) > 0.5
+    return winding_ ? (*winding_)(x, WindingNumber::sign_accuracy) > 0.5
                     : pseudonormals_->at(foot).dot(x - foot.point) < 0;
   }
 
@@ -90,7 +89,8 @@ class ToPoints : public PointwiseDistance {
   DistanceSample at(const Vec3& x) const override {
     const Neighbour found = tree_.nearest(x);
     const Vec3 p = samples_.points.row(found.point), n = samples_.normals.row(found.point);
-    const bool inside = winding_ ? (*winding_)(x, sign_accuracy) > 0.5 : n.dot(x - p) < 0;
+    const bool inside =
+        winding_ ? (*winding_)(x, WindingNumber::sign_accuracy) > 0.5 : n.dot(x - p) < 0;
     return signed_sample(x, p, std::sqrt(found.squared_distance), inside, n);
   }
 

@@ -37,6 +37,7 @@ VecX evaluate(const PointwiseDistance& distance, const MatX3& queries, MatX3* gr
       gradients->row(i) = sample.gradient;
     }
   });
+  values.array() += 0.0;  // -0, of points on the surface that count as inside, becomes 0
   return values;
 }
 

@@ -1,8 +1,10 @@
 #include "methods/implicit/settled_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/option_table.h"
 #include "base/stopwatch.h"
@@ -63,11 +65,36 @@ void report_orientation(const OrientedSoup& soup, Report& report) {
   if (soup.certainty < sure) report.status = "uncertain";
 }
 
+/// Faces, and the chain they end at.
+struct Ended {
+  MatX3i faces;
+  std::vector<std::array<int, 2>> boundary;
+};
+
+/// Faces that cover others exactly add their own part of the solid angle, which moves the patches
+/// over holes. They are left out where the surface ends in fewer sides without them; where they
+/// belong to parts that are closed with them, they stay.
+Ended covered_once(const MatX3& points, const MatX3i& faces, Report& report) {
+  Ended out{faces, boundary_chain(points, faces)};
+  if (!out.boundary.empty()) {
+    Ended once{without_copies(points, faces), {}};
+    if (once.faces.rows() < faces.rows()) {
+      once.boundary = boundary_chain(points, once.faces);
+      if (once.boundary.size() < out.boundary.size()) out = std::move(once);
+    }
+  }
+  if (const auto copies = faces.rows() - out.faces.rows(); copies > 0)
+    report.sizes.emplace_back("copies of faces left out of the sign", static_cast<double>(copies));
+  out.boundary.erase(std::unique(out.boundary.begin(), out.boundary.end()), out.boundary.end());
+  return out;
+}
+
 }  // namespace
 
-SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_given,
+SettledSides settled_sides(const MatX3& points, const MatX3i& given_faces, bool as_given,
                            const Task& task, Report& report) {
   const Stopwatch watch(report, "sides");
+  auto [faces, boundary] = covered_once(points, given_faces, report);
   WindingNumber winding(points, faces);
   const SideCensus census = side_census(points, faces, winding);
   const SideRule rule = choose_sides(census, as_given);
@@ -75,7 +102,6 @@ SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_giv
   // A patch of reversed faces bounds by its own measure, with inside and outside exchanged: it
   // shows by its edges, or by the lines that pass it.
   double against = 0;
-  std::vector<std::array<int, 2>> boundary = boundary_edges(points, faces);
   if (given.without > doubtful || !boundary.empty()) {
     const OrientedSoup soup = orient_soup(points, faces, task);
     WindingNumber oriented(points, soup.faces);
@@ -107,7 +133,7 @@ SettledSides settled_sides(const MatX3& points, const MatX3i& faces, bool as_giv
         "most normals point into the space that the input encloses: all count as reversed, so that "
         "this space is inside");
   report_shares(given, report);
-  return {std::move(winding), rule, faces, std::move(boundary), given.bounds > 0};
+  return {std::move(winding), rule, std::move(faces), std::move(boundary), given.bounds > 0};
 }
 
 }  // namespace littoral

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double off_face =
     1e-6;  // off the faces, which are about 1 across: sheets that are nearer count as one
-constexpr double sum_accuracy = 3;  // in radii of clusters
-constexpr double certain = 0.01;    // winding numbers this far from the level are on one side of it
+constexpr double certain = 0.01;  // winding numbers this far from the level are on one side of it
 
 }  // namespace
 
@@ -50,8 +49,8 @@ SideCensus side_census(const MatX3& points, const MatX3i& faces, const WindingNu
       const Vec3 x = (1 - u - v) * points.row(faces(f, 0)) + u * points.row(faces(f, 1)) +
                      v * points.row(faces(f, 2));
       census.face[i] = static_cast<int>(f);
-      census.back[i] = winding(x - off_face * normals[f], sum_accuracy);
-      census.front[i] = winding(x + off_face * normals[f], sum_accuracy);
+      census.back[i] = winding(x - off_face * normals[f]);
+      census.front[i] = winding(x + off_face * normals[f]);
     }
   });
   return census;

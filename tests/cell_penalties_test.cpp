@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "methods/regularized/marched_start.h"
 #include "methods/regularized/weighted_laplacian.h"
 #include "regularized_helpers.h"
 #include "test_meshes.h"
@@ -42,6 +43,47 @@ TEST(CellPenalties, WeightedLaplacianIsTheProduct) {
   SpMat stabilised = C.L;
   stabilised.coeffRef(5, 5) *= 1.01;
   EXPECT_FALSE(weighted_laplacian(stabilised, D, G, weight, 2, {}));
+}
+
+TEST(CellPenalties, MarchAndTransportFromASide) {
+  // From the side x = 0 of the unit square the distance is x, and 1 - x is transported at x.
+  const int n = 20;
+  const double h = 1.0 / n;
+  const SurfaceMesh mesh(test::grid_soup(n, n));
+  Report report;
+  const test::Problem p = test::problem(mesh, test::vertex_points({0}), report);
+  const Calculus& C = p.ops->scalar;
+  const double unit = p.ops->unit;
+  const MatX3& points = mesh.points();
+  KnownDistances known;
+  for (Eigen::Index v = 0; v < points.rows(); ++v)
+    if (points(v, 0) < 1e-9) known.emplace(static_cast<int>(v), 0);
+  const SpRows G = C.G.matrix();
+  const auto start = marched_start(G, C.A, C.M, known, {});
+  ASSERT_TRUE(start);
+  EXPECT_LE((start->u * unit - points.col(0)).lpNorm<Eigen::Infinity>(), 1e-12);
+  double sum = 0;
+  for (Eigen::Index c = 0; c < C.A.size(); ++c) {
+    const double amount = start->flux.segment<2>(2 * c).norm() * unit;
+    Vec3 middle = Vec3::Zero();
+    for (SpRows::InnerIterator it(G, 2 * c); it; ++it) middle += points.row(it.col()) / 3;
+    EXPECT_NEAR(amount, 1 - middle.x(), 0.4) << c;
+    sum += C.A[c] * unit * unit * amount;
+  }
+  EXPECT_NEAR(sum, 0.5, h);  // work: the mean distance
+  // Along the gradient of u.
+  const VecX g = C.G.apply(start->u);
+  for (Eigen::Index c = 0; c < C.A.size(); ++c)
+    EXPECT_NEAR(start->flux.segment<2>(2 * c).dot(g.segment<2>(2 * c)),
+                start->flux.segment<2>(2 * c).norm(), 1e-12);
+}
+
+TEST(CellPenalties, NothingToMarchOverWhereCellsAreNoTriangles) {
+  SpRows G(2, 4);
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i < 4; ++i) G.insert(d, i) = d + i;
+  G.makeCompressed();
+  EXPECT_FALSE(marched_start(G, VecX::Ones(1), VecX::Ones(4), {{0, 0}}, {}));
 }
 
 TEST(CellPenalties, ChainsOfFlatTrianglesAreMetAtOnce) {

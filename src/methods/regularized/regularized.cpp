@@ -86,7 +86,7 @@ RegularizedSolver::RegularizedSolver(std::shared_ptr<const Operators> ops, Regul
     : ops_(std::move(ops)),
       parts_(regularized_parts(std::shared_ptr<const Calculus>(ops_, &ops_->scalar), regularizer,
                                std::move(data), expected)) {
-  if (parts_.size() == 1) parts_[0].factor(task);
+  if (parts_.size() == 1) parts_[0].order(task);
 }
 
 AdmmResult RegularizedSolver::minimize(const KnownDistances& known, const Regularized& options,

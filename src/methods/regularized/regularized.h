@@ -29,11 +29,12 @@ const OptionTable<SpaceBelyaevFayolle>& space_belyaev_fayolle_options();
 /// One domain and one regularizer; immutable, `solve` may be called from several threads.
 class RegularizedSolver {
  public:
-  /// Factors the Laplacian W_D once, of several components each when a source reaches it: every
-  /// alpha, penalty, source set and regularizer of gradients solves with it, scaled. The Hessian,
-  /// whose matrix alpha W_H + rho W_D no scaling reaches, is factored per penalty. Throws
+  /// Orders the Laplacian W_D once, of several components each when a source reaches it. It is
+  /// factored when cells first share a penalty, once for every alpha, penalty, source set and
+  /// regularizer of gradients, and with the penalties of the cells for each source set. The
+  /// Hessian, whose matrix alpha W_H + rho W_D no scaling reaches, is factored per penalty. Throws
   /// InputError if the data a regularizer needs is missing. Where many rows are expected (surfaces
-  /// in space) it is factored for each source set instead.
+  /// in space) it is ordered for each source set instead.
   RegularizedSolver(std::shared_ptr<const Operators> ops, Regularizer regularizer,
                     RegularizerData data, const Task& task,
                     ConstrainedSystem::Rows expected = ConstrainedSystem::Rows::few);

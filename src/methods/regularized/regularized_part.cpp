@@ -6,6 +6,7 @@
 
 #include "base/index.h"
 #include "littoral/error.h"
+#include "methods/regularized/marched_start.h"
 #include "methods/regularized/weighted_laplacian.h"
 #include "solve/optimization/bounded_values.h"
 
@@ -148,6 +149,24 @@ double least_convex(const SpMat& W, const Calculus& C, const Held& held, const T
   return high;
 }
 
+/// From what is transported in the cells: up to alpha it is alpha times the gradient, whose length
+/// is 1 beyond. The multiplier is all of it, or what the quadratic part leaves.
+void start_from(const VecX& flux, double alpha, bool quadratic_apart, const VecX& bound,
+                SplitProblem& problem) {
+  problem.near_gradient = VecX::Zero(problem.G.rows());
+  problem.near_multipliers = problem.near_gradient;
+  for (Eigen::Index i = 0; i < flux.size(); i += 2) {
+    const Vec2 f = flux.segment<2>(i);
+    const double amount = f.norm();
+    if (!(amount > 0)) continue;
+    const Vec2 gradient = f / std::max(alpha, amount);
+    problem.near_gradient.segment<2>(i) = gradient;
+    problem.near_multipliers.segment<2>(i) = quadratic_apart ? Vec2(f - alpha * gradient) : f;
+  }
+  for (Eigen::Index k = 0; k < bound.size(); ++k)
+    problem.near_gradient[flux.size() + 2 * k] = bound[k];
+}
+
 LinearMap as_map(SpRows matrix) {
   LinearMap G;
   G.rows = matrix.rows();
@@ -186,8 +205,8 @@ std::shared_ptr<const ConstrainedSystem> RegularizedPart::laplacian(const Task& 
       [&] { return ConstrainedSystem(C_->L, C_->component, C_->n_components, task, expected_); });
 }
 
-void RegularizedPart::factor(const Task& task) const {
-  // Of the Hessian there is nothing to factor before rho is known.
+void RegularizedPart::order(const Task& task) const {
+  // Of the Hessian there is nothing to order before rho is known.
   if (regularizer_ != Regularizer::hessian) laplacian(task);
 }
 
@@ -231,7 +250,7 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
   admm_options.max_iterations = options.max_iterations;
 
   ConstrainedSystem::Constrained constrained;
-  double constrained_rho = -1;  // Hessian: the penalty for which `constrained` was factored
+  double constrained_rho = -1;  // the penalty for which `constrained` was made; less: it was not
   if (regularizer_ == Regularizer::hessian) {
     SpMat W = alpha * data_->W;
     problem.quadratic = [&W](const VecX& u) { return times(W, u); };
@@ -258,26 +277,33 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
       return result;
     }
   } else {
-    constrained = laplacian(task)->constrain(held.rows, task, held.give);
     const double in_quadratic = first_algorithm ? alpha : 0;
     if (in_quadratic > 0)
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
-    problem.solve = [&constrained, in_quadratic](const VecX& b, double rho) {
-      return VecX(constrained.solve(b) / (in_quadratic + rho));
+    const auto system = laplacian(task);
+    const auto with_one_penalty = [&]() -> const ConstrainedSystem::Constrained& {
+      if (constrained_rho < 0) constrained = system->constrain(held.rows, task, held.give);
+      constrained_rho = 1;
+      return constrained;
+    };
+    problem.solve = [&, in_quadratic](const VecX& b, double rho) {
+      return VecX(with_one_penalty().solve(b) / (in_quadratic + rho));
     };
     admm_options.least = std::max(admm_options.least, alpha / problem.length());
     problem.solve_cells = [&, in_quadratic](const VecX& rho,
                                             const SpRows& D) -> SplitProblem::Solve {
-      if (constrained.flops_of_number() > most_flops) return nullptr;
+      if (system->flops_of_number(constrained) > most_flops) return nullptr;
       const auto matrix = weighted_laplacian(
           C.L, D, problem.G, VecX(rho.head(C.A.size()).array() + in_quadratic), dim, task);
       if (!matrix) return nullptr;
       VecX give = held.give;
       give.tail(held.bound.size()).array() /= rho.tail(held.bound.size()).array();
-      return
-          [weighted = laplacian(task)->constrain_like(constrained, *matrix, held.rows, task, give)](
-              const VecX& b) { return weighted.solve(b); };
+      return [weighted = system->constrain_like(constrained, *matrix, held.rows, task, give)](
+                 const VecX& b) { return weighted.solve(b); };
     };
+    if (state.empty() && !sign && dim == 2)
+      if (const auto near = marched_start(problem.G, C.A, problem.b, known, task))
+        start_from(near->flux, alpha, first_algorithm, held.bound, problem);
   }
   return admm(problem, admm_options, state, task);
 }

@@ -22,16 +22,16 @@ struct RegularizerData {
   SpMat W;             // nodes x nodes, lower triangle; hessian: W_H
 };
 
-/// A component's operators and, once it has been solved on, their factor; `minimize` may be called
-/// from several threads.
+/// A component's operators and, once it has been solved on, what solves with them; `minimize` may
+/// be called from several threads.
 class RegularizedPart {
  public:
   /// C: of this component alone, or with nodes in no cell beside it.
   RegularizedPart(std::shared_ptr<const Calculus> C, Regularizer regularizer, RegularizerData data,
                   ConstrainedSystem::Rows expected);
 
-  /// Factors, if that has not been done.
-  void factor(const Task& task) const;
+  /// Orders, if that has not been done.
+  void order(const Task& task) const;
 
   /// Eq. 11 where distances are known, by the part's own nodes; as RegularizedSolver::minimize.
   AdmmResult minimize(const KnownDistances& known, const Regularized& options, AdmmState& state,

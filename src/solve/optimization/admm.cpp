@@ -31,13 +31,15 @@ class Admm {
         task_(task),
         D_(problem.divergence()),
         total_(problem.A.sum()) {
-    if (state_.empty()) {
+    const bool fresh = state_.empty();
+    if (fresh) {
       state_.z = VecX::Zero(p_.dim * p_.A.size());
       state_.w = state_.z;
       state_.rho = o_.rho * p_.length();
     }
     rho_ = VecX::Constant(p_.A.size(), state_.rho);
     update_pull();
+    if (fresh && p_.near_gradient.size() > 0) start_near();
   }
 
   AdmmResult run() {
@@ -71,6 +73,23 @@ class Admm {
   }
 
  private:
+  /// From multipliers that are about right, with penalties that fit them.
+  void start_near() {
+    state_.w = p_.near_multipliers / state_.rho;
+    if (!penalties_of_cells()) {
+      state_.w.setZero();
+      update_pull();
+      return;
+    }
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      double s[3];
+      for (int d = 0; d < p_.dim; ++d) s[d] = p_.near_gradient[i + d] + state_.w[i + d];
+      p_.energy->prox(c, rho_[c], s, state_.z.data() + i);
+      for (int d = 0; d < p_.dim; ++d) state_.w[i + d] = s[d] - state_.z[i + d];
+    });
+    update_pull();
+  }
+
   /// body(c, i) for every cell c, whose first number is entry i.
   template <class Body>
   void for_cells(const Body& body) const {

@@ -27,6 +27,7 @@ struct SplitProblem {
   /// The same for a penalty of each cell, factored for it; D is divergence(). Empty, or an empty
   /// answer: there is no such solve.
   std::function<Solve(const VecX& rho, const SpRows& D)> solve_cells;
+  VecX near_gradient, near_multipliers;  // dim cells: about G u and y of the answer; or empty
   const GradientEnergy* energy = nullptr;
   std::function<VecX(VecX u)> allowed;  // empty: all u; otherwise the nearest u, in some sense,
                                         // that meets what `energy` asks beside the gauge
@@ -71,8 +72,9 @@ struct AdmmResult {
 
 /// Minimises; the last iterate comes back with converged = false when iterations run out. Starts
 /// from `state` if it is not empty and leaves its last state there. Where there is `solve_cells`,
-/// every cell has a penalty of its own from the 10th iteration on, in proportion to its multiplier,
-/// and anew after 30, 60, 90, 135, 205, ... iterations.
+/// every cell has a penalty of its own, in proportion to its multiplier: at once where multipliers
+/// are about known, otherwise from the 10th iteration on, and anew after 10, 30, 60, 90, 135, 205,
+/// ... iterations.
 AdmmResult admm(const SplitProblem& problem, const AdmmOptions& options, AdmmState& state,
                 const Task& task);
 

@@ -48,9 +48,11 @@ ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_
     : K_(std::make_shared<const SpMat>(std::move(K))),
       component_(std::move(component)),
       n_components_(n_components),
-      pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})) {
-  if (expected == Rows::few)
-    factor_ = std::make_shared<const DefiniteSystem>(eliminated(*K_, pinned_), task);
+      pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})),
+      factor_(std::make_shared<Kept<DefiniteSystem>>()) {
+  if (expected == Rows::many) return;
+  const SpMat pinned = eliminated(*K_, pinned_);
+  structure_ = std::make_shared<const Elimination>(pinned, dissection(pinned, task), task);
 }
 
 /// Single unknowns by elimination, other rows and those that give by a penalty.
@@ -95,14 +97,9 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain_like(const Constrain
                                                                  const VecX& give) const {
   ConstrainedSystem other = *this;
   other.K_ = std::make_shared<const SpMat>(std::move(matrix));
-  const auto& structure = like.factor_->structure();
-  if (like.factor_ == factor_) {
-    other.factor_ =
-        std::make_shared<const DefiniteSystem>(eliminated(*other.K_, pinned_), structure, task);
-  } else {
-    other.factor_ = nullptr;
-    other.of_many_ = structure;
-  }
+  other.factor_ = std::make_shared<Kept<DefiniteSystem>>();
+  if (like.factor_ && like.factor_->structure() != structure_)
+    other.of_many_ = like.factor_->structure();
   return other.constrain(rows, task, give);
 }
 
@@ -110,7 +107,6 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A, cons
                                                             const VecX& give) const {
   const RowMatrix rows = A;
   Constrained constrained;
-  constrained.factor_ = factor_;
   constrained.component_ = component_;
   constrained.active_.assign(n_components_, 0);
   constrained.gone_.assign(component_.size(), 0);
@@ -137,11 +133,13 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A, cons
   }
   const Eigen::Index n = component_.size();
   constrained.gauge_.resize(n, n_components_);
-  if (!factor_ || index(rest.size()) > few_rows) {
+  if (!structure_ || index(rest.size()) > few_rows) {
     constrained.give_.setZero();
     constrain_many(A, give, constrained, task);
     return constrained;
   }
+  constrained.factor_ =
+      factor_->get([&] { return DefiniteSystem(eliminated(*K_, pinned_), structure_, task); });
   constrained.gauge_.setFromTriplets(gauge.begin(), gauge.end());
   if (rest.empty()) return constrained;
   for (std::size_t i = 0; i < rest.size(); ++i) put(others, rest[i], i);
@@ -202,8 +200,9 @@ VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
   return u;
 }
 
-double ConstrainedSystem::Constrained::flops_of_number() const {
-  return factor_->structure()->flops() / std::max(1.0, factor_->nonzeros());
+double ConstrainedSystem::flops_of_number(const Constrained& like) const {
+  const auto& structure = like.factor_ ? like.factor_->structure() : structure_;
+  return structure ? structure->flops() / std::max<double>(1, structure->values()) : 0;
 }
 
 VecX ConstrainedSystem::Constrained::solve(const VecX& b) const {

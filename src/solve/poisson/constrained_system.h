@@ -4,17 +4,19 @@
 #include <memory>
 #include <vector>
 
+#include "base/lazy.h"
 #include "base/task.h"
 #include "littoral/types.h"
 #include "solve/poisson/poisson.h"
 
 namespace littoral {
 
-/// One factorization of a positive semidefinite K whose null space is the constants of every
-/// component; immutable, copies share it.
+/// One order of elimination and, once something has been solved with K, one factorization of a
+/// positive semidefinite K whose null space is the constants of every component. Copies share them;
+/// may be used from several threads.
 class ConstrainedSystem {
  public:
-  /// How many rows there will be: many are factored for when they are known only.
+  /// How many rows there will be: many are ordered and factored for when they are known only.
   enum class Rows { few, many };
 
   /// K: lower triangle. component: per unknown, -1 for unknowns in no equation.
@@ -27,9 +29,6 @@ class ConstrainedSystem {
    public:
     /// One pass through a factor for each column.
     VecX solve(const VecX& b) const;
-    /// Multiply-adds of the factorization for every number of the factor: what constrain_like costs
-    /// beside a solve.
-    double flops_of_number() const;
 
    private:
     friend class ConstrainedSystem;
@@ -55,10 +54,15 @@ class ConstrainedSystem {
   /// what is minimised.
   Constrained constrain(const SpMat& rows, const Task& task, const VecX& give = {}) const;
 
-  /// The same for a matrix with the pattern of K, on the structure that `like`, made by this system
-  /// from rows with the same pattern, is factored on.
+  /// The same for a matrix with the pattern of K, on the same structure. `like`: made by this
+  /// system from rows with the same pattern, or nothing, which if there are many takes an order
+  /// more.
   Constrained constrain_like(const Constrained& like, SpMat matrix, const SpMat& rows,
                              const Task& task, const VecX& give = {}) const;
+
+  /// Multiply-adds of a factorization for every number of the factor: what constrain_like costs
+  /// beside a solve. Of the one that `like` has, or of K's; 0 if there is neither.
+  double flops_of_number(const Constrained& like) const;
 
  private:
   void constrain_many(const SpMat& rows, const VecX& give, Constrained& constrained,
@@ -68,7 +72,8 @@ class ConstrainedSystem {
   std::vector<int> component_;
   int n_components_;
   std::vector<char> pinned_;
-  std::shared_ptr<const DefiniteSystem> factor_;  // none where many rows are expected
+  std::shared_ptr<const Elimination> structure_;  // none where many rows are expected
+  std::shared_ptr<Kept<DefiniteSystem>> factor_;  // of K on it
   std::shared_ptr<const Elimination> of_many_;    // structure for many rows, if it is known
 };
 

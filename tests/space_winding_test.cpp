@@ -85,7 +85,9 @@ TEST(DipoleMoments, LeaveAnErrorOfTheFourthOrder) {
     moments.add(scale * d, a);
     const Vec3 x = r + scale * d;
     const double error = std::abs(expanded(moments, r, 0.3) - a.dot(x) / std::pow(x.norm(), 3));
-    if (scale < 0.5) EXPECT_NEAR(before / error, 16, 3) << scale;
+    if (scale < 0.5) {
+      EXPECT_NEAR(before / error, 16, 3) << scale;
+    }
     before = error;
   }
 }

@@ -281,17 +281,14 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
     if (in_quadratic > 0)
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
     const auto system = laplacian(task);
-    const auto with_one_penalty = [&]() -> const ConstrainedSystem::Constrained& {
+    problem.solve = [&, system, in_quadratic](const VecX& b, double rho) {
       if (constrained_rho < 0) constrained = system->constrain(held.rows, task, held.give);
       constrained_rho = 1;
-      return constrained;
-    };
-    problem.solve = [&, in_quadratic](const VecX& b, double rho) {
-      return VecX(with_one_penalty().solve(b) / (in_quadratic + rho));
+      return VecX(constrained.solve(b) / (in_quadratic + rho));
     };
     admm_options.least = std::max(admm_options.least, alpha / problem.length());
-    problem.solve_cells = [&, in_quadratic](const VecX& rho,
-                                            const SpRows& D) -> SplitProblem::Solve {
+    problem.solve_cells = [&, system, in_quadratic](const VecX& rho,
+                                                    const SpRows& D) -> SplitProblem::Solve {
       if (system->flops_of_number(constrained) > most_flops) return nullptr;
       const auto matrix = weighted_laplacian(
           C.L, D, problem.G, VecX(rho.head(C.A.size()).array() + in_quadratic), dim, task);

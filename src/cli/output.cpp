@@ -15,11 +15,7 @@ using io::Kind;
 void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds) {
   for (const std::string& file : files) {
     io::format_to_write(file, kinds);
-    try {
-      io::check_writable(file);
-    } catch (const IoError& e) {
-      throw OutputError(e.what(), e.code());
-    }
+    check_before([&] { io::check_writable(file); });
   }
 }
 

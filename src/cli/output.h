@@ -21,6 +21,16 @@ class OutputError : public IoError {
   using IoError::IoError;
 };
 
+/// Runs `check` of an output, before anything is computed: its IoErrors become OutputErrors.
+template <class Check>
+void check_before(const Check& check) {
+  try {
+    check();
+  } catch (const IoError& e) {
+    throw OutputError(e.what(), e.code());
+  }
+}
+
 /// Throws UnsupportedError unless each file can be written as one of the kinds, OutputError where
 /// its folder is not there or cannot be written to.
 void check_outputs(const std::vector<std::string>& files, const io::Kinds& kinds);

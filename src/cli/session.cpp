@@ -124,11 +124,7 @@ void Session::note(const std::string& text) {
 
 void Session::begin_log() {
   if (log_file.empty()) return;
-  try {
-    io::check_writable(log_file);
-  } catch (const IoError& e) {
-    throw OutputError(e.what(), e.code());
-  }
+  check_before([&] { io::check_writable(log_file); });
   log_ = std::make_shared<std::ofstream>(log_file, std::ios::app);
   if (!*log_) throw OutputError("cannot write " + log_file, "cannot-write");
   log_line("littoral " LITTORAL_VERSION " " + record.verb + " " + listed(record.inputs));

@@ -1,6 +1,7 @@
 #include "spatial/boundary_edges.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/index.h"
@@ -93,31 +94,35 @@ std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i
   return out;
 }
 
+std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys) {
+  std::vector<int> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return keys[a] < keys[b] || (keys[a] == keys[b] && a < b); });
+  const auto same = [&](int a, int b) { return keys[a] == keys[b]; };
+  order.erase(std::unique(order.begin(), order.end(), same), order.end());
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
 MatX3i without_copies(const MatX3& points, const MatX3i& faces) {
   const std::vector<int> first = same_positions(points);
-  std::vector<std::array<int, 4>> keys(faces.rows());  // corners, the lowest first; the face
+  std::vector<std::array<int, 3>> keys(faces.rows());  // corners, the lowest first
   for (int f = 0; f < index(keys.size()); ++f) {
-    std::array<int, 3> at;
-    for (int k = 0; k < 3; ++k) at[k] = first[faces(f, k)];
-    std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
-    keys[f] = {at[0], at[1], at[2], f};
+    for (int k = 0; k < 3; ++k) keys[f][k] = first[faces(f, k)];
+    std::rotate(keys[f].begin(), std::min_element(keys[f].begin(), keys[f].end()), keys[f].end());
   }
-  std::sort(keys.begin(), keys.end());
-  const auto same = [](const std::array<int, 4>& a, const std::array<int, 4>& b) {
-    return std::equal(a.begin(), a.begin() + 3, b.begin());
-  };
-  keys.erase(std::unique(keys.begin(), keys.end(), same), keys.end());
-  if (index(keys.size()) == faces.rows()) return faces;
-  std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a[3] < b[3]; });
-  MatX3i out(keys.size(), 3);
-  for (Eigen::Index i = 0; i < out.rows(); ++i) out.row(i) = faces.row(keys[i][3]);
-  return out;
+  const std::vector<int> kept = first_of_each(keys);
+  return faces(kept, Eigen::all);
+}
+
+std::vector<std::array<int, 2>> each_once(std::vector<std::array<int, 2>> chain) {
+  chain.erase(std::unique(chain.begin(), chain.end()), chain.end());
+  return chain;
 }
 
 std::vector<std::array<int, 2>> boundary_edges(const MatX3& points, const MatX3i& faces) {
-  std::vector<std::array<int, 2>> edges = boundary_chain(points, faces);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+  return each_once(boundary_chain(points, faces));
 }
 
 }  // namespace littoral

@@ -142,7 +142,7 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
   const bool voxels =
       io::format_to_read(io::extension_to_read(file), file, {io::Kind::volume}).read_voxels !=
       nullptr;
-  try {
+  return naming(file, [&]() -> Shape {
     if (voxels && !redistance && meaning == VolumeMeaning::automatic) {
       check_side_of_mask(volume, session.flip);
       meaning = VolumeMeaning::mask;
@@ -155,9 +155,7 @@ Shape shape_of_volume(Volume volume, const std::string& file, const SpaceArgumen
     std::optional<double> threshold;
     if (!texts.threshold.empty()) threshold = parse_number("threshold", texts.threshold);
     return shape_of(std::move(volume), meaning, threshold, session.flip);
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what(), e.code());
-  }
+  });
 }
 
 Shape read_shape(const std::string& file, const SpaceArguments& texts, bool first,
@@ -176,11 +174,7 @@ Shape read_shape(const std::string& file, const SpaceArguments& texts, bool firs
   shape.request.flip = session.flip;
   const auto* tets = std::get_if<io::TetFile>(&content);
   shape.surface = tets ? boundary_of(*tets) : std::get<PolygonSoup>(std::move(content));
-  try {
-    bounding_box(shape.surface);  // complains
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what(), e.code());
-  }
+  naming(file, [&] { return bounding_box(shape.surface); });  // complains
   return shape;
 }
 

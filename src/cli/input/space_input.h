@@ -8,8 +8,19 @@
 #include "cli/input/lengths.h"
 #include "cli/input/method_options.h"
 #include "cli/session.h"
+#include "littoral/error.h"
 
 namespace littoral::cli {
+
+/// What `call` returns; its InputErrors begin with the name of the file.
+template <class Call>
+auto naming(const std::string& file, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& e) {
+    throw InputError(file + ": " + e.what(), e.code());
+  }
+}
 
 /// As given.
 struct SpaceArguments {

@@ -29,11 +29,7 @@ SampleNumbers numbers_named(const std::string& word) {
 }
 
 void run_samples(SamplesArguments& arguments, Session& session) {
-  try {
-    io::check_arrays_output(arguments.out);
-  } catch (const IoError& e) {
-    throw OutputError(e.what(), e.code());
-  }
+  check_before([&] { io::check_arrays_output(arguments.out); });
   SampleOptions& options = arguments.options;
   options.numbers = numbers_named(arguments.numbers);
   if (!arguments.scales.empty()) options.scales = parse_numbers("scales", arguments.scales);

@@ -179,11 +179,7 @@ io::Scene volume_scene(const Volume& volume, const std::string& file,
         texts.slice_at(volume.grid.origin, volume.grid.point(n[0] - 1, n[1] - 1, n[2] - 1));
   if (!texts.level.empty()) view.level = parse_number("level", texts.level);
   view.isosurface = !texts.no_surface;
-  try {
-    return io::make_volume_scene(volume, view);
-  } catch (const InputError& e) {
-    throw InputError(file + ": " + e.what(), e.code());
-  }
+  return naming(file, [&] { return io::make_volume_scene(volume, view); });
 }
 
 io::Scene read_traced_scene(const std::string& file, TraceArguments& texts,

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "base/option_table.h"
 #include "io/binary.h"
@@ -83,6 +85,8 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   for (const auto& line : soup.lines) lines.add(line);
   if (soup.n_faces() == 0 && soup.lines.empty())  // of points alone a program of VTK shows these
     for (int v = 0; v < soup.n_vertices(); ++v) points_alone.add(std::array{v});
+  std::vector<std::pair<const char*, const Cells*>> sets = {{"Lines", &lines}, {"Polys", &faces}};
+  if (!points_alone.ends.empty()) sets.insert(sets.begin(), {"Verts", &points_alone});
 
   const bool normals = soup.normals.rows() > 0;
   AppendedArrays arrays(out);
@@ -106,9 +110,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   out << "</PointData>\n<Points>\n";
   arrays.announce("Float64", "Points", 3, 24 * points);
   out << "</Points>\n";
-  if (!points_alone.ends.empty()) cells("Verts", points_alone);
-  cells("Lines", lines);
-  cells("Polys", faces);
+  for (const auto& [element, set] : sets) cells(element, *set);
   out << "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
 
   const auto block = [&](const auto* data, std::size_t count) {
@@ -118,8 +120,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   if (normals) block(soup.normals.data(), 3 * points);
   for (const auto& [name, values] : soup.scalars) block(values.data(), points);
   block(soup.points.data(), 3 * points);
-  for (const Cells* set : {&points_alone, &lines, &faces}) {
-    if (set == &points_alone && set->ends.empty()) continue;
+  for (const auto& [element, set] : sets) {
     block(set->connectivity.data(), set->connectivity.size());
     block(set->ends.data(), set->ends.size());
   }

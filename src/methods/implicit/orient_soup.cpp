@@ -29,18 +29,13 @@ constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
 /// Vertices are the lowest ones of their positions.
 MatX3i distinct_faces(const MatX3& points, const MatX3i& faces) {
   const std::vector<int> first = same_positions(points);
-  std::vector<std::pair<std::array<int, 3>, int>> keys;
-  for (int f = 0; f < faces.rows(); ++f) {
-    std::array<int, 3> key;
-    for (int k = 0; k < 3; ++k) key[k] = first[faces(f, k)];
-    std::sort(key.begin(), key.end());
-    if (key[0] != key[1] && key[1] != key[2]) keys.emplace_back(key, f);
+  std::vector<std::array<int, 3>> keys(faces.rows());
+  for (int f = 0; f < index(keys.size()); ++f) {
+    for (int k = 0; k < 3; ++k) keys[f][k] = first[faces(f, k)];
+    std::sort(keys[f].begin(), keys[f].end());
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<int> kept;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    if (i == 0 || keys[i].first != keys[i - 1].first) kept.push_back(keys[i].second);
-  std::sort(kept.begin(), kept.end());
+  std::vector<int> kept = first_of_each(keys);
+  std::erase_if(kept, [&](int f) { return keys[f][0] == keys[f][1] || keys[f][1] == keys[f][2]; });
   MatX3i out(kept.size(), 3);
   for (std::size_t i = 0; i < kept.size(); ++i)
     for (int k = 0; k < 3; ++k) out(index(i), k) = first[faces(kept[i], k)];

@@ -85,7 +85,7 @@ Ended covered_once(const MatX3& points, const MatX3i& faces, Report& report) {
   }
   if (const auto copies = faces.rows() - out.faces.rows(); copies > 0)
     report.sizes.emplace_back("copies of faces left out of the sign", static_cast<double>(copies));
-  out.boundary.erase(std::unique(out.boundary.begin(), out.boundary.end()), out.boundary.end());
+  out.boundary = each_once(std::move(out.boundary));
   return out;
 }
 

@@ -282,8 +282,10 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
       problem.quadratic = [&C, alpha](const VecX& u) { return VecX(alpha * times(C.L, u)); };
     const auto system = laplacian(task);
     problem.solve = [&, system, in_quadratic](const VecX& b, double rho) {
-      if (constrained_rho < 0) constrained = system->constrain(held.rows, task, held.give);
-      constrained_rho = 1;
+      if (constrained_rho < 0) {
+        constrained = system->constrain(held.rows, task, held.give);
+        constrained_rho = rho;
+      }
       return VecX(constrained.solve(b) / (in_quadratic + rho));
     };
     admm_options.least = std::max(admm_options.least, alpha / problem.length());

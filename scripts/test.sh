@@ -226,11 +226,18 @@ done
 mkdir -p "$logs"
 rm -f "$logs"/*.result
 begin=$SECONDS
-run_stage() {  # its output goes to its log, too; how it ended and how long it took to its result
+run_stage() {  # its output goes to its log, too; how it ended, and its times by the clock and of processors, to its result
   local stage=$1 start=$SECONDS result=FAILED
-  "stage_$stage" 2>&1 | tee "$logs/$stage.log" && result=passed
+  (
+    "stage_$stage"
+    status=$?
+    times >"$logs/$stage.times"
+    exit $status
+  ) 2>&1 | tee "$logs/$stage.log" && result=passed
   echo "stage $stage $result" >>"$logs/$stage.log"
-  printf '%-14s %-8s %5d s\n' "$stage" "$result" $((SECONDS - start)) >"$logs/$stage.result"
+  printf '%-14s %-8s from %5d s on, %5d s, processors %5d s\n' "$stage" "$result" $((start - begin)) \
+    $((SECONDS - start)) "$(awk -F '[ms ]+' 'END { print int($1 * 60 + $2 + $3 * 60 + $4) }' "$logs/$stage.times")" \
+    >"$logs/$stage.result"
 }
 # Two lanes: what waits for one core most of the time runs beside what keeps all of them busy. Both may
 # use build/release, but only the first lane while it builds it, which is the first thing it does.

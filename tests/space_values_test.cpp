@@ -156,18 +156,22 @@ TEST(SpaceValues, ClosedSurfacesCountUpOutsideAndDownInside) {
 }
 
 TEST(SpaceValues, ConcentricSpheresAreLevelSetsOfOneDistance) {
-  Valued shells;
-  const PolygonSoup sphere = test::octasphere_soup(5);
-  PolygonSoup outer = sphere;
-  outer.points *= 2;
-  shells.add(sphere, Vec3::Zero(), 0);
-  shells.add(outer, Vec3::Zero(), 1);
-  const Sdf sdf = signed_distance(shells.surface, shells.values);
+  const auto shells_of = [](int level) {
+    Valued shells;
+    const PolygonSoup sphere = test::octasphere_soup(level);
+    PolygonSoup outer = sphere;
+    outer.points *= 2;
+    shells.add(sphere, Vec3::Zero(), 0);
+    shells.add(outer, Vec3::Zero(), 1);
+    return shells;
+  };
+  const Valued fine = shells_of(5), coarse = shells_of(3);
+  const Sdf sdf = signed_distance(fine.surface, fine.values);
   const MatX3 places = test::random_points(200, 2);
   for (const auto& row : places.rowwise()) EXPECT_NEAR(sdf(row.transpose()), row.norm() - 1, 5e-3);
   const Grid grid = test::cube_grid(24, 2.6);
   for (const char* constraint : {"none", "zero-set", "soft"}) {
-    const Sdf heat = signed_distance(shells.surface, shells.values,
+    const Sdf heat = signed_distance(coarse.surface, coarse.values,
                                      AnyMethod::named("signed-heat", {{"constraint", constraint}}));
     const auto radius = [](const Vec3& x) { return x.norm() - 1; };
     EXPECT_LT(test::mean_error(grid, heat.sample(grid).values, radius), 0.05) << constraint;

@@ -153,7 +153,7 @@ TEST(TracedScene, RaysMeetTheTorus) {
 }
 
 TEST(TracedScene, PicturesShowTheSurfaceForAnyNumberOfThreads) {
-  const io::Scene scene = scene_of(shapes_of(torus_cloud(1500)), {});
+  const io::Scene scene = scene_of(shapes_of(torus_cloud(600)), {});
   io::PictureOptions options{.width = 64, .height = 64};
   options.towards_eye = Vec3::UnitZ();
   options.up = Vec3::UnitY();
@@ -200,7 +200,7 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
                                    .up = Vec3::UnitY(),
                                    .supersampling = 1,
                                    .colour_bar = false};
-  CsgShapes shapes = shapes_of(torus_cloud(1500));
+  CsgShapes shapes = shapes_of(torus_cloud(600));
   const int whole = inked(draw_picture(scene_of(shapes, {}), options));
   CsgShapes bitten = shapes;
   bitten.all.push_back(shapes.all[0]);
@@ -233,17 +233,18 @@ TEST(TracedScene, OffsetsDifferencesAndCutsShow) {
 TEST(TracedScene, OccludedShadingDarkensTheCornerBesideTheSlice) {
   TracedView view;
   view.position = 0;
-  io::Scene scene = scene_of(shapes_of(torus_cloud(2000)), view, 49);  // there are nodes at 0
+  io::Scene scene = scene_of(shapes_of(torus_cloud(800)), view, 49);  // there are nodes at 0
   scene.isolines = 0;
-  const io::PictureOptions options{.width = 240,
-                                   .height = 180,
+  const int width = 240, height = 180;
+  const io::PictureOptions options{.width = width,
+                                   .height = height,
                                    .towards_eye = Vec3(1, 0, 0.7),
                                    .up = Vec3::UnitZ(),
                                    .supersampling = 1,
                                    .colour_bar = false};
-  const double margin = 0.04 * 180 + 4;
+  const double margin = 0.04 * height + 4;
   const io::Camera camera =
-      io::fit_camera(scene, options, {margin, margin, 240 - margin, 180 - margin});
+      io::fit_camera(scene, options, {margin, margin, width - margin, height - margin});
   const auto drawn = [&](io::Shading shading) {
     scene.shading = shading;
     return draw_picture(scene, options);
@@ -252,7 +253,7 @@ TEST(TracedScene, OccludedShadingDarkensTheCornerBesideTheSlice) {
   const auto part = [&](const Vec3& place) {
     const Vec3 at = camera.project(place);
     const auto pixel =
-        3 * (static_cast<std::size_t>(at[0]) + 240 * static_cast<std::size_t>(at[1]));
+        3 * (static_cast<std::size_t>(at[0]) + width * static_cast<std::size_t>(at[1]));
     return double(occluded.rgb[pixel]) / double(smooth.rgb[pixel]);
   };
   const auto outside = [](double z) { return Vec3(0.8 + std::sqrt(0.09 - z * z), 0, z); };
@@ -261,7 +262,7 @@ TEST(TracedScene, OccludedShadingDarkensTheCornerBesideTheSlice) {
   EXPECT_GT(part(outside(0.299)), 0.93);
   EXPECT_LT(part({1.13, 0, 0}), 0.85);  // and of the slice beside it
   // Without a slice, the hole is darker than the outside.
-  scene = scene_of(shapes_of(torus_cloud(2000)), {}, 48);
+  scene = scene_of(shapes_of(torus_cloud(800)), {}, 24);
   const io::PictureOptions above{.width = 96,
                                  .height = 96,
                                  .towards_eye = Vec3::UnitZ(),

@@ -10,6 +10,7 @@
 #include "api/space/sdf.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "littoral/littoral.h"
 #include "methods/implicit/closest_point.h"
 #include "shared_data.h"
 #include "space_helpers.h"
@@ -54,6 +55,25 @@ TEST(SpaceDistanceSlow, SignedHeatOnBoxTorusAndCylinderFallsWithTheSpacing) {
     const double coarse = error(17), fine = error(49);
     EXPECT_LT(fine, 0.025) << s;
     EXPECT_GT(std::log(coarse / fine) / std::log(3.0), order[s]) << s;
+  }
+}
+
+TEST(SpaceDistance, OnTheSurfaceItIsPlainZero) {
+  const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
+  const Grid grid = test::cube_grid(9, 1);  // nodes 0.25 apart: 98 of them on the box
+  for (const char* method : {"auto", "winding", "closest-point"}) {
+    const Sdf sdf = signed_distance(box, AnyMethod::named(method));
+    int on = 0;
+    const auto look = [&](double value) {
+      if (value != 0) return;
+      ++on;
+      EXPECT_FALSE(std::signbit(value)) << method;
+    };
+    for (const double value : sdf.sample(grid).values) look(value);
+    for (const double value : on_grid(box, grid, method)) look(value);
+    look(sdf({0.5, 0, 0}));
+    look(sdf({0, 0.1, -0.5}));
+    EXPECT_EQ(on, 2 * 98 + 2) << method;
   }
 }
 

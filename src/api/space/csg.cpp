@@ -142,7 +142,7 @@ SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Re
         std::vector<DistanceSample> samples(n);
         for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
           for (std::size_t s = 0; s < n; ++s) samples[s].value = values[s][i];
-          combined[i] = combine(shapes.csg, samples).value;
+          combined[i] = combine(shapes.csg, samples).value + 0.0;  // no -0
         }
       });
   return {std::move(combined), {}, {}, {}};

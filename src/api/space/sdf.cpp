@@ -103,7 +103,9 @@ VecX grid_distance(const PolygonSoup& input, const Grid& grid, const SpaceReques
 
 SpaceAnswer grid_answer(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                         Task task, Report& report) {
-  return solve(input, {grid, {}}, request, task, report);
+  SpaceAnswer answer = solve(input, {grid, {}}, request, task, report);
+  answer.at_nodes.array() += 0.0;  // -0, of nodes on the surface that count as inside, becomes 0
+  return answer;
 }
 
 SpaceAnswer tet_distance(const PolygonSoup& input, const Grid& grid, const TetFilling& filling,

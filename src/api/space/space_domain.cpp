@@ -6,24 +6,30 @@ namespace littoral {
 
 namespace {
 
+/// In the units of the input, and without -0 for points on the surface that count as inside.
 class Placed final : public PointwiseDistance {
  public:
   Placed(std::unique_ptr<const PointwiseDistance> distance, const Frame& frame)
       : distance_(std::move(distance)), frame_(frame) {}
   DistanceSample at(const Vec3& x) const override {
     const DistanceSample sample = distance_->at(frame_.local(x));
-    return {sample.value * frame_.unit, sample.gradient};
+    return {length(sample.value), sample.gradient};
   }
   double value(const Vec3& x) const override {
-    return distance_->value(frame_.local(x)) * frame_.unit;
+    return length(distance_->value(frame_.local(x)));
+  }
+  double value_after(const Vec3& x, int& last) const override {
+    return length(distance_->value_after(frame_.local(x), last));
   }
   VecX on_grid(const Grid& grid, const Task& task) const override {
     VecX values = distance_->on_grid(frame_.local(grid), task);
-    values *= frame_.unit;
+    values = values.array() * frame_.unit + 0.0;
     return values;
   }
 
  private:
+  double length(double local) const { return local * frame_.unit + 0.0; }
+
   std::unique_ptr<const PointwiseDistance> distance_;
   Frame frame_;
 };

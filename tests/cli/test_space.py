@@ -36,6 +36,22 @@ def cube(tmp_path: Path) -> Path:
     return tmp_path / "cube.obj"
 
 
+def test_places_are_named_one_by_one(run: Run, cube: Path, tmp_path: Path) -> None:
+    places = ("--at", "0,0,0", "--at", "-3,0,0")
+    assert run("query", "cube.obj", *places, "-o", "csv:-").stdout == (
+        "x,y,z,distance\n0,0,0,-1\n-3,0,0,2\n"
+    )
+    run("winding", "cube.obj", *places, "-o", "w.csv")
+    assert (tmp_path / "w.csv").read_text() == "x,y,z,winding\n0,0,0,1\n-3,0,0,0\n"
+    for arguments, words in (
+        ((), "[nothing-given]"),
+        (("--at", "0,0,0", "--points", "points.csv"), "[options-conflict]"),
+        (("--at", "0,0"), "three numbers"),
+        (("--at", "0,0,nan"), "'nan' is not a finite number"),
+    ):
+        assert words in run("query", "cube.obj", *arguments, "-o", "a.csv", status=2).stderr
+
+
 def test_query_gives_values_and_gradients(run: Run, cube: Path, tmp_path: Path) -> None:
     run("query", "cube.obj", "--points", "points.csv", "--gradient", "-o", "a.csv", "-o", "a.npy")
     middle, outside = results(tmp_path / "a.csv")

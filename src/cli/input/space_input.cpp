@@ -299,16 +299,6 @@ GridOptions grid_request(const SpaceArguments& texts, const InputSize& size) {
   return request;
 }
 
-CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help) {
-  return verb
-      .add_option("--points", points,
-                  help + "the vertices of any surface or cloud file, or " +
-                      io::read_extensions({io::Kind::table}) +
-                      " with columns x, y, z; results in .csv and .tsv stand behind all columns of "
-                      "the table")
-      ->type_name("FILE");
-}
-
 void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::string& when) {
   verb.add_option("--smoothing", smoothing,
                   when +
@@ -316,29 +306,6 @@ void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::str
                       "[" +
                       length_unit_text + "; default 0, none]")
       ->type_name("S");
-}
-
-io::PointTable read_queries(const std::string& file) {
-  const io::Format& format = io::format_to_read(
-      io::extension_to_read(file), file, {io::Kind::table, io::Kind::surface, io::Kind::cloud});
-  io::PointTable queries = format.read_table ? format.read_table(io::read_bytes(file), file)
-                                             : io::PointTable{io::read_surface(file).points};
-  for (Eigen::Index i = 0; i < queries.points.rows(); ++i)
-    if (!queries.points.row(i).allFinite())
-      throw InputError(file + ": point " + std::to_string(i) +
-                           ", counted from 0, has coordinates that are not finite",
-                       "not-finite");
-  return queries;
-}
-
-void write_at_points(const std::string& file, const io::PointTable& queries, io::Table table) {
-  table.at = &queries;
-  if (io::is_written_as(file, {io::Kind::table})) return io::write_table(file, table);
-  PolygonSoup cloud;
-  cloud.points = queries.points;
-  for (std::size_t c = 0; c < table.names.size(); ++c)
-    cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
-  io::write_surface(file, cloud);
 }
 
 }  // namespace littoral::cli

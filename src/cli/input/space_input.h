@@ -67,15 +67,7 @@ CsgShapes read_shapes(SpaceArguments& texts, Session& session);
 /// A warning for a file whose format has no place for a volume's box.
 void warn_without_box(const std::string& file, Session& session);
 
-/// Adds --points, whose help begins with `help`.
-CLI::Option* add_points_option(CLI::App& verb, std::string& points, const std::string& help);
 /// Adds --smoothing of winding numbers in space; `when` says what it goes with.
 void add_smoothing_option(CLI::App& verb, std::string& smoothing, const std::string& when);
-/// Points of any surface or cloud file, or those of a table with its other columns.
-io::PointTable read_queries(const std::string& file);
-
-/// What values at points are written to: tables, or clouds with the values.
-inline const io::Kinds query_outputs = {io::Kind::table, io::Kind::cloud};
-void write_at_points(const std::string& file, const io::PointTable& queries, io::Table table);
 
 }  // namespace littoral::cli

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/input/query_points.h"
 #include "cli/input/space_input.h"
 #include "cli/output.h"
 #include "cli/plan/plan.h"
@@ -13,7 +14,7 @@ namespace {
 
 struct QueryArguments {
   SpaceArguments space;
-  std::string points;
+  QueryPoints points;
   std::vector<std::string> out;
   bool gradient = false, confidence = false;
 };
@@ -54,7 +55,7 @@ void add_query(CLI::App& program, Session& session) {
       add_verb(program, session, arguments, "query",
                "signed distance at given points, around a mesh, soup or point cloud", run_query);
   add_space_input(verb, arguments->space, session);
-  add_points_option(verb, arguments->points, "where to evaluate: ")->required();
+  add_query_points(verb, arguments->points, "where to evaluate: ");
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions(query_outputs));
   verb.add_flag("--gradient", arguments->gradient, "also the gradient");

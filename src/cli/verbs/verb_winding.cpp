@@ -4,6 +4,7 @@
 
 #include "api/surface/winding.h"
 #include "cli/input/method_options.h"
+#include "cli/input/query_points.h"
 #include "cli/input/space_input.h"
 #include "cli/input/surface_input.h"
 #include "cli/output.h"
@@ -22,8 +23,9 @@ using io::Kind;
 const io::Kinds region_outputs = {Kind::field, Kind::page, Kind::picture};
 
 struct WindingArguments {
-  std::string domain, points, curves, smoothing, show = "region";
+  std::string domain, curves, smoothing, show = "region";
   std::vector<std::string> sources, out;
+  QueryPoints points;
   NamedSources named;
   MethodArguments method;
 };
@@ -46,8 +48,8 @@ void run_at_points(const WindingArguments& arguments, Session& session) {
   if (!arguments.sources.empty() || !arguments.named.empty() || !arguments.curves.empty() ||
       !arguments.method.options.empty())
     throw InputError(
-        "option points: winding numbers in space take no sources, no curves and no options",
-        "nothing-given");
+        "winding numbers at points in space take no sources, no curves and no options",
+        "options-conflict");
   check_outputs(arguments.out, query_outputs);
   SpaceRequest request;
   request.flip = session.flip;
@@ -70,7 +72,7 @@ void run_winding(WindingArguments& arguments, Session& session) {
     return;
   }
   if (!arguments.smoothing.empty())
-    throw InputError("option smoothing goes with --points", "options-conflict");
+    throw InputError("option smoothing goes with option points or option at", "options-conflict");
   check_outputs(arguments.out, region_outputs);
   if (!arguments.curves.empty() && !io::has_extension(arguments.curves, ".obj"))
     throw InputError("cannot write " + arguments.curves + " as named lines; possible: .obj",
@@ -112,17 +114,17 @@ void add_winding(CLI::App& program, Session& session) {
       "regions that curves bound on a triangle mesh, and curves that bound nothing", run_winding);
   add_input_option(verb, "DOMAIN", arguments->domain,
                    kinds_help({Kind::surface}) +
-                       ", or with --points a mesh, soup or cloud in space: " +
+                       ", or with --points or --at a mesh, soup or cloud in space: " +
                        io::read_extensions({Kind::surface, Kind::cloud}));
   add_repeated_option(verb, "--sources,-s", arguments->sources,
                       "signed curves: " + io::read_extensions({Kind::sources}) +
                           "; may be repeated; without, the lines of DOMAIN")
       ->type_name("FILE");
   add_named_curves(verb, arguments->named);
-  add_points_option(
+  add_query_points(
       verb, arguments->points,
       "winding numbers in space, to " + io::written_extensions(query_outputs) + ", at: ");
-  add_smoothing_option(verb, arguments->smoothing, "with --points");
+  add_smoothing_option(verb, arguments->smoothing, "with --points or --at");
   add_output_option(verb, arguments->out,
                     "where to write: " + io::written_extensions(region_outputs) +
                         "; tables have labels of faces, .obj homogeneous texture coordinates, "

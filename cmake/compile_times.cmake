@@ -10,7 +10,7 @@ set(littoral_hot_sources
   src/io/render/openness.cpp
   src/methods/geodesic/exact_polyhedral.cpp src/methods/geodesic/fast_marching.cpp
   src/methods/geodesic/ray_crossing.cpp src/methods/geodesic/ray_kernels.cpp
-  src/methods/tori/torus_kernels.cpp
+  src/methods/heat/strip_cell_kernels.cpp src/methods/tori/torus_kernels.cpp
   src/solve/direct/dense_kernels.cpp src/solve/direct/small_supernode_kernels.cpp
   src/solve/direct/strip_kernels.cpp
   src/solve/multigrid/cosine_transform.cpp

@@ -10,8 +10,9 @@ set(littoral_hot_sources
   src/io/render/openness.cpp
   src/methods/geodesic/exact_polyhedral.cpp src/methods/geodesic/fast_marching.cpp
   src/methods/geodesic/ray_crossing.cpp src/methods/geodesic/ray_kernels.cpp
-  src/methods/tori/torus_kernels.cpp
+  src/methods/heat/strip_cell_kernels.cpp src/methods/tori/torus_kernels.cpp
   src/solve/direct/dense_kernels.cpp src/solve/direct/small_supernode_kernels.cpp
+  src/solve/direct/strip_kernels.cpp
   src/solve/multigrid/cosine_transform.cpp
   src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
   src/spatial/bound_kernels.cpp src/spatial/crossing_kernels.cpp src/spatial/crossing_number.cpp
@@ -24,8 +25,9 @@ foreach(source ${littoral_hot_sources})
 endforeach()
 set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 # Beside a precompiled header of -O2 GCC does not do all that -O3 does; here it shows in the times.
-set_property(SOURCE src/solve/direct/small_supernode_kernels.cpp src/spatial/crossing_number.cpp
-  src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+set_property(SOURCE src/solve/direct/small_supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
+  src/spatial/crossing_number.cpp src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp
+  PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 
 # Eigen's decompositions of small matrices, as long to compile as a dozen other files.
 set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS

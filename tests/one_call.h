@@ -2,6 +2,7 @@
 // Any method in one call: prepared for a domain and solved once.
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "api/surface/pairs.h"
@@ -27,6 +28,19 @@ inline PairsAnswer pair_distances(const SurfaceMesh& mesh, const std::vector<int
                                   const AnyMethod& method, Report& report) {
   return littoral::pair_distances(domain_of(mesh), vertices, method, {}, report);
 }
+
+/// A solver that is asked for one set of sources at a time.
+class OneByOne final : public Solver<SurfaceDomain> {
+ public:
+  explicit OneByOne(std::shared_ptr<const Solver<SurfaceDomain>> solver)
+      : solver_(std::move(solver)) {}
+  SurfaceAnswer solve(const Sources& sources, Task task, Report& report) const override {
+    return solver_->solve(sources, std::move(task), report);
+  }
+
+ private:
+  std::shared_ptr<const Solver<SurfaceDomain>> solver_;
+};
 
 inline WindingAnswer surface_winding(const SurfaceMesh& mesh, const Sources& sources,
                                      const AnyMethod& method, Report& report) {

@@ -79,7 +79,7 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
   for (int end : {0, 350}) {
     const auto p = test::problem(mesh, test::vertex_points({end}), report);
     for (double scale : {0.25, 1.0, 16.0}) {
-      const Both both = solve_both(p.ops->vector, p.terms.X0 + p.terms.X0_points, scale);
+      const Both both = solve_both(p.ops->vector, p.terms.vectors(p.ops->vector.n), scale);
       const auto [largest, mean] = difference(both.windows, both.passes);
       EXPECT_LE(mean, 1e-12) << scale;
       EXPECT_LE(largest, 1e-9) << scale;
@@ -97,7 +97,7 @@ TEST(HeatWindows, NoticeMisjudgedDistances) {
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const HeatWindows<Complex> windows(A, 1, decay_lengths(V.M, t), dissection(*A, {}));
-  const VecXc b = as_complex(p.terms.X0 + p.terms.X0_points);
+  const VecXc b = as_complex(p.terms.vectors(p.ops->vector.n));
   EXPECT_FALSE(windows.solve(b, V.piece, {}, report).has_value());
 }
 
@@ -110,7 +110,7 @@ TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {
   mixed.points.push_back(SurfacePoint::at_vertex(5));
   for (const Sources& sources : {loops, mixed, test::vertex_points({0, 1, 77, 400})}) {
     const auto p = test::problem(mesh, sources, report);
-    const Both both = solve_both(p.ops->vector, p.terms.X0 + p.terms.X0_points, 1);
+    const Both both = solve_both(p.ops->vector, p.terms.vectors(p.ops->vector.n), 1);
     const auto [largest, mean] = difference(both.windows, both.passes);
     EXPECT_LE(mean, 1e-12);
     EXPECT_LE(largest, 1e-8);  // on the ridge between two sources the directions nearly cancel
@@ -131,7 +131,7 @@ TEST(HeatWindows, DisconnectedPartsOfDifferentStrengthAreAllReached) {
   const SurfaceMesh mesh(soup);
   Report report;
   const auto p = test::problem(mesh, test::vertex_points({0, n + 7}), report);
-  const Both both = solve_both(p.ops->vector, p.terms.X0 + p.terms.X0_points, 1);
+  const Both both = solve_both(p.ops->vector, p.terms.vectors(p.ops->vector.n), 1);
   EXPECT_LE(difference(both.windows, both.passes).second, 1e-12);
 }
 
@@ -140,7 +140,7 @@ TEST(HeatWindows, HeldVectorsAreHeld) {
   Report report;
   const auto p = test::problem(mesh, test::space_curve(test::circle(0, 0, 0.5, 0.87, 60)), report);
   const VectorDiffusion& V = p.ops->vector;
-  const VecXc held = as_complex(normalize(p.terms.X0));
+  const VecXc held = as_complex(normalize(p.terms.vectors(V.n)));
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const VecX size = decay_lengths(V.M, t);

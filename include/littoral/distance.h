@@ -51,9 +51,10 @@ struct DistanceMatrix {
 };
 
 /// Row i holds the distances from from[i] to all of `to`, by one solve for each row on shared
-/// factors, side by side; Symmetric{} finds all pairs of vertices at once. Values inside faces are
-/// linear between the vertices. Errors as for `distance`, and UnsupportedError for Symmetric{} with
-/// points that are not vertices.
+/// factors, side by side, and sixteen at once by SignedHeat and UnsignedHeat as long as nothing but
+/// distance to points is asked of them; Symmetric{} finds all pairs of vertices at once. Values
+/// inside faces are linear between the vertices. Errors as for `distance`, and UnsupportedError for
+/// Symmetric{} with points that are not vertices.
 DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>& from,
                                const std::vector<SurfacePoint>& to, const AnyMethod& method = {},
                                const Context& context = {});

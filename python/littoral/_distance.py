@@ -288,9 +288,9 @@ def distance_matrix(
     """Distances between points of a surface: sources x targets, or x vertices without targets.
 
     Both are vertices, (element, [barycentric]) pairs or `SurfacePoint`s; one solve for each source
-    on shared factors. +inf between components [length]. On a `TetMesh` both are vertices. Raises
-    IndexOutOfRange for points that are not there, UnsupportedError and InputError as
-    `DistanceSolver`.
+    on shared factors, sixteen at once by the heat methods. +inf between components [length]. On a
+    `TetMesh` both are vertices. Raises IndexOutOfRange for points that are not there,
+    UnsupportedError and InputError as `DistanceSolver`.
 
     >>> import littoral
     >>> littoral.distance_matrix(littoral.examples.square(4), [0, 4], [4, 20]).round(6).tolist()

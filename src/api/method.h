@@ -12,7 +12,10 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,15 +29,32 @@
 
 namespace littoral {
 
+/// How many sets of sources a solver takes at once, and what memory that takes [bytes].
+struct AtOnce {
+  std::size_t sources = 1;
+  double bytes = 0;
+};
+
 /// A method prepared for one domain. Immutable to its users: `solve` may be called from several
 /// threads.
 template <class D>
 class Solver {
  public:
+  using Sources = typename D::Sources;
+  using Answers = std::vector<std::optional<typename D::Answer>>;
+
   virtual ~Solver() = default;
   /// Reports options with the values used, sizes, seconds per stage, iterations and residuals.
-  virtual typename D::Answer solve(const typename D::Sources& sources, Task task,
-                                   Report& report) const = 0;
+  virtual typename D::Answer solve(const Sources& sources, Task task, Report& report) const = 0;
+
+  /// What a call of solve_together may be given; solvers that gain nothing by it have 1.
+  virtual AtOnce at_once() const { return {}; }
+  /// What `solve` says of each of several sets of sources, to rounding, or nothing where it must be
+  /// asked; but seconds, which nobody has alone. The task is asked only whether to stop. Not for
+  /// solvers that take one at once.
+  virtual Answers solve_together(std::span<const Sources>, const Task&, std::span<Report>) const {
+    return {};
+  }
 };
 
 /// One method for domains of one type.
@@ -79,36 +99,58 @@ void report_options(const OptionTable<S>& table, const S& options, Report& repor
     report.options.emplace_back(table.infos()[i].name, table.get(options, i));
 }
 
+/// What a prepared method with options S does: one set of sources and, where that helps, several at
+/// once. Both are const, for several threads, and may change their options to the values used.
+template <class D, class S>
+struct Solves {
+  std::function<typename D::Answer(const typename D::Sources&, S&, Task&, Report&)> one;
+  AtOnce at_once{};
+  std::function<typename Solver<D>::Answers(std::span<const typename D::Sources>, std::span<S>,
+                                            const Task&, std::span<Report>)>
+      together{};
+};
+
 /// A method from a table of options S and `prepare(domain, options, hint, task, report)`, which
-/// returns what solves: a callable (sources, S& options, Task&, Report&) -> answer, const, for
-/// several threads, that may change its options to the values used.
+/// returns what solves: Solves<D, S>, or a callable for one set of sources.
 template <class D, class S, class Prepare>
 Method<D> make_method(MethodInfo info, const OptionTable<S>& table, Prepare prepare) {
-  using Solve = std::function<typename D::Answer(const typename D::Sources&, S&, Task&, Report&)>;
   class Prepared final : public Solver<D> {
    public:
     Prepared(std::string name, std::string kind, const OptionTable<S>& options_table, S options,
-             Solve solve)
+             Solves<D, S> solves)
         : name_(std::move(name)),
           kind_(std::move(kind)),
           table_(options_table),
           options_(std::move(options)),
-          solve_(std::move(solve)) {}
+          solves_(std::move(solves)) {}
     typename D::Answer solve(const typename D::Sources& sources, Task task,
                              Report& report) const override {
       report.method = name_;
       report.domain = kind_;
       S used = options_;
-      auto answer = solve_(sources, used, task, report);
+      auto answer = solves_.one(sources, used, task, report);
       report_options(table_, used, report);
       return answer;
+    }
+    AtOnce at_once() const override { return solves_.at_once; }
+    typename Solver<D>::Answers solve_together(std::span<const typename D::Sources> sources,
+                                               const Task& task,
+                                               std::span<Report> reports) const override {
+      std::vector<S> used(sources.size(), options_);
+      auto answers = solves_.together(sources, used, task, reports);
+      for (std::size_t i = 0; i < reports.size(); ++i) {
+        reports[i].method = name_;
+        reports[i].domain = kind_;
+        report_options(table_, used[i], reports[i]);
+      }
+      return answers;
     }
 
    private:
     std::string name_, kind_;
     const OptionTable<S>& table_;
     S options_;
-    Solve solve_;
+    Solves<D, S> solves_;
   };
   info.options = table.infos();
   Method<D> method;
@@ -119,8 +161,13 @@ Method<D> make_method(MethodInfo info, const OptionTable<S>& table, Prepare prep
                        const D& domain, const std::any& any, SolveHint hint, Task task,
                        Report& report) -> std::shared_ptr<const Solver<D>> {
     const S& options = std::any_cast<const S&>(any);
-    Solve solve = prepare(domain, options, hint, task, report);
-    return std::make_shared<const Prepared>(name, domain.kind(), table, options, std::move(solve));
+    auto made = prepare(domain, options, hint, task, report);
+    Solves<D, S> solves;
+    if constexpr (std::is_same_v<decltype(made), Solves<D, S>>)
+      solves = std::move(made);
+    else
+      solves.one = std::move(made);
+    return std::make_shared<const Prepared>(name, domain.kind(), table, options, std::move(solves));
   };
   method.info = std::move(info);
   return method;

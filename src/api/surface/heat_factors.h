@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/lazy.h"
+#include "methods/heat/heat_strips.h"
 #include "methods/heat/signed_heat.h"
 #include "methods/heat/unsigned_heat.h"
 
@@ -25,12 +26,21 @@ class SignedHeatFactors {
       return poisson->with(scale, needed, task.stage(0.6, "factoring"));
     });
   }
+  /// For points by scalar heat; null where there is nothing to gain.
+  std::shared_ptr<const HeatStrips> strips(double scale, const Task& task) const {
+    const auto solver = at(scale, {.vectors = false, .scalars = true}, task);
+    const auto parts = *parts_.get([&] { return solver->strip_parts(); });
+    if (!parts) return nullptr;
+    return strips_.get(scale, [&] { return solver->strips(parts); });
+  }
 
  private:
   std::shared_ptr<const Operators> ops_;
   SolveHint hint_;
   Kept<SignedHeatSolver> poisson_;  // without any diffusion
   KeptByKey<std::tuple<double, bool, bool>, SignedHeatSolver> solvers_;
+  Kept<std::shared_ptr<const StripParts>> parts_;
+  KeptByKey<double, HeatStrips> strips_;
 };
 
 /// Of the unsigned one.
@@ -45,12 +55,23 @@ class UnsignedHeatFactors {
   std::shared_ptr<const UnsignedHeatSolver> longer(double scale, const Task& task) const {
     return solvers_.get(scale, [&] { return first(task)->with_time_scale(scale, task); });
   }
+  /// Null where there is nothing to gain.
+  std::shared_ptr<const HeatStrips> strips(double scale, const Task& task) const {
+    const auto parts = *parts_.get([&] { return first(task)->strip_parts(); });
+    if (!parts) return nullptr;
+    return strips_.get(scale, [&] {
+      const auto solver = scale == options_.time_scale ? first(task) : longer(scale, task);
+      return solver->strips(parts);
+    });
+  }
 
  private:
   std::shared_ptr<const Operators> ops_;
   UnsignedHeat options_;
   SolveHint hint_;
   Kept<UnsignedHeatSolver> first_;
+  Kept<std::shared_ptr<const StripParts>> parts_;
+  KeptByKey<double, HeatStrips> strips_;
   KeptByKey<double, UnsignedHeatSolver> solvers_;
 };
 

@@ -4,11 +4,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "api/surface/discontinuous.h"
 #include "api/surface/discretization.h"
 #include "api/surface/heat_factors.h"
+#include "api/surface/heat_points.h"
 #include "api/surface/heat_surface.h"
 #include "api/surface/quadratic_method.h"
 #include "base/stopwatch.h"
@@ -89,11 +92,7 @@ class SharedFactors {
   KeptByKey<std::shared_ptr<const Operators>, Factors> kept_;
 };
 
-/// Vectors at nodes do not show what makes the scale rise elsewhere, and unsigned curves are wrong
-/// there at larger ones.
-bool may_rise(double given_scale, const Operators& ops) {
-  return given_scale == 0 && !ops.vector.at_nodes;
-}
+using Answers = Solver<SurfaceDomain>::Answers;
 
 class SignedHeatOnSurface {
  public:
@@ -112,7 +111,44 @@ class SignedHeatOnSurface {
         options, task, report);
   }
 
+  /// Many at once if they are points by gradients of scalar heat and nothing but heat is wanted.
+  AtOnce at_once(const SignedHeat& options) const {
+    const bool plain = hint_ == SolveHint::many_rhs && !options.discontinuous &&
+                       !options.bounding_only && options.sharpen == Sharpening::off &&
+                       options.soft == 0 && !options.preserve_normals &&
+                       options.point_sources == PointVectors::gradient;
+    if (!plain) return {};
+    return {strip_width, HeatStrips::bytes(surface_.nodes())};
+  }
+  Answers together(std::span<const Sources> sources, std::span<SignedHeat> options,
+                   const Task& task, std::span<Report> reports) const {
+    SourceSystem points;
+    points.only_points = true;
+    const bool given = options[0].time_scale > 0;
+    const double scale = given ? options[0].time_scale : automatic_time_scale(points);
+    double megabytes = 0;
+    const auto strips_at = [&](const std::shared_ptr<const Operators>& ops, double at) {
+      const auto factors = factors_of(ops, true);
+      const Diffusions of_points{.vectors = false, .scalars = true};
+      megabytes = factors->at(at, of_points, Task())->factor_megabytes();
+      return factors->strips(at, Task());
+    };
+    std::vector<double> scales(sources.size(), scale);
+    Answers answers = FromPoints(surface_, HeatStrips::Values::any, strips_at)
+                          .solve(sources, scale, given, scales, task, reports);
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      options[i].time_scale = scales[i];
+      if (answers[i]) reports[i].sizes.emplace_back("factor_mb", megabytes);
+    }
+    return answers;
+  }
+
  private:
+  std::shared_ptr<const SignedHeatFactors> factors_of(const std::shared_ptr<const Operators>& ops,
+                                                      bool shared) const {
+    return factors_.of(ops, shared,
+                       [&] { return std::make_shared<const SignedHeatFactors>(ops, hint_); });
+  }
   SurfaceAnswer solve_all(const Sources& sources, SignedHeat& options, Task& task,
                           Report& report) const {
     const auto needs = [&](const PlacedSources& placed) {
@@ -126,9 +162,7 @@ class SignedHeatOnSurface {
     const SourceSystem& terms = problem.terms;
     const bool rises = may_rise(options.time_scale, ops);
     if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms, ops);
-    const auto factors = factors_.of(problem.ops, shared, [&] {
-      return std::make_shared<const SignedHeatFactors>(problem.ops, hint_);
-    });
+    const auto factors = factors_of(problem.ops, shared);
     const Diffusions needed = needed_diffusions(terms, options);
     const auto first = [&] {
       const Stopwatch watch(report, "factor");
@@ -183,6 +217,25 @@ class UnsignedHeatOnSurface {
                         const Task& task, Report& report)
       : surface_(domain, options.intrinsic_delaunay, task, report), hint_(hint) {}
 
+  AtOnce at_once(const UnsignedHeat&) const {
+    if (hint_ != SolveHint::many_rhs) return {};
+    return {strip_width, HeatStrips::bytes(surface_.nodes())};
+  }
+  Answers together(std::span<const Sources> sources, std::span<UnsignedHeat> options,
+                   const Task& task, std::span<Report> reports) const {
+    const bool given = options[0].time_scale > 0;
+    if (!given) options[0].time_scale = 1;
+    const UnsignedHeat first = options[0];
+    const auto strips_at = [&](const std::shared_ptr<const Operators>& ops, double at) {
+      return factors_of(ops, true, first)->strips(at, Task());
+    };
+    std::vector<double> scales(sources.size(), first.time_scale);
+    Answers answers = FromPoints(surface_, HeatStrips::Values::not_negative, strips_at)
+                          .solve(sources, first.time_scale, given, scales, task, reports);
+    for (std::size_t i = 0; i < answers.size(); ++i) options[i].time_scale = scales[i];
+    return answers;
+  }
+
   SurfaceAnswer solve(const Sources& sources, UnsignedHeat& options, Task& task,
                       Report& report) const {
     const auto needs = [](const PlacedSources&) { return Diffused::functions; };
@@ -190,9 +243,7 @@ class UnsignedHeatOnSurface {
     const HeatProblem problem = surface_.problem(sources, needs, shared, task, report);
     const bool rises = may_rise(options.time_scale, *problem.ops);
     if (options.time_scale == 0) options.time_scale = 1;
-    const auto factors = factors_.of(problem.ops, shared, [&] {
-      return std::make_shared<const UnsignedHeatFactors>(problem.ops, options, hint_);
-    });
+    const auto factors = factors_of(problem.ops, shared, options);
     const auto first = [&] {
       const Stopwatch watch(report, "factor");
       return factors->first(task.stage(0.5, "factoring"));
@@ -217,6 +268,14 @@ class UnsignedHeatOnSurface {
   }
 
  private:
+  std::shared_ptr<const UnsignedHeatFactors> factors_of(const std::shared_ptr<const Operators>& ops,
+                                                        bool shared,
+                                                        const UnsignedHeat& options) const {
+    return factors_.of(ops, shared, [&] {
+      return std::make_shared<const UnsignedHeatFactors>(ops, options, hint_);
+    });
+  }
+
   HeatSurface surface_;
   SolveHint hint_;
   SharedFactors<UnsignedHeatFactors> factors_;
@@ -224,20 +283,25 @@ class UnsignedHeatOnSurface {
 
 /// What solves for a method on a surface; on a polygon mesh whose options need triangles, on these.
 template <class OnSurface, class Options>
-std::function<SurfaceAnswer(const Sources&, Options&, Task&, Report&)> prepared(
-    const SurfaceDomain& domain, const Options& options, bool triangles, SolveHint hint,
-    const Task& task, Report& report) {
-  if (triangles && domain.kind() == "polygon mesh") {
-    auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, report));
-    auto method = std::make_shared<const OnSurface>(cut->triangles, options, hint, task, report);
-    return [cut, method](const Sources& sources, Options& used, Task& t, Report& r) {
-      return method->solve(cut->cut(sources), used, t, r);
-    };
-  }
-  auto method = std::make_shared<const OnSurface>(domain, options, hint, task, report);
-  return [method](const Sources& sources, Options& used, Task& t, Report& r) {
-    return method->solve(sources, used, t, r);
+Solves<SurfaceDomain, Options> prepared(const SurfaceDomain& domain, const Options& options,
+                                        bool triangles, SolveHint hint, const Task& task,
+                                        Report& report) {
+  std::shared_ptr<const CutPolygons> cut;  // or null
+  if (triangles && domain.kind() == "polygon mesh")
+    cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, report));
+  auto method =
+      std::make_shared<const OnSurface>(cut ? cut->triangles : domain, options, hint, task, report);
+  const auto one = [cut, method](const Sources& sources, Options& used, Task& t, Report& r) {
+    return method->solve(cut ? cut->cut(sources) : sources, used, t, r);
   };
+  const auto together = [cut, method](std::span<const Sources> sources, std::span<Options> used,
+                                      const Task& t, std::span<Report> r) {
+    if (!cut) return method->together(sources, used, t, r);
+    std::vector<Sources> on_triangles;
+    for (const Sources& each : sources) on_triangles.push_back(cut->cut(each));
+    return method->together(on_triangles, used, t, r);
+  };
+  return {one, method->at_once(options), together};
 }
 
 auto signed_heat(const SurfaceDomain& domain, const SignedHeat& options, SolveHint hint,

@@ -63,6 +63,11 @@ class HeatSurface {
   const SurfaceDomain& domain() const { return domain_; }
   const SurfaceDiscretization& plain() const { return *plain_; }
 
+  /// How many nodes solves have, roughly where these are better triangles.
+  Eigen::Index nodes() const {
+    return plain_ ? plain_->operators()->scalar.M.size() : 2 * fine_->given()->n_vertices;
+  }
+
   HeatProblem problem(const Sources& sources,
                       const std::function<Diffused(const PlacedSources&)>& needs, bool& shared,
                       Task& task, Report& report) const {

@@ -2,14 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <numeric>
 
+#include "api/solve_many.h"
 #include "base/component_values.h"
 #include "base/counted.h"
 #include "base/index.h"
-#include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "base/stopwatch.h"
 #include "domain/intrinsic/lengthened_sides.h"
@@ -233,37 +232,49 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
   const Eigen::Index columns = kept.of ? kept.size : mesh.n_vertices();
   check_matrix(n, columns, static_cast<double>(n));
   MatX D(static_cast<Eigen::Index>(n), columns);
-  std::mutex mutex;
-  int unconverged = 0;
-  const auto solve = [&](std::size_t i, const Task& stage, Report& one) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const SurfacePoint& p = points[i];
-    const bool at_vertex = p.on == SurfacePoint::On::vertex;
-    VecX values;
-    if (at_vertex && mesh.n_faces() > 0 && mesh.vertex_component()[p.element] < 0)
-      values.setConstant(mesh.n_vertices(), infinity);  // in no face
-    else
-      values = solver.solve(Sources(p), stage, one).values;
-    if (at_vertex) values[p.element] = 0;
-    D.row(row) = kept.of ? kept.of(values) : values;
-    const std::lock_guard lock(mutex);
-    unconverged += one.status != "converged";
-  };
   const Stopwatch watch(report, "solve");
   if (n == 0) return D;
-  Report first;  // makes what the others share, on all threads; says what all would say
-  solve(0, task.stage(1 / static_cast<double>(n), "distance"), first);
-  first.status = report.status;
-  first.timings.clear();
-  report.merge(first);
-  const Task rest = task.stage(1, "distance");
-  std::atomic<std::size_t> finished{0};
-  parallel_for(n - 1, 1, [&](std::size_t i, std::size_t) {
-    rest.checkpoint(static_cast<double>(finished) / static_cast<double>(n));
-    Report one;
-    solve(i + 1, Task(), one);
-    ++finished;
-  });
+  const auto put_row = [&](std::size_t i, VecX& values) {
+    const SurfacePoint& p = points[i];
+    if (p.on == SurfacePoint::On::vertex) values[p.element] = 0;
+    if (kept.of) values = kept.of(values);
+  };
+  std::vector<Sources> sources;
+  std::vector<std::size_t> row;  // of D for each of them
+  for (std::size_t i = 0; i < n; ++i) {
+    const SurfacePoint& p = points[i];
+    if (p.on == SurfacePoint::On::vertex && mesh.n_faces() > 0 &&
+        mesh.vertex_component()[p.element] < 0) {  // in no face
+      VecX none = VecX::Constant(mesh.n_vertices(), infinity);
+      put_row(i, none);
+      D.row(index(i)) = none;
+    } else {
+      sources.emplace_back(p);
+      row.push_back(i);
+    }
+  }
+  std::mutex mutex;
+  int unconverged = 0;
+  Report said;  // by the first, what all would say
+  const auto put = [&](std::size_t first, std::vector<Solved<SurfaceDomain>>& some) {
+    std::vector<std::pair<Eigen::Index, const double*>> rows;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      put_row(row[first + i], some[i].answer.values);
+      rows.emplace_back(index(row[first + i]), some[i].answer.values.data());
+    }
+    for (Eigen::Index v = 0; v < columns; ++v) {  // rows of a column lie together
+      double* to = D.col(v).data();
+      for (const auto& [r, values] : rows) to[r] = values[v];
+    }
+    const std::lock_guard lock(mutex);
+    for (const auto& one : some) unconverged += one.report.status != "converged";
+    if (first == 0) said = std::move(some[0].report);
+  };
+  solve_many<SurfaceDomain>(solver, sources, 8 * static_cast<double>(D.size()),
+                            task.stage(1, "distance"), put);
+  said.status = report.status;
+  said.timings.clear();
+  report.merge(said);
   if (unconverged > 0) {
     report.status = "not converged";
     report.warn("not-converged",

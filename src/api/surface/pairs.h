@@ -41,7 +41,7 @@ struct PairsAnswer {
 
 /// Row i holds the distances from source i to all vertices. Methods for all pairs solve once,
 /// whichever rows are wanted; methods of distance solve for every source, on factors that they
-/// share, side by side.
+/// share, side by side and, where they can, several at once (solve_many).
 ///
 /// No vertices: all. Throws InputError for bad input, UnsupportedError where the method does not
 /// run, IoError with the estimate where the matrix does not fit into memory, Cancelled.
@@ -54,8 +54,8 @@ struct KeptOfRow {
   std::function<VecX(const VecX& values)> of{};
 };
 
-/// Row i holds the distances at the vertices from points[i], or what is kept of them, by solves of
-/// one solver side by side; 0 at the vertex that a point is. Rows of points that belong to no face
+/// Row i holds the distances at the vertices from points[i], or what is kept of them, as solve_many
+/// finds them; 0 at the vertex that a point is. Rows of points that belong to no face
 /// are +inf.
 MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& domain,
                    const std::vector<SurfacePoint>& points, Task task, Report& report,

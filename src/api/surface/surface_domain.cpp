@@ -30,6 +30,16 @@ class FromLeastValue final : public Solver<SurfaceDomain> {
     return answer;
   }
 
+  AtOnce at_once() const override { return method_->at_once(); }
+  Answers solve_together(std::span<const Sources> sources, const Task& task,
+                         std::span<Report> reports) const override {
+    for (const Sources& each : sources) {
+      const ValueRange range = value_range(each);
+      if (range.low != 0 || range.high != 0) return Answers(sources.size());
+    }
+    return method_->solve_together(sources, task, reports);
+  }
+
  private:
   MethodInfo info_;
   std::string kind_;

@@ -78,9 +78,12 @@ double available_memory() {
 
 #endif
 
+double memory_to_use() {
+  return limit_of_thread > 0 ? std::min(limit_of_thread, available_memory()) : available_memory();
+}
+
 void check_memory(double bytes, const std::string& what, const std::string& remedy) {
-  const double available =
-      limit_of_thread > 0 ? std::min(limit_of_thread, available_memory()) : available_memory();
+  const double available = memory_to_use();
   if (bytes <= available) return;
   char numbers[96];
   std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",

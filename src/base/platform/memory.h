@@ -15,6 +15,9 @@ double available_memory();
 void set_memory_limit(double bytes);
 double memory_limit();
 
+/// What is available, or the limit of this thread's work where that is less [bytes].
+double memory_to_use();
+
 /// The most memory this process has held so far [bytes]; 0 where the system does not say.
 double peak_memory();
 

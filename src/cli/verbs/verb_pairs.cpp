@@ -42,8 +42,8 @@ void run_pairs(PairsArguments& arguments, Session& session) {
   RunPlan plan = plan_on(method, domain);
   plan.methods = pair_methods();
   plan.shorter =
-      "option vertex measures from some vertices only, and method unsigned-heat in a fifth of the "
-      "time, less exactly";
+      "option vertex measures from some vertices only, and method unsigned-heat in a thirtieth of "
+      "the time, less exactly";
   if (!vertices.empty()) {
     plan.sizes.emplace_back("from", static_cast<double>(vertices.size()));
     plan.share = std::min(1.0, static_cast<double>(vertices.size()) / plan.elements);

@@ -31,14 +31,41 @@ void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi
   }
 }
 
-void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
-                   Report& report) {
+namespace {
+
+void list_unreached(const std::vector<char>& reached, Report& report) {
+  for (std::size_t c = 0; c < reached.size(); ++c)
+    if (!reached[c]) report.unreachable_components.push_back(c);
+}
+
+void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached) {
   for (Eigen::Index i = 0; i < phi.size(); ++i) {
     const int c = component[i];
     if (c < 0 || !reached[c]) phi[i] = infinity;
   }
-  for (std::size_t c = 0; c < reached.size(); ++c)
-    if (!reached[c]) report.unreachable_components.push_back(c);
+}
+
+}  // namespace
+
+void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
+                   Report& report) {
+  set_unreached(phi, component, reached);
+  list_unreached(reached, report);
+}
+
+void report_unreached(const std::vector<int>& component, int n_components,
+                      const std::vector<char>& reached, Eigen::Index nodes, Report& report) {
+  list_unreached(reached, report);
+  if (!report.unreachable_components.empty())
+    report.warn("component-unreached",
+                std::to_string(report.unreachable_components.size()) + " of " +
+                    counted(n_components, "component", "components") +
+                    (report.unreachable_components.size() == 1 ? " holds" : " hold") +
+                    " no source; the distance is infinite there");
+  const auto isolated = std::count(component.begin(), component.begin() + nodes, -1);
+  if (isolated > 0)
+    report.warn("isolated-vertices", counted(isolated, "vertex belongs", "vertices belong") +
+                                         " to no face; the distance is infinite there");
 }
 
 VecX finalize_field(const Operators& ops, const SourceSystem& system, const VecX& phi,
@@ -50,17 +77,8 @@ VecX finalize_field(const Operators& ops, const SourceSystem& system, const VecX
 VecX finalize_field(const std::vector<int>& component, int n_components, double unit,
                     const std::vector<char>& reached, const VecX& phi, Report& report) {
   VecX out = phi * unit;
-  set_unreached(out, component, reached, report);
-  if (!report.unreachable_components.empty())
-    report.warn("component-unreached",
-                std::to_string(report.unreachable_components.size()) + " of " +
-                    counted(n_components, "component", "components") +
-                    (report.unreachable_components.size() == 1 ? " holds" : " hold") +
-                    " no source; the distance is infinite there");
-  const auto isolated = std::count(component.begin(), component.begin() + out.size(), -1);
-  if (isolated > 0)
-    report.warn("isolated-vertices", counted(isolated, "vertex belongs", "vertices belong") +
-                                         " to no face; the distance is infinite there");
+  set_unreached(out, component, reached);
+  report_unreached(component, n_components, reached, out.size(), report);
   return out;
 }
 

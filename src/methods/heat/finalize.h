@@ -21,6 +21,11 @@ void shift_to_mean_zero(const Calculus& C, const SourceSystem& system, VecX& phi
 void set_unreached(VecX& phi, const std::vector<int>& component, const std::vector<char>& reached,
                    Report& report);
 
+/// Lists and warns of components that `reached` is 0 for, and of nodes among the first `nodes` that
+/// are in none (component -1).
+void report_unreached(const std::vector<int>& component, int n_components,
+                      const std::vector<char>& reached, Eigen::Index nodes, Report& report);
+
 /// phi in units of the input, +inf on components and nodes that no source reaches; lists them
 /// and warns of them.
 VecX finalize_field(const Operators& ops, const SourceSystem& system, const VecX& phi,

@@ -27,6 +27,8 @@ class ScalarHeat {
   void add_nearest(const Calculus& C, const SourceSystem& system, double point_weight,
                    CellField& field, Task task, Report& report) const;
 
+  const std::shared_ptr<const HeatSystem<double>>& neumann() const { return neumann_; }
+  const std::shared_ptr<const HeatSystem<double>>& dirichlet() const { return dirichlet_; }
   double nonzeros() const {
     return neumann_->nonzeros() + (dirichlet_ ? dirichlet_->nonzeros() : 0);
   }

@@ -146,11 +146,11 @@ VecX SignedHeatSolver::directions(const SourceSystem& system, const SignedHeat& 
   // Steps I and II: X = diffused normals, Y = X / |X|.
   const Calculus& C = ops_->scalar;
   const VectorDiffusion& V = ops_->vector;
-  const VecX X0 = system.X0 + system.X0_points;
   const VecX Y = [&] {
     if (options.preserve_normals)
-      return heat_->diffuse_prescribed(V, normalize(X0), task, report).Y;
-    if (!by_gradient(system, options)) return heat_->diffuse(V, X0, task, report).Y;
+      return heat_->diffuse_prescribed(V, normalize(system.vectors(V.n)), task, report).Y;
+    if (!by_gradient(system, options))
+      return heat_->diffuse(V, system.vectors(V.n), task, report).Y;
     CellField X = no_field(C.A.size());
     scalar_heat_->add_nearest(C, system, 1, X, task, report);
     set_near(C, system, X.Y);
@@ -167,11 +167,9 @@ std::vector<char> SignedHeatSolver::reached_pieces(const SourceSystem& system,
   const VectorDiffusion& V = ops_->vector;
   const bool vectors = needed_diffusions(system, options).vectors;
   std::vector<char> reached(V.n_pieces, vectors ? 0 : 1);  // scalar heat reaches all
-  for (const VecX* X0 : {&system.X0, &system.X0_points}) {
-    const std::vector<double> largest = largest_of_pieces(*X0, V.piece);
-    for (std::size_t p = 0; p < largest.size(); ++p)
-      if (largest[p] > 0) reached[p] = 1;
-  }
+  for (const auto* vectors_of : {&system.X0, &system.X0_points})
+    for (const auto& [dof, z] : *vectors_of)
+      if (V.piece[dof] >= 0) reached[V.piece[dof]] = 1;
   return reached;
 }
 
@@ -222,6 +220,8 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
   for (const Pinch& pinch : V.pinches)
     if (!reached[pinch.piece] && node_reached[pinch.node])
       nearest[pinch.piece] = std::min(nearest[pinch.piece], std::abs(phi[pinch.node]));
+  const auto hangs = [](double d) { return d < infinity; };
+  if (std::none_of(nearest.begin(), nearest.end(), hangs)) return false;
   VecX X0 = VecX::Zero(2 * V.n);
   for (const Pinch& pinch : V.pinches) {
     if (reached[pinch.piece] || !node_reached[pinch.node]) continue;
@@ -232,13 +232,8 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
       X0[2 * dof + 1] += std::copysign(strength, d) * z.imag();
     }
   }
-  bool any = false;
-  for (int p = 0; p < V.n_pieces; ++p) {
-    if (!std::isfinite(nearest[p])) continue;
-    reached[p] = 1;
-    any = true;
-  }
-  if (!any) return false;
+  for (int p = 0; p < V.n_pieces; ++p)
+    if (hangs(nearest[p])) reached[p] = 1;
   const CellField beyond = heat_->diffuse(V, X0, task, report);
   for (Eigen::Index c = 0; c < beyond.log_length.size(); ++c)
     if (std::isfinite(beyond.log_length[c])) Y.segment<2>(2 * c) = beyond.Y.segment<2>(2 * c);

@@ -9,6 +9,7 @@
 #include "base/task.h"
 #include "littoral/options.h"
 #include "littoral/report.h"
+#include "methods/heat/heat_strips.h"
 #include "methods/heat/scalar_heat.h"
 #include "methods/heat/vector_heat.h"
 #include "operators/calculus.h"
@@ -50,6 +51,16 @@ class SignedHeatSolver {
   VecX solve(const SourceSystem& system, const SignedHeat& options, Task task,
              Report& report) const;
 
+  /// The same for many points by gradients of scalar heat, which must be there, constrained to one
+  /// value at each, on parts that all time scales share.
+  std::shared_ptr<const StripParts> strip_parts() const {
+    return HeatStrips::parts(ops_, *scalar_heat_, *poisson_);
+  }
+  std::shared_ptr<const HeatStrips> strips(std::shared_ptr<const StripParts> parts) const {
+    return std::make_shared<const HeatStrips>(std::move(parts), *scalar_heat_);
+  }
+  double factor_megabytes() const;
+
   /// Steps I and II: unit vectors at the cells (2 cells), 0 where no source reaches.
   VecX directions(const SourceSystem& system, const SignedHeat& options, const Task& task,
                   Report& report) const;
@@ -65,8 +76,6 @@ class SignedHeatSolver {
  private:
   VecX integrate(const SourceSystem& system, const VecX& Y, const SignedHeat& options,
                  const Task& task, Report& report) const;
-  double factor_megabytes() const;
-
   void factor_heat(double time_scale, Diffusions diffusions, Task& task);
 
   std::shared_ptr<const Operators> ops_;

@@ -13,7 +13,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double off_unit_by = 0.25;
 // Points on 65 meshes, of which this says "more" for 37 of 130 answers: their mean errors are 1.5 %
 // of the range and more, half of them above 3.5 %; all of 5 % and more are among them.
 constexpr double remarkable_off_unit = 0.08;

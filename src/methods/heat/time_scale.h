@@ -35,6 +35,7 @@ double misaligned_fraction(const Calculus& C, const VecX& phi, const VecX& Y);
 /// The other measure of how good an answer is, which needs no other answer: the share of the
 /// measure of the same cells where the gradient's length is more than a quarter off 1.
 inline constexpr const char* off_unit_area_fraction = "area fraction with gradient off unit length";
+inline constexpr double off_unit_by = 0.25;
 /// Reports both.
 void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report);
 /// Warns, with what to do, where the gradient of an answer is off unit length on more of the
@@ -44,6 +45,16 @@ void warn_off_unit(const std::string& kind, Report& report);
 inline constexpr double tolerable_share = 0.005;
 /// What is asked for on a mesh that has shown more: half-way, directions may be smooth and wrong.
 inline constexpr double settled_share = 0.001;
+
+/// May a scale that was not given (0) be raised? Vectors at nodes do not show what makes it rise
+/// elsewhere, and unsigned curves are wrong there at larger ones.
+inline bool may_rise(double given_scale, const Operators& ops) {
+  return given_scale == 0 && !ops.vector.at_nodes;
+}
+
+/// How often the scale is raised, and what share of the share a raise must leave no more of.
+inline constexpr int most_raises = 3;
+inline constexpr double least_gain = 0.25;
 
 /// The share that a solve has put into its report.
 double misaligned_fraction(const Report& report);
@@ -64,7 +75,6 @@ VecX solve_raising(
     const std::function<std::shared_ptr<const Method>(double scale, const Task&)>& longer,
     double& time_scale, const std::function<VecX(const Method&, const Task&, Report&)>& solve,
     Task task, Report& report) {
-  constexpr int most_raises = 3;
   Report best;
   VecX phi = solve(*method, task.stage(0.4, "solving"), best);
   const double first = misaligned_fraction(best), given = time_scale;
@@ -76,7 +86,7 @@ VecX solve_raising(
     Report other;
     method = longer(scale, again.stage(0.5, "factoring"));
     VecX psi = solve(*method, again.stage(1, "solving"), other);
-    if (!(misaligned_fraction(other) < 0.25 * misaligned_fraction(best))) continue;
+    if (!(misaligned_fraction(other) < least_gain * misaligned_fraction(best))) continue;
     phi = std::move(psi);
     best = std::move(other);
     time_scale = scale;

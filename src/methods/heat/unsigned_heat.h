@@ -7,6 +7,7 @@
 #include "base/task.h"
 #include "littoral/options.h"
 #include "littoral/report.h"
+#include "methods/heat/heat_strips.h"
 #include "methods/heat/scalar_heat.h"
 #include "operators/calculus.h"
 #include "solve/poisson/poisson.h"
@@ -30,6 +31,14 @@ class UnsignedHeatSolver {
   /// Unsigned distance at the nodes (nodes) [length of the input], +inf on components that no
   /// source reaches; never negative.
   VecX solve(const SourceSystem& system, Task task, Report& report) const;
+
+  /// The same for many points, on parts that all time scales share.
+  std::shared_ptr<const StripParts> strip_parts() const {
+    return HeatStrips::parts(ops_, heat_, *poisson_);
+  }
+  std::shared_ptr<const HeatStrips> strips(std::shared_ptr<const StripParts> parts) const {
+    return std::make_shared<const HeatStrips>(std::move(parts), heat_);
+  }
 
  private:
   std::shared_ptr<const Operators> ops_;

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
 
 #include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
-#include "solve/direct/multi_rhs_cholesky.h"
+#include "solve/direct/strip_solve.h"
 
 namespace littoral {
 
@@ -135,25 +138,18 @@ class AllPairs {
     SpMat K(n_, n_);
     K.setFromTriplets(entries.begin(), entries.end());
     K += (alpha_ + rho1_) * C_.L;
-    if (!structure_) structure_ = std::make_unique<const Elimination>(K, dissection(K, task_));
-    for (double raised = 0;;) {  // thin triangles leave it indefinite by round-off
-      try {
-        factor_ = std::make_unique<const MultiRhsCholesky>(K, *structure_);
-        break;
-      } catch (const SolveError&) {
-        if (raised > 1e-9) throw;
-      }
-      const double next = raised == 0 ? 1e-14 : 100 * raised;
-      K.diagonal() *= (1 + next) / (1 + raised);
-      raised = next;
-    }
+    if (!structure_) structure_ = std::make_shared<const Elimination>(K, dissection(K, task_));
+    std::vector<int> own(static_cast<std::size_t>(n_));
+    std::iota(own.begin(), own.end(), 0);
+    factor_.emplace(raised_cholesky(K, structure_, task_).factor, own);
     response_.resize(n_, n_);
     parallel_for(n_, block, [&](std::size_t begin, std::size_t end) {
       task_.checkpoint(progress_);
       const Eigen::Index first = begin, width = index(end - begin);
       Strip unit = Strip::Zero(n_, block);
       for (Eigen::Index k = 0; k < width; ++k) unit(first + k, k) = 1;
-      factor_->solve(unit);
+      Strip spare;
+      (*factor_)(unit, {}, spare, task_);
       response_.middleCols(first, width) = unit.leftCols(width).template cast<Number>();
     });
   }
@@ -208,7 +204,8 @@ class AllPairs {
       const Eigen::Index j = begin + k;
       X.col(k) += rho2_ * C_.M.cwiseProduct((2 * U_.col(j) - T_.col(j)).template cast<double>());
     }
-    factor_->solve(X);
+    Strip spare;
+    (*factor_)(X, {}, spare, task_);
     for (Eigen::Index k = 0; k < width; ++k) {
       const Eigen::Index j = begin + k;
       const double pull = X(j, k) / double(response_(j, j));
@@ -337,8 +334,8 @@ class AllPairs {
   double area_, rho1_ = 0, rho2_ = 0, alpha_ = 0, longest_ = 0, progress_ = 0;
   int next_change_ = 50;
   SpRows G_, D_;
-  std::unique_ptr<const Elimination> structure_;
-  std::unique_ptr<const MultiRhsCholesky> factor_;
+  std::shared_ptr<const Elimination> structure_;
+  std::optional<StripSolve> factor_;
   std::vector<StripOf<Number>> S_;  // 2 cells x nodes, by blocks of columns
   Matrix T_, U_, X_;                // nodes x nodes
   Matrix response_;                 // to a force at each node

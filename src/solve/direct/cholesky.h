@@ -41,6 +41,8 @@ class Cholesky {
 
   double nonzeros() const { return static_cast<double>(structure_->values()); }  // of the factor
   const std::shared_ptr<const Elimination>& structure() const { return structure_; }
+  /// Rows and columns of a supernode (height x columns), lower.
+  const Scalar* block(int supernode) const { return supernodes_[supernode].block.get(); }
 
  private:
   struct Supernode {

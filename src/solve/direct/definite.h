@@ -62,6 +62,9 @@ class DefiniteSystem {
   double relative_residual(const VecX& x, const VecX& b) const;
   double nonzeros() const;  // of the factor, or of the multigrid levels there are so far
   const std::shared_ptr<const Elimination>& structure() const { return factor_->structure(); }
+  /// Null with multigrid, and where the matrix had to be lifted.
+  const Cholesky<double>* exact_factor() const { return lift_ == 0 ? factor_.get() : nullptr; }
+  const SpMat& lower() const { return *A_; }  // with a factor
   bool can_be_patched() const { return patchable_; }
   bool iterates() const { return multigrid_ != nullptr; }
 

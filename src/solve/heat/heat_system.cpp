@@ -15,7 +15,6 @@ namespace littoral {
 
 namespace {
 
-constexpr double front = 1e-250;  // entries below this share of the largest: the next layer
 constexpr std::size_t largest_factor = 4'000'000'000;       // bytes, for many solves
 constexpr std::size_t largest_for_one_solve = 400'000'000;  // beyond, windows take a tenth of it
 
@@ -120,7 +119,7 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
       for (std::size_t i = begin; i < end; ++i) {
         if (field.layer[i] >= 0 || piece[i] < 0) continue;
         for (Eigen::Index k = index(i) * block_; k < index(i + 1) * block_; ++k) field.x[k] = z[k];
-        if (block_magnitude(z, index(i), block_) < front * top) continue;
+        if (block_magnitude(z, index(i), block_) < heat_front * top) continue;
         field.layer[i] = p;
         std::fill_n(side.begin() + index(i) * block_, block_, fresh);
         ++taken_here;

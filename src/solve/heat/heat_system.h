@@ -22,6 +22,9 @@ inline PoissonSolver solver_for(SolveHint hint) {
                                        : PoissonSolver::automatic;
 }
 
+/// Entries of a solution below this share of the largest belong to its next layer.
+inline constexpr double heat_front = 1e-250;
+
 /// Unknowns of a HeatSystem beyond which the size of a factor is not even asked for.
 Eigen::Index largest_to_factor(SolveHint hint);
 
@@ -53,6 +56,9 @@ class HeatSystem {
                                        const Task& task, Report& report) const;
 
   double nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }  // 0 without a factor
+  /// Null where there is none.
+  const Cholesky<Scalar>* factor() const { return factor_ ? &*factor_ : nullptr; }
+  const Matrix& lower() const { return *A_; }
 
  private:
   Cholesky<Scalar> factored(const Task& task) const;

@@ -52,6 +52,7 @@ class Poisson {
 
   double nonzeros() const { return free_.nonzeros(); }  // of the factor or the multigrid levels
   bool iterates() const { return free_.iterates(); }
+  const DefiniteSystem& system() const { return free_; }  // without constraints
 
  private:
   std::vector<int> loose(const std::vector<char>& fixed) const;

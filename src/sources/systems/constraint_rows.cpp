@@ -2,10 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/index.h"
 
 namespace littoral {
+
+SpMat matrix_of_few(Triplets entries, Eigen::Index rows, Eigen::Index columns) {
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.col(), a.row()) < std::pair(b.col(), b.row());
+  });
+  SpMat out(rows, columns);
+  out.resizeNonZeros(index(entries.size()));
+  int* begin = out.outerIndexPtr();
+  int n = 0, column = 0;
+  for (const auto& entry : entries) {
+    for (; column <= entry.col(); ++column) begin[column] = n;
+    if (n > begin[entry.col()] && out.innerIndexPtr()[n - 1] == entry.row()) {
+      out.valuePtr()[n - 1] += entry.value();
+      continue;
+    }
+    out.innerIndexPtr()[n] = entry.row();
+    out.valuePtr()[n++] = entry.value();
+  }
+  std::fill(begin + column, begin + columns + 1, n);
+  out.resizeNonZeros(n);
+  return out;
+}
 
 int SourceNodes::id(const SurfacePoint& p) {
   const auto key = p.on == SurfacePoint::On::vertex
@@ -74,8 +97,7 @@ void ConstraintRowBuilder::write(const SurfaceMesh& mesh, SourceNodes& nodes,
     if (added) ++system.n_groups;
     system.group.push_back(it->second);
   }
-  system.A.resize(rows_.size(), mesh.n_vertices());
-  system.A.setFromTriplets(entries.begin(), entries.end());
+  system.A = matrix_of_few(std::move(entries), index(rows_.size()), mesh.n_vertices());
 }
 
 }  // namespace littoral

@@ -14,6 +14,10 @@
 
 namespace littoral {
 
+/// A matrix of few entries for its size, those at one place added in the order they come:
+/// setFromTriplets passes over all rows and columns several times.
+SpMat matrix_of_few(Triplets entries, Eigen::Index rows, Eigen::Index columns);
+
 /// Nodes of a source, each place once. Joined nodes belong to one connected part.
 class SourceNodes {
  public:

@@ -20,8 +20,6 @@ class NodeDofs : public VectorDofs {
       if (const int t = S.place->triangle_of_face[f]; t >= 0) face_of_[t] = f;
   }
 
-  int count() const override { return S_.n_nodes(); }
-
   void add_signed(const CurvePiece& piece, std::vector<DofVector>& out) const override {
     // N at a node is the left normal n x tangent, in the node's tangent plane (section 8.5).
     const Vec3 along = at(piece.face, piece.b) - at(piece.face, piece.a);

@@ -1,20 +1,24 @@
 #pragma once
 // Sources as the methods see them: a vector measure on the dofs and rows on the nodes. No mesh.
 
+#include <utility>
 #include <vector>
 
 #include "littoral/types.h"
 
 namespace littoral {
 
+/// A vector for one dof, in its frame.
+using DofVector = std::pair<int, Complex>;
+
 /// Right-hand sides and constraint rows of one source set on one discretization.
 ///
 /// Parts are connected parts of the curves, and isolated points. Batches collect parts none of
 /// which is next to another, so that directions near one are not disturbed by another of its batch.
 struct SourceSystem {
-  VecX X0;         // 2 dofs: normals times the measure of the curves, integrated (eq. 11)
-  VecX X0_points;  // 2 dofs: radial vectors of the isolated points (eq. 19)
-  SpMat u0;        // nodes x batches: unsigned measure, integrated against the nodes' functions
+  std::vector<DofVector> X0;         // normals times the measure of the curves, integrated (eq. 11)
+  std::vector<DofVector> X0_points;  // radial vectors of the isolated points (eq. 19)
+  SpMat u0;  // nodes x batches: unsigned measure, integrated against the nodes' functions
   std::vector<char> batch_of_points;  // batches: 1 for points, 0 for curves
   VecX batch_value;                   // batches: the sources' value
   VecX d0;  // nodes: exact distance to the nearest point, counted from its value, on cells that
@@ -30,6 +34,9 @@ struct SourceSystem {
   VecX mean_value;            // samples: of the source
   std::vector<char> reached;  // components that hold a source
   bool only_points = false;
+
+  /// X0 + X0_points (2 dofs).
+  VecX vectors(int dofs) const;
 };
 
 }  // namespace littoral

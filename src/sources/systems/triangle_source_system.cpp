@@ -14,8 +14,6 @@ class EdgeDofs : public VectorDofs {
  public:
   EdgeDofs(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) : mesh_(mesh), T_(T) {}
 
-  int count() const override { return T_.n_edges(); }
-
   // Eq. 11 without the factor phi_ij(m): length times normal, to the edge the piece runs along or
   // to all three edges of its face.
   void add_signed(const CurvePiece& piece, std::vector<DofVector>& out) const override {

@@ -20,25 +20,32 @@ namespace {
 /// Adds vectors to X0 and forgets what cancels: a curve and its reverse leave exactly nothing.
 class Measure {
  public:
-  explicit Measure(int n) : X0_(VecX::Zero(2 * n)) {}
   void add(int dof, Complex z) {
-    X0_[2 * dof] += z.real();
-    X0_[2 * dof + 1] += z.imag();
-    total_[dof] += std::abs(z);
+    Sum& of = sums_[dof];
+    of.vector += z;
+    of.total += std::abs(z);
   }
   void add(std::vector<DofVector>& vectors) {
     for (const auto& [dof, z] : vectors) add(dof, z);
     vectors.clear();
   }
-  VecX take() {
-    for (const auto& [dof, total] : total_)
-      if (X0_.segment<2>(2 * dof).norm() <= 1e-13 * total) X0_.segment<2>(2 * dof).setZero();
-    return std::move(X0_);
+  /// Of the few dofs that have any, ascending.
+  std::vector<DofVector> take() const {
+    std::vector<DofVector> out;
+    for (const auto& [dof, of] : sums_)
+      if (!(Vec2(of.vector.real(), of.vector.imag()).norm() <= 1e-13 * of.total))
+        out.emplace_back(dof, of.vector);
+    std::sort(out.begin(), out.end(),
+              [](const DofVector& a, const DofVector& b) { return a.first < b.first; });
+    return out;
   }
 
  private:
-  VecX X0_;
-  std::unordered_map<int, double> total_;  // of the few dofs that have any
+  struct Sum {
+    Complex vector = 0;
+    double total = 0;
+  };
+  std::unordered_map<int, Sum> sums_;
 };
 
 /// Adds a stretch of an unsigned curve with both of its sides equally strong: where crossed edges
@@ -125,11 +132,9 @@ void add_samples(const IntrinsicTriangulation& T, const Samples& samples, Source
       if (T.component[v] >= 0) system.reached[T.component[v]] = 1;
     }
   }
-  system.mean.resize(samples.size(), T.n_vertices);
-  system.mean.setFromTriplets(mean.begin(), mean.end());
+  system.mean = matrix_of_few(std::move(mean), index(samples.size()), T.n_vertices);
   system.batch_value = Eigen::Map<const VecX>(value_of.data(), index(value_of.size()));
-  system.u0.resize(T.n_vertices, system.batch_of_points.size());
-  system.u0.setFromTriplets(u0.begin(), u0.end());
+  system.u0 = matrix_of_few(std::move(u0), T.n_vertices, index(system.batch_of_points.size()));
 }
 
 /// Exact distance to the nearest point, counted from its value, on the triangles that hold one. A
@@ -169,6 +174,13 @@ std::vector<char> add_near(const SurfaceMesh& mesh, const IntrinsicTriangulation
 
 }  // namespace
 
+VecX SourceSystem::vectors(int dofs) const {
+  VecX out = VecX::Zero(2 * Eigen::Index{dofs});
+  for (const auto* some : {&X0, &X0_points})
+    for (const auto& [dof, z] : *some) out.segment<2>(2 * dof) += Vec2(z.real(), z.imag());
+  return out;
+}
+
 SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                            const PlacedSources& sources, const VectorDofs& dofs,
                            bool exact_near_points) {
@@ -177,7 +189,7 @@ SourceSystem source_system(const SurfaceMesh& mesh, const IntrinsicTriangulation
   system.only_points = sources.pieces.empty();
   system.reached.assign(T.n_components, 0);
   const double h = T.mean_edge_length;
-  Measure X0(dofs.count()), X0_points(dofs.count());
+  Measure X0, X0_points;
   SourceNodes nodes;
   ConstraintRowBuilder rows(h);
   Samples samples;

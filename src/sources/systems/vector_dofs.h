@@ -12,9 +12,6 @@
 
 namespace littoral {
 
-/// A vector for one dof, in its frame.
-using DofVector = std::pair<int, Complex>;
-
 /// A contribution of an unsigned curve, and the side of the curve to which it points.
 struct SidedContribution {
   int dof;
@@ -26,7 +23,6 @@ struct SidedContribution {
 class VectorDofs {
  public:
   virtual ~VectorDofs() = default;
-  virtual int count() const = 0;
   /// Length times normal of a signed piece, integrated against the dofs' functions (eq. 11).
   virtual void add_signed(const CurvePiece& piece, std::vector<DofVector>& out) const = 0;
   /// Length times the direction away from the piece, for dofs beside it (A.2, type A).

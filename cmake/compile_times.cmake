@@ -10,10 +10,12 @@ set(littoral_hot_sources
   src/io/render/openness.cpp
   src/methods/geodesic/exact_polyhedral.cpp src/methods/geodesic/fast_marching.cpp
   src/methods/geodesic/ray_crossing.cpp src/methods/geodesic/ray_kernels.cpp
-  src/methods/heat/strip_cell_kernels.cpp src/methods/tori/torus_kernels.cpp
+  src/methods/heat/strip_cell_kernels.cpp src/methods/heat/yukawa_sum.cpp
+  src/methods/tori/torus_kernels.cpp
+  src/operators/sample_directions.cpp
   src/solve/direct/dense_kernels.cpp src/solve/direct/small_supernode_kernels.cpp
   src/solve/direct/strip_kernels.cpp
-  src/solve/multigrid/cosine_transform.cpp
+  src/solve/multigrid/cosine_lines.cpp src/solve/multigrid/cosine_transform.cpp
   src/solve/network/flow_interior_point.cpp src/solve/network/network_simplex.cpp
   src/spatial/bound_kernels.cpp src/spatial/crossing_kernels.cpp src/spatial/crossing_number.cpp
   src/spatial/grid_distances.cpp src/spatial/nearest_kernels.cpp src/spatial/point_kernels.cpp

@@ -40,14 +40,20 @@ struct GridRows {
 GridRows grid_rows(const Grid& grid, const MatX3& points, const VecX& weights,
                    const std::vector<int>& part = {}, const std::vector<double>& value = {});
 
+/// What is known at one place.
+struct Flow {
+  Vec3 direction = Vec3::Zero();  // unit; zero where there is none
+  double distance = 0;            // to the nearest source [length]
+};
+/// Puts what is known at n places into `out`; neighbours in the list are mostly so in space.
+using Sample = std::function<void(const Vec3* places, int n, Flow* out)>;
+
 /// A unit vector at each node from one that is dear to evaluate and smooth far from the sources.
 ///
 /// Evaluates on a lattice that is as coarse as `sample` allows and halves its cells until the
 /// normalised linear interpolation agrees with the value at the middle of a cell (to 1 %), and
 /// everywhere within a cell's diagonal of the sources. Reports the share of nodes evaluated.
-/// `sample(x, distance)` gives the direction at x and the distance of x from the nearest source.
-Directions sample_directions(const Grid& grid,
-                             const std::function<Vec3(const Vec3&, double& distance)>& sample,
-                             const Task& task, Report& report);
+Directions sample_directions(const Grid& grid, const Sample& sample, const Task& task,
+                             Report& report);
 
 }  // namespace littoral

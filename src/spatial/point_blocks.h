@@ -10,13 +10,12 @@
 
 namespace littoral {
 
-/// Points with normals and areas, grouped by place, coordinates relative to `origin()`. S is the
-/// type to sum in. Immutable, may be visited from several threads.
-template <class S>
+/// Points with normals and areas, grouped by place, coordinates relative to `origin()`. Immutable,
+/// may be visited from several threads.
 class PointBlocks {
  public:
   static constexpr int lanes = 16;
-  using Lanes = Eigen::Array<S, lanes, 1>;
+  using Lanes = Eigen::Array<double, lanes, 1>;
 
   struct Block {
     Lanes x, y, z, nx, ny, nz, area;  // unused lanes repeat a point with area 0
@@ -39,13 +38,13 @@ class PointBlocks {
         for (int l = 0; l < lanes; ++l) {
           const int item = place(std::min(c.begin + l, c.end - 1));
           const Vec3 p = points.row(item).transpose() - origin_;
-          b.x[l] = static_cast<S>(p[0]);
-          b.y[l] = static_cast<S>(p[1]);
-          b.z[l] = static_cast<S>(p[2]);
-          b.nx[l] = static_cast<S>(normals(item, 0));
-          b.ny[l] = static_cast<S>(normals(item, 1));
-          b.nz[l] = static_cast<S>(normals(item, 2));
-          b.area[l] = c.begin + l < c.end ? static_cast<S>(areas[item]) : S(0);
+          b.x[l] = p[0];
+          b.y[l] = p[1];
+          b.z[l] = p[2];
+          b.nx[l] = normals(item, 0);
+          b.ny[l] = normals(item, 1);
+          b.nz[l] = normals(item, 2);
+          b.area[l] = c.begin + l < c.end ? areas[item] : 0;
         }
         blocks_.push_back(b);
       }

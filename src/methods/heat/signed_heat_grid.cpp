@@ -1,8 +1,7 @@
 #include "methods/heat/signed_heat_grid.h"
 
 #include <cmath>
-#include <functional>
-#include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
@@ -12,6 +11,7 @@
 #include "methods/heat/convolve.h"
 #include "solve/multigrid/cosine_transform.h"
 #include "solve/multigrid/grid_multipliers.h"
+#include "solve/multigrid/held_grid.h"
 #include "solve/poisson/constrained_poisson.h"
 
 namespace littoral {
@@ -98,13 +98,7 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
     const auto X =
         run_interruptible(diffuse_stage, [source, root_t] { return Convolution(source, root_t); });
     Y = sample_directions(
-        grid,
-        [&X](const Vec3& x, double& distance) {
-          const Flow flow = (*X)(x);
-          distance = flow.distance;
-          return flow.direction;
-        },
-        diffuse_stage, report);
+        grid, [&X](const Vec3* x, int n, Flow* out) { (*X)(x, n, out); }, diffuse_stage, report);
   }
 
   // Step III: L phi = G^T Y.
@@ -137,33 +131,16 @@ VecX signed_heat_grid(const Grid& grid, const OrientedPoints& source, const Spac
   // Rows that are held exactly nearly depend on one another, which blocks do not help.
   const bool by_blocks =
       constraint == SpaceConstraint::soft && rows.A.rows() >= least_rows_for_blocks;
-  // Corrections of a fraction of a spacing, to 1 % of it: single precision does, at twice the
-  // speed.
-  const GridPoisson<float> poisson(grid.n, grid.spacing);
-  Eigen::VectorXf single(phi.size());
-  const auto convert = [&](const auto& from, auto& to) {
-    parallel_for(from.size(), 1 << 18, [&](std::size_t begin, std::size_t end) {
-      constrain_stage.checkpoint();
-      const auto first = static_cast<Eigen::Index>(begin),
-                 n = static_cast<Eigen::Index>(end - begin);
-      to.segment(first, n) = from.segment(first, n).template cast<std::decay_t<decltype(to[0])>>();
-    });
-  };
-  const auto solve = [&](VecX& b) {
-    convert(b, single);
-    poisson.solve(single, constrain_stage);
-    convert(single, b);
-  };
-  std::function<VecX(const VecX&)> precondition;
+  HeldGrid held_grid(grid.n, grid.spacing, rows.A);
+  ConstraintSolver solver{
+      [&](const VecX& v) { return held_grid.across(v, constrain_stage); },
+      [&](VecX& x, const VecX& v) { held_grid.subtract(x, v, constrain_stage); }};
+  std::optional<GridMultipliers> blocks;
   if (by_blocks) {
-    const auto blocks = std::make_shared<GridMultipliers>(grid.n, grid.spacing, rows.A, rows.weight,
-                                                          constraints.softness);
-    precondition = [blocks, &constrain_stage](const VecX& r) {
-      return (*blocks)(r, constrain_stage);
-    };
+    blocks.emplace(grid.n, grid.spacing, rows.A, rows.weight, constraints.softness);
+    solver.precondition = [&](const VecX& r) { return (*blocks)(r, constrain_stage); };
   }
-  phi =
-      solve_constrained(solve, std::move(phi), constraints, constrain_stage, report, precondition);
+  phi = solve_constrained(solver, std::move(phi), constraints, constrain_stage, report);
   if (constraint == SpaceConstraint::level_sets) shift_to_mean_zero();
   return phi;
 }

@@ -10,8 +10,8 @@ namespace littoral {
 
 namespace {
 
-using Blocks = PointBlocks<double>;
-using Lanes = Blocks::Lanes;
+using Lanes = PointBlocks::Lanes;
+using Block = PointBlocks::Block;
 
 constexpr double reach = 32;  // in 1/lambda beyond the nearest sample: e^-32 is rounding
 
@@ -42,7 +42,7 @@ class KernelSum : public PointwiseDistance {
   void visit(const Vec3& x, double sigma, const Visit& body) const {
     const Vec3 q = x - blocks_.origin();
     const double least = 1e-12 / lambda_;  // at a sample, where kernels may be singular
-    blocks_.visit(x, sigma + reach / lambda_, [&](const Blocks::Block& b) {
+    blocks_.visit(x, sigma + reach / lambda_, [&](const Block& b) {
       Terms t;
       t.dx = q[0] - b.x;
       t.dy = q[1] - b.y;
@@ -56,7 +56,7 @@ class KernelSum : public PointwiseDistance {
 
   double lambda_;
   PointTree nearest_;
-  Blocks blocks_;
+  PointBlocks blocks_;
 };
 
 class HopfCole : public KernelSum {
@@ -66,7 +66,7 @@ class HopfCole : public KernelSum {
     const double s = sigma(x);
     Lanes w = Lanes::Zero();
     VectorSum dw;
-    visit(x, s, [&](const Blocks::Block& b, const Terms& t) {
+    visit(x, s, [&](const Block& b, const Terms& t) {
       // w = sum A (lambda r + 1) <d, n> / (2 pi r^3) e^(-lambda (r - sigma)); the factor 1 / (2 pi)
       // follows below.
       const Lanes k = t.e * (lambda_ * t.r + 1) / t.r.cube();
@@ -95,7 +95,7 @@ class Planar : public KernelSum {
     const double s = sigma(x);
     Lanes N = Lanes::Zero(), D = Lanes::Zero();
     VectorSum dN, dD;
-    visit(x, s, [&](const Blocks::Block& b, const Terms& t) {
+    visit(x, s, [&](const Block& b, const Terms& t) {
       N += t.e * t.plane;
       D += t.e;
       const Lanes slope = -lambda_ * t.e / t.r;
@@ -123,7 +123,7 @@ class LogSumExp : public KernelSum {
     const double s = sigma(x);
     Lanes sum = Lanes::Zero();
     VectorSum slope;
-    visit(x, s, [&](const Blocks::Block&, const Terms& t) {
+    visit(x, s, [&](const Block&, const Terms& t) {
       sum += t.e;
       slope.x += t.e * t.dx / t.r;
       slope.y += t.e * t.dy / t.r;

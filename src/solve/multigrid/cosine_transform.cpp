@@ -10,153 +10,184 @@ namespace littoral {
 
 namespace {
 
-constexpr Eigen::Index columns_at_once = 128;
+template <class S>
+constexpr int panel_width = CosineLines<S>::width;
 
+/// Room for panels of lines of one length, and their way from and to an array.
 template <class S>
-using Matrix = typename CosineTransform<S>::Matrix;
-template <class S>
-using Strided = Eigen::Map<Matrix<S>, 0, Eigen::OuterStride<>>;
+class Panels {
+ public:
+  Panels(const CosineLines<S>& lines, int panels)
+      : lines_(lines),
+        size_(index(lines.size()) * panel_width<S>),
+        data_(index(panels + 1) * size_) {}
 
-/// Transforms the columns of V.
-template <class S>
-void transform_columns(const Matrix<S>& even, const Matrix<S>& odd, bool forward, Strided<S> V) {
-  const Eigen::Index m = even.rows(), o = odd.rows();
-  if (forward) {
-    Matrix<S> E(m, V.cols()), O(o, V.cols());
-    E.topRows(o) = V.topRows(o) + V.bottomRows(o).colwise().reverse();
-    if (m > o) E.row(o) = V.row(o);
-    O = V.topRows(o) - V.bottomRows(o).colwise().reverse();
-    V.topRows(m).noalias() = even * E;
-    V.bottomRows(o).noalias() = odd * O;
-  } else {
-    const Matrix<S> E = even.transpose() * V.topRows(m), O = odd.transpose() * V.bottomRows(o);
-    V.topRows(o) = E.topRows(o) + O;
-    if (m > o) V.row(o) = E.row(o);
-    V.bottomRows(o) = (E.topRows(o) - O).colwise().reverse();
+  S* panel(int p) { return data_.data() + (p + 1) * size_; }
+  void forward(int p) { lines_.forward(panel(p), data_.data()); }
+  void backward(int p) { lines_.backward(panel(p), data_.data()); }
+
+  /// `count` lines, neighbours in the array, whose entries are `stride` apart; the first panels.
+  void load_beside(const S* from, Eigen::Index stride, int count) {
+    for (int j = 0; j < lines_.size(); ++j, from += stride)
+      for (int p = 0; p * panel_width<S> < count; ++p) {
+        S* const to = panel(p) + index(j) * panel_width<S>;
+        const int here = std::min(panel_width<S>, count - p * panel_width<S>);
+        std::copy_n(from + index(p) * panel_width<S>, here, to);
+        std::fill(to + here, to + panel_width<S>, S(0));
+      }
   }
-}
-
-/// Transforms the rows of V.
-template <class S>
-void transform_rows(const Matrix<S>& even, const Matrix<S>& odd, bool forward, Strided<S> V) {
-  const Eigen::Index m = even.rows(), o = odd.rows();
-  if (forward) {
-    Matrix<S> E(V.rows(), m), O(V.rows(), o);
-    E.leftCols(o) = V.leftCols(o) + V.rightCols(o).rowwise().reverse();
-    if (m > o) E.col(o) = V.col(o);
-    O = V.leftCols(o) - V.rightCols(o).rowwise().reverse();
-    V.leftCols(m).noalias() = E * even.transpose();
-    V.rightCols(o).noalias() = O * odd.transpose();
-  } else {
-    const Matrix<S> E = V.leftCols(m) * even, O = V.rightCols(o) * odd;
-    V.leftCols(o) = E.leftCols(o) + O;
-    if (m > o) V.col(o) = E.col(o);
-    V.rightCols(o) = (E.leftCols(o) - O).rowwise().reverse();
+  void store_beside(S* to, Eigen::Index stride, int count) {
+    for (int j = 0; j < lines_.size(); ++j, to += stride)
+      for (int p = 0; p * panel_width<S> < count; ++p)
+        std::copy_n(panel(p) + index(j) * panel_width<S>,
+                    std::min(panel_width<S>, count - p * panel_width<S>),
+                    to + index(p) * panel_width<S>);
   }
-}
+  /// At most one panel of lines, one after another.
+  void load_after(const S* from, int count) {
+    const int n = lines_.size();
+    S* const to = panel(0);
+    for (int j = 0; j < n; ++j) {
+      for (int r = 0; r < count; ++r) to[j * panel_width<S> + r] = from[index(r) * n + j];
+      for (int r = count; r < panel_width<S>; ++r) to[j * panel_width<S> + r] = S(0);
+    }
+  }
+  void store_after(S* to, int count) {
+    const int n = lines_.size();
+    const S* const from = panel(0);
+    for (int r = 0; r < count; ++r)
+      for (int j = 0; j < n; ++j) to[index(r) * n + j] = from[j * panel_width<S> + r];
+  }
+
+ private:
+  const CosineLines<S>& lines_;
+  Eigen::Index size_;
+  Eigen::Matrix<S, Eigen::Dynamic, 1> data_;
+};
 
 }  // namespace
 
 template <class S>
-CosineTransform<S>::CosineTransform(std::array<int, 3> n) {
-  for (int a = 0; a < 3; ++a) {
-    Axis& axis = axes_[a];
-    axis.n = n[a];
-    const int m = (axis.n + 1) / 2, o = axis.n / 2;
-    const auto cosine = [&](int k, int j) {
-      // The angle is reduced first: k (2 j + 1) may be large.
-      const long long turn = static_cast<long long>(k) * (2 * j + 1) % (4LL * axis.n);
-      return static_cast<S>(std::sqrt((k == 0 ? 1.0 : 2.0) / axis.n) *
-                            std::cos(M_PI * static_cast<double>(turn) / (2.0 * axis.n)));
-    };
-    axis.even.resize(m, m);
-    axis.odd.resize(o, o);
-    for (int j = 0; j < m; ++j)
-      for (int k = 0; k < m; ++k) axis.even(k, j) = cosine(2 * k, j);
-    for (int j = 0; j < o; ++j)
-      for (int k = 0; k < o; ++k) axis.odd(k, j) = cosine(2 * k + 1, j);
-  }
-}
+CosineTransform<S>::CosineTransform(std::array<int, 3> n)
+    : n_(n), lines_{CosineLines<S>(n[0]), CosineLines<S>(n[1]), CosineLines<S>(n[2])} {}
 
+/// Along the first two axes: a plane stays in the cache.
 template <class S>
-std::vector<int> CosineTransform<S>::frequencies(int axis) const {
-  std::vector<int> out;
-  const int n = axes_[axis].n;
-  for (int k = 0; k < n; k += 2) out.push_back(k);
-  for (int k = 1; k < n; k += 2) out.push_back(k);
-  return out;
-}
-
-template <class S>
-void CosineTransform<S>::transform(Vector& v, int axis, bool forward, const Task& task) const {
-  const auto& [n, even, odd] = axes_[axis];
-  if (n == 1) return;
-  Eigen::Index stride = 1;
-  for (int a = 0; a < axis; ++a) stride *= axes_[a].n;
-  // Columns of n entries where the axis runs fastest; elsewhere, in each slab of stride x n
-  // entries, rows.
-  if (axis == 0) {
-    const Eigen::Index lines = v.size() / n;
-    const std::size_t pieces = (lines + columns_at_once - 1) / columns_at_once;
-    parallel_for(pieces, 1, [&, n = n, &even = even, &odd = odd](std::size_t p, std::size_t) {
-      task.checkpoint();
-      const Eigen::Index first = index(p) * columns_at_once;
-      const Eigen::Index count = std::min(columns_at_once, lines - first);
-      transform_columns<S>(even, odd, forward,
-                           Strided<S>(v.data() + first * n, n, count, Eigen::OuterStride<>(n)));
-    });
-    return;
-  }
-  const Eigen::Index slabs = v.size() / (stride * n);
-  const Eigen::Index blocks = (stride + columns_at_once - 1) / columns_at_once;
-  parallel_for(slabs * blocks, 1, [&, n = n, &even = even, &odd = odd](std::size_t p, std::size_t) {
+void CosineTransform<S>::planes(Vector& v, bool forward, const Lines& used,
+                                const Task& task) const {
+  const int nx = n_[0], ny = n_[1], at_once = panel_width<S>;
+  parallel_for(n_[2], 1, [&](std::size_t k, std::size_t) {
     task.checkpoint();
-    const Eigen::Index slab = index(p) / blocks;
-    const Eigen::Index first = index(p) % blocks * columns_at_once;
-    const Eigen::Index count = std::min(columns_at_once, stride - first);
-    transform_rows<S>(
-        even, odd, forward,
-        Strided<S>(v.data() + slab * stride * n + first, count, n, Eigen::OuterStride<>(stride)));
+    S* const plane = v.data() + index(k) * nx * ny;
+    const char* const counts = used.empty() ? nullptr : used.data() + k * ny;
+    const auto any = [&](int first, int n) {
+      return counts == nullptr ||
+             std::any_of(counts + first, counts + first + n, [](char c) { return c != 0; });
+    };
+    if (!any(0, ny)) {
+      if (forward) std::fill_n(plane, index(nx) * ny, S(0));
+      return;
+    }
+    Panels<S> along_x(lines_[0], 1), along_y(lines_[1], 1);
+    const auto rows = [&] {
+      for (int j = 0; j < ny; j += at_once) {
+        const int n = std::min(at_once, ny - j);
+        S* const first = plane + index(j) * nx;
+        if (!any(j, n)) {
+          if (forward) std::fill_n(first, index(n) * nx, S(0));
+          continue;
+        }
+        if (forward && counts != nullptr)
+          for (int r = 0; r < n; ++r)
+            if (counts[j + r] == 0) std::fill_n(first + index(r) * nx, nx, S(0));
+        along_x.load_after(first, n);
+        forward ? along_x.forward(0) : along_x.backward(0);
+        along_x.store_after(first, n);
+      }
+    };
+    if (forward) rows();
+    for (int i = 0; i < nx; i += at_once) {
+      const int n = std::min(at_once, nx - i);
+      along_y.load_beside(plane + i, nx, n);
+      forward ? along_y.forward(0) : along_y.backward(0);
+      along_y.store_beside(plane + i, nx, n);
+    }
+    if (!forward) rows();
+  });
+}
+
+/// Along the last axis: several panels at once, as the entries of a column lie far apart.
+template <class S>
+void CosineTransform<S>::columns(Vector& v, bool forward, bool backward, const Factor& factor,
+                                 const Task& task) const {
+  const int nx = n_[0], at_once = 8 * panel_width<S>;
+  const int pieces = (nx + at_once - 1) / at_once;
+  parallel_for(index(n_[1]) * pieces, 1, [&](std::size_t piece, std::size_t) {
+    task.checkpoint();
+    const int j = static_cast<int>(piece) / pieces, i = static_cast<int>(piece) % pieces * at_once;
+    const int n = std::min(at_once, nx - i), panels = (n + panel_width<S> - 1) / panel_width<S>;
+    const Eigen::Index stride = index(nx) * n_[1];
+    S* const first = v.data() + index(j) * nx + i;
+    Panels<S> along(lines_[2], panels);
+    along.load_beside(first, stride, n);
+    for (int p = 0; forward && p < panels; ++p) along.forward(p);
+    if (factor) {
+      Vector factors(panels * panel_width<S>);
+      factors.setZero();
+      for (int k = 0; k < n_[2]; ++k) {
+        factor(i, n, j, k, factors.data());
+        for (int p = 0; p < panels; ++p)
+          for (int r = 0; r < panel_width<S>; ++r)
+            along.panel(p)[index(k) * panel_width<S> + r] *= factors[p * panel_width<S> + r];
+      }
+    }
+    for (int p = 0; backward && p < panels; ++p) along.backward(p);
+    along.store_beside(first, stride, n);
   });
 }
 
 template <class S>
 void CosineTransform<S>::forward(Vector& values, const Task& task) const {
-  for (int a = 0; a < 3; ++a) transform(values, a, true, task);
+  planes(values, true, {}, task);
+  columns(values, true, false, {}, task);
 }
 
 template <class S>
 void CosineTransform<S>::backward(Vector& coefficients, const Task& task) const {
-  for (int a = 2; a >= 0; --a) transform(coefficients, a, false, task);
+  columns(coefficients, false, true, {}, task);
+  planes(coefficients, false, {}, task);
 }
 
 template <class S>
-GridPoisson<S>::GridPoisson(std::array<int, 3> n, const Vec3& spacing) : cosine_(n), n_(n) {
+void CosineTransform<S>::filter(Vector& values, const Factor& factor, const Lines& given,
+                                const Lines& wanted, const Task& task) const {
+  planes(values, true, given, task);
+  columns(values, true, true, factor, task);
+  planes(values, false, wanted, task);
+}
+
+template <class S>
+GridPoisson<S>::GridPoisson(std::array<int, 3> n, const Vec3& spacing) : cosine_(n) {
   for (int a = 0; a < 3; ++a) {
     const std::size_t s = a;
     eigenvalues_[s].resize(n[s]);
-    const std::vector<int> frequencies = cosine_.frequencies(a);
     for (int i = 0; i < n[s]; ++i) {
-      const double sine = std::sin(M_PI * frequencies[i] / (2.0 * n[s]));
+      const double sine = std::sin(M_PI * cosine_.frequencies(a)[i] / (2.0 * n[s]));
       eigenvalues_[s][i] = static_cast<S>(4 * sine * sine / (spacing[a] * spacing[a]));
     }
   }
 }
 
 template <class S>
-void GridPoisson<S>::solve(Vector& b, const Task& task) const {
-  cosine_.forward(b, task);
-  const Eigen::Index nx = n_[0], ny = n_[1];
-  parallel_for(n_[2], 4, [&](std::size_t begin, std::size_t end) {
-    task.checkpoint();
-    for (Eigen::Index k = begin; k < index(end); ++k)
-      for (Eigen::Index j = 0; j < ny; ++j) {
-        const S yz = eigenvalues_[1][j] + eigenvalues_[2][k];
-        b.segment((k * ny + j) * nx, nx).array() /= eigenvalues_[0].array() + yz;
-      }
-  });
-  b[0] = 0;  // the constants
-  cosine_.backward(b, task);
+void GridPoisson<S>::solve(Vector& b, const Task& task, const Lines& given,
+                           const Lines& wanted) const {
+  const auto inverse = [this](int i, int n, int j, int k, S* out) {
+    const S yz = eigenvalues_[1][j] + eigenvalues_[2][k];
+    Eigen::Map<Eigen::Array<S, Eigen::Dynamic, 1>>(out, n) =
+        S(1) / (eigenvalues_[0].segment(i, n).array() + yz);
+    if (i == 0 && j == 0 && k == 0) out[0] = 0;  // the constants
+  };
+  cosine_.filter(b, inverse, given, wanted, task);
 }
 
 template class CosineTransform<double>;

@@ -68,7 +68,7 @@ GridMultipliers::GridMultipliers(std::array<int, 3> n, const Vec3& spacing, cons
     share_[r] = weight[r] / sums[block];
     softness_[block] += share_[r] * share_[r] * softness[r];
   }
-  poisson_ = std::make_unique<GridPoisson<>>(coarse, coarse_spacing);
+  held_ = std::make_unique<HeldGrid>(coarse, coarse_spacing, A_);
 }
 
 VecX GridMultipliers::operator()(const VecX& residual, const Task& task) const {
@@ -80,15 +80,13 @@ VecX GridMultipliers::operator()(const VecX& residual, const Task& task) const {
     varying[r] = inverse_[r] * (residual[r] - mean[block]);
     excess[block] += varying[r];
   }
-  const auto solve = [&](VecX& b) {
-    poisson_->solve(b, task);
-    b *= volumes_;
-  };
+  const ConstraintSolver solver{
+      [&](const VecX& v) -> VecX { return volumes_ * held_->across(v, task); }, {}, {}};
   mean.array() -= mean.mean();
   const double start = mean.norm() / std::sqrt(static_cast<double>(mean.size()));
   Report ignored;
   const VecX multiplier =
-      constraint_multipliers(solve, {A_, softness_, inner_tolerance * start}, mean, task, ignored);
+      constraint_multipliers(solver, {A_, softness_, inner_tolerance * start}, mean, task, ignored);
   for (Eigen::Index r = 0; r < residual.size(); ++r) {
     const int block = block_[r];
     varying[r] += share_[r] * (multiplier[block] - excess[block]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace littoral {
 
@@ -35,11 +36,11 @@ void spread_and_solve(const std::function<void(VecX&)>& solve,
 }
 }  // namespace
 
-VecX constraint_multipliers(const std::function<void(VecX&)>& solve, const ConstraintRows& rows,
-                            VecX r, const Task& task, Report& report,
-                            const std::function<VecX(const VecX&)>& precondition) {
+VecX constraint_multipliers(const ConstraintSolver& solver, const ConstraintRows& rows, VecX r,
+                            const Task& task, Report& report) {
   const auto& A = rows.A;
-  VecX mu = VecX::Zero(A.rows()), s(A.cols());
+  const auto& precondition = solver.precondition;
+  VecX mu = VecX::Zero(A.rows());
   remove_means(rows.group, r);
   VecX z = precondition ? precondition(r) : r;
   VecX p = z;
@@ -51,8 +52,7 @@ VecX constraint_multipliers(const std::function<void(VecX&)>& solve, const Const
     // Residuals fall geometrically: their logarithm is the progress.
     const double done = std::log(start / residual()) / std::log(start / rows.tolerance);
     task.checkpoint(std::min(1.0, std::max(0.0, done)));
-    spread_and_solve(solve, A, p, task, s);
-    VecX q = A * s + rows.softness.cwiseProduct(p);
+    VecX q = solver.across(p) + rows.softness.cwiseProduct(p);
     remove_means(rows.group, q);
     const double curvature = p.dot(q);
     if (!(curvature > 0)) break;
@@ -79,9 +79,8 @@ VecX constraint_multipliers(const std::function<void(VecX&)>& solve, const Const
   return mu;
 }
 
-VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
-                       const Task& task, Report& report,
-                       const std::function<VecX(const VecX&)>& precondition) {
+VecX solve_constrained(const ConstraintSolver& solver, VecX x, const ConstraintRows& rows,
+                       const Task& task, Report& report) {
   const auto& A = rows.A;
   if (A.rows() == 0) return x;
   // Stationarity: L x + A^T mu = b, A x = c + softness mu; L x sums to zero, so mu does too (the
@@ -91,16 +90,28 @@ VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const Co
     if (rows.value.size() > 0) Ax -= rows.value;
     return Ax;
   };
-  const VecX mu = constraint_multipliers(solve, rows, off(A * x), task, report, precondition);
-  if (!mu.isZero(0)) {
-    VecX s(x.size());
-    spread_and_solve(solve, A, mu, task, s);
-    x -= s;
-  }
+  const VecX mu = constraint_multipliers(solver, rows, off(A * x), task, report);
+  if (!mu.isZero(0)) solver.subtract(x, mu);
   if (!rows.group.empty()) return x;
   const VecX left = off(A * x) - rows.softness.cwiseProduct(mu);
   x.array() -= left.mean();
   return x;
+}
+
+VecX solve_constrained(const std::function<void(VecX&)>& solve, VecX x, const ConstraintRows& rows,
+                       const Task& task, Report& report,
+                       const std::function<VecX(const VecX&)>& precondition) {
+  VecX s(x.size());
+  const auto across = [&](const VecX& v) {
+    spread_and_solve(solve, rows.A, v, task, s);
+    return VecX(rows.A * s);
+  };
+  const auto subtract = [&](VecX& y, const VecX& v) {
+    spread_and_solve(solve, rows.A, v, task, s);
+    y -= s;
+  };
+  return solve_constrained(ConstraintSolver{across, subtract, precondition}, std::move(x), rows,
+                           task, report);
 }
 
 }  // namespace littoral

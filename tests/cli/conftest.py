@@ -12,6 +12,21 @@ import pytest
 
 PROGRAM = os.environ.get("LITTORAL", "littoral")
 Run = Callable[..., subprocess.CompletedProcess[str]]
+CUBE = """v -1 -1 -1
+v 1 -1 -1
+v -1 1 -1
+v 1 1 -1
+v -1 -1 1
+v 1 -1 1
+v -1 1 1
+v 1 1 1
+f 1 3 4 2
+f 5 6 8 7
+f 1 2 6 5
+f 3 7 8 4
+f 1 5 7 3
+f 2 4 8 6
+"""
 # A shell may start the tests in the background, where Ctrl-C is ignored, also by what they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -64,6 +79,14 @@ def mesh(tmp_path: Path) -> Path:
     nodes = "".join(f"v {5 + 11 * j}\n" for j in range(11))
     (tmp_path / "curve.txt").write_text("signed_curve\n" + nodes)
     return tmp_path / "square.obj"
+
+
+@pytest.fixture
+def cube(tmp_path: Path) -> Path:
+    """cube.obj, of side 2 about the origin, and points.csv: its middle, and (3, 0, 0)."""
+    (tmp_path / "cube.obj").write_text(CUBE)
+    (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n3,0,0\n")
+    return tmp_path / "cube.obj"
 
 
 def wait_for_handler(pid: int, number: int) -> None:

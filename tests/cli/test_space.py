@@ -1,4 +1,4 @@
-"""littoral sdf and query: values, formats, statuses."""
+"""littoral sdf, and what it shares with others: values, formats, statuses."""
 
 import json
 import math
@@ -9,75 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, Run, results, wait_for_handler
-
-CUBE = """v -1 -1 -1
-v 1 -1 -1
-v -1 1 -1
-v 1 1 -1
-v -1 -1 1
-v 1 -1 1
-v -1 1 1
-v 1 1 1
-f 1 3 4 2
-f 5 6 8 7
-f 1 2 6 5
-f 3 7 8 4
-f 1 5 7 3
-f 2 4 8 6
-"""
-
-
-@pytest.fixture
-def cube(tmp_path: Path) -> Path:
-    """cube.obj, of side 2 about the origin, and points.csv: its middle, and (3, 0, 0)."""
-    (tmp_path / "cube.obj").write_text(CUBE)
-    (tmp_path / "points.csv").write_text("x,y,z\n0,0,0\n3,0,0\n")
-    return tmp_path / "cube.obj"
-
-
-def test_places_are_named_one_by_one(run: Run, cube: Path, tmp_path: Path) -> None:
-    places = ("--at", "0,0,0", "--at", "-3,0,0")
-    assert run("query", "cube.obj", *places, "-o", "csv:-").stdout == (
-        "x,y,z,distance\n0,0,0,-1\n-3,0,0,2\n"
-    )
-    run("winding", "cube.obj", *places, "-o", "w.csv")
-    assert (tmp_path / "w.csv").read_text() == "x,y,z,winding\n0,0,0,1\n-3,0,0,0\n"
-    for arguments, words in (
-        ((), "[nothing-given]"),
-        (("--at", "0,0,0", "--points", "points.csv"), "[options-conflict]"),
-        (("--at", "0,0"), "three numbers"),
-        (("--at", "0,0,nan"), "'nan' is not a finite number"),
-    ):
-        assert words in run("query", "cube.obj", *arguments, "-o", "a.csv", status=2).stderr
-
-
-def test_query_gives_values_and_gradients(run: Run, cube: Path, tmp_path: Path) -> None:
-    run("query", "cube.obj", "--points", "points.csv", "--gradient", "-o", "a.csv", "-o", "a.npy")
-    middle, outside = results(tmp_path / "a.csv")
-    assert middle[0] == pytest.approx(-1)
-    assert outside == pytest.approx([2, 1, 0, 0])
-    assert b"(2, 4)" in (tmp_path / "a.npy").read_bytes()
-    run("query", "cube.obj", "--points", "points.csv", "--flip", "-o", "b.csv", "-o", "b.ply")
-    assert [row[0] for row in results(tmp_path / "b.csv")] == pytest.approx([1, -2])
-
-
-@pytest.mark.parametrize("how", [(), ("--flip",), ("--method", "winding"), ("--offset", 0)])
-def test_zero_has_no_sign(run: Run, cube: Path, tmp_path: Path, how: tuple[str, ...]) -> None:
-    """On the surface, whichever side its points count to."""
-    places = ["1,0,0", "-1,0,0", "1,1,1", "0,0,-1", "0.3,1,0.2", "0,-1,0"]
-    (tmp_path / "on.csv").write_text("x,y,z\n" + "\n".join(places) + "\n")
-    run("query", "cube.obj", "--points", "on.csv", *how, "-o", "a.csv", "-o", "a.npy")
-    rows = (tmp_path / "a.csv").read_text().splitlines()[1:]
-    assert rows == [f"{place},0" for place in places]
-
-
-@pytest.mark.parametrize("method", ["closest-point", "hopf-cole", "planar", "log-sum-exp", "tori"])
-def test_every_method_answers(run: Run, cube: Path, tmp_path: Path, method: str) -> None:
-    run("query", "cube.obj", "--points", "points.csv", "--method", method, "-o", "a.csv")
-    middle, outside = results(tmp_path / "a.csv")
-    assert middle[0] < -0.8
-    assert outside[0] == pytest.approx(2, abs=0.4)
+from conftest import CUBE, PROGRAM, Run, results, wait_for_handler
 
 
 def test_sdf_writes_volumes_surfaces_and_a_report(run: Run, cube: Path, tmp_path: Path) -> None:

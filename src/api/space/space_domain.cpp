@@ -15,9 +15,7 @@ class Placed final : public PointwiseDistance {
     const DistanceSample sample = distance_->at(frame_.local(x));
     return {length(sample.value), sample.gradient};
   }
-  double value(const Vec3& x) const override {
-    return length(distance_->value(frame_.local(x)));
-  }
+  double value(const Vec3& x) const override { return length(distance_->value(frame_.local(x))); }
   double value_after(const Vec3& x, int& last) const override {
     return length(distance_->value_after(frame_.local(x), last));
   }

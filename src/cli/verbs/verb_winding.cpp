@@ -47,9 +47,8 @@ void write_regions(const std::string& file, const WindingArguments& arguments,
 void run_at_points(const WindingArguments& arguments, Session& session) {
   if (!arguments.sources.empty() || !arguments.named.empty() || !arguments.curves.empty() ||
       !arguments.method.options.empty())
-    throw InputError(
-        "winding numbers at points in space take no sources, no curves and no options",
-        "options-conflict");
+    throw InputError("winding numbers at points in space take no sources, no curves and no options",
+                     "options-conflict");
   check_outputs(arguments.out, query_outputs);
   SpaceRequest request;
   request.flip = session.flip;

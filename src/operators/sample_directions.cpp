@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -151,9 +150,9 @@ class Sampler {
   }
 
   void want(std::size_t node) {
-    const std::atomic_ref<char> known(known_[node]);
-    if (known.load(std::memory_order_relaxed) == 0)
-      known.store(wanted_now, std::memory_order_relaxed);
+    // As std::atomic_ref does, which libc++ 13 lacks.
+    if (__atomic_load_n(&known_[node], __ATOMIC_RELAXED) == 0)
+      __atomic_store_n(&known_[node], wanted_now, __ATOMIC_RELAXED);
   }
 
   /// The nodes of a cube that are wanted now.

@@ -4,23 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from conftest import Run
-
-CUBE = """v -1 -1 -1
-v 1 -1 -1
-v -1 1 -1
-v 1 1 -1
-v -1 -1 1
-v 1 -1 1
-v -1 1 1
-v 1 1 1
-f 1 3 4 2
-f 5 6 8 7
-f 1 2 6 5
-f 3 7 8 4
-f 1 5 7 3
-f 2 4 8 6
-"""
+from conftest import CUBE, Run
 
 
 def test_offset_of_an_open_box_is_closed_and_measured(run: Run, tmp_path: Path) -> None:

@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "api/space/sdf.h"
 #include "domain/tet/tet_lattice.h"
 #include "littoral/error.h"
+#include "methods/heat/signed_heat_tets.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
 
@@ -147,6 +149,31 @@ TEST(SignedHeatTets, SphereErrorFallsWithTheSpacingAndValuesReachTheGrid) {
     const double coarse = error(9, constraint), fine = error(17, constraint);
     EXPECT_LT(fine, 0.02) << constraint;
     EXPECT_LT(fine, 0.7 * coarse) << constraint;
+  }
+}
+
+TEST(SignedHeatTets, OneSolveIsAsTheSolvesOnAFactor) {
+  const OrientedPoints source = test::sphere_samples(3);
+  const TetLattice tets(Vec3::Constant(-1.5), 3, 4, source.points);
+  const auto ops = std::make_shared<const TetOperators>(tet_operators(tets.mesh()));
+  std::vector<TetPoint> places;
+  std::vector<int> cubes;
+  for (Eigen::Index i = 0; i < source.size(); ++i) {
+    places.push_back(tets.locate(source.points.row(i)));
+    cubes.push_back(tets.cube_of(places.back().tet));
+  }
+  const TetSourceSystem system = tet_source_system(tets.mesh(), *ops, source, places, cubes);
+  for (const double time_scale : {0.25, 1.0, 3.0}) {
+    SpaceSignedHeat options;
+    options.time_scale = time_scale;
+    Report report;
+    const auto by = [&](SolveHint hint) {
+      return TetHeatSolver(ops, hint).signed_distance(system, tets.finest(), 0.01 * tets.finest(),
+                                                      options, Task(), report);
+    };
+    const VecX once = by(SolveHint::single_rhs), factored = by(SolveHint::many_rhs);
+    EXPECT_LT((once - factored).cwiseAbs().maxCoeff(), 1e-9) << time_scale;
+    EXPECT_NE(once, factored) << time_scale << ": two ways indeed, of " << ops->n_faces << " faces";
   }
 }
 

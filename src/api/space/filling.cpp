@@ -66,9 +66,9 @@ SpaceAnswer through_lattice(const SpaceSources& sources, const Grid& grid,
                     " outside the box and count for nothing; a larger option padding or option "
                     "bounds holds all");
   const double h = std::max(sample_spacing(source), lattice.finest());
-  VecX phi = TetHeatSolver(ops).signed_distance(terms, h, 0.01 * lattice.finest(), options,
-                                                task.stage(options.sharpen ? 0.4 : 0.8, "distance"),
-                                                report);
+  VecX phi = TetHeatSolver(ops, SolveHint::single_rhs)
+                 .signed_distance(terms, h, 0.01 * lattice.finest(), options,
+                                  task.stage(options.sharpen ? 0.4 : 0.8, "distance"), report);
   if (options.sharpen)
     phi =
         sharpened_on_tets(ops, "tet lattice", terms.A, phi, task.stage(0.4, "sharpening"), report);

@@ -100,7 +100,7 @@ Method<TetDomain> through_tets(const std::string& summary, const std::string& re
                                const OptionTable<S>& table) {
   return make_tet_method(
       {S::method, summary, {}, {}, reference}, table,
-      [](const std::shared_ptr<const TetDiscretization>& on, const S&) {
+      [](const std::shared_ptr<const TetDiscretization>& on, const S&, SolveHint) {
         return [C = std::make_shared<const Calculus>(tet_calculus(on->operators()))](
                    const TetProblem& problem, const S& options, Task& task, Report& report) {
           const auto vertex = [&mesh = *problem.mesh](int t, int k) { return mesh.tets(t, k); };

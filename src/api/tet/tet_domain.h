@@ -102,17 +102,17 @@ class TetDiscretization {
   Kept<TetLocator> locator_;
 };
 
-/// A method from `make(discretization, options)`, which returns what solves: a callable
+/// A method from `make(discretization, options, hint)`, which returns what solves: a callable
 /// (problem, options, task, report) -> values at the vertices, in the problem's units.
 template <class S, class Make>
 Method<TetDomain> make_tet_method(MethodInfo info, const OptionTable<S>& table, Make make) {
   info.domains = {"tet mesh"};
   return make_method<TetDomain>(
       std::move(info), table,
-      [make](const TetDomain& domain, const S& options, SolveHint, const Task& task,
+      [make](const TetDomain& domain, const S& options, SolveHint hint, const Task& task,
              Report& report) {
         const auto on = std::make_shared<const TetDiscretization>(*domain.mesh, task, report);
-        return [on, solve = make(on, options)](const TetSources& sources, S& used, Task& t,
+        return [on, solve = make(on, options, hint)](const TetSources& sources, S& used, Task& t,
                                                Report& r) -> VecX {
           const TetProblem problem = on->problem(sources, t.stage(0.1, "placing the sources"), r);
           return (solve(problem, used, t, r) * on->unit()).array() + problem.value;

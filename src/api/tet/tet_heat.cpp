@@ -34,7 +34,7 @@ struct Part {
   std::shared_ptr<const TetHeatSolver> heat;
 };
 
-Part part_of(const TetMesh& mesh, const TetOperators& ops, int component) {
+Part part_of(const TetMesh& mesh, const TetOperators& ops, int component, SolveHint hint) {
   Part part;
   part.number.assign(static_cast<std::size_t>(mesh.n_vertices()), -1);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
@@ -53,7 +53,7 @@ Part part_of(const TetMesh& mesh, const TetOperators& ops, int component) {
       TetMesh{mesh.points(part.vertices, Eigen::all),
               Eigen::Map<const Rows<int, 4>>(corners.data(), n, 4)});
   part.heat = std::make_shared<const TetHeatSolver>(
-      std::make_shared<const TetOperators>(tet_operators(*part.mesh)));
+      std::make_shared<const TetOperators>(tet_operators(*part.mesh)), hint);
   return part;
 }
 
@@ -90,7 +90,8 @@ VecX solve_on(const TetHeatSolver& heat, const TetProblem& problem, const SpaceS
 /// Each component is a problem of its own.
 class HeatThroughTets {
  public:
-  explicit HeatThroughTets(std::shared_ptr<const TetDiscretization> on) : on_(std::move(on)) {}
+  HeatThroughTets(std::shared_ptr<const TetDiscretization> on, SolveHint hint)
+      : on_(std::move(on)), hint_(hint) {}
 
   VecX solve(const TetProblem& problem, const SpaceSignedHeat& options, Task& task,
              Report& report) const {
@@ -104,11 +105,11 @@ class HeatThroughTets {
       if (reached[c] == 0) {
         report.unreachable_components.push_back(c);
       } else if (ops.n_components == 1) {
-        const auto heat =
-            whole_.get([&] { return std::make_shared<const TetHeatSolver>(on_->operators()); });
+        const auto heat = whole_.get(
+            [&] { return std::make_shared<const TetHeatSolver>(on_->operators(), hint_); });
         phi = solve_on(*heat, problem, options, stage, report);
       } else {
-        const auto part = parts_.get(c, [&] { return part_of(mesh, ops, c); });
+        const auto part = parts_.get(c, [&] { return part_of(mesh, ops, c, hint_); });
         const auto own = std::shared_ptr<const TetOperators>(part, &part->heat->operators());
         phi(part->vertices) =
             solve_on(*part->heat, problem_on(*part, own, problem), options, stage, report);
@@ -122,6 +123,7 @@ class HeatThroughTets {
 
  private:
   std::shared_ptr<const TetDiscretization> on_;
+  SolveHint hint_;
   Kept<TetHeatSolver> whole_;
   KeptByKey<int, Part> parts_;
 };
@@ -136,9 +138,10 @@ std::vector<Method<TetDomain>> heat_tet_methods() {
        {},
        "Feng, Crane: A Heat Method for Generalized Signed Distance (2024), section 8.1"},
       space_heat_options(),
-      [](const std::shared_ptr<const TetDiscretization>& on, const SpaceSignedHeat&) {
+      [](const std::shared_ptr<const TetDiscretization>& on, const SpaceSignedHeat&,
+         SolveHint hint) {
         return
-            [heat = std::make_shared<const HeatThroughTets>(on)](
+            [heat = std::make_shared<const HeatThroughTets>(on, hint)](
                 const TetProblem& problem, SpaceSignedHeat& options, Task& task, Report& report) {
               options = settled(options, true);
               check_level_sets(options, !problem.values.empty());

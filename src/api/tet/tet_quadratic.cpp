@@ -66,7 +66,7 @@ std::vector<Method<TetDomain>> quadratic_tet_methods() {
        {},
        "Ruan, Chern, Li, Subr, Vaxman: Quadratic-Order Geodesics on Meshes"},
       tet_quadratic_options(),
-      [](const std::shared_ptr<const TetDiscretization>& on, const TetQuadratic&) {
+      [](const std::shared_ptr<const TetDiscretization>& on, const TetQuadratic&, SolveHint) {
         return [E = std::make_shared<const Elements3>(*on)](const TetProblem& problem,
                                                             const TetQuadratic& options, Task& task,
                                                             Report& report) {

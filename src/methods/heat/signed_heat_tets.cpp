@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "base/stopwatch.h"
 #include "methods/heat/finalize.h"
 #include "solve/direct/cholesky.h"
+#include "solve/heat/outward_sweeps.h"
 #include "solve/poisson/constrained_poisson.h"
 #include "solve/poisson/poisson.h"
 
@@ -21,9 +23,10 @@ namespace littoral {
 
 namespace {
 
-constexpr double point_time = 4;    // around points, in units of the time elsewhere
-constexpr int most_sets = 8;        // of values that are diffused together
-constexpr double widest_set = 300;  // their range in decay lengths: exp(-300) is a number
+constexpr int quick_to_factor = 20'000;  // faces
+constexpr double point_time = 4;         // around points, in units of the time elsewhere
+constexpr int most_sets = 8;             // of values that are diffused together
+constexpr double widest_set = 300;       // their range in decay lengths: exp(-300) is a number
 
 /// Step II, one vector a tet; zeros in tets of some volume are counted.
 MatX3 normalize_rows(MatX3 X, const VecX& volumes, int& zeros) {
@@ -108,13 +111,14 @@ VecX TetHeatSolver::signed_distance(const TetSourceSystem& system, double h, dou
     const Stopwatch watch(report, "diffuse");
     const FlushSubnormals flush;
     const double t = options.time_scale * h * h;
-    const auto factor = faces_.get(t, [&] {
-      return Cholesky<double>(SpMat(ops.face_mass + t * ops.face_laplacian), heat_stage);
-    });
-    const MatX3 X = factor->solve(system.X0);
+    const SpMat heat = ops.face_mass + t * ops.face_laplacian;
+    std::optional<MatX3> X;
+    if (hint_ == SolveHint::single_rhs && ops.n_faces > quick_to_factor)
+      X = solve_by_outward_sweeps(heat, system.X0, heat_stage);
+    if (!X) X = faces_.get(t, [&] { return Cholesky<double>(heat, heat_stage); })->solve(system.X0);
     // Step II: Y = X / |X| on tets (B.2).
     int zeros = 0;
-    Y = normalize_rows(ops.to_tets(X), ops.volumes, zeros);
+    Y = normalize_rows(ops.to_tets(*X), ops.volumes, zeros);
     if (zeros > 0)
       report.warn("direction-missing",
                   counted(zeros, "tet is", "tets are") +

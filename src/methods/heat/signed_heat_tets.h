@@ -9,16 +9,19 @@
 #include "methods/heat/signed_heat_grid.h"
 #include "operators/tet_operators.h"
 #include "solve/direct/cholesky.h"
+#include "solve/heat/heat_system.h"
 #include "solve/poisson/poisson.h"
 #include "sources/space/tet_source_system.h"
 
 namespace littoral {
 
 /// The method on one mesh; the Poisson factor and the last heat factors are made when first needed
-/// and kept. Immutable to its users, from several threads.
+/// and kept. Where one solve is expected, directions are diffused without a factor if that is
+/// quick. Immutable to its users, from several threads.
 class TetHeatSolver {
  public:
-  explicit TetHeatSolver(std::shared_ptr<const TetOperators> ops) : ops_(std::move(ops)) {}
+  TetHeatSolver(std::shared_ptr<const TetOperators> ops, SolveHint hint)
+      : ops_(std::move(ops)), hint_(hint) {}
 
   /// Generalized signed distance at the vertices [length], +inf on components that no source
   /// reaches. h [length] sets the diffusion time t = time_scale h^2 and the scale of `soft`;
@@ -39,6 +42,7 @@ class TetHeatSolver {
                  const SpaceSignedHeat& options, Task task, Report& report) const;
 
   std::shared_ptr<const TetOperators> ops_;
+  SolveHint hint_;
   Kept<Poisson> poisson_;
   KeptLast<double, Cholesky<double>> faces_, vertices_;  // by time
 };

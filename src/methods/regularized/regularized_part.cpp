@@ -242,6 +242,9 @@ AdmmResult RegularizedPart::minimize(const KnownDistances& known, const Regulari
   problem.G = with_bounds ? stacked(C.G.matrix(), held.bounded, dim) : C.G.matrix();
   if (with_bounds) problem.allowed = [&held](VecX u) { return held.within_bounds(std::move(u)); };
 
+  problem.fixed.assign(C.M.size(), 0);
+  for (const int i : unknowns_of(held.rows)) problem.fixed[i] = 1;
+
   AdmmOptions admm_options;
   admm_options.relative = options.tolerance;
   admm_options.absolute = std::min(5e-6, 5e-4 * options.tolerance);

@@ -43,17 +43,17 @@ SpMat with_rows(SpMat lower, const SpMat& R, const VecX& W) {
 
 SpMat eliminated(const SpMat& K, const std::vector<char>& gone) {
   SpMat P(K.rows(), K.cols());
-  Triplets entries;
-  entries.reserve(K.nonZeros());
+  P.reserve(K.nonZeros() + K.cols());
   for (int j = 0; j < K.outerSize(); ++j) {
+    P.startVec(j);
     if (gone[j]) {
-      entries.emplace_back(j, j, 1);
+      P.insertBack(j, j) = 1;
       continue;
     }
     for (SpMat::InnerIterator it(K, j); it; ++it)
-      if (!gone[it.row()]) entries.emplace_back(it.row(), j, it.value());
+      if (!gone[it.row()]) P.insertBack(it.row(), j) = it.value();
   }
-  P.setFromTriplets(entries.begin(), entries.end());
+  P.finalize();
   return P;
 }
 

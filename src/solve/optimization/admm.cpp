@@ -9,7 +9,9 @@
 #include "base/counted.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/platform/large_pages.h"
 #include "littoral/error.h"
+#include "solve/optimization/shortened_gradients.h"
 
 namespace littoral {
 
@@ -18,9 +20,10 @@ namespace {
 constexpr std::size_t grain = 16384;
 
 constexpr int check_every = 5;
-constexpr int cells_from = 10;           // iteration in which cells get penalties of their own
-constexpr int cells_again = 30;          // and new ones; then after as many more, or half of all
-constexpr double over_multiplier = 4.0;  // which are this many times their multipliers
+constexpr int cells_from = 10;             // iteration in which cells get penalties of their own
+constexpr int cells_again = 30;            // and new ones; then after as many more, or half of all
+constexpr double over_multiplier = 4.0;    // which are this many times their multipliers
+constexpr double share_of_longest = 0.25;  // of the gap asked for, that gradients are too long by
 
 class Admm {
  public:
@@ -68,7 +71,7 @@ class Admm {
         --changes_left;
     }
     if (solve_cells_) set_penalties(VecX::Constant(rho_.size(), state_.rho));
-    result.u = allowed();
+    result.u = std::move(answer_);
     return result;
   }
 
@@ -215,25 +218,32 @@ class Admm {
 
   /// Objective of a feasible u and a lower bound. By the u-step, y = rho (w + G u - z), z and w
   /// from before it, satisfies P u + D y = b on the allowed directions; so by Fenchel's inequality
-  /// -1/2 u^T P u - sum A phi*(y) is a lower bound.
-  void evaluate_duality_gap(AdmmResult& r) const {
-    const VecX u = allowed();
+  /// -1/2 u^T P u - sum A phi*(y) is a lower bound. The feasible u is that of the u-step divided by
+  /// its longest gradient; that may be one of few cells, around which it is changed first.
+  void evaluate_duality_gap(AdmmResult& r) {
+    answer_ = allowed();
     VecX g = g_;
-    if (p_.allowed) multiply(p_.G, u, g, task_);
+    if (p_.allowed) multiply(p_.G, answer_, g, task_);
+    const double asked = o_.gap > 0 ? o_.gap : o_.certified;
+    if (!p_.fixed.empty() && asked > 0)
+      if (auto shorter = with_shortened_gradients({p_.G, D_, p_.A, p_.dim}, answer_, g, p_.fixed,
+                                                  1 + share_of_longest * asked, task_)) {
+        answer_ = std::move(*shorter);
+        multiply(p_.G, answer_, g, task_);
+      }
     r.largest = 0;
     for (Eigen::Index c = 0; c < p_.A.size(); ++c)
       r.largest = std::max(r.largest, p_.energy->gauge(c, g.data() + c * p_.dim));
     const double shrink = 1 / std::max(1.0, r.largest);
     g *= shrink;
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
-    const double uPu = squared(u_);
     const VecX y = times_penalties(old_w_ + g_ - old_z_);
     const double phi = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->conjugate(c, y.data() + i); });
-    r.objective = 0.5 * shrink * shrink * squared(u) - shrink * p_.b.dot(u) + phi;
-    const double bound = -0.5 * uPu - conjugate;
+    r.objective = 0.5 * shrink * shrink * squared(answer_) - shrink * p_.b.dot(answer_) + phi;
+    const double bound = -0.5 * squared(u_) - conjugate;
     // Where the constraints leave nothing but 0, the objective is round-off of this size.
     const double least = 1e-12 * p_.b.lpNorm<1>() * p_.length();
     r.gap = (r.objective - bound) / std::max({std::abs(r.objective), least, 1e-300});
@@ -241,6 +251,7 @@ class Admm {
 
   VecX allowed() const { return p_.allowed ? p_.allowed(u_) : u_; }
 
+  const KeepLargePages keep_pages_;  // each factor goes where the one before was
   const SplitProblem& p_;
   const AdmmOptions& o_;
   AdmmState& state_;
@@ -250,6 +261,7 @@ class Admm {
   SplitProblem::Solve solve_cells_;            // with rho_, where cells have their own
   VecX rho_;                                   // cells; state_.rho is that of all until then
   VecX u_, g_, force_, pull_, old_z_, old_w_;  // pull: rho (z - w)
+  VecX answer_;                                // u_ as it is given back
   double primal_tolerance_ = 0, dual_tolerance_ = 0, progress_ = 0;
   int next_change_ = 0, next_of_cells_ = cells_from;
 };

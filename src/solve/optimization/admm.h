@@ -29,6 +29,9 @@ struct SplitProblem {
   std::function<Solve(const VecX& rho, const SpRows& D)> solve_cells;
   VecX near_gradient, near_multipliers;  // dim cells: about G u and y of the answer; or empty
   const GradientEnergy* energy = nullptr;
+  std::vector<char> fixed;  // unknowns that are held; if given, the gauge of a cell that
+                            // has others is |(G u)_c|, and the answer may be moved
+                            // around a few cells where that is more than 1
   std::function<VecX(VecX u)> allowed;  // empty: all u; otherwise the nearest u, in some sense,
                                         // that meets what `energy` asks beside the gauge
 

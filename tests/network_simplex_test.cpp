@@ -173,11 +173,9 @@ TEST(SpanningForest, TakesArcsInTheOrderGiven) {
 
 TEST(RootedTree, ExchangesArcsAndMovesTheSmallerPart) {
   RootedTree tree(6);  // root 5
-  tree.attach(0, 5, 10);
-  tree.attach(1, 0, 11);
-  tree.attach(2, 1, 12);
-  tree.attach(3, 1, 13);
-  tree.attach(4, 5, 14);
+  const std::vector<int> parents{5, 0, 1, 1, 5};
+  tree.build(
+      {0, 1, 2, 3, 4}, [&](int u) { return parents[u]; }, [](int u) { return 10 + u; });
   EXPECT_EQ(tree.join(2, 3), 1);
   int moved = 0;
   const auto count = [&](int, int) { ++moved; };

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/index.h"
+#include "base/platform/large_pages.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
 #include "solve/network/spanning_tree.h"
@@ -118,6 +119,7 @@ class Method {
     if (!structure_)
       structure_ = std::make_shared<const Elimination>(laplacian_, dissection(laplacian_, task));
     try {
+      factor_.reset();  // one at a time
       factor_ = std::make_unique<Cholesky<double>>(*K, structure_, task);
     } catch (const SolveError&) {
       return false;  // round-off: the last iterate is as good as it gets
@@ -262,6 +264,7 @@ class Method {
     zu_ += back * z * d.zu;
   }
 
+  const KeepLargePages keep_pages_;  // each factor goes where the one before was
   const L1Integration& problem_;
   double unit_c_ = 1, unit_w_ = 1;
   std::vector<Column> columns_;

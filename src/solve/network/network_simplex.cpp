@@ -118,13 +118,18 @@ class Simplex {
       }
     }
     for (int u : forest.order) {  // parents before children
-      int e = parent_arc[u];
+      int& e = parent_arc[u];
       if (e < 0) e = hang_on_root(u, excess[u]);
       const Arc& arc = arcs_[e];
-      const int parent = arc.tail == u ? arc.head : arc.tail;
-      tree_.attach(u, parent, e);
-      pi_[u] = arc.tail == u ? pi_[parent] - arc.cost : pi_[parent] + arc.cost;
+      pi_[u] = arc.tail == u ? pi_[arc.head] - arc.cost : pi_[arc.tail] + arc.cost;
     }
+    tree_.build(
+        forest.order,
+        [&](int u) {
+          const Arc& arc = arcs_[parent_arc[u]];
+          return arc.tail == u ? arc.head : arc.tail;
+        },
+        [&](int u) { return parent_arc[u]; });
     block_ = std::max(16, static_cast<int>(std::sqrt(static_cast<double>(arcs_.size()))));
   }
 

@@ -25,13 +25,13 @@ class RootedTree {
   int parent(int u) const { return node_[u].parent; }
   int arc(int u) const { return node_[u].arc; }  // to the parent
 
-  /// Hangs a node below a node of the tree, for the first time.
-  void attach(int u, int parent, int arc) {
-    node_[u].arc = arc;
-    node_[u].parent = parent;
-    node_[u].depth = node_[parent].depth + 1;
-    link(u);
-    grow(parent, node_[u].size);
+  /// The first tree: hangs every node of `order`, parents before children, below parent_of(u) by
+  /// arc_of(u).
+  template <class ParentOf, class ArcOf>
+  void build(const std::vector<int>& order, const ParentOf& parent_of, const ArcOf& arc_of) {
+    for (const int u : order) hang(u, parent_of(u), arc_of(u));
+    for (auto u = order.rbegin(); u != order.rend(); ++u)
+      node_[node_[*u].parent].size += node_[*u].size;
   }
 
   /// The deepest node that is above (or is) both.
@@ -59,7 +59,8 @@ class RootedTree {
     const bool branch_moves = size <= node_[rest].size;
     const int moves = branch_moves ? below : above, stays = branch_moves ? above : below;
     turn(moves);
-    attach(moves, stays, arc);
+    hang(moves, stays, arc);
+    grow(stays, node_[moves].size);
     for_subtree(moves, [&](int v) {
       node_[v].depth = node_[node_[v].parent].depth + 1;
       moved(v, moves);
@@ -89,6 +90,13 @@ class RootedTree {
     int size = 1;                                  // of the branch
     int first_child = -1, next = -1, before = -1;  // children of one parent form a list
   };
+
+  void hang(int u, int parent, int arc) {
+    node_[u].arc = arc;
+    node_[u].parent = parent;
+    node_[u].depth = node_[parent].depth + 1;
+    link(u);
+  }
 
   void grow(int u, int by) {
     for (; u >= 0; u = node_[u].parent) node_[u].size += by;

@@ -22,10 +22,11 @@ namespace littoral {
 namespace {
 
 // Measured on damaged curves: docs/measurements/robustness.md.
-constexpr double most_faces = 0.4;       // of the mesh: with more, too little time is saved
+constexpr double most_faces = 1.0 / 3;   // of the mesh: with more, too little time is saved
 constexpr double beside_curves = 6;      // decay lengths of heat that a band reaches
 constexpr double around_ends = 1.75;     // gaps that it reaches there
-constexpr double well_inside = 0.5;      // of what it reaches: how far the zero set may go
+constexpr double well_inside = 1;        // of how far the zero set goes: what is left beyond it
+constexpr double widest = 64;            // times as wide as at first
 constexpr std::size_t most_ends = 2000;  // compared with one another
 
 /// Where a band grows from: a vertex, and how much farther than elsewhere it reaches there [units].
@@ -139,11 +140,12 @@ class Band {
   std::shared_ptr<const SurfaceMesh> mesh_;
 };
 
-/// Do the faces of the zero set have all vertices within a distance d?
-bool zero_set_within(const SurfaceMesh& mesh, const Band& band, const VecX& phi, const VecX& d,
-                     double within) {
+/// Are all vertices of the faces of the zero set well inside the band? `left`: how far it reaches
+/// beyond them; `d`: how far they are from the curves (vertices).
+bool zero_set_inside(const SurfaceMesh& mesh, const Band& band, const VecX& phi, const VecX& left,
+                     const VecX& d, double radius) {
   for (const int v : band.vertices()) {
-    if (d[v] <= within) continue;
+    if (left[v] >= std::max(0.5 * radius, well_inside * d[v])) continue;
     for (const int f : mesh.vertex_faces(v))
       for (const int other : mesh.face(f))
         if (phi[other] < infinity && (phi[other] < 0) != (phi[v] < 0)) return false;
@@ -188,20 +190,29 @@ class NearCurves {
     if (ends.size() > most_ends) return {};
     const std::vector<Gap> gaps = gaps_at(mesh_, ends);
     const double least = beside_curves * 0.5 * T_.mean_edge_length * std::sqrt(scale_);
-    for (double wider = 1;; wider *= 2) {
+    for (double wider = 1; wider <= widest; wider *= 2) {
       const double radius = wider * least;
-      const VecX d = distances_along_edges(T_, starts(gaps, wider, radius), radius, task);
+      const std::vector<Start> from = starts(gaps, wider, radius);
+      const VecX d = distances_along_edges(T_, from, radius, task);
       const Band band(mesh_, d);
       if (band.mesh()->n_faces() > most_faces * mesh_.n_faces()) return {};
       VecX phi = VecX::Constant(mesh_.n_vertices(), infinity);
       if (!solve_on(band, task.stage(0.5, "near the curves"), phi)) return {};
-      if (zero_set_within(mesh_, band, phi, d, well_inside * radius) &&
+      if (zero_set_inside(mesh_, band, phi, radius - d.array(), beside(from, radius, task),
+                          radius) &&
           carry_signs(mesh_, band, radius * T_.unit, phi))
         return phi;
     }
+    return {};
   }
 
  private:
+  /// Distances from the curves as far as a band can reach.
+  VecX beside(std::vector<Start> from, double radius, const Task& task) const {
+    double farthest = 0;
+    for (Start& start : from) farthest = std::max(farthest, std::exchange(start.farther, 0));
+    return distances_along_edges(T_, from, radius + farthest, task);
+  }
   std::vector<Start> starts(const std::vector<Gap>& gaps, double wider, double radius) const {
     std::vector<Start> out;
     for (const CurvePiece& piece : sided_.pieces)

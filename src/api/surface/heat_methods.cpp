@@ -322,13 +322,13 @@ auto unsigned_heat(const SurfaceDomain& domain, const UnsignedHeat& options, Sol
 }  // namespace
 
 std::function<VecX(const Sources&, Task, Report&)> unchecked_signed_heat(
-    const SurfaceDomain& domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint,
-    Task task, Report& report) {
+    const SurfaceDomain& domain, std::shared_ptr<const IntrinsicTriangulation> T,
+    const SignedHeat& options, SolveHint hint, Task task, Report& report) {
   auto method = std::make_shared<const SignedHeatOnSurface>(
       SurfaceDiscretization(domain, std::move(task), report, std::move(T)), hint);
-  return [method](const Sources& sources, Task t, Report& r) {
-    SignedHeat defaults;
-    return method->solve(sources, defaults, t, r).values;
+  return [method, options](const Sources& sources, Task t, Report& r) {
+    SignedHeat used = options;
+    return method->solve(sources, used, t, r).values;
   };
 }
 

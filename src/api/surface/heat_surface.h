@@ -92,10 +92,10 @@ class HeatSurface {
   std::optional<RetriangulatedSurface> fine_;
 };
 
-/// Signed heat as another method needs it, with all defaults: values at the vertices of the input,
-/// which nobody checks. T: the triangulation of a triangle mesh, which may be null.
+/// Signed heat as another method needs it: values at the vertices of the input, which nobody
+/// checks. T: the triangulation of a triangle mesh, which may be null.
 std::function<VecX(const Sources&, Task, Report&)> unchecked_signed_heat(
-    const SurfaceDomain& domain, std::shared_ptr<const IntrinsicTriangulation> T, SolveHint hint,
-    Task task, Report& report);
+    const SurfaceDomain& domain, std::shared_ptr<const IntrinsicTriangulation> T,
+    const SignedHeat& options, SolveHint hint, Task task, Report& report);
 
 }  // namespace littoral

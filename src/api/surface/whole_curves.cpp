@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/surface/edge_chains.h"
+#include "api/surface/heat_near_curves.h"
 #include "api/surface/heat_surface.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
@@ -260,19 +261,32 @@ Sources WholeCurves::with_sides(const Sources& given, const PlacedSources& place
   return out;
 }
 
+VecX WholeCurves::zero_on(const Sources& given, const PlacedSources& placed,
+                          const PlacedSources& sided, const std::vector<char>& open,
+                          Task task) const {
+  if (on_heat_.mesh == domain_.mesh) {
+    PlacedSources broken{{}, {}, {}, sided.nodes, sided.n_curves};
+    for (const CurvePiece& piece : sided.pieces)
+      if (const int c = component_of(piece.face); c >= 0 && open[c]) broken.pieces.push_back(piece);
+    if (auto near = signed_heat_near(*domain_.mesh, *T_, broken, task.stage(0.3, "signed heat")))
+      return std::move(*near);
+  }
+  Report quiet;  // mesh and sources have been spoken of
+  const auto heat = heat_.get([&] {
+    return unchecked_signed_heat(on_heat_, on_heat_.mesh == domain_.mesh ? T_ : nullptr, {}, hint_,
+                                 task.stage(0.6, "factoring"), quiet);
+  });
+  return (*heat)(with_sides(given, placed), task.stage(0.4, "solving"), quiet);
+}
+
 void WholeCurves::complete_by_heat(const Sources& given, const PlacedSources& placed,
                                    const std::vector<char>& open, WholeSources& whole, Task task,
                                    Report& report) const {
   const SurfaceMesh& mesh = *domain_.mesh;
-  Report quiet;  // mesh and sources have been spoken of
-  const auto heat = heat_.get([&] {
-    return unchecked_signed_heat(on_heat_, on_heat_.mesh == domain_.mesh ? T_ : nullptr, hint_,
-                                 task.stage(0.6, "factoring"), quiet);
-  });
-  const VecX phi = (*heat)(with_sides(given, placed), task.stage(0.4, "solving"), quiet);
   PlacedSources sided = placed;
   sided.points.clear();
   sided.pieces = pieces_with_sides(placed);
+  const VecX phi = zero_on(given, placed, sided, open, std::move(task));
   const PlacedSources completed = completed_curves(mesh, sided, phi);
   const VecX sign = CurveSides(mesh, *T_, placed, phi).at_vertices();
   for (int v = 0; v < mesh.n_vertices(); ++v)

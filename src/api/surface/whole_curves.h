@@ -28,7 +28,8 @@ class WholeCurves {
 
   /// Curves that bound stay as they are and integer winding numbers give their sides. Where pieces
   /// are reversed but nothing is missing, the shortest completion overrules them. Curves with ends
-  /// are completed by the zero set of the signed heat method.
+  /// are completed by the zero set of the signed heat method, solved near them where that settles
+  /// it.
   /// Reports lengths: given, of completions, and of the curve that these overrule. Throws
   /// InputError if Completion::none is asked for and the curves do not bound.
   WholeSources complete(const Sources& given, const PlacedSources& placed, Completion how,
@@ -46,6 +47,10 @@ class WholeCurves {
   void add_sides(const Labelled& on, const std::vector<char>& settled, WholeSources& whole) const;
   /// The signed curves alone, without values: others would draw the zero set to themselves.
   Sources with_sides(const Sources& given, const PlacedSources& placed) const;
+  /// A function whose zero set completes the signed curves of open components; +inf or anything on
+  /// the others.
+  VecX zero_on(const Sources& given, const PlacedSources& placed, const PlacedSources& sided,
+               const std::vector<char>& open, Task task) const;
   void complete_by_heat(const Sources& given, const PlacedSources& placed,
                         const std::vector<char>& open, WholeSources& whole, Task task,
                         Report& report) const;

@@ -29,8 +29,12 @@ std::string in_short(double x) {
 double automatic_time_scale(const SourceSystem& system, const Operators& ops) {
   const double scale = automatic_time_scale(system);
   if (system.only_points || ops.vector.at_nodes) return scale;
+  return scale * automatic_time_scale_of_curves(static_cast<double>(ops.scalar.A.size()));
+}
+
+double automatic_time_scale_of_curves(double n_triangles) {
   constexpr double enough_cells = 50'000, largest = 4;
-  return scale * std::clamp(static_cast<double>(ops.scalar.A.size()) / enough_cells, 1.0, largest);
+  return std::clamp(n_triangles / enough_cells, 1.0, largest);
 }
 
 namespace {

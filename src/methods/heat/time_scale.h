@@ -23,6 +23,8 @@ namespace littoral {
 /// discrete kernel is anisotropic at its own scale, so that the error grows with the distance in
 /// edges, and what larger scales round off is small on fine meshes.
 double automatic_time_scale(const SourceSystem& system, const Operators& ops);
+/// The same for curves on a mesh of so many triangles.
+double automatic_time_scale_of_curves(double n_triangles);
 
 /// Name of the residual that heat methods report: see misaligned_fraction.
 inline constexpr const char* misaligned_area_fraction = "misaligned area fraction";

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "sources/surface/surface_points.h"
 
 namespace littoral {
@@ -47,24 +48,32 @@ class EndSearch {
   std::vector<char> at_rim_;  // vertices
 };
 
-/// First and last nodes of signed curves that an odd number of them share.
-std::vector<SurfacePoint> odd_ends(const PlacedSources& sources, const std::vector<char>& takes) {
-  std::map<std::tuple<int, int, std::array<double, 3>>, SurfacePoint> odd;
-  for (std::size_t c = 0; c < sources.nodes.size(); ++c) {
-    if (!takes[c]) continue;
+}  // namespace
+
+std::vector<OpenEnd> open_ends(const PlacedSources& sources, const std::vector<char>& marked) {
+  struct Place {
+    SurfacePoint at;
+    std::vector<int> curves;  // that start or end there
+  };
+  std::map<std::tuple<int, int, std::array<double, 3>>, Place> places;
+  DisjointSets joined(static_cast<int>(sources.nodes.size()));
+  for (int c = 0; c < joined.size(); ++c) {
+    if (!marked[c]) continue;
     for (const SurfacePoint& p : {sources.nodes[c].front(), sources.nodes[c].back()}) {
       const bool vertex = p.on == SurfacePoint::On::vertex;
       const std::tuple key(static_cast<int>(p.on), p.element,
                            vertex ? std::array<double, 3>{} : p.b);
-      if (!odd.erase(key)) odd.emplace(key, p);
+      Place& place = places[key];
+      place.at = p;
+      place.curves.push_back(c);
+      joined.join(place.curves.front(), c);
     }
   }
-  std::vector<SurfacePoint> out;
-  for (const auto& [key, p] : odd) out.push_back(p);
-  return out;
+  std::vector<OpenEnd> ends;
+  for (const auto& [key, place] : places)
+    if (place.curves.size() % 2 == 1) ends.push_back({place.at, joined.find(place.curves.front())});
+  return ends;
 }
-
-}  // namespace
 
 std::optional<CurveEnds> curve_ends(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                     const PlacedSources& sources) {
@@ -77,13 +86,13 @@ std::optional<CurveEnds> curve_ends(const SurfaceMesh& mesh, const IntrinsicTria
     takes[piece.curve] = 1;
     out.length += piece.length;
   }
-  std::vector<SurfacePoint> ends = odd_ends(sources, takes);
+  const std::vector<OpenEnd> ends = open_ends(sources, takes);
   if (ends.size() > most_ends) return {};
   const EndSearch search(mesh, T);
   out.of_component.assign(static_cast<std::size_t>(mesh.n_components()), 0);
   std::vector<Vec3> places;
-  for (SurfacePoint& p : ends) {
-    p = simplest(mesh, p);
+  for (const OpenEnd& end : ends) {
+    const SurfacePoint p = simplest(mesh, end.at);
     const Vec3 x = mesh.position(p);
     const double near = apart * search.longest_side(p);
     for (const Vec3& other : places)

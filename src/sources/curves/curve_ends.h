@@ -10,6 +10,15 @@
 
 namespace littoral {
 
+/// An end of a curve that no other goes on from: an odd number of curves share it.
+struct OpenEnd {
+  SurfacePoint at;  // as the curve has it
+  int chain;        // the same for all that are joined at ends
+};
+
+/// Ends of the curves that are marked (per curve), in an order that does not depend on theirs.
+std::vector<OpenEnd> open_ends(const PlacedSources& sources, const std::vector<char>& marked);
+
 /// Ends of signed curves that no other curve goes on from and that do not lie on the boundary of
 /// the surface: a curve with one bounds nothing.
 struct CurveEnds {

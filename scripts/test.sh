@@ -168,7 +168,6 @@ stage_soak() {
 }
 
 stage_fuzz_long() {
-  local compilers=(-DLITTORAL_OPTIMIZE_SHELL=ON)  # what reads bytes runs often
   with_clang asan --target fuzzers && JOBS="$jobs" fuzz/run.sh build/asan "${FUZZ_SECONDS:-300}" &&
     many_cases "${FUZZ_CASES:-1000000}"
 }

@@ -178,7 +178,7 @@ void HeatStrips::find_near(const std::vector<const SourceSystem*>& systems, Near
     for (const int c : systems[k]->near) {
       const int place = parts_->cells.place[c];
       const auto at = std::lower_bound(near.cells.begin(), near.cells.end(), place);
-      near.holds[static_cast<std::size_t>(at - near.cells.begin())][k] = 1;
+      near.holds[std::size_t(at - near.cells.begin())][k] = 1;
     }
 }
 
@@ -252,7 +252,7 @@ void HeatStrips::write_values(const std::vector<const SourceSystem*>& systems, V
   const Calculus& C = parts_->ops->scalar;
   const double unit = parts_->ops->unit;
   // What is subtracted in each component, so that distance is 0 at its point.
-  std::vector<PerPoint> at_point(static_cast<std::size_t>(C.n_components));
+  std::vector<PerPoint> at_point(std::size_t(C.n_components));
   for (PerPoint& of : at_point) of.fill(-infinity);
   std::array<double*, strip_width> to{};
   for (std::size_t k = 0; k < systems.size(); ++k) {

@@ -27,7 +27,6 @@ constexpr double beside_curves = 6;      // decay lengths of heat that a band re
 constexpr double around_ends = 1.75;     // gaps that it reaches there
 constexpr double well_inside = 1;        // of how far the zero set goes: what is left beyond it
 constexpr double widest = 64;            // times as wide as at first
-constexpr std::size_t most_ends = 2000;  // compared with one another
 
 /// Where a band grows from: a vertex, and how much farther than elsewhere it reaches there [units].
 struct Start {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <ctime>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -19,6 +20,7 @@
 namespace littoral {
 namespace {
 
+using std::numbers::pi;
 using test::hemisphere;
 using test::joined;
 using test::part_of;
@@ -72,6 +74,40 @@ TEST(LevelPatch, LooksAtTheLevelSetAndNotAtAllOfTheBox) {
     return patch.faces.rows();
   };
   EXPECT_GT(asked(0.025), 2 * asked(0.05));
+}
+
+TEST(LevelPatch, CoversASlotThatLiesAskewToTheCubesOnce) {
+  // Between two long parallel edges the zero set is the plane through them, and only tips of cubes
+  // reach through it.
+  Eigen::Matrix3d frame;  // columns: across the slot, along it, normal
+  frame.col(2) = Vec3(1, 1, 1).normalized();
+  frame.col(0) = Vec3(1, -2, 0.3).cross(frame.col(2)).normalized();
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  const auto inside = [&](const Vec3& x) {
+    const Vec3 q = frame.transpose() * x;
+    const double seen = std::atan2(q[0] + 1, q[2]) - std::atan2(q[0] - 1, q[2]);  // of the slot
+    return q[2] > 0 ? 0.5 - seen / (2 * pi) : -0.5 - seen / (2 * pi);
+  };
+  MatX3 points(4, 3);
+  points << -1, -4, 0, -1, 4, 0, 1, -4, 0, 1, 4, 0;
+  points = (points * frame.transpose()).eval();
+  const LevelPatch patch = level_patch(inside, points, {{0, 1}, {2, 3}}, 0.12, Task());
+  const MatX3 on_plane = patch.points * frame;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-0.7, 0.7);
+  for (int i = 0; i < 3000; ++i) {
+    const double x = place(random), y = 3 * place(random);
+    int covered = 0;
+    for (Eigen::Index f = 0; f < patch.faces.rows(); ++f) {
+      int left = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 a = on_plane.row(3 * f + k), b = on_plane.row(3 * f + (k + 1) % 3);
+        left += (b[0] - a[0]) * (y - a[1]) > (b[1] - a[1]) * (x - a[0]);
+      }
+      covered += left == 3 || left == 0;
+    }
+    EXPECT_EQ(covered, 1) << x << " " << y;
+  }
 }
 
 TEST(BoundaryEdges, AreThoseOfTheChain) {

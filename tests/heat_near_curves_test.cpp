@@ -48,6 +48,15 @@ struct Case {
   std::optional<VecX> near;
 };
 
+/// The circle is closed along itself: signs are those of its inside.
+void expect_inside_of_circle(const Case& c) {
+  ASSERT_TRUE(c.near);
+  for (int v = 0; v < c.mesh.n_vertices(); ++v) {
+    const double d = 0.3 - (c.mesh.point(v) - Vec3(0.5, 0.5, 0)).norm();
+    EXPECT_TRUE(std::abs(d) <= 0.002 || ((*c.near)[v] > 0) == (d > 0)) << v << " at " << d;
+  }
+}
+
 double completed_length(const Case& c) {
   double length = 0;
   for (const CurvePiece& piece : completed_curves(c.mesh, c.placed, *c.near).pieces)
@@ -58,11 +67,7 @@ double completed_length(const Case& c) {
 TEST(HeatNearCurves, CircleWithGapsIsClosedAlongItself) {
   const SurfaceMesh mesh(test::jittered_grid_soup(120, 120, 0.3));
   const Case c(mesh, runs_of_circle(0.3, 160, 40, {3, 9, 14, 30}));
-  ASSERT_TRUE(c.near);
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
-    const double d = 0.3 - (mesh.point(v) - Vec3(0.5, 0.5, 0)).norm();
-    EXPECT_TRUE(std::abs(d) <= 0.002 || ((*c.near)[v] > 0) == (d > 0)) << v << " at " << d;
-  }
+  expect_inside_of_circle(c);
   const double missing = 4.0 / 40 * 2 * pi * 0.3;
   EXPECT_NEAR(completed_length(c), missing, 0.1 * missing);
 }
@@ -104,6 +109,36 @@ TEST(HeatNearCurves, OtherComponentsHaveNoValue) {
   ASSERT_TRUE(c.near);
   EXPECT_TRUE(c.near->head(n).allFinite());
   for (int v = n; v < n + 3; ++v) EXPECT_EQ((*c.near)[v], infinity);
+}
+
+TEST(HeatNearCurves, EndsNearlyAtOnePlace) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(120, 120, 0.3));
+  Sources sources = runs_of_circle(0.3, 160, 40, {3, 9, 14, 30});
+  double shift = 0;
+  for (SpaceCurve& curve : sources.space_curves)
+    curve.points.rowwise() += Eigen::RowVector3d(shift += 1e-12, 0, 0);
+  expect_inside_of_circle(Case(mesh, sources));
+}
+
+TEST(HeatNearCurves, FacesBesideAnEdgeOfThree) {
+  // A strip stands on the plane along a row of its vertices, across the circle.
+  PolygonSoup soup = test::jittered_grid_soup(120, 120, 0.3);
+  const int first = soup.n_vertices(), on = 60 * 121;
+  soup.points.conservativeResize(first + 121, 3);
+  for (int i = 0; i <= 120; ++i)
+    soup.points.row(first + i) = soup.points.row(on + i) + Eigen::RowVector3d(0, 0, 0.01);
+  for (int i = 0; i < 120; ++i) {
+    test::add_triangle(soup, on + i, on + i + 1, first + i + 1);
+    test::add_triangle(soup, on + i, first + i + 1, first + i);
+  }
+  const SurfaceMesh mesh(std::move(soup));
+  const Sources sources = runs_of_circle(0.3, 160, 40, {3, 9, 14, 30});
+  const Case c(mesh, sources);
+  ASSERT_TRUE(c.near);
+  Report report;
+  const VecX whole = test::surface_distance(mesh, sources, SignedHeat{}, report);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_TRUE(std::abs(whole[v]) <= 0.002 || ((*c.near)[v] > 0) == (whole[v] > 0)) << v;
 }
 
 }  // namespace

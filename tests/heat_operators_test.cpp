@@ -236,15 +236,16 @@ TEST(HeatOperatorsPlane, ConstantFieldsAreInTheNullSpaceOfTheConnectionLaplacian
 }
 
 TEST(HeatOperatorsPlane, TwoTrianglesThatShareAVertexArePinchedThere) {
-  // The shared vertex is each corner of the first triangle in turn.
-  for (int k = 0; k < 3; ++k) {
+  // The shared vertex is each corner of either triangle in turn; no other is pinched.
+  for (int k = 0; k < 9; ++k) {
     PolygonSoup soup;
     soup.points.resize(5, 3);
     soup.points << 0, 0, 0, 1, 1, 0, -1, 1, 0, -1, -1, 0, 1, -1, 0;
-    std::array<int, 3> first = {0, 1, 2};
-    std::rotate(first.begin(), first.begin() + k, first.end());
+    std::array<int, 3> first = {0, 1, 2}, second = {0, 3, 4};
+    std::rotate(first.begin(), first.begin() + k % 3, first.end());
+    std::rotate(second.begin(), second.begin() + k / 3, second.end());
     soup.add_face(first);
-    test::add_triangle(soup, 0, 3, 4);
+    soup.add_face(second);
     Report report;
     const VectorDiffusion V =
         triangle_operators(intrinsic_triangulation(SurfaceMesh(soup), report)).vector;

@@ -21,13 +21,12 @@ namespace littoral {
 
 namespace {
 
-// Measured on damaged curves: docs/measurements/robustness.md.
-constexpr double most_faces = 1.0 / 3;   // of the mesh: with more, too little time is saved
-constexpr double beside_curves = 6;      // decay lengths of heat that a band reaches
-constexpr double around_ends = 1.75;     // gaps that it reaches there
-constexpr double well_inside = 1;        // of how far the zero set goes: what is left beyond it
-constexpr double widest = 64;            // times as wide as at first
-constexpr std::size_t most_ends = 2000;  // compared with one another
+// Measured on damaged curves: docs/measurements/robustness.md, near the curves or everywhere.
+constexpr double most_faces = 1.0 / 3;  // of the mesh: with more, too little time is saved
+constexpr double beside_curves = 6;     // decay lengths of heat that a band reaches
+constexpr double around_ends = 1.75;    // gaps that it reaches there
+constexpr double well_inside = 1;       // of how far the zero set goes: what is left beyond it
+constexpr double widest = 64;           // times as wide as at first; most_faces stops it before
 
 /// Where a band grows from: a vertex, and how much farther than elsewhere it reaches there [units].
 struct Start {
@@ -189,6 +188,7 @@ class NearCurves {
     const std::vector<OpenEnd> ends = open_ends(sided_, marked_);
     if (ends.size() > most_ends) return {};
     const std::vector<Gap> gaps = gaps_at(mesh_, ends);
+    // A decay length is the root of the diffusion time: scale times half an edge squared.
     const double least = beside_curves * 0.5 * T_.mean_edge_length * std::sqrt(scale_);
     for (double wider = 1; wider <= widest; wider *= 2) {
       const double radius = wider * least;

@@ -12,7 +12,6 @@ namespace littoral {
 namespace {
 
 constexpr double apart = 1e-6;  // of the longest side around: cutting merges what is much nearer
-constexpr std::size_t most_ends = 2000;  // compared with one another
 
 enum class Rim : char { none, touches, lies_on };
 

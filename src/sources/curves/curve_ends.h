@@ -1,6 +1,7 @@
 #pragma once
 // Where curves end inside a surface, found without cutting it along them.
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct OpenEnd {
   SurfacePoint at;  // as the curve has it
   int chain;        // the same for all that are joined at ends
 };
+
+/// More than these are not compared with one another.
+constexpr std::size_t most_ends = 2000;
 
 /// Ends of the curves that are marked (per curve), in an order that does not depend on theirs.
 std::vector<OpenEnd> open_ends(const PlacedSources& sources, const std::vector<char>& marked);

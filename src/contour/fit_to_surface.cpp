@@ -346,8 +346,7 @@ FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const Mat
                            reach, placing),
                    bvh, reach)
                 .cut;
-  const auto n = index(cut.places.size());
-  const auto m = index(cut.faces.size());
+  const auto n = index(cut.places.size()), m = index(cut.faces.size());
   FittedSurface out;
   out.points.resize(n, 3);
   out.faces.resize(m, 3);

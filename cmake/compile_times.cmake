@@ -34,6 +34,9 @@ set_property(SOURCE src/solve/direct/small_supernode_kernels.cpp src/solve/direc
 # Eigen's decompositions of small matrices, as long to compile as a dozen other files.
 set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS
   $<$<CONFIG:Release>:-O1>)
+if(LITTORAL_SANITIZE)
+  set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS -O0)
+endif()
 set_property(SOURCE src/base/dense_decompositions.cpp PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 
 # GCC collects garbage when a few hundred MB are in use, a tenth of its time; it needs not much more

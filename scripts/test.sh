@@ -40,7 +40,7 @@ build_release() {  # the same, with the module of the Python package
 }
 # The presets name Clang 14, Debian 12's; newer releases have theirs under the plain name.
 with_clang() {
-  command -v clang++-14 >/dev/null || local compilers=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
+  command -v clang++-14 >/dev/null || local compilers=(${compilers[@]+"${compilers[@]}"} -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
   build "$@"
 }
 

@@ -27,5 +27,47 @@ TEST(UnsignedHeatSolver, TheBoundaryIsAsAccurateAsTheInterior) {
   EXPECT_LT(boundary / n_boundary, 2 * inside / n_inside);
 }
 
+// A point on an edge that ends at the boundary, most of whose weight is a boundary vertex's: zero
+// Dirichlet values leave less of it, and the mean must take both solutions in the same units.
+TEST(ScalarHeat, TheMeanOfBothBoundaryValuesIsInOneUnit) {
+  const int n = 8;
+  const SurfaceMesh mesh(test::grid_soup(n, n, 1));
+  Report report;
+  const test::Problem p =
+      test::problem(mesh, test::vertex_points({0}), report);  // for its operators
+  const Calculus& C = p.ops->scalar;
+  const double t = 0.05;
+  const int nodes = mesh.n_vertices(), inner = 1 + (n + 1), outer = 1;  // of one face
+
+  SourceSystem system;
+  system.u0.resize(nodes, 1);
+  system.u0.insert(outer, 0) = 0.95;
+  system.u0.insert(inner, 0) = 0.05;
+  system.batch_of_points = {1};
+  system.batch_value = VecX::Zero(1);
+
+  // Both solutions by dense matrices.
+  const VecX u0 = VecX(system.u0.col(0));
+  const Eigen::MatrixXd L(C.L);
+  Eigen::MatrixXd A = t * Eigen::MatrixXd(L.selfadjointView<Eigen::Lower>());
+  A.diagonal() += C.M;
+  VecX mean = A.llt().solve(u0);
+  VecX inside = u0;
+  for (int v = 0; v < nodes; ++v) {
+    if (!C.boundary[v]) continue;
+    A.row(v).setZero();
+    A.col(v).setZero();
+    A(v, v) = 1;
+    inside[v] = 0;
+  }
+  ASSERT_EQ(inside.norm(), 0.05);
+  mean = 0.5 * (mean + A.llt().solve(inside));
+  const VecX expected = normalize(-C.G.apply(mean));
+
+  CellField field = no_field(expected.size() / 2);
+  ScalarHeat(C, t, {}, {}, {}).add_nearest(C, system, 1, field, {}, report);
+  EXPECT_LT((field.Y - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 }  // namespace
 }  // namespace littoral

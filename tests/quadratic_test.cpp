@@ -316,6 +316,24 @@ TEST(QuadraticSolver, ACurveThatEndsOnASideIsKnownInAllTrianglesThere) {
   for (const int v : {3, 4}) EXPECT_LE(d[v], 1.001 * std::hypot(1, 0.2)) << v;
 }
 
+TEST(QuadraticSolver, ACurveThatEndsOnASideIsKnownWhereAnotherRuns) {
+  PolygonSoup kite;
+  kite.points.resize(4, 3);
+  kite.points << 0, 0, 0, 1, 0, 0, std::cos(0.5), std::sin(0.5), 0, std::cos(1), std::sin(1), 0;
+  test::add_triangle(kite, 0, 1, 2);
+  test::add_triangle(kite, 0, 2, 3);
+  const SurfaceMesh mesh(kite);
+  Sources sources;
+  sources.curves.resize(2);
+  sources.curves[0].nodes = {SurfacePoint::at_vertex(1), SurfacePoint::in_face(0, 0.4, 0, 0.6)};
+  sources.curves[1].nodes = {SurfacePoint::at_vertex(0), SurfacePoint::in_face(1, 0.9, 0.05, 0.05)};
+  for (Curve& curve : sources.curves) curve.is_signed = false;
+  Report report;
+  const VecX d = quadratic(mesh, sources, {}, report).at_vertices();
+  const Vec3 end = 0.6 * mesh.point(2);
+  EXPECT_LE(d[3], 1.001 * (mesh.point(3) - end).norm());
+}
+
 TEST(QuadraticSolver, CancelsAndReportsWhenIterationsRunOut) {
   const SurfaceMesh mesh(test::octasphere_soup(3));
   Report report;

@@ -110,7 +110,7 @@ std::vector<InfoEntry> info_of(const Volume& volume) {
 std::vector<InfoEntry> info_of(const io::TetFile& file) {
   const TetMesh& mesh = file.mesh;
   double flat = 0, inverted = 0, volume = 0, not_finite = 0;
-  std::vector<char> used(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  std::vector<char> used(std::size_t(mesh.n_vertices()), 0);
   Vec3 low = Vec3::Constant(infinity), high = -low;
   for (const auto& tet : mesh.tets.rowwise()) {
     Eigen::Matrix3d edges;

@@ -131,7 +131,7 @@ std::string report_json(const Report& report) {
 
 FieldRange range_of(std::string name, const Eigen::Ref<const VecX>& values) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  FieldRange range{std::move(name), none, none, static_cast<std::size_t>(values.size()), 0};
+  FieldRange range{std::move(name), none, none, std::size_t(values.size()), 0};
   for (const double value : values) {
     if (!std::isfinite(value)) {
       ++range.not_finite;

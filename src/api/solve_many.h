@@ -71,7 +71,7 @@ void solve_many(const Solver<D>& solver, const std::vector<typename D::Sources>&
   // No more side by side than there is room for.
   std::size_t in_a_row = 1;
   if (width > 1 && room < static_cast<double>(groups))
-    in_a_row = static_cast<std::size_t>(std::ceil(static_cast<double>(groups) / std::floor(room)));
+    in_a_row = std::size_t(std::ceil(static_cast<double>(groups) / std::floor(room)));
   parallel_for(groups, in_a_row, [&](std::size_t first, std::size_t end) {
     for (std::size_t group = first; group < end; ++group) solve_group(group);
   });

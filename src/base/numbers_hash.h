@@ -15,7 +15,7 @@ struct NumbersHash {
       h = (h ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15u;
       h ^= h >> 29;
     }
-    return static_cast<std::size_t>(h);
+    return std::size_t(h);
   }
 };
 

@@ -92,10 +92,7 @@ class OptionTable {
         [m](S& s, const OptionInfo& i, const std::string& text) {
           s.*m = static_cast<E>(parse_option_choice(i, text));
         },
-        [m](const S& s, const OptionInfo& i) {
-          return i.choices.at(static_cast<std::size_t>(s.*m));
-        },
-        nullptr);
+        [m](const S& s, const OptionInfo& i) { return i.choices.at(std::size_t(s.*m)); }, nullptr);
   }
   OptionTable& text(std::string S::*m, std::string name, std::string unit, std::string help) {
     OptionInfo info = described(OptionInfo::Kind::text, std::move(name), std::move(help));

@@ -123,7 +123,7 @@ struct ThreadCrew::Shared {
   }
   void start() {
     started = true;
-    add_threads(threads, static_cast<std::size_t>(n_threads - 1), [this] { help(); });
+    add_threads(threads, std::size_t(n_threads - 1), [this] { help(); });
   }
   void help() {
     for (std::uint64_t seen = 0;;) {

@@ -88,7 +88,7 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   std::vector<char> buffer(1 << 16);
   while (in) {
     in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    sum.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+    sum.add({buffer.data(), std::size_t(in.gcount())});
   }
   if (!in.eof())
     throw IoError("cannot read " + path.string() + ": " +

@@ -34,8 +34,8 @@ std::string remaining_text(double fraction, double seconds, const std::string& s
 void draw_progress(double fraction, const std::string& stage) {
   constexpr int width = 30;
   const int done = static_cast<int>(std::lround(fraction * width));
-  const std::string bar = std::string(static_cast<std::size_t>(done), '#') +
-                          std::string(static_cast<std::size_t>(width - done), '.');
+  const std::string bar =
+      std::string(std::size_t(done), '#') + std::string(std::size_t(width - done), '.');
   std::fprintf(stderr, "\r\033[K[%s] %3.0f %% %s", bar.c_str(), fraction * 100, stage.c_str());
   std::fflush(stderr);
 }

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/morton_order.h"
 #include "spatial/self_intersections.h"
@@ -33,7 +34,7 @@ struct Foot {
 };
 
 std::vector<Vec3> vertex_normals(const MatX3& points, const MatX3i& faces) {
-  std::vector<Vec3> normals(static_cast<std::size_t>(points.rows()), Vec3::Zero());
+  std::vector<Vec3> normals(std::size_t(points.rows()), Vec3::Zero());
   for (Eigen::Index f = 0; f < faces.rows(); ++f) {
     const Vec3 a = points.row(faces(f, 0)), b = points.row(faces(f, 1)),
                c = points.row(faces(f, 2));
@@ -271,7 +272,7 @@ Vec3 normal_of(const MatX3& points, const Eigen::RowVector3i& face) {
 
 /// Of each vertex of a closed mesh, those that it shares a side with.
 std::vector<std::vector<int>> neighbours_of(const MatX3i& faces, Eigen::Index n) {
-  std::vector<std::vector<int>> out(static_cast<std::size_t>(n));
+  std::vector<std::vector<int>> out(n);
   for (Eigen::Index f = 0; f < faces.rows(); ++f)
     for (int k = 0; k < 3; ++k) out[faces(f, k)].push_back(faces(f, (k + 1) % 3));
   return out;
@@ -280,7 +281,7 @@ std::vector<std::vector<int>> neighbours_of(const MatX3i& faces, Eigen::Index n)
 /// Vertices of faces that are marked.
 std::vector<char> vertices_of(const std::vector<char>& marked, const MatX3i& faces,
                               Eigen::Index n) {
-  std::vector<char> out(static_cast<std::size_t>(n), 0);
+  std::vector<char> out(std::size_t(n), 0);
   for (Eigen::Index f = 0; f < faces.rows(); ++f)
     if (marked[f])
       for (int k = 0; k < 3; ++k) out[faces(f, k)] = 1;
@@ -289,7 +290,7 @@ std::vector<char> vertices_of(const std::vector<char>& marked, const MatX3i& fac
 
 /// Faces with a vertex that is marked.
 std::vector<char> faces_of(const std::vector<char>& marked, const MatX3i& faces) {
-  std::vector<char> out(static_cast<std::size_t>(faces.rows()), 0);
+  std::vector<char> out(std::size_t(faces.rows()), 0);
   for (Eigen::Index f = 0; f < faces.rows(); ++f)
     for (int k = 0; k < 3; ++k) out[f] |= marked[faces(f, k)];
   return out;
@@ -345,8 +346,7 @@ FittedSurface fit_to_surface(const MatX3& points, const MatX3i& faces, const Mat
                            reach, placing),
                    bvh, reach)
                 .cut;
-  const auto n = static_cast<Eigen::Index>(cut.places.size());
-  const auto m = static_cast<Eigen::Index>(cut.faces.size());
+  const auto n = index(cut.places.size()), m = index(cut.faces.size());
   FittedSurface out;
   out.points.resize(n, 3);
   out.faces.resize(m, 3);

@@ -81,7 +81,7 @@ class Call {
   }
   template <class Derived>
   json put(const Eigen::PlainObjectBase<Derived>& values) {
-    return put(values.data(), static_cast<std::size_t>(values.size()));
+    return put(values.data(), std::size_t(values.size()));
   }
   /// Indices, which are never negative.
   json put_indices(const int* data, std::size_t count) {

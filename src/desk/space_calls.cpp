@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.h"
 #include "desk/call.h"
 
 namespace littoral::desk {
@@ -64,7 +65,7 @@ MatX3 slice_nodes(const Call& call, const json& slice) {
     if (!(count >= 1 && count <= 20000) || count != std::floor(count))
       throw InputError("a slice has 1 to 20000 points along each side");
   if (n.size() != 2) throw InputError("a slice has two sides");
-  const auto across = static_cast<Eigen::Index>(n[0]), down = static_cast<Eigen::Index>(n[1]);
+  const auto across = index(n[0]), down = index(n[1]);
   const auto part = [](Eigen::Index i, Eigen::Index count) {
     return count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0;
   };

@@ -237,10 +237,10 @@ json drawn(Call& call, const PolygonSoup& soup) {
   json scalars = json::object();
   for (const auto& [name, values] : soup.scalars) scalars[name] = call.put(values);
   return {{"positions", call.put(soup.points)},
-          {"triangles", call.put_indices(triangles.corners.data(),
-                                         static_cast<std::size_t>(triangles.corners.size()))},
-          {"triangleFaces", call.put_indices(triangles.polygons.data(),
-                                             static_cast<std::size_t>(triangles.polygons.size()))},
+          {"triangles",
+           call.put_indices(triangles.corners.data(), std::size_t(triangles.corners.size()))},
+          {"triangleFaces",
+           call.put_indices(triangles.polygons.data(), std::size_t(triangles.polygons.size()))},
           {"scalars", scalars}};
 }
 

@@ -117,7 +117,7 @@ using Holds = bool (*)(const Format&, Kind);
 constexpr std::array<const char*, 10> kind_names = {
     "surface", "cloud", "volume", "voxels", "tets", "sources", "field", "table", "page", "picture"};
 
-const char* name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+const char* name_of(Kind kind) { return kind_names[std::size_t(kind)]; }
 
 bool holds_any(const Format& format, const Kinds& kinds, Holds holds) {
   return std::ranges::any_of(kinds, [&](Kind kind) { return holds(format, kind); });

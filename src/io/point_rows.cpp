@@ -116,7 +116,7 @@ std::optional<std::array<std::size_t, 3>> PointRows::columns(
       const auto found = std::ranges::find_if(
           names_, [&](const std::string& name) { return plain_name(name) == wanted; });
       all = found != names_.end();
-      at[d] = static_cast<std::size_t>(found - names_.begin());
+      at[d] = std::size_t(found - names_.begin());
     }
     if (all) return at;
   }

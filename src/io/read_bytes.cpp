@@ -36,7 +36,7 @@ bool is_packed(const std::filesystem::path& path) {
 /// size: of the file, where that is known.
 std::string all_of(std::FILE* file, const std::filesystem::path& path, std::uintmax_t size) {
   std::string bytes;
-  if (size > 0 && size < bytes.max_size()) bytes.reserve(static_cast<std::size_t>(size));
+  if (size > 0 && size < bytes.max_size()) bytes.reserve(std::size_t(size));
   std::array<char, 1 << 16> block;
   while (const std::size_t n = std::fread(block.data(), 1, block.size(), file))
     bytes.append(block.data(), n);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/counted.h"
+#include "base/index.h"
 #include "io/point_rows.h"
 #include "io/write_table.h"
 #include "littoral/error.h"
@@ -36,8 +37,7 @@ PointTable read_points_text(std::string_view bytes, const std::string& name) {
     }
   }
   if (numbers.empty()) throw InputError(name + ": no points", "bad-file");
-  table.points =
-      Eigen::Map<const MatX3>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
+  table.points = Eigen::Map<const MatX3>(numbers.data(), index(numbers.size() / 3), 3);
   return table;
 }
 

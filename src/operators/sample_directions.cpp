@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "operators/grid.h"
 
@@ -84,8 +85,7 @@ class Sampler {
     // The system hands out memory when it is first written to, which takes a while for all of it.
     parallel_for(known_.size(), nodes_between_checkpoints, [&](std::size_t begin, std::size_t end) {
       task.checkpoint();
-      const auto from = static_cast<Eigen::Index>(begin),
-                 n = static_cast<Eigen::Index>(end - begin);
+      const auto from = index(begin), n = index(end - begin);
       Y.middleRows(from, n).setZero();
       known_.segment(from, n).setZero();
       distance_.segment(from, n).setZero();
@@ -133,7 +133,7 @@ class Sampler {
     const int cube = 2 * stride_, tile = 2 * cube;
     std::array<int, 3> tiles{};
     for (std::size_t a = 0; a < 3; ++a) tiles[a] = (grid_.n[a] + tile - 1) / tile;
-    std::vector<std::size_t> found(static_cast<std::size_t>(tiles[1]) * tiles[2]);
+    std::vector<std::size_t> found(std::size_t(tiles[1]) * tiles[2]);
     parallel_for(found.size(), 1, [&](std::size_t row, std::size_t) {
       task.checkpoint();
       std::vector<std::size_t> wanted;
@@ -249,7 +249,7 @@ class Sampler {
     std::vector<char> smooth(cells.size());
     // As many cells at once as hold about 64 times `at_once` nodes: a large one is filled in a
     // while.
-    const std::size_t nodes = static_cast<std::size_t>(stride_) * stride_ * stride_;
+    const std::size_t nodes = std::size_t(stride_) * stride_ * stride_;
     parallel_for(cells.size(), std::clamp<std::size_t>(64 * at_once / nodes, 1, at_once),
                  [&](std::size_t begin, std::size_t end) {
                    task.checkpoint();

@@ -1,5 +1,6 @@
 #include "spatial/grid_values.h"
 
+#include "base/index.h"
 #include "base/parallel.h"
 
 namespace littoral {
@@ -18,11 +19,11 @@ VecX grid_values(const Grid& grid, const Task& task,
 }
 
 MatX3 grid_points(const Grid& grid) {
-  MatX3 points(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  MatX3 points(index(grid.n_nodes()), 3);
   for (int k = 0; k < grid.n[2]; ++k)
     for (int j = 0; j < grid.n[1]; ++j)
       for (int i = 0; i < grid.n[0]; ++i)
-        points.row(static_cast<Eigen::Index>(grid.node(i, j, k))) = grid.point(i, j, k);
+        points.row(index(grid.node(i, j, k))) = grid.point(i, j, k);
   return points;
 }
 

@@ -131,9 +131,9 @@ struct Bounds {
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Bounds> boxes) : boxes_(std::move(boxes)) {
-    MatX3 centres(static_cast<Eigen::Index>(boxes_.size()), 3);
+    MatX3 centres(index(boxes_.size()), 3);
     for (std::size_t i = 0; i < boxes_.size(); ++i)
-      centres.row(static_cast<Eigen::Index>(i)) = boxes_[i].low / 2 + boxes_[i].high / 2;
+      centres.row(index(i)) = boxes_[i].low / 2 + boxes_[i].high / 2;
     tree_ = cluster(centres, 4);
     around_.resize(tree_.clusters.size());
     for (std::size_t c = around_.size(); c-- > 0;) {  // children stand after their parents
@@ -197,8 +197,8 @@ std::vector<char> near_asked(const MatX3& points, const MatX3i& faces,
   const BoxTree tree(std::move(boxes));
   parallel_for(asked.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      out[f] = tree.any_overlaps(bounds_of(triangle(points, faces, static_cast<Eigen::Index>(f))),
-                                 [](int) { return true; });
+      out[f] =
+          tree.any_overlaps(bounds_of(triangle(points, faces, index(f))), [](int) { return true; });
   });
   return out;
 }
@@ -207,7 +207,7 @@ std::vector<char> near_asked(const MatX3& points, const MatX3i& faces,
 
 std::vector<char> self_intersecting_faces(const MatX3& points, const MatX3i& faces,
                                           const Task& task, const std::vector<char>& asked) {
-  std::vector<char> out(static_cast<std::size_t>(faces.rows()), 0);
+  std::vector<char> out(std::size_t(faces.rows()), 0);
   const std::vector<char> near =
       asked.empty() ? std::vector<char>(out.size(), 1) : near_asked(points, faces, asked);
   std::vector<int> number;  // of a triangle that counts -> its face

@@ -25,7 +25,7 @@ std::vector<int> kept_vertices(const MatX3& points, double distance) {
   const double side = std::max(points_size(points), std::numeric_limits<double>::min());
   const double cell = std::max(distance, finest_cell * side);
   std::unordered_map<Cell, std::vector<int>, NumbersHash> kept;
-  std::vector<int> out(static_cast<std::size_t>(points.rows()));
+  std::vector<int> out(std::size_t(points.rows()));
   for (int v = 0; v < points.rows(); ++v) {
     out[v] = v;
     const Vec3 x = points.row(v);

@@ -10,6 +10,8 @@
 #include <exception>
 #include <string>
 
+#include "base/index.h"
+
 namespace {
 
 using littoral::Volume;
@@ -85,7 +87,7 @@ std::string dense(const GridType& grid, double most, Volume& volume) {
            " nodes, too many for a volume that holds them all";
   if (!box_of(grid.transform(), box, volume.grid))
     return "the axes of the grid '" + grid.getName() + "' do not run along x, y and z";
-  volume.values.resize(static_cast<Eigen::Index>(volume.grid.n_nodes()));
+  volume.values.resize(index(volume.grid.n_nodes()));
   const auto accessor = grid.getConstAccessor();
   Eigen::Index v = 0;
   for (int k = box.min()[2]; k <= box.max()[2]; ++k)

@@ -175,10 +175,10 @@ class RunningBatch {
         task_(std::move(task)),
         status_(options.folder, options.shard, options.shards) {
     if (options.resume) history_ = BatchHistory(options.folder);
-    const auto shards = static_cast<std::size_t>(options.shards);
-    next_ = static_cast<std::size_t>(options.shard) - 1;
+    const auto shards = std::size_t(options.shards);
+    next_ = std::size_t(options.shard) - 1;
     summary_.jobs = jobs.size() > next_ ? (jobs.size() - next_ - 1) / shards + 1 : 0;
-    processes_ = static_cast<std::size_t>(options.processes);
+    processes_ = std::size_t(options.processes);
     if (processes_ == 0) processes_ = std::max(1u, std::thread::hardware_concurrency());
   }
   ~RunningBatch() {
@@ -225,7 +225,7 @@ class RunningBatch {
     }
     if (next_ >= jobs_.size()) return false;
     start({next_, 1});
-    next_ += static_cast<std::size_t>(options_.shards);
+    next_ += std::size_t(options_.shards);
     return true;
   }
 

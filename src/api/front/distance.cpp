@@ -7,6 +7,7 @@
 #include "api/surface/pairs.h"
 #include "api/surface/surface_domain.h"
 #include "api/surface/winding.h"
+#include "base/index.h"
 #include "littoral/error.h"
 #include "littoral/winding.h"
 
@@ -104,7 +105,7 @@ DistanceMatrix distance_matrix(const Mesh& mesh, const std::vector<SurfacePoint>
                                const std::vector<SurfacePoint>& to, const AnyMethod& method,
                                const Context& context) {
   for (const SurfacePoint& p : to) mesh.position(p);  // complains before anything is solved
-  const auto size = static_cast<Eigen::Index>(to.size());
+  const auto size = index(to.size());
   return rows_of(mesh, from, method, context, {size, [&](const VecX& row) {
                                                  VecX out(size);
                                                  for (Eigen::Index j = 0; j < size; ++j)

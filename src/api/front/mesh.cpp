@@ -30,7 +30,7 @@ PolygonSoup with_indices_checked(PolygonSoup soup) {
       offsets.back() != static_cast<int>(soup.corners.size()))
     throw InputError("the face offsets do not fit the corners", "sizes-differ");
   for (int f = 0; f < soup.n_faces(); ++f) {
-    if (offsets[static_cast<std::size_t>(f) + 1] < offsets[f])
+    if (offsets[std::size_t(f) + 1] < offsets[f])
       throw InputError("the face offsets fall at face " + std::to_string(f), "sizes-differ");
     for (const int v : soup.face(f)) check("face " + std::to_string(f), v);
   }

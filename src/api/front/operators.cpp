@@ -38,7 +38,7 @@ Eigen::Matrix<double, 3, 2> frame_in_space(const MatX3& points, const IntrinsicT
 /// Gradients in space of functions on a triangle mesh; faces without a triangle have none.
 SpMat gradient_in_space(const Mesh& mesh, const IntrinsicTriangulation& T, const SpRows& G) {
   Triplets entries;
-  entries.reserve(static_cast<std::size_t>(9 * T.n_faces()));
+  entries.reserve(std::size_t(9 * T.n_faces()));
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const int t = T.triangle_of_face[f];
     if (t < 0) continue;
@@ -136,10 +136,10 @@ Factorization::Factorization(const SpMat& A, Definite definite, const Context& c
           if (a.value() != 0) sets.join(static_cast<int>(a.row()), static_cast<int>(j));
       int parts = 0;
       impl->part = sets.numbered(parts);
-      impl->first.assign(static_cast<std::size_t>(parts), -1);
-      impl->size.assign(static_cast<std::size_t>(parts), 0);
+      impl->first.assign(std::size_t(parts), -1);
+      impl->size.assign(std::size_t(parts), 0);
       for (int i = 0; i < A.rows(); ++i) {
-        const auto part = static_cast<std::size_t>(impl->part[i]);
+        const auto part = std::size_t(impl->part[i]);
         if (impl->size[part]++ == 0) impl->first[part] = i;
       }
       lower.prune([&](Eigen::Index i, Eigen::Index j, double) {

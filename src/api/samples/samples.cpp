@@ -12,6 +12,7 @@
 #include "api/space/input_queries.h"
 #include "api/space/isosurfaces.h"
 #include "api/space/sdf.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
 #include "base/random_numbers.h"
@@ -165,11 +166,11 @@ class Sampler {
     const int n = options_.surface, sharp = share_of(options_.sharp, n);
     MatX3 points(n, 3);
     out_.surface_normals.resize(n, 3);
-    out_.surface_kinds.resize(static_cast<std::size_t>(n));
-    parallel_for(static_cast<std::size_t>(n), 1024, [&](std::size_t begin, std::size_t end) {
+    out_.surface_kinds.resize(std::size_t(n));
+    parallel_for(std::size_t(n), 1024, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         RandomNumbers random(options_.seed, on_surface, i);
-        const auto row = static_cast<Eigen::Index>(i);
+        const auto row = index(i);
         const bool is_sharp = row < sharp;
         const PointOnTriangle at = (is_sharp ? by_turn_ : by_area_).choose(random);
         points.row(row) = at.point;
@@ -187,14 +188,14 @@ class Sampler {
     const int n = options_.space, uniform = share_of(options_.uniform, n),
               curvature = std::min(share_of(options_.curvature, n), n - uniform);
     MatX3 points(n, 3), normals(n, 3);
-    out_.kinds.resize(static_cast<std::size_t>(n));
+    out_.kinds.resize(std::size_t(n));
     out_.deviations = VecX::Zero(n);
     MatX3 noise = MatX3::Zero(n, 3);
     const std::size_t scales = options_.scales.size();
-    parallel_for(static_cast<std::size_t>(n), 1024, [&](std::size_t begin, std::size_t end) {
+    parallel_for(std::size_t(n), 1024, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         RandomNumbers random(options_.seed, in_space, i);
-        const auto row = static_cast<Eigen::Index>(i);
+        const auto row = index(i);
         if (row < uniform) {
           for (int a = 0; a < 3; ++a) points(row, a) = 2 * random.uniform() - 1;
           normals.row(row).setZero();

@@ -32,9 +32,8 @@ std::string type_of(SampleNumbers numbers) {
 /// Rows of numbers, or one axis for a vector.
 template <class Numbers>
 io::NamedArray array_of(std::string name, const Numbers& values, SampleNumbers numbers) {
-  io::NamedArray array{
-      std::move(name), type_of(numbers), {static_cast<std::size_t>(values.rows())}, {}};
-  if (values.cols() > 1) array.shape.push_back(static_cast<std::size_t>(values.cols()));
+  io::NamedArray array{std::move(name), type_of(numbers), {std::size_t(values.rows())}, {}};
+  if (values.cols() > 1) array.shape.push_back(std::size_t(values.cols()));
   std::ostringstream out;
   for (Eigen::Index r = 0; r < values.rows(); ++r)
     for (Eigen::Index c = 0; c < values.cols(); ++c) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "littoral/error.h"
 
@@ -23,25 +24,24 @@ constexpr int fewest_nodes = 5;
 }  // namespace
 
 MatX3 positions(const Grid& grid, const std::vector<Eigen::Index>& nodes) {
-  MatX3 at(static_cast<Eigen::Index>(nodes.size()), 3);
+  MatX3 at(index(nodes.size()), 3);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Eigen::Index x = nodes[i] % grid.n[0], yz = nodes[i] / grid.n[0];
-    at.row(static_cast<Eigen::Index>(i)) = grid.point(
-        static_cast<int>(x), static_cast<int>(yz % grid.n[1]), static_cast<int>(yz / grid.n[1]));
+    at.row(index(i)) = grid.point(static_cast<int>(x), static_cast<int>(yz % grid.n[1]),
+                                  static_cast<int>(yz / grid.n[1]));
   }
   return at;
 }
 
 std::vector<Eigen::Index> compared_nodes(const Grid& grid) {
-  const auto n = static_cast<Eigen::Index>(grid.n_nodes());
+  const auto n = index(grid.n_nodes());
   std::vector<Eigen::Index> nodes;
   if (n <= most_nodes) {
-    nodes.resize(static_cast<std::size_t>(n));
+    nodes.resize(std::size_t(n));
     std::iota(nodes.begin(), nodes.end(), 0);
   } else {  // multiples of the golden ratio lie in no pattern of the axes
     for (int i = 0; i < most_nodes; ++i)
-      nodes.push_back(
-          static_cast<Eigen::Index>(std::fmod(i * 0.6180339887498949, 1) * static_cast<double>(n)));
+      nodes.push_back(index(std::fmod(i * 0.6180339887498949, 1) * static_cast<double>(n)));
   }
   return nodes;
 }
@@ -70,7 +70,7 @@ void check_beside_automatic(const PolygonSoup& input, const Grid& grid,
   double difference = 0, size = 0;
   int compared = 0, inside = 0, one_alone = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = index(i);
     const double here = values[row], there = expected[row];
     // Next to the surface methods differ by what they smooth.
     if (!std::isfinite(here) || !(std::abs(there) > grid.spacing.maxCoeff())) continue;

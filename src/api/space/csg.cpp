@@ -5,6 +5,7 @@
 #include "api/space/beside_automatic.h"
 #include "api/space/sampled_distance.h"
 #include "api/space/valued_sources.h"
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -136,15 +137,14 @@ SpaceAnswer grid_answer(const CsgShapes& shapes, const Grid& grid, Task task, Re
   describe(shapes, report);
   const Task rest = task.stage(0.1, "combining");
   VecX combined(values.front().size());
-  parallel_for(
-      static_cast<std::size_t>(combined.size()), 4096, [&](std::size_t begin, std::size_t end) {
-        rest.checkpoint(static_cast<double>(begin) / static_cast<double>(combined.size()));
-        std::vector<DistanceSample> samples(n);
-        for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i) {
-          for (std::size_t s = 0; s < n; ++s) samples[s].value = values[s][i];
-          combined[i] = combine(shapes.csg, samples).value + 0.0;  // no -0
-        }
-      });
+  parallel_for(std::size_t(combined.size()), 4096, [&](std::size_t begin, std::size_t end) {
+    rest.checkpoint(static_cast<double>(begin) / static_cast<double>(combined.size()));
+    std::vector<DistanceSample> samples(n);
+    for (auto i = index(begin); i < index(end); ++i) {
+      for (std::size_t s = 0; s < n; ++s) samples[s].value = values[s][i];
+      combined[i] = combine(shapes.csg, samples).value + 0.0;  // no -0
+    }
+  });
   return {std::move(combined), {}, {}, {}};
 }
 

@@ -47,10 +47,10 @@ NearestOnInput::NearestOnInput(const PolygonSoup& input) {
       face_of_.push_back(f);
       continue;
     }
-    face.points.resize(static_cast<Eigen::Index>(cycle.size()), 3);
+    face.points.resize(index(cycle.size()), 3);
     std::vector<int> local(cycle.size());
     for (std::size_t k = 0; k < cycle.size(); ++k) {
-      face.points.row(static_cast<Eigen::Index>(k)) = input.points.row(cycle[k]);
+      face.points.row(index(k)) = input.points.row(cycle[k]);
       local[k] = static_cast<int>(k);
     }
     face.add_face(local);
@@ -59,8 +59,7 @@ NearestOnInput::NearestOnInput(const PolygonSoup& input) {
       corners.push_back(cycle[k]);
     }
   }
-  corners_ =
-      Eigen::Map<const MatX3i>(corners.data(), static_cast<Eigen::Index>(face_of_.size()), 3);
+  corners_ = Eigen::Map<const MatX3i>(corners.data(), index(face_of_.size()), 3);
   triangles_ = std::make_unique<const TriangleBvh>(input.points, corners_);
 }
 

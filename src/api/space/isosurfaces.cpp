@@ -130,7 +130,7 @@ std::vector<Isosurface> wall_isosurfaces(const Volume& distance, const std::vect
                                    rounded_text(sides[2 * i + 1].level));
     for (int f = 0; f < inner.n_faces(); ++f)
       std::reverse(inner.corners.begin() + inner.face_offsets[f],
-                   inner.corners.begin() + inner.face_offsets[static_cast<std::size_t>(f) + 1]);
+                   inner.corners.begin() + inner.face_offsets[std::size_t(f) + 1]);
     PolygonSoup wall = join_isosurfaces({outer, sides[2 * i + 1]});
     wall.scalars.clear();
     int open_edges = 0;

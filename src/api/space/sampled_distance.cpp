@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/index.h"
 #include "base/stable_length.h"
 #include "littoral/error.h"
 
@@ -14,7 +15,7 @@ SampledDistance::SampledDistance(Volume field) : field_(std::move(field)) {
   const Grid& grid = field_.grid;
   for (int n : grid.n)
     if (n < 2) throw InputError("a volume needs two nodes along each axis at least");
-  if (static_cast<std::size_t>(field_.values.size()) != grid.n_nodes())
+  if (std::size_t(field_.values.size()) != grid.n_nodes())
     throw InputError("the volume has " + std::to_string(field_.values.size()) + " values for " +
                          std::to_string(grid.n_nodes()) + " nodes",
                      "sizes-differ");
@@ -44,7 +45,7 @@ DistanceSample SampledDistance::at(const Vec3& x) const {
       w[a] = corner[a] ? t[a] : 1 - t[a];
       sign[a] = (corner[a] ? 1 : -1) / grid.spacing[a];
     }
-    const double value = field_.values[static_cast<Eigen::Index>(
+    const double value = field_.values[index(
         grid.node(cell[0] + corner[0], cell[1] + corner[1], cell[2] + corner[2]))];
     sample.value += w[0] * w[1] * w[2] * value;
     sample.gradient +=

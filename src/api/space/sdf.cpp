@@ -8,6 +8,7 @@
 #include "api/space/input_queries.h"
 #include "api/space/tori_cloud.h"
 #include "api/space/valued_sources.h"
+#include "base/index.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -81,7 +82,7 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
                            number_text(spacing) +
                            " apart; take a larger option spacing or smaller option bounds",
                        "too-large");
-    const auto s = static_cast<std::size_t>(a);
+    const auto s = std::size_t(a);
     if (request.bounds) {
       grid.n[s] = std::max(2, static_cast<int>(std::lround(cells)) + 1);
       grid.spacing[a] = box.size()[a] / (grid.n[s] - 1);
@@ -144,7 +145,7 @@ VecX query_winding(const PolygonSoup& input, const MatX3& queries, const SpaceRe
 VecX grid_winding(const PolygonSoup& input, const Grid& grid, const SpaceRequest& request,
                   Task task, Report& report, double smoothing) {
   check_grid(grid);
-  MatX3 nodes(static_cast<Eigen::Index>(grid.n_nodes()), 3);
+  MatX3 nodes(index(grid.n_nodes()), 3);
   Eigen::Index row = 0;
   for (int k = 0; k < grid.n[2]; ++k)
     for (int j = 0; j < grid.n[1]; ++j)

@@ -8,6 +8,7 @@
 #include "api/space/frame.h"
 #include "api/space/input_queries.h"
 #include "api/space/space_input.h"
+#include "base/index.h"
 #include "littoral/error.h"
 #include "spatial/triangulate.h"
 
@@ -33,7 +34,7 @@ MatX3 spread_over(const PolygonSoup& surface, int n) {
   int f = 0;
   for (int i = 0; i < n; ++i) {
     const double reached = (i + 0.5) / n * sum.back();
-    while (f + 1 < triangles.n_faces() && sum[static_cast<std::size_t>(f) + 1] <= reached) ++f;
+    while (f + 1 < triangles.n_faces() && sum[std::size_t(f) + 1] <= reached) ++f;
     double u = std::fmod(0.5 + first_step * (i + 1), 1),
            v = std::fmod(0.5 + second_step * (i + 1), 1);
     if (u + v > 1) {
@@ -57,9 +58,7 @@ OneSidedDistance one_sided_distance(const PolygonSoup& from, const PolygonSoup& 
   out.mean = distances.sum() / n;
   out.rms = distances.stableNorm() / std::sqrt(n);
   std::sort(distances.begin(), distances.end());
-  const auto quantile = [&](double share) {
-    return distances[static_cast<Eigen::Index>(std::floor(share * (n - 1)))];
-  };
+  const auto quantile = [&](double share) { return distances[index(std::floor(share * (n - 1)))]; };
   out.median = quantile(0.5);
   out.p95 = quantile(0.95);
   out.p99 = quantile(0.99);

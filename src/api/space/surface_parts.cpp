@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 
 namespace littoral {
 
@@ -12,8 +13,8 @@ SurfaceParts parts_of(const PolygonSoup& surface) {
   for (int f = 0; f < surface.n_faces(); ++f)
     for (const int v : surface.face(f)) sets.join(surface.face(f)[0], v);
   SurfaceParts parts;
-  std::vector<int> number(static_cast<std::size_t>(surface.n_vertices()), -1);  // by root
-  std::vector<int> first;                                                       // a vertex of each
+  std::vector<int> number(std::size_t(surface.n_vertices()), -1);  // by root
+  std::vector<int> first;                                          // a vertex of each
   for (int f = 0; f < surface.n_faces(); ++f) {
     const auto face = surface.face(f);
     int& part = number[sets.find(face[0])];
@@ -37,7 +38,7 @@ SurfaceParts parts_of(const PolygonSoup& surface) {
 
 PolygonSoup with_parts(const PolygonSoup& surface, const SurfaceParts& parts,
                        const std::vector<char>& stays) {
-  std::vector<int> number(static_cast<std::size_t>(surface.n_vertices()), -1);
+  std::vector<int> number(std::size_t(surface.n_vertices()), -1);
   for (int f = 0; f < surface.n_faces(); ++f)
     if (stays[parts.of_face[f]])
       for (const int v : surface.face(f)) number[v] = 0;
@@ -47,8 +48,7 @@ PolygonSoup with_parts(const PolygonSoup& surface, const SurfaceParts& parts,
     if (at == 0) at = n++;
   out.points.resize(n, 3);
   for (std::size_t v = 0; v < number.size(); ++v)
-    if (number[v] >= 0)
-      out.points.row(number[v]) = surface.points.row(static_cast<Eigen::Index>(v));
+    if (number[v] >= 0) out.points.row(number[v]) = surface.points.row(index(v));
   for (int f = 0; f < surface.n_faces(); ++f) {
     if (!stays[parts.of_face[f]]) continue;
     std::array<int, 3> face;

@@ -57,7 +57,7 @@ double thickness(const PointwiseDistance& distance, const Vec3& x, const Vec3& t
 void warn_of_thin_parts(const PointwiseDistance& distance, const OrientedPoints& samples,
                         const Grid& grid, const VecX& values, Report& report) {
   const double h = grid.spacing.maxCoeff();
-  const auto n = static_cast<std::size_t>(samples.size());
+  const auto n = std::size_t(samples.size());
   std::vector<char> sides(n);
   parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -27,7 +28,7 @@ PolygonSoup cloud_of_tori(const MatX3& points, const std::vector<Torus>& tori) {
   }
   for (std::size_t i = 0; i < tori.size(); ++i) {
     const Torus& t = tori[i];
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = index(i);
     cloud.normals.row(row) = t.n;
     const std::array<double, names.size()> values = {
         t.q[0], t.q[1], t.q[2], t.e1[0], t.e1[1], t.e1[2], t.k1, t.k2, t.rho, t.log_weight};
@@ -44,9 +45,9 @@ bool has_tori(const PolygonSoup& cloud) {
 }
 
 std::vector<Torus> tori_of_cloud(const PolygonSoup& cloud) {
-  std::vector<Torus> tori(static_cast<std::size_t>(cloud.n_vertices()));
+  std::vector<Torus> tori(std::size_t(cloud.n_vertices()));
   for (std::size_t i = 0; i < tori.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = index(i);
     std::array<double, names.size()> v{};
     bool finite = cloud.points.row(row).allFinite() && cloud.normals.row(row).allFinite();
     for (std::size_t c = 0; c < names.size(); ++c) {

@@ -128,7 +128,7 @@ void frame_thin_parts(const CsgShapes& shapes, const Grid& grid, double level, i
       if ((x.array() >= grid.origin.array() && x.array() <= high.array()).all())
         inside.push_back(x);
   const Eigen::Index points = scene.points.rows(), triangles = scene.triangles.rows();
-  const auto n = static_cast<Eigen::Index>(inside.size());
+  const auto n = index(inside.size());
   scene.points.conservativeResize(points + n, 3);
   scene.triangles.conservativeResize(triangles + n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {

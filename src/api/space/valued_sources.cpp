@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -21,7 +22,7 @@ namespace {
 
 /// Faces, or points of a cloud.
 std::size_t n_sources(const PolygonSoup& input) {
-  return static_cast<std::size_t>(input.n_faces() > 0 ? input.n_faces() : input.n_vertices());
+  return std::size_t(input.n_faces() > 0 ? input.n_faces() : input.n_vertices());
 }
 
 /// The input with its values, in a frame's units.
@@ -84,10 +85,10 @@ class CountedFromValues final : public PointwiseDistance {
   /// points x 3; sides: what a method says there, negative inside, or empty.
   VecX at_points(const MatX3& points, const VecX& sides, const Task& task) const {
     VecX out(points.rows());
-    const auto n = static_cast<std::size_t>(points.rows());
+    const auto n = std::size_t(points.rows());
     parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
       task.checkpoint(static_cast<double>(begin) / static_cast<double>(n));
-      for (auto i = static_cast<Eigen::Index>(begin); i < static_cast<Eigen::Index>(end); ++i)
+      for (auto i = index(begin); i < index(end); ++i)
         out[i] = counted(points.row(i), sides.size() > 0 ? sides[i] : 0);
     });
     return out;
@@ -151,7 +152,7 @@ void tell_shadowed(const ValuedInput& input, const Task& task, Report& report) {
   };
   for (std::size_t i = 0; i < input.values.size(); ++i) {
     if (i % 1024 == 0) task.checkpoint();
-    const auto row = static_cast<Eigen::Index>(i);
+    const auto row = index(i);
     if (faces.rows() == 0) {
       look(i, input.surface.points.row(row));
       continue;

@@ -49,8 +49,7 @@ std::optional<std::pair<double, bool>> cell_slope(const Volume& volume, int i, i
   double low = infinity, high = -low;
   for (int c = 0; c < 8; ++c) {
     const int a[3] = {c & 1, c >> 1 & 1, c >> 2};
-    const double value =
-        volume.values[static_cast<Eigen::Index>(volume.grid.node(i + a[0], j + a[1], k + a[2]))];
+    const double value = volume.values[index(volume.grid.node(i + a[0], j + a[1], k + a[2]))];
     if (!std::isfinite(value)) return std::nullopt;
     low = std::min(low, value);
     high = std::max(high, value);
@@ -112,7 +111,7 @@ InsideShares inside_shares(const Volume& mask, bool flip) {
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
-        const double value = mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))];
+        const double value = mask.values[index(mask.grid.node(i, j, k))];
         const bool is_inside = (value != 0) != flip;
         const bool is_border =
             i == 0 || j == 0 || k == 0 || i + 1 == n[0] || j + 1 == n[1] || k + 1 == n[2];
@@ -128,12 +127,12 @@ Volume with_border(const Volume& mask, bool flip) {
   for (int d = 0; d < 3; ++d) out.grid.n[d] = mask.grid.n[d] + 2;
   out.grid.spacing = mask.grid.spacing;
   out.grid.origin = mask.grid.origin - mask.grid.spacing;
-  out.values = VecX::Ones(static_cast<Eigen::Index>(out.grid.n_nodes()));
+  out.values = VecX::Ones(index(out.grid.n_nodes()));
   for (int k = 0; k < mask.grid.n[2]; ++k)
     for (int j = 0; j < mask.grid.n[1]; ++j)
       for (int i = 0; i < mask.grid.n[0]; ++i)
-        if ((mask.values[static_cast<Eigen::Index>(mask.grid.node(i, j, k))] != 0) != flip)
-          out.values[static_cast<Eigen::Index>(out.grid.node(i + 1, j + 1, k + 1))] = 0;
+        if ((mask.values[index(mask.grid.node(i, j, k))] != 0) != flip)
+          out.values[index(out.grid.node(i + 1, j + 1, k + 1))] = 0;
   return out;
 }
 

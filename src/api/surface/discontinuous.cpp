@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "api/surface/winding.h"
+#include "base/index.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/split_at_jumps.h"
 #include "littoral/error.h"
@@ -108,7 +109,7 @@ SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTri
     if (const int t = T.triangle_of_face[f]; t >= 0)
       key.row(f) = field.piece.row(t).cast<std::int64_t>();
   SplitSurface split = split_at_jumps(mesh, key);
-  VecX distance(static_cast<Eigen::Index>(split.corner.size()));
+  VecX distance(index(split.corner.size()));
   for (Eigen::Index i = 0; i < distance.size(); ++i) {
     const auto [f, k] = split.corner[i];
     const int v = mesh.face(f)[k], t = T.triangle_of_face[f];

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "littoral/error.h"
 
@@ -90,11 +91,10 @@ PolygonSoup join_lines(const SurfaceMesh& mesh, const std::vector<LevelLines>& l
       out.lines.push_back(std::move(indices));
     }
   }
-  out.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    out.points.row(static_cast<Eigen::Index>(i)) = points[i];
-  out.scalars["level"] = Eigen::Map<const VecX>(level_of_point.data(),
-                                                static_cast<Eigen::Index>(level_of_point.size()));
+  out.points.resize(index(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) out.points.row(index(i)) = points[i];
+  out.scalars["level"] =
+      Eigen::Map<const VecX>(level_of_point.data(), index(level_of_point.size()));
   return out;
 }
 

@@ -35,7 +35,7 @@ PolygonSoup valid_faces(const PolygonSoup& soup) {
 
 int count_boundary_loops(const SurfaceMesh& mesh, int& n_edges) {
   DisjointSets sets(mesh.n_vertices());
-  std::vector<char> on(static_cast<std::size_t>(mesh.n_vertices()), 0);
+  std::vector<char> on(std::size_t(mesh.n_vertices()), 0);
   n_edges = 0;
   for (int e = 0; e < mesh.n_edges(); ++e) {
     if (mesh.edge_faces(e).size() != 1) continue;
@@ -108,7 +108,7 @@ EdgeTurns orientation_of(const SurfaceMesh& mesh) {
 }
 
 int count_duplicate_faces(const SurfaceMesh& mesh) {
-  std::vector<std::vector<int>> keys(static_cast<std::size_t>(mesh.n_faces()));
+  std::vector<std::vector<int>> keys(std::size_t(mesh.n_faces()));
   for (int f = 0; f < mesh.n_faces(); ++f) {
     keys[f].assign(mesh.face(f).begin(), mesh.face(f).end());
     std::sort(keys[f].begin(), keys[f].end());
@@ -213,7 +213,7 @@ std::vector<InfoEntry> surface_info(const PolygonSoup& soup) {
   std::vector<std::pair<std::string, std::vector<double>>> by_size;
   for (const auto& [size, n] : sizes) by_size.push_back({std::to_string(size), {n}});
 
-  std::vector<char> used(static_cast<std::size_t>(soup.n_vertices()), 0);
+  std::vector<char> used(std::size_t(soup.n_vertices()), 0);
   for (int v : soup.corners) used[v] = 1;
   Vec3 low = Vec3::Constant(infinity), high = -low;
   int n_bad = 0, n_used = 0;

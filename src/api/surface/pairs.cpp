@@ -23,16 +23,16 @@ namespace {
 
 /// The faces of one component, and the vertices they use.
 std::pair<PolygonSoup, std::vector<int>> component_of(const SurfaceMesh& mesh, int component) {
-  std::vector<int> vertices, number(static_cast<std::size_t>(mesh.n_vertices()), -1);
+  std::vector<int> vertices, number(std::size_t(mesh.n_vertices()), -1);
   for (int v = 0; v < mesh.n_vertices(); ++v)
     if (mesh.vertex_component()[v] == component) {
       number[v] = static_cast<int>(vertices.size());
       vertices.push_back(v);
     }
   PolygonSoup soup;
-  soup.points.resize(static_cast<Eigen::Index>(vertices.size()), 3);
+  soup.points.resize(index(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i)
-    soup.points.row(static_cast<Eigen::Index>(i)) = mesh.point(vertices[i]);
+    soup.points.row(index(i)) = mesh.point(vertices[i]);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const auto face = mesh.face(f);
     if (mesh.vertex_component()[face[0]] != component) continue;
@@ -142,7 +142,7 @@ MatX symmetric(const SurfaceMesh& mesh, const Symmetric& options, Task& task, Re
     compare_with_exact(part, *T, U, task, one);
     for (std::size_t j = 0; j < vertices.size(); ++j)
       for (std::size_t i = 0; i < vertices.size(); ++i)
-        D(vertices[i], vertices[j]) = U(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        D(vertices[i], vertices[j]) = U(index(i), index(j));
   }
   merge_components(of_components, report);
   if (of_components.empty())
@@ -231,7 +231,7 @@ MatX distance_rows(const Solver<SurfaceDomain>& solver, const SurfaceDomain& dom
   const auto n = points.size();
   const Eigen::Index columns = kept.of ? kept.size : mesh.n_vertices();
   check_matrix(n, columns, static_cast<double>(n));
-  MatX D(static_cast<Eigen::Index>(n), columns);
+  MatX D(index(n), columns);
   const Stopwatch watch(report, "solve");
   if (n == 0) return D;
   const auto put_row = [&](std::size_t i, VecX& values) {
@@ -297,7 +297,7 @@ PairsAnswer pair_distances(const SurfaceDomain& domain, const std::vector<int>& 
                        "no-such-element");
   std::vector<int> rows = vertices;
   if (rows.empty()) {
-    rows.resize(static_cast<std::size_t>(mesh.n_vertices()));
+    rows.resize(std::size_t(mesh.n_vertices()));
     std::iota(rows.begin(), rows.end(), 0);
   }
   const bool all = vertices.empty();

@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "base/index.h"
+
 namespace littoral {
 
 PolygonSoup subdivided(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int n,
@@ -15,7 +17,7 @@ PolygonSoup subdivided(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
     values.push_back(at_vertices[v]);
   }
   PolygonSoup soup;
-  std::vector<int> first_on_edge(static_cast<std::size_t>(mesh.n_edges()), -1);
+  std::vector<int> first_on_edge(std::size_t(mesh.n_edges()), -1);
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const int triangle = T.triangle_of_face[f];
     if (triangle < 0) continue;
@@ -51,11 +53,9 @@ PolygonSoup subdivided(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
         if (i + j + 1 < n) soup.add_face(std::array{id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
       }
   }
-  soup.points.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t v = 0; v < points.size(); ++v)
-    soup.points.row(static_cast<Eigen::Index>(v)) = points[v];
-  soup.scalars["distance"] =
-      Eigen::Map<const VecX>(values.data(), static_cast<Eigen::Index>(values.size()));
+  soup.points.resize(index(points.size()), 3);
+  for (std::size_t v = 0; v < points.size(); ++v) soup.points.row(index(v)) = points[v];
+  soup.scalars["distance"] = Eigen::Map<const VecX>(values.data(), index(values.size()));
   return soup;
 }
 

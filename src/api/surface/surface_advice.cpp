@@ -60,10 +60,10 @@ std::vector<double> inner_ball_diameters(const PolygonSoup& triangles, int sampl
   const Vec3 low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
   const double most = (high - low).norm() / 2;
   const double inside = signed_volume(points, faces, (low + high) / 2) < 0 ? 1 : -1;
-  std::vector<double> found(static_cast<std::size_t>(at.rows()), 0);
+  std::vector<double> found(std::size_t(at.rows()), 0);
   parallel_for(found.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const NearestPoint here = surface.closest_point(at.row(static_cast<Eigen::Index>(i)));
+      const NearestPoint here = surface.closest_point(at.row(index(i)));
       const Vec3 a = points.row(faces(here.face, 0)), b = points.row(faces(here.face, 1)),
                  c = points.row(faces(here.face, 2));
       const Vec3 normal = (b - a).cross(c - a).stableNormalized();

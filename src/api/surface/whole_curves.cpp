@@ -89,7 +89,7 @@ WholeCurves::Labelled WholeCurves::labelled(const std::vector<CurvePiece>& piece
   out.on = out.curves.is_cut ? made() : uncut_.get(made);
   out.labels =
       shortest_completion(*out.on->J, out.curves.times, which, weight_on_curve, task, quiet);
-  out.component.assign(static_cast<std::size_t>(out.on->J->n_faces), -1);
+  out.component.assign(std::size_t(out.on->J->n_faces), -1);
   for (int f = 0; f < cut.mesh.n_faces(); ++f)
     if (const int t = out.on->T.triangle_of_face[f]; t >= 0)
       out.component[t] = component_of(cut.parent_face[f]);
@@ -112,7 +112,7 @@ WholeSources WholeCurves::complete(const Sources& given, const PlacedSources& pl
     return whole;
   };
   const Stopwatch watch(report, "completion");
-  std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 0);
+  std::vector<char> settled(std::size_t(domain_.mesh->n_components()), 0);
   if (how != Completion::heat && has_regions_ && !all_have_ends(placed, how, report))
     settled = settle(placed, how, whole, task.stage(0.4, "integer winding numbers"), report);
   std::vector<char> open(settled.size(), 0);
@@ -145,7 +145,7 @@ bool WholeCurves::all_have_ends(const PlacedSources& placed, Completion how, Rep
 
 std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion how,
                                       WholeSources& whole, Task task, Report& report) const {
-  std::vector<char> settled(static_cast<std::size_t>(domain_.mesh->n_components()), 1);
+  std::vector<char> settled(std::size_t(domain_.mesh->n_components()), 1);
   const std::optional<Labelled> maybe = [&]() -> std::optional<Labelled> {
     try {
       return labelled(pieces_with_sides(placed),

@@ -9,6 +9,7 @@
 #include "api/surface/edge_chains.h"
 #include "api/surface/face_chains.h"
 #include "base/counted.h"
+#include "base/index.h"
 #include "base/lazy.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/split_at_jumps.h"
@@ -25,9 +26,8 @@ namespace {
 Polylines polylines(const SurfaceMesh& mesh, const VecX& times) {
   Polylines lines;
   for (const std::vector<int>& chain : edge_chains(mesh, times)) {
-    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(chain.size()), 3);
-    for (std::size_t i = 0; i < chain.size(); ++i)
-      line.row(static_cast<Eigen::Index>(i)) = mesh.point(chain[i]);
+    MatX3& line = lines.emplace_back(index(chain.size()), 3);
+    for (std::size_t i = 0; i < chain.size(); ++i) line.row(index(i)) = mesh.point(chain[i]);
   }
   return lines;
 }
@@ -54,7 +54,7 @@ PolygonSoup split_by_value(const SurfaceMesh& mesh, const std::vector<int>& tria
     }
   }
   SplitSurface split = split_at_jumps(mesh, key);
-  const auto n = static_cast<Eigen::Index>(split.corner.size());
+  const auto n = index(split.corner.size());
   VecX winding = VecX::Zero(n), region = winding, weight = VecX::Ones(n);
   for (Eigen::Index v = 0; v < n; ++v) {
     const auto [f, k] = split.corner[v];
@@ -128,7 +128,7 @@ Polylines polylines(const SurfaceMesh& mesh, const std::vector<CurvePiece>& piec
   for (std::size_t i = 0; i < pieces.size();) {
     std::size_t end = i;
     while (end < pieces.size() && pieces[end].curve == pieces[i].curve) ++end;
-    MatX3& line = lines.emplace_back(static_cast<Eigen::Index>(end - i) + 1, 3);
+    MatX3& line = lines.emplace_back(index(end - i) + 1, 3);
     const auto at = [&](const CurvePiece& piece, const std::array<double, 3>& b) {
       return mesh.position(SurfacePoint::in_face(piece.face, b[0], b[1], b[2]));
     };

@@ -112,7 +112,7 @@ class AutomaticThroughTets {
     for (std::size_t i = 0; i < sources.vertices.size(); ++i)
       by_value[value_of(i)].push_back(sources.vertices[i]);
     for (const auto& [value, vertices] : by_value) {
-      MatX3i points(static_cast<Eigen::Index>(vertices.size()), 3);
+      MatX3i points(index(vertices.size()), 3);
       for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i).setConstant(vertices[i]);
       measure(points, false, value);
     }
@@ -194,8 +194,7 @@ class AutomaticThroughTets {
   TetPathSources in_tets(const TetProblem& problem, const MatX3i& faces) const {
     const auto is_in = [](const TetPoint& p) { return p.tet >= 0; };
     if (ops_.n_components == 1 && std::all_of(problem.places.begin(), problem.places.end(), is_in))
-      return {problem.surface.points, faces,
-              std::vector<int>(static_cast<std::size_t>(faces.rows()), 0), false};
+      return {problem.surface.points, faces, std::vector<int>(std::size_t(faces.rows()), 0), false};
     const SurfaceInTets cut = surface_in_tets(mesh_, sight_, problem.surface.points, faces,
                                               problem.samples.points, problem.places);
     TetPathSources from{cut.points, cut.faces, {}, false};
@@ -204,12 +203,10 @@ class AutomaticThroughTets {
   }
 
   void set_sides(const SettledSides& settled, VecX& side) const {
-    parallel_for(
-        static_cast<std::size_t>(side.size()), 1024, [&](std::size_t begin, std::size_t end) {
-          for (auto v = static_cast<Eigen::Index>(begin); v < static_cast<Eigen::Index>(end); ++v)
-            side[v] =
-                settled.inside(mesh_.points.row(v), WindingNumber::sign_accuracy) > 0 ? -1 : 1;
-        });
+    parallel_for(std::size_t(side.size()), 1024, [&](std::size_t begin, std::size_t end) {
+      for (auto v = index(begin); v < index(end); ++v)
+        side[v] = settled.inside(mesh_.points.row(v), WindingNumber::sign_accuracy) > 0 ? -1 : 1;
+    });
   }
 
   static VecX signed_by(const VecX& side, const VecX& distance) {
@@ -248,7 +245,7 @@ class AutomaticThroughTets {
           "surfaces in tets of different values that are clouds or do not bound, one by one, "
           "cannot "
           "be completed; method signed-heat takes them as level sets of one function");
-    std::vector<char> open(static_cast<std::size_t>(ops_.n_components), sides ? 0 : 1);
+    std::vector<char> open(std::size_t(ops_.n_components), sides ? 0 : 1);
     if (sides) contradictions(phi, &open);
     const VecX heat = by_heat(sides ? soup_of(sides->points, sides->faces) : problem.surface,
                               task.stage(0.6, "signed heat"), report);
@@ -325,9 +322,9 @@ class AutomaticThroughTets {
     points << from.points, zero.points;
     from.points = std::move(points);
     const Eigen::Index old = from.faces.rows();
-    from.faces.conservativeResize(old + static_cast<Eigen::Index>(added.size()), 3);
+    from.faces.conservativeResize(old + index(added.size()), 3);
     for (std::size_t i = 0; i < added.size(); ++i)
-      for (int k = 0; k < 3; ++k) from.faces(old + static_cast<Eigen::Index>(i), k) = added[i][k];
+      for (int k = 0; k < 3; ++k) from.faces(old + index(i), k) = added[i][k];
     if (!sides) return;
     report.sizes.emplace_back("completed share of the zero set", area / (area + given));
     if (area > given)

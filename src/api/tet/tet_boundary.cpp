@@ -35,7 +35,7 @@ class CutBoundary {
     if (corners.size() >= 3) soup_.add_face(corners);
   }
   PolygonSoup soup(const std::string& field) {
-    soup_.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
+    soup_.points.resize(index(points_.size()), 3);
     VecX at(soup_.points.rows());
     for (Eigen::Index i = 0; i < at.size(); ++i) {
       soup_.points.row(i) = points_[i].head<3>();
@@ -85,7 +85,7 @@ class CutBoundary {
 
 PolygonSoup triangles_of(const io::TetFile& file, const MatX3i& triangles) {
   PolygonSoup soup;
-  std::vector<int> number(static_cast<std::size_t>(file.mesh.n_vertices()), -1), kept;
+  std::vector<int> number(std::size_t(file.mesh.n_vertices()), -1), kept;
   for (const int v : triangles.reshaped<Eigen::RowMajor>()) {
     int& n = number[v];
     if (n < 0) {

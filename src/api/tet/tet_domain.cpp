@@ -6,6 +6,7 @@
 
 #include "api/space/space_input.h"
 #include "base/counted.h"
+#include "base/index.h"
 #include "base/platform/memory.h"
 #include "base/run_interruptible.h"
 #include "sources/space/tet_source_values.h"
@@ -38,7 +39,7 @@ const std::vector<double>& checked_values(const TetSources& sources) {
   const PolygonSoup& surface = sources.surface;
   const int of_surface = surface.n_faces() > 0 ? surface.n_faces() : surface.n_vertices();
   const std::size_t n = sources.vertices.empty() && !sources.boundary
-                            ? static_cast<std::size_t>(of_surface)
+                            ? std::size_t(of_surface)
                             : sources.vertices.size() + (sources.boundary ? 1 : 0);
   const std::vector<double>& values = sources.values;
   if (values.size() > 1 && values.size() != n)
@@ -57,7 +58,7 @@ std::vector<int> TetProblem::tets_with_sources() const {
   for (const TetPoint& p : places)
     if (p.tet >= 0 && ops->volumes[p.tet] > 0) tets.push_back(p.tet);
   if (!vertices.empty()) {
-    std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
+    std::vector<char> wanted(std::size_t(mesh->n_vertices()), 0);
     for (int v : vertices) wanted[v] = 1;
     for (int t = 0; t < mesh->n_tets(); ++t)
       for (int k = 0; k < 4; ++k)
@@ -69,7 +70,7 @@ std::vector<int> TetProblem::tets_with_sources() const {
 }
 
 std::vector<char> TetProblem::reached() const {
-  std::vector<char> out(static_cast<std::size_t>(ops->n_components), 0);
+  std::vector<char> out(std::size_t(ops->n_components), 0);
   for (const int t : tets_with_sources()) out[ops->component[mesh->tets(t, 0)]] = 1;
   if (std::count(out.begin(), out.end(), 1) == 0)
     throw InputError("no source vertex belongs to a tet", "nothing-there");
@@ -99,7 +100,7 @@ TetProblem TetProblem::of_value(double counted) const {
   out.places.clear();
   for (std::size_t i = 0; i < sample_values.size(); ++i) {
     if (sample_values[i] != counted) continue;
-    own.push_back(static_cast<Eigen::Index>(i));
+    own.push_back(index(i));
     out.places.push_back(places[i]);
   }
   out.samples = {samples.points(own, Eigen::all), samples.normals(own, Eigen::all),
@@ -114,7 +115,7 @@ std::map<int, TetNodeDistance> TetProblem::known(const std::vector<Eigen::Vector
     throw UnsupportedError(
         "sources of different values in tets need one of the methods auto and signed-heat");
   if (!vertices.empty()) {
-    std::vector<char> wanted(static_cast<std::size_t>(mesh->n_vertices()), 0);
+    std::vector<char> wanted(std::size_t(mesh->n_vertices()), 0);
     for (const int v : vertices) wanted[v] = 1;
     std::map<int, TetNodeDistance> out;
     for (int t = 0; t < mesh->n_tets(); ++t)
@@ -207,7 +208,7 @@ void TetDiscretization::warn_of_shadowed(const TetProblem& problem, Report& repo
 /// The surface, sampled, and where the samples lie in the mesh.
 void TetDiscretization::place(TetProblem& placed, const TetSources& sources,
                               const std::vector<double>& values, Task& task, Report& report) const {
-  std::vector<int> all(static_cast<std::size_t>(mesh_->n_tets()));
+  std::vector<int> all(std::size_t(mesh_->n_tets()));
   std::iota(all.begin(), all.end(), 0);
   const double max_side = mean_edge(*mesh_, all);
   bounding_box(sources.surface);  // complains about what cannot be placed

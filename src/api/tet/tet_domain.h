@@ -113,7 +113,7 @@ Method<TetDomain> make_tet_method(MethodInfo info, const OptionTable<S>& table, 
              Report& report) {
         const auto on = std::make_shared<const TetDiscretization>(*domain.mesh, task, report);
         return [on, solve = make(on, options, hint)](const TetSources& sources, S& used, Task& t,
-                                               Report& r) -> VecX {
+                                                     Report& r) -> VecX {
           const TetProblem problem = on->problem(sources, t.stage(0.1, "placing the sources"), r);
           return (solve(problem, used, t, r) * on->unit()).array() + problem.value;
         };

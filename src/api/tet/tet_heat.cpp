@@ -36,7 +36,7 @@ struct Part {
 
 Part part_of(const TetMesh& mesh, const TetOperators& ops, int component, SolveHint hint) {
   Part part;
-  part.number.assign(static_cast<std::size_t>(mesh.n_vertices()), -1);
+  part.number.assign(std::size_t(mesh.n_vertices()), -1);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     if (ops.component[v] != component) continue;
     part.number[v] = static_cast<int>(part.vertices.size());

@@ -24,7 +24,7 @@ std::vector<P2Source<3>> sources_of(const TetProblem& problem, const P2Tets& P) 
   for (int i = 0; i < Shape::nodes; ++i) local.push_back(local_node(i));
   const auto element = [&](int t) { return P.element_of_tet[t]; };
   const auto node_of = [&](int t, int i) {
-    const auto e = static_cast<std::size_t>(element(t));
+    const auto e = std::size_t(element(t));
     return P.elements.node[e][i];
   };
   const auto known = problem.known(local, node_of, Around::alone);

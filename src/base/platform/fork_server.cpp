@@ -41,7 +41,7 @@ bool send_bytes(int to, std::string_view bytes) {
     const ssize_t sent = ::send(to, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(sent));
+    bytes.remove_prefix(std::size_t(sent));
   }
   return true;
 }
@@ -52,7 +52,7 @@ bool receive_bytes(int from, char* to, std::size_t size) {
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;
     to += got;
-    size -= static_cast<std::size_t>(got);
+    size -= std::size_t(got);
   }
   return true;
 }
@@ -116,21 +116,21 @@ void write_all(int to, std::string_view bytes) {
     const ssize_t written = ::write(to, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
+    bytes.remove_prefix(std::size_t(written));
   }
 }
 
 /// The last `most` bytes of a file, which is closed.
 std::string take_file(int file, off_t most) {
   const off_t size = ::lseek(file, 0, SEEK_END), begin = std::max<off_t>(0, size - most);
-  std::string bytes(static_cast<std::size_t>(std::max<off_t>(0, size - begin)), '\0');
+  std::string bytes(std::size_t(std::max<off_t>(0, size - begin)), '\0');
   std::size_t have = 0;
   while (have < bytes.size()) {
     const ssize_t got =
         ::pread(file, bytes.data() + have, bytes.size() - have, begin + static_cast<off_t>(have));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
-    have += static_cast<std::size_t>(got);
+    have += std::size_t(got);
   }
   bytes.resize(have);
   ::close(file);
@@ -251,7 +251,7 @@ class Server {
       if (sent < 0 && errno == EINTR) continue;
       if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
       if (sent <= 0) finish();
-      sent_ += static_cast<std::size_t>(sent);
+      sent_ += std::size_t(sent);
     }
     unsent_.clear();
     sent_ = 0;

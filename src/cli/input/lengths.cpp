@@ -14,7 +14,7 @@ std::vector<double> parse_lengths(const std::string& option, const std::string& 
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const bool per_cent = end > begin && text[end - 1] == '%';
     lengths.push_back(
-        parse_number(option, text.substr(begin, end - begin - static_cast<std::size_t>(per_cent))));
+        parse_number(option, text.substr(begin, end - begin - std::size_t(per_cent))));
     if (per_cent) lengths.back() *= size() / 100;
     begin = end + 1;
   }

@@ -1,5 +1,6 @@
 #include "cli/input/query_points.h"
 
+#include "base/index.h"
 #include "cli/input/numbers.h"
 #include "io/read.h"
 #include "io/write.h"
@@ -26,7 +27,7 @@ io::PointTable read_queries(const QueryPoints& points) {
     throw InputError("option points and option at both say where: give one", "options-conflict");
   io::PointTable queries;
   if (points.file.empty()) {
-    queries.points.resize(static_cast<Eigen::Index>(points.at.size()), 3);
+    queries.points.resize(index(points.at.size()), 3);
     for (Eigen::Index i = 0; i < queries.points.rows(); ++i)
       queries.points.row(i) = parse_position("at", points.at[i]);
     return queries;
@@ -50,7 +51,7 @@ void write_at_points(const std::string& file, const io::PointTable& queries, io:
   PolygonSoup cloud;
   cloud.points = queries.points;
   for (std::size_t c = 0; c < table.names.size(); ++c)
-    cloud.scalars[table.names[c]] = table.columns.col(static_cast<Eigen::Index>(c));
+    cloud.scalars[table.names[c]] = table.columns.col(index(c));
   io::write_surface(file, cloud);
 }
 

@@ -200,11 +200,11 @@ std::vector<double> values_of(const std::string& text, const CsgShapes& shapes,
   if (input.n_faces() > 0) {
     part = parts_of_faces(input);
   } else {
-    part.resize(static_cast<std::size_t>(input.n_vertices()));
+    part.resize(std::size_t(input.n_vertices()));
     std::iota(part.begin(), part.end(), 0);
   }
   const int n = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
-  if (values.size() != static_cast<std::size_t>(n))
+  if (values.size() != std::size_t(n))
     throw InputError("option values: there are " + std::to_string(values.size()) + " numbers for " +
                          (input.n_faces() > 0 ? counted(n, "connected part", "connected parts")
                                               : counted(n, "point", "points")),

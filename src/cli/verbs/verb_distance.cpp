@@ -70,8 +70,8 @@ std::vector<double> tet_values(const DistanceArguments& arguments, const TetSour
   if (arguments.values.empty()) return {};
   std::vector<double> values = parse_numbers("values", arguments.values);
   if (values.size() == 1) return values;
-  const std::size_t n_named = arguments.sources.size() + sources.vertices.size() +
-                              static_cast<std::size_t>(sources.boundary);
+  const std::size_t n_named =
+      arguments.sources.size() + sources.vertices.size() + std::size_t(sources.boundary);
   if (values.size() != n_named)
     throw InputError("option values: there are " + std::to_string(values.size()) + " numbers for " +
                          std::to_string(n_named) +
@@ -83,8 +83,8 @@ std::vector<double> tet_values(const DistanceArguments& arguments, const TetSour
   for (std::size_t i = 0; i < arguments.sources.size(); ++i) {
     const PolygonSoup surface = io::read_surface(arguments.sources[i]);
     of_elements.resize(
-        of_elements.size() + static_cast<std::size_t>(surface.n_faces() > 0 ? surface.n_faces()
-                                                                            : surface.n_vertices()),
+        of_elements.size() +
+            std::size_t(surface.n_faces() > 0 ? surface.n_faces() : surface.n_vertices()),
         values[i]);
   }
   return of_elements;

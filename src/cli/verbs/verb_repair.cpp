@@ -55,7 +55,7 @@ void add_options(CLI::App& verb, RepairArguments& arguments, Session& session) {
   add_space_input(verb, arguments.space, session, {io::Kind::surface, io::Kind::cloud});
   add_output_option(verb, arguments.out,
                     "the closed surface: " + io::written_extensions({io::Kind::surface}) +
-                        ", or a page or picture of it; may be repeated");
+                        ", or a page or picture of it");
   const std::string unit = std::string(" [") + length_unit_text + "]";
   verb.add_option("--error", arguments.error,
                   "refine the grid, up to 512 nodes, until no point of the result is farther than "

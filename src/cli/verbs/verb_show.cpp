@@ -7,6 +7,7 @@
 
 #include "api/space/traced_scene.h"
 #include "api/tet/tet_boundary.h"
+#include "base/index.h"
 #include "base/platform/temporary_folder.h"
 #include "cli/input/numbers.h"
 #include "cli/input/space_input.h"
@@ -76,7 +77,7 @@ Vec3 direction_of(const std::string& option, const std::string& text) {
   const std::string axis = text.substr(back || text.starts_with('+') ? 1 : 0);
   if (axis.size() == 1)
     if (const auto k = std::string_view("xyzXYZ").find(axis); k != std::string_view::npos)
-      return (back ? -1 : 1) * Vec3::Unit(static_cast<Eigen::Index>(k % 3));
+      return (back ? -1 : 1) * Vec3::Unit(index(k % 3));
   try {
     return parse_position(option, text);
   } catch (const InputError&) {

@@ -105,8 +105,7 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
   check();
   // Numbers of edges that no side has are left out, so there may be more edges than sides.
   const int most = edge_of_side.empty() ? -1 : *std::ranges::max_element(edge_of_side);
-  std::vector<int> first_of(static_cast<std::size_t>(most + 1), -1),
-      first_side(edge_of_side.size());
+  std::vector<int> first_of(std::size_t(most + 1), -1), first_side(edge_of_side.size());
   for (std::size_t c = 0; c < edge_of_side.size(); ++c) {
     int& first = first_of[edge_of_side[c]];
     if (first < 0) first = c;

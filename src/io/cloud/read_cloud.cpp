@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/counted.h"
+#include "base/index.h"
 #include "io/point_rows.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
@@ -16,13 +17,13 @@ namespace littoral::io {
 namespace {
 
 MatX3 rows_of(const std::vector<double>& numbers) {
-  return Eigen::Map<const MatX3>(numbers.data(), static_cast<Eigen::Index>(numbers.size() / 3), 3);
+  return Eigen::Map<const MatX3>(numbers.data(), index(numbers.size() / 3), 3);
 }
 
 PolygonSoup cloud_of(const std::vector<double>& points, const std::vector<double>& normals,
                      const std::string& name) {
   if (points.empty()) throw InputError(name + ": no points", "bad-file");
-  if (points.size() / 3 > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  if (points.size() / 3 > std::size_t(std::numeric_limits<int>::max()))
     throw InputError(name + ": more than 2147483647 points", "too-large");
   PolygonSoup cloud;
   cloud.points = rows_of(points);

@@ -201,7 +201,7 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
   if (!text) {
     for (std::int64_t r = 0; r < header.points; ++r)
       for (int k = 0; k < n_wanted; ++k) {
-        const auto i = static_cast<std::size_t>(where[k]);
+        const auto i = std::size_t(where[k]);
         const Field& field = header.fields[i];
         const char* at = header.data == PcdData::binary
                              ? bytes.data() + body + r * stride + offset[i]
@@ -211,7 +211,7 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
     return cloud;
   }
   LineScanner rows(bytes.substr(body), name, '#', false, header.body_line);
-  std::vector<double> row(static_cast<std::size_t>(per_row));
+  std::vector<double> row(per_row);
   for (std::int64_t r = 0; r < header.points; ++r) {
     if (!rows.next())
       rows.fail("the file ends after " + std::to_string(r) + " of " +
@@ -219,7 +219,7 @@ PolygonSoup read_pcd(std::string_view bytes, const std::string& name) {
     for (double& value : row) value = rows.number("a number");
     rows.expect_end();
     for (int k = 0; k < n_wanted; ++k) {
-      const auto i = static_cast<std::size_t>(where[k]);
+      const auto i = std::size_t(where[k]);
       put(r, k, row[column[i]]);
     }
   }

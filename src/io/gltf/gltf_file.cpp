@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "base/index.h"
 #include "io/binary.h"
 #include "io/read.h"
 #include "io/text_scan.h"
@@ -233,23 +234,22 @@ GltfFile::Numbers GltfFile::stored(const Json& view_of, const char* offset_key,
   if (begin > bytes.size() || length > bytes.size() - begin)
     fail(view_name + " runs beyond its buffer");
   const std::string_view data = bytes.substr(begin, length);
-  const std::size_t row = kind.size * static_cast<std::size_t>(columns);
+  const std::size_t row = kind.size * std::size_t(columns);
   const std::uint64_t stride = natural(view, "byteStride", view_name, row),
                       offset = natural(view_of, offset_key, where, 0);
   if (stride < row) fail(view_name + ": the stride is less than an element");
   if (count > 0 && (offset > data.size() || row > data.size() - offset ||
                     (count - 1) > (data.size() - offset - row) / stride))
     fail(where + " promises " + std::to_string(count) + " elements, " + view_name + " is shorter");
-  Numbers out(static_cast<Eigen::Index>(count), columns);
+  Numbers out(index(count), columns);
   if (stride == row)
     out.reshaped<Eigen::RowMajor>() =
         load_numbers(data.substr(std::min<std::size_t>(offset, data.size())), kind,
                      count * static_cast<std::uint64_t>(columns), std::endian::little);
   for (std::uint64_t r = 0; r < count && stride != row; ++r)
-    out.row(static_cast<Eigen::Index>(r)) =
-        load_numbers(data.substr(offset + r * stride, row), kind, static_cast<std::size_t>(columns),
-                     std::endian::little)
-            .transpose();
+    out.row(index(r)) = load_numbers(data.substr(offset + r * stride, row), kind,
+                                     std::size_t(columns), std::endian::little)
+                            .transpose();
   // Section 3.6.2.2: of signed numbers the least is -1 too.
   if (normalized && kind.family != 'f')
     out = (out / (std::ldexp(1.0, static_cast<int>(8 * kind.size) - (kind.family == 'i')) - 1))
@@ -272,7 +272,7 @@ void GltfFile::replace_sparse(const Json& sparse, std::uint64_t component, bool 
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
     if (!(at(i, 0) >= 0 && at(i, 0) < static_cast<double>(numbers.rows())))
       fail(inner + ": index " + std::to_string(i) + " is out of range");
-    numbers.row(static_cast<Eigen::Index>(at(i, 0))) = values.row(i);
+    numbers.row(index(at(i, 0))) = values.row(i);
   }
 }
 
@@ -296,7 +296,7 @@ GltfFile::Numbers GltfFile::numbers(std::uint64_t accessor, std::string_view typ
     if (count > size_)
       fail(where + " promises " + std::to_string(count) + " elements, the file has " +
            std::to_string(size_) + " bytes");
-    out = Numbers::Zero(static_cast<Eigen::Index>(count), columns);
+    out = Numbers::Zero(index(count), columns);
   }
   if (entry.contains("sparse")) replace_sparse(entry["sparse"], component, normalized, where, out);
   return out;

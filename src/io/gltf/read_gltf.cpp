@@ -39,11 +39,11 @@ class GltfReader {
   PolygonSoup read() {
     walk();
     if (coordinates_.empty()) file_.fail("no vertices");
-    const auto n = static_cast<Eigen::Index>(coordinates_.size() / 3);
+    const auto n = index(coordinates_.size() / 3);
     soup_.points = Eigen::Map<const MatX3>(coordinates_.data(), n, 3);
     if (keep_normals_) soup_.normals = Eigen::Map<const MatX3>(normals_.data(), n, 3);
     for (const auto& [field, values] : scalars_)
-      if (static_cast<Eigen::Index>(values.size()) == n)
+      if (index(values.size()) == n)
         soup_.scalars[field] = Eigen::Map<const VecX>(values.data(), n);
     return std::move(soup_);
   }
@@ -219,7 +219,7 @@ class GltfReader {
     const std::vector<GltfPart>& all = parts(mesh);
     most_ = most_copied(file_.size());
     for (const GltfPart& part : all) {
-      std::vector<int> vertices(static_cast<std::size_t>(part.points.rows()), -1);
+      std::vector<int> vertices(std::size_t(part.points.rows()), -1);
       const auto vertex = [&](int v) {
         int& known = vertices[v];
         if (known >= 0) return known;
@@ -231,7 +231,7 @@ class GltfReader {
         if (merged == static_cast<int>(numbers.size())) numbers.push_back(add(part, v, p, normal));
         known = numbers[merged];
         // Normals are kept where each vertex has exactly one.
-        const std::size_t at = 3 * static_cast<std::size_t>(known);
+        const std::size_t at = 3 * std::size_t(known);
         if (keep_normals_ && Eigen::Map<const Vec3>(&normals_[at]) != normal) keep_normals_ = false;
         return known;
       };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/index.h"
 #include "io/binary.h"
 #include "io/render/scene_style.h"
 #include "io/surface/surface_writers.h"
@@ -77,9 +78,9 @@ class GlbParts {
   /// An accessor of what is stored by `store`, an element a time.
   template <class Store>
   std::size_t add(int target, int component, const char* type, std::size_t count, Store store) {
-    const auto begin = static_cast<std::size_t>(data_.tellp());
-    for (std::size_t i = 0; i < count; ++i) store(data_, static_cast<Eigen::Index>(i));
-    const std::size_t length = static_cast<std::size_t>(data_.tellp()) - begin;
+    const auto begin = std::size_t(data_.tellp());
+    for (std::size_t i = 0; i < count; ++i) store(data_, index(i));
+    const std::size_t length = std::size_t(data_.tellp()) - begin;
     views_.push_back(
         {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", length}, {"target", target}});
     accessors_.push_back({{"bufferView", views_.size() - 1},
@@ -116,7 +117,7 @@ class GlbParts {
 };
 
 Json attributes_of(const PolygonSoup& soup, const std::string& field, GlbParts& parts) {
-  const auto n = static_cast<std::size_t>(soup.points.rows());
+  const auto n = std::size_t(soup.points.rows());
   Json attributes;
   const auto vectors = [&](const MatX3& rows, bool unit) {
     return parts.add(glb_vertices, glb_float, "VEC3", n, [&](std::ostream& out, Eigen::Index v) {

@@ -64,7 +64,7 @@ class Packer {
 std::string values_text(const VecX& values, const FieldStyle& style) {
   const double half = 0.5 * style.high - 0.5 * style.low;
   std::vector<float> parts;
-  parts.reserve(static_cast<std::size_t>(values.size()));
+  parts.reserve(std::size_t(values.size()));
   for (const double value : values) {
     const double t = half > 0 ? (0.5 * value - 0.5 * style.low) / half : 0;
     parts.push_back(std::isfinite(value) ? static_cast<float>(std::clamp(t, 0.0, 1.0))
@@ -179,8 +179,8 @@ json surface_json(const Scene& scene, const SceneFrame& frame, SceneNodes nodes)
   for (Eigen::Index v = 0; v < scene.points.rows(); ++v) positions.add(scene.points.row(v));
   json surface;
   surface["positions"] = positions.text();
-  surface["triangles"] = base64(scene.triangles.data(),
-                                static_cast<std::size_t>(scene.triangles.size()) * sizeof(int));
+  surface["triangles"] =
+      base64(scene.triangles.data(), std::size_t(scene.triangles.size()) * sizeof(int));
   if (!scene.inner_sides.empty()) surface["innerSides"] = base64(scene.inner_sides);
   if (!scene.faces.empty()) surface["faces"] = base64(scene.faces);
   const bool asked = scene.shading == Shading::occluded;

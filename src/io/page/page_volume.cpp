@@ -19,7 +19,7 @@ double part_of(double value, double low, double high) {
 // Values in 65534 steps from low to high; 65535 is infinite.
 std::string steps_text(const VecX& values, double low, double high) {
   std::vector<std::uint16_t> steps;
-  steps.reserve(static_cast<std::size_t>(values.size()));
+  steps.reserve(std::size_t(values.size()));
   for (const double value : values)
     steps.push_back(static_cast<std::uint16_t>(
         std::isfinite(value) ? std::lround(65534 * part_of(value, low, high)) : 65535));
@@ -29,7 +29,7 @@ std::string steps_text(const VecX& values, double low, double high) {
 // A cloud in the page's units.
 json cloud_json(const TracedCloud& cloud, const SceneFrame& frame) {
   std::vector<float> numbers;
-  numbers.reserve(static_cast<std::size_t>(cloud.tori.size()));
+  numbers.reserve(std::size_t(cloud.tori.size()));
   for (Eigen::Index i = 0; i < cloud.tori.rows(); ++i) {
     for (int k = 0; k < 16; ++k) {
       const double x = cloud.tori(i, k);

@@ -75,7 +75,7 @@ void show_as_discs(Scene& scene) {
   const Eigen::Index n = scene.points.rows();
   scene.discs.setZero(n, 4);
   scene.discs.leftCols<3>() = mean_normals(scene.points, scene.triangles);
-  std::vector<std::vector<double>> around(static_cast<std::size_t>(n));
+  std::vector<std::vector<double>> around(n);
   VecX covering = VecX::Zero(n);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {

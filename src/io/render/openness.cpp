@@ -27,8 +27,7 @@ Vec3 direction(int i) {
 class HeightMap {
  public:
   explicit HeightMap(int side)
-      : side_(side),
-        heights_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), nothing) {}
+      : side_(side), heights_(std::size_t(side) * std::size_t(side), nothing) {}
 
   void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
     const auto [left, right] = std::minmax({a[0], b[0], c[0]});
@@ -50,14 +49,14 @@ class HeightMap {
 
   // Takes the lowest of each pixel and its neighbours: then nothing that is flat hides itself.
   void lower() {
-    std::vector<float> row(static_cast<std::size_t>(side_));
+    std::vector<float> row(side_);
     for (const bool across : {true, false}) {
       for (int j = 0; j < side_; ++j) {
         const auto item = [&](int i) -> float& { return across ? at(i, j) : at(j, i); };
         for (int i = 0; i < side_; ++i) row[i] = item(i);
         for (int i = 0; i < side_; ++i) {
-          const auto before = static_cast<std::size_t>(std::max(0, i - 1));
-          const auto after = static_cast<std::size_t>(std::min(side_ - 1, i + 1));
+          const auto before = std::size_t(std::max(0, i - 1));
+          const auto after = std::size_t(std::min(side_ - 1, i + 1));
           item(i) = std::min({row[before], row[i], row[after]});
         }
       }
@@ -78,8 +77,7 @@ class HeightMap {
   static int first(float x) { return static_cast<int>(x + 0.5f); }
   int last(float x) const { return std::min(side_ - 1, static_cast<int>(x + 0.5f) - 1); }
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
-           static_cast<std::size_t>(x);
+    return std::size_t(y) * std::size_t(side_) + std::size_t(x);
   }
   float& at(int x, int y) { return heights_[index(x, y)]; }
 
@@ -90,7 +88,7 @@ class HeightMap {
 }  // namespace
 
 Openness openness(const MatX3& points, const MatX3i& triangles) {
-  const auto n = static_cast<std::size_t>(points.rows());
+  const auto n = std::size_t(points.rows());
   Openness out = Openness::Zero(points.rows(), 4);
   out.col(3).setOnes();
   std::vector<char> used(n, 0);
@@ -106,8 +104,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
   const Vec3 centre = 0.5 * low + 0.5 * high;
   double size = 0;  // of the ball about all
   for (std::size_t v = 0; v < n; ++v)
-    if (used[v])
-      size = std::max(size, (points.row(static_cast<Eigen::Index>(v)).transpose() - centre).norm());
+    if (used[v]) size = std::max(size, (points.row(index(v)).transpose() - centre).norm());
   if (!(size > 0) || !std::isfinite(size)) return out;
   const int side = n < 50'000 ? 256 : 512;
   const double scale = 0.5 * (side - 4) / size;
@@ -129,7 +126,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
       map.lower();
       seen[i].resize(n);
       for (std::size_t v = 0; v < n; ++v)
-        if (used[v]) seen[i][v] = map.seen(p.row(static_cast<Eigen::Index>(v)));
+        if (used[v]) seen[i][v] = map.seen(p.row(index(v)));
     }
   });
 
@@ -141,7 +138,7 @@ Openness openness(const MatX3& points, const MatX3i& triangles) {
       sum += Eigen::Vector4d(0, 0, 0, 1);
       sum.head<3>() += 3 * direction(i);
     }
-    out.row(static_cast<Eigen::Index>(v)) = (sum / directions).cast<float>().transpose();
+    out.row(index(v)) = (sum / directions).cast<float>().transpose();
   }
   return out;
 }

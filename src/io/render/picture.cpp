@@ -127,11 +127,9 @@ void resolve(const Band& band, int samples, Image& image) {
           sum += band.colour[band.at(x * samples + i, y * samples + j)].cwiseMin(255.f);
         }
       }
-      const std::size_t at =
-          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-               static_cast<std::size_t>(x));
+      const std::size_t at = 3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
       for (int k = 0; k < 3; ++k) {
-        image.rgb[at + static_cast<std::size_t>(k)] =
+        image.rgb[at + std::size_t(k)] =
             static_cast<unsigned char>(std::clamp(std::lround(sum[k] / n), 0L, 255L));
       }
     }
@@ -164,17 +162,15 @@ Image draw_picture(const Scene& scene, const PictureOptions& options) {
   const MarkRaster marks(scene, camera, samples);
 
   Image image{options.width, options.height, {}};
-  image.rgb.resize(3 * static_cast<std::size_t>(image.width) *
-                   static_cast<std::size_t>(image.height));
-  const auto bands = static_cast<std::size_t>((height + rows - 1) / rows);
+  image.rgb.resize(3 * std::size_t(image.width) * std::size_t(image.height));
+  const auto bands = std::size_t((height + rows - 1) / rows);
   parallel_for(bands, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       Band band;
       band.width = options.width * samples;
       band.y0 = static_cast<int>(b) * rows;
       band.y1 = std::min(height, band.y0 + rows);
-      const auto size =
-          static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.y1 - band.y0);
+      const auto size = std::size_t(band.width) * std::size_t(band.y1 - band.y0);
       band.nearness.assign(size, 0);
       band.colour.assign(size, Eigen::Vector3f(paper[0], paper[1], paper[2]));
       surface.draw(static_cast<int>(b), band);

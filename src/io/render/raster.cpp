@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/index.h"
 #include "base/parallel.h"
 
 namespace littoral::io {
@@ -45,7 +46,7 @@ MatX3 unsigned_normals(const MatX3& points, const MatX3i& triangles, double leng
   }
   normals.rowwise().normalize();
   // Creases stay: where a face leans more than 40 degrees from the mean, there is no common normal.
-  std::vector<bool> crease(static_cast<std::size_t>(points.rows()), false);
+  std::vector<bool> crease(std::size_t(points.rows()), false);
   for (Eigen::Index t = 0; t < n; ++t) {
     const double size = area.row(t).norm();
     for (int k = 0; k < 3; ++k) {
@@ -115,12 +116,11 @@ SurfaceRaster::SurfaceRaster(const Scene& scene, Openness open, const Camera& ca
       scale_(scale) {
   std::sort(levels_.begin(), levels_.end());
   screen_ = MatX3::Zero(scene.points.rows(), 3);
-  parallel_for(
-      static_cast<std::size_t>(scene.points.rows()), 8192, [&](std::size_t begin, std::size_t end) {
-        for (auto v = static_cast<Eigen::Index>(begin); v < static_cast<Eigen::Index>(end); ++v) {
-          screen_.row(v) = camera.project(scene.points.row(v)).transpose();
-        }
-      });
+  parallel_for(std::size_t(scene.points.rows()), 8192, [&](std::size_t begin, std::size_t end) {
+    for (auto v = index(begin); v < index(end); ++v) {
+      screen_.row(v) = camera.project(scene.points.row(v)).transpose();
+    }
+  });
   normals_ = unsigned_normals(scene.points, scene.triangles, camera.radius);
   if (style.present && !style.discrete)
     slopes_ = slope_tensors(scene.points, scene.triangles, scene.values, camera.radius);
@@ -136,15 +136,15 @@ SurfaceRaster::SurfaceRaster(const Scene& scene, Openness open, const Camera& ca
     return std::pair<int, int>(static_cast<int>(first),
                                static_cast<int>(std::clamp(high / rows, first, bands - 1.0)));
   };
-  band_offsets_.assign(static_cast<std::size_t>(bands) + 1, 0);
+  band_offsets_.assign(std::size_t(bands) + 1, 0);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     const auto [first, last] = touched(t);
-    for (int b = first; b <= last; ++b) ++band_offsets_[static_cast<std::size_t>(b) + 1];
+    for (int b = first; b <= last; ++b) ++band_offsets_[std::size_t(b) + 1];
   }
-  for (std::size_t b = 0; b < static_cast<std::size_t>(bands); ++b) {
+  for (std::size_t b = 0; b < std::size_t(bands); ++b) {
     band_offsets_[b + 1] += band_offsets_[b];
   }
-  band_triangles_.resize(static_cast<std::size_t>(band_offsets_.back()));
+  band_triangles_.resize(std::size_t(band_offsets_.back()));
   std::vector<int> next(band_offsets_.begin(), band_offsets_.end() - 1);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     const auto [first, last] = touched(t);
@@ -156,7 +156,7 @@ SurfaceRaster::SurfaceRaster(const Scene& scene, Openness open, const Camera& ca
 
 void SurfaceRaster::draw(int b, Band& band) const {
   std::vector<int> owner(band.nearness.size(), -1);
-  for (int i = band_offsets_[b]; i < band_offsets_[static_cast<std::size_t>(b) + 1]; ++i) {
+  for (int i = band_offsets_[b]; i < band_offsets_[std::size_t(b) + 1]; ++i) {
     cover(band_triangles_[i], band, owner);
   }
   for (int y = band.y0; y < band.y1; ++y) {

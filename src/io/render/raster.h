@@ -17,8 +17,7 @@ struct Band {
   std::vector<double> nearness;
   std::vector<Eigen::Vector3f> colour;
   std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
+    return std::size_t(y - y0) * std::size_t(width) + std::size_t(x);
   }
 };
 

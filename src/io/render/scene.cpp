@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "littoral/error.h"
 
@@ -38,12 +39,12 @@ Scene make_scene(const PolygonSoup& soup, const std::string& field) {
   Eigen::Index count = 0;
   bool polygons = false;
   for (int f = 0; f < soup.n_faces(); ++f) {
-    const auto corners = static_cast<Eigen::Index>(soup.face(f).size());
+    const auto corners = index(soup.face(f).size());
     count += std::max<Eigen::Index>(0, corners - 2);
     polygons |= corners > 3;
   }
   scene.triangles.resize(count, 3);
-  if (polygons) scene.inner_sides.assign(static_cast<std::size_t>(count), 0);
+  if (polygons) scene.inner_sides.assign(std::size_t(count), 0);
   Eigen::Index t = 0;
   for (int f = 0; f < soup.n_faces(); ++f) {
     const auto face = soup.face(f);
@@ -62,9 +63,9 @@ void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) 
   if (scene.points.rows() == mesh.n_vertices())
     scene.nodes = mesh.n_faces() > 0 ? SceneNodes::faces : SceneNodes::vertices;
   for (const Curve& curve : sources.curves) {
-    SceneCurve shown{MatX3(static_cast<Eigen::Index>(curve.nodes.size()), 3), curve.is_signed};
+    SceneCurve shown{MatX3(index(curve.nodes.size()), 3), curve.is_signed};
     for (std::size_t i = 0; i < curve.nodes.size(); ++i) {
-      shown.points.row(static_cast<Eigen::Index>(i)) = mesh.position(curve.nodes[i]).transpose();
+      shown.points.row(index(i)) = mesh.position(curve.nodes[i]).transpose();
     }
     scene.curves.push_back(std::move(shown));
   }
@@ -72,7 +73,7 @@ void add_sources(Scene& scene, const SurfaceMesh& mesh, const Sources& sources) 
     scene.curves.push_back({curve.points, curve.is_signed});
   }
   const Eigen::Index before = scene.source_points.rows();
-  const auto added = static_cast<Eigen::Index>(sources.points.size());
+  const auto added = index(sources.points.size());
   scene.source_points.conservativeResize(before + added, 3);
   for (Eigen::Index i = 0; i < added; ++i) {
     scene.source_points.row(before + i) = mesh.position(sources.points[i]).transpose();
@@ -115,12 +116,10 @@ void check_scene(const Scene& scene) {
       }
     }
   }
-  if (!scene.inner_sides.empty() &&
-      static_cast<Eigen::Index>(scene.inner_sides.size()) != scene.triangles.rows()) {
+  if (!scene.inner_sides.empty() && index(scene.inner_sides.size()) != scene.triangles.rows()) {
     refuse("inner_sides must have one entry per triangle");
   }
-  if (!scene.faces.empty() &&
-      static_cast<Eigen::Index>(scene.faces.size()) != scene.triangles.rows()) {
+  if (!scene.faces.empty() && index(scene.faces.size()) != scene.triangles.rows()) {
     refuse("faces must have one entry per triangle");
   }
   if (scene.values.size() != 0) check_values(scene.values, n);

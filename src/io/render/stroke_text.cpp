@@ -60,8 +60,7 @@ void draw_line(Image& image, double x0, double y0, double x1, double y1, double 
       const double t = length2 > 0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0;
       const double ink = std::clamp(reach - std::hypot(px - t * dx, py - t * dy), 0.0, 1.0);
       unsigned char* pixel =
-          &image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(x))];
+          &image.rgb[3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))];
       for (std::size_t k = 0; k < 3; ++k) {
         pixel[k] = static_cast<unsigned char>(std::lround((1 - ink) * pixel[k] + ink * colour[k]));
       }

@@ -62,10 +62,9 @@ void TraceRaster::put(const Seen& seen, int x, int y, Band& band) const {
 void TraceRaster::draw(Band& band) const {
   if (trace_ == nullptr) return;
   const int columns = band.width / samples_, rows = (band.y1 - band.y0) / samples_;
-  std::vector<Seen> seen(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  std::vector<Seen> seen(std::size_t(columns) * std::size_t(rows));
   const auto at = [&](int i, int j) -> Seen& {
-    return seen[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                static_cast<std::size_t>(i)];
+    return seen[std::size_t(j) * std::size_t(columns) + std::size_t(i)];
   };
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)

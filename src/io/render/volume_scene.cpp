@@ -26,7 +26,7 @@ Volume thinned(const Volume& volume) {
     thin.grid.spacing[a] = length[a] / (thin.grid.n[a] - 1);
   }
   const auto& n = thin.grid.n;
-  thin.values.resize(static_cast<Eigen::Index>(thin.grid.n_nodes()));
+  thin.values.resize(index(thin.grid.n_nodes()));
   Eigen::Index v = 0;
   for (int k = 0; k < n[2]; ++k) {
     for (int j = 0; j < n[1]; ++j) {
@@ -99,7 +99,7 @@ class Builder {
       for (int i = 0; i < nu; ++i) {
         const auto [x, y, z] = node(i, j);
         points_.push_back(volume.grid.point(x, y, z));
-        values_.push_back(volume.values[static_cast<Eigen::Index>(volume.grid.node(x, y, z))]);
+        values_.push_back(volume.values[index(volume.grid.node(x, y, z))]);
         if (i + 1 == nu || j + 1 == nw) continue;
         const int a = first + i + nu * j;
         triangles_.push_back({a, a + 1, a + 1 + nu});
@@ -121,16 +121,15 @@ class Builder {
   }
 
   void put_into(Scene& scene) const {
-    scene.points.resize(static_cast<Eigen::Index>(points_.size()), 3);
-    scene.values.resize(static_cast<Eigen::Index>(points_.size()));
+    scene.points.resize(index(points_.size()), 3);
+    scene.values.resize(index(points_.size()));
     for (std::size_t v = 0; v < points_.size(); ++v) {
-      scene.points.row(static_cast<Eigen::Index>(v)) = points_[v].transpose();
-      scene.values[static_cast<Eigen::Index>(v)] = values_[v];
+      scene.points.row(index(v)) = points_[v].transpose();
+      scene.values[index(v)] = values_[v];
     }
-    scene.triangles.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
+    scene.triangles.resize(index(triangles_.size()), 3);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
-      for (int k = 0; k < 3; ++k)
-        scene.triangles(static_cast<Eigen::Index>(t), k) = triangles_[t][k];
+      for (int k = 0; k < 3; ++k) scene.triangles(index(t), k) = triangles_[t][k];
   }
 
  private:
@@ -147,13 +146,12 @@ Volume in_front(const Volume& volume, int axis, int slice) {
   std::array<int, 3> first{};
   first[axis] = slice;
   const auto& n = part.grid.n;
-  part.values.resize(static_cast<Eigen::Index>(part.grid.n_nodes()));
+  part.values.resize(index(part.grid.n_nodes()));
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i)
-        part.values[static_cast<Eigen::Index>(part.grid.node(i, j, k))] =
-            volume.values[static_cast<Eigen::Index>(
-                volume.grid.node(first[0] + i, first[1] + j, first[2] + k))];
+        part.values[index(part.grid.node(i, j, k))] =
+            volume.values[index(volume.grid.node(first[0] + i, first[1] + j, first[2] + k))];
   return part;
 }
 

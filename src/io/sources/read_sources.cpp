@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/sources/source_nodes.h"
@@ -40,10 +41,10 @@ Sources space_curves_from_lines(const PolygonSoup& soup, const std::string& name
   Sources sources;
   for (const auto& line : polylines(soup)) {
     SpaceCurve curve;
-    curve.points.resize(static_cast<Eigen::Index>(line.size()), 3);
+    curve.points.resize(index(line.size()), 3);
     for (std::size_t k = 0; k < line.size(); ++k) {
       check_finite(soup, line[k], name);
-      curve.points.row(static_cast<Eigen::Index>(k)) = soup.points.row(line[k]);
+      curve.points.row(index(k)) = soup.points.row(line[k]);
     }
     curve.origin = name;
     sources.space_curves.push_back(std::move(curve));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/counted.h"
+#include "base/index.h"
 #include "io/sources/source_nodes.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -125,12 +126,12 @@ class JsonReader {
       if (closed) result.nodes.push_back(result.nodes.front());
       sources_.curves.push_back(std::move(result));
     } else {
-      const auto n = static_cast<Eigen::Index>(items.size());
+      const auto n = index(items.size());
       SpaceCurve result{MatX3(closed ? n + 1 : n, 3), is_signed, name_ + ":" + origin, value};
       for (std::size_t k = 0; k < items.size(); ++k) {
         name_item(k);
         const Json& p = array_of(items[k], 3);
-        result.points.row(static_cast<Eigen::Index>(k)) << number(p[0]), number(p[1]), number(p[2]);
+        result.points.row(index(k)) << number(p[0]), number(p[1]), number(p[2]);
       }
       if (closed) result.points.row(n) = result.points.row(0);
       sources_.space_curves.push_back(std::move(result));

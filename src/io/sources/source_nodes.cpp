@@ -75,7 +75,7 @@ SurfacePoint NodeMaker::face(std::int64_t index, std::array<double, 3> b, int ba
 
 std::vector<std::vector<int>> chain(std::span<const Segment> segments, int n_points) {
   constexpr int none = -1, several = -2;
-  const auto count = static_cast<std::size_t>(n_points);
+  const auto count = std::size_t(n_points);
   std::vector<int> next(count, none), ends(count, 0);  // the segment that begins at a point
   for (std::size_t s = 0; s < segments.size(); ++s) {
     int& slot = next[segments[s].first];
@@ -91,7 +91,7 @@ std::vector<std::vector<int>> chain(std::span<const Segment> segments, int n_poi
       done[s] = true;
       line.push_back(segments[s].second);
       if (!passes(line.back())) break;
-      s = static_cast<std::size_t>(next[line.back()]);
+      s = std::size_t(next[line.back()]);
     }
     lines.push_back(std::move(line));
   };

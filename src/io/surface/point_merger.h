@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/index.h"
 #include "base/numbers_hash.h"
 #include "littoral/types.h"
 
@@ -24,8 +25,7 @@ class PointMerger {
     return entry->second;
   }
   MatX3 points() const {
-    return Eigen::Map<const MatX3>(coordinates_.data(),
-                                   static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
+    return Eigen::Map<const MatX3>(coordinates_.data(), index(coordinates_.size() / 3), 3);
   }
 
  private:

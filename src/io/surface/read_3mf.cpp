@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
 #include "io/surface/most_copies.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
@@ -59,8 +60,7 @@ class ModelReader {
     for (const PlacedObject& item : model.items) place(item, 0);
     if (points_.empty()) fail("no vertices");
     soup_.points =
-        model.millimetres *
-        Eigen::Map<const MatX3>(points_.data(), static_cast<Eigen::Index>(points_.size() / 3), 3);
+        model.millimetres * Eigen::Map<const MatX3>(points_.data(), index(points_.size() / 3), 3);
     return std::move(soup_);
   }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/index.h"
 #include "littoral/error.h"
 
 namespace littoral::io {
@@ -27,7 +28,7 @@ FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
     if (word.size() != (sparse ? 5U : 3U)) fail("expected 'x y z' or 'f I x y z'");
     Vec3 v;
     for (int i = 0; i < 3; ++i) {
-      const std::string& text = word[word.size() - 3 + static_cast<std::size_t>(i)];
+      const std::string& text = word[word.size() - 3 + std::size_t(i)];
       char* end = nullptr;
       v[i] = std::strtod(text.c_str(), &end);
       if (end != text.c_str() + text.size() || !std::isfinite(v[i]))
@@ -56,8 +57,8 @@ FaceDirections read_directions(const std::filesystem::path& path, int n_faces) {
     throw InputError(path.string() + ": " + std::to_string(rows.size()) + " directions for " +
                          std::to_string(n_faces) + " faces",
                      "bad-file");
-  out.all.resize(static_cast<Eigen::Index>(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) out.all.row(static_cast<Eigen::Index>(i)) = rows[i];
+  out.all.resize(index(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) out.all.row(index(i)) = rows[i];
   return out;
 }
 

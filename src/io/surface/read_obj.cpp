@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/counted.h"
+#include "base/index.h"
 #include "io/surface/surface_formats.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -137,10 +138,10 @@ std::vector<double> per_vertex(const ObjFile& file, const std::vector<int>& refs
   if (count == 0) return {};
   std::vector<int> chosen(n, none);
   const auto value = [&](int r) {
-    return std::span(values).subspan(static_cast<std::size_t>(r) * width, width);
+    return std::span(values).subspan(std::size_t(r) * width, width);
   };
   for (std::size_t c = 0; c < refs.size(); ++c) {
-    if (refs[c] == none || static_cast<std::size_t>(refs[c]) >= count) continue;
+    if (refs[c] == none || std::size_t(refs[c]) >= count) continue;
     int& slot = chosen[file.corners[c]];
     if (slot == none) slot = refs[c];
     if (slot != refs[c] && !std::ranges::equal(value(slot), value(refs[c]))) return {};
@@ -164,7 +165,7 @@ PolygonSoup read_obj(std::string_view bytes, const std::string& name) {
   check_range(scan, file);
 
   PolygonSoup soup;
-  const auto n = static_cast<Eigen::Index>(file.n_vertices());
+  const auto n = index(file.n_vertices());
   soup.points = Eigen::Map<const MatX3>(file.positions.data(), n, 3);
   const auto normals = per_vertex(file, file.corner_normal, file.normals, 3);
   if (!normals.empty()) soup.normals = Eigen::Map<const MatX3>(normals.data(), n, 3);

@@ -91,7 +91,7 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
       }
       soup.corners.push_back(static_cast<int>(v));
     }
-    if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    if (soup.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
       scan.fail("more than 2147483647 corners");
     }
     soup.face_offsets.push_back(static_cast<int>(soup.corners.size()));
@@ -145,7 +145,7 @@ class BinaryOff {
   std::int64_t count(const std::string& what, std::size_t least) {
     const auto n = next<std::int32_t>("the header");
     if (n < 0) fail("negative number of " + what);
-    if (static_cast<std::size_t>(n) > (bytes_.size() - at_) / least)
+    if (std::size_t(n) > (bytes_.size() - at_) / least)
       fail("the header promises " + std::to_string(n) + " " + what + ", the file has " +
            std::to_string(bytes_.size()) + " bytes");
     return n;
@@ -163,13 +163,13 @@ class BinaryOff {
              std::to_string(vertices) + " (counted from 0)");
       soup.corners.push_back(v);
     }
-    if (soup.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    if (soup.corners.size() > std::size_t(std::numeric_limits<int>::max()))
       fail("more than 2147483647 corners");
     soup.face_offsets.push_back(static_cast<int>(soup.corners.size()));
     const auto colours = next<std::int32_t>("face ", f);
-    if (colours < 0 || static_cast<std::size_t>(colours) > (bytes_.size() - at_) / 4)
+    if (colours < 0 || std::size_t(colours) > (bytes_.size() - at_) / 4)
       fail(face + " has a colour of " + std::to_string(colours) + " numbers");
-    at_ += 4 * static_cast<std::size_t>(colours);
+    at_ += 4 * std::size_t(colours);
   }
 
   std::string_view bytes_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/counted.h"
+#include "base/index.h"
 #include "io/binary.h"
 #include "io/surface/ply_header.h"
 #include "io/surface/surface_formats.h"
@@ -193,7 +194,7 @@ class PlyReader {
                                     find_property(element, "ny", false),
                                     find_property(element, "nz", false)};
     const bool normals = normal[0] != unused && normal[1] != unused && normal[2] != unused;
-    const auto n = static_cast<Eigen::Index>(element.count);
+    const auto n = index(element.count);
     std::vector<std::pair<int, VecX*>> scalars;
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& p = element.properties[i];
@@ -209,9 +210,9 @@ class PlyReader {
     soup_.points.resize(n, 3);
     if (normals) soup_.normals.resize(n, 3);
     rows(element, unused, [&](std::uint64_t r) {
-      const auto v = static_cast<Eigen::Index>(r);
+      const auto v = index(r);
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto column = static_cast<Eigen::Index>(k);
+        const auto column = index(k);
         soup_.points(v, column) = row_[position[k]];
         if (normals) soup_.normals(v, column) = row_[normal[k]];
       }
@@ -230,7 +231,7 @@ class PlyReader {
                    ", at least 3 are needed");
       }
       for (double v : list_) soup_.corners.push_back(vertex(v, face.c_str()));
-      if (soup_.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      if (soup_.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
         body_.fail("more than 2147483647 corners");
       }
       soup_.face_offsets.push_back(static_cast<int>(soup_.corners.size()));

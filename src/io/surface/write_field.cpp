@@ -104,7 +104,7 @@ void write_vtp(std::ostream& out, const PolygonSoup& soup, const std::string& fi
   if (soup.scalars.contains(field)) out << " Scalars=\"" << xml_text(field) << '"';
   if (normals) out << " Normals=\"Normals\"";
   out << ">\n";
-  const auto points = static_cast<std::size_t>(soup.n_vertices());
+  const auto points = std::size_t(soup.n_vertices());
   if (normals) arrays.announce("Float64", "Normals", 3, 24 * points);
   for (const auto& [name, values] : soup.scalars) arrays.announce("Float64", name, 1, 8 * points);
   out << "</PointData>\n<Points>\n";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "littoral/error.h"
 
@@ -24,7 +25,7 @@ constexpr std::array<std::array<int, 4>, 5> pyramid_faces{
 template <class Visit>
 void fan(std::span<const int> corners, const Visit& visit) {
   const std::size_t n = corners.size();
-  const auto first = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
+  const auto first = std::size_t(std::ranges::min_element(corners) - corners.begin());
   for (std::size_t k = 1; k + 1 < n; ++k)
     visit(corners[first], corners[(first + k) % n], corners[(first + k + 1) % n]);
 }
@@ -128,15 +129,13 @@ TetFile CellMesh::as_tets() {
   if (tets.size() / 4 > most || faces.corners.size() > most)
     throw InputError(name + ": more than 2147483647 cells", "bad-file");
   TetFile file;
-  file.mesh.tets =
-      Eigen::Map<const Rows<int, 4>>(tets.data(), static_cast<Eigen::Index>(tets.size() / 4), 4);
+  file.mesh.tets = Eigen::Map<const Rows<int, 4>>(tets.data(), index(tets.size() / 4), 4);
   file.mesh.points = std::move(points);
   file.scalars = std::move(scalars);
   std::vector<int> triangles;
   for (int f = 0; f < faces.n_faces(); ++f)
     fan(faces.face(f), [&](int a, int b, int c) { triangles.insert(triangles.end(), {a, b, c}); });
-  file.triangles = Eigen::Map<const MatX3i>(triangles.data(),
-                                            static_cast<Eigen::Index>(triangles.size() / 3), 3);
+  file.triangles = Eigen::Map<const MatX3i>(triangles.data(), index(triangles.size() / 3), 3);
   return file;
 }
 
@@ -146,7 +145,7 @@ PolygonSoup CellMesh::as_surface() {
     throw InputError(name + ": it holds " + std::to_string(tets.size() / 4) +
                          " tets and no faces of its own; it is read as tets",
                      "bad-file");
-  if (faces.corners.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+  if (faces.corners.size() > std::size_t(std::numeric_limits<int>::max()))
     throw InputError(name + ": more than 2147483647 corners", "bad-file");
   faces.points = std::move(points);
   faces.scalars = std::move(scalars);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "io/binary.h"
 #include "io/tet/cell_mesh.h"
@@ -62,9 +63,8 @@ class MshScanner {
   void skip_to(const std::string& word) {
     const std::size_t found = bytes_.find(word, at_);
     if (found == std::string_view::npos) fail("the file ends before " + word);
-    line_ += static_cast<std::size_t>(
-        std::count(bytes_.begin() + static_cast<std::ptrdiff_t>(at_),
-                   bytes_.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+    line_ += std::size_t(std::count(bytes_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                    bytes_.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
     at_ = found + word.size();
   }
 
@@ -206,8 +206,7 @@ class MshReader {
         for (int k = 0; k < 2; ++k) scan_.long_integer("the range of nodes");
       for (std::int64_t b = 0; b < blocks; ++b) read_node_block();
     }
-    cells_.points = Eigen::Map<const MatX3>(coordinates_.data(),
-                                            static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
+    cells_.points = Eigen::Map<const MatX3>(coordinates_.data(), index(coordinates_.size() / 3), 3);
   }
 
   void read_node_block() {
@@ -246,7 +245,7 @@ class MshReader {
                    ", which is not there");
       held_.push_back(found->second);
     }
-    cells_.add(static_cast<std::size_t>(number), type.kind, held_);
+    cells_.add(std::size_t(number), type.kind, held_);
   }
 
   void read_elements() {

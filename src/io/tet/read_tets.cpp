@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/index.h"
 #include "io/contents_hint.h"
 #include "io/formats.h"
 #include "io/read.h"
@@ -79,12 +80,12 @@ constexpr CellSection cell_sections[] = {
 
 /// Elements of a section, with a reference each.
 void read_elements(WordScanner& scan, const CellSection& section, CellMesh& cells) {
-  const int n = scan.count(section.name, 2 * static_cast<std::size_t>(section.corners + 1));
+  const int n = scan.count(section.name, 2 * std::size_t(section.corners + 1));
   const int n_vertices = static_cast<int>(cells.points.rows());
-  std::vector<int> corners(static_cast<std::size_t>(section.corners));
+  std::vector<int> corners(std::size_t(section.corners));
   for (int e = 0; e < n; ++e) {
     for (int& corner : corners) corner = scan.vertex(section.element, e + 1, 1, n_vertices);
-    cells.add(static_cast<std::size_t>(e + 1), section.kind, corners);
+    cells.add(std::size_t(e + 1), section.kind, corners);
     scan.number([&] {
       return "the reference of " + std::string(section.element) + " " + std::to_string(e + 1);
     });
@@ -148,7 +149,7 @@ TetFile read_tet(std::string_view bytes, const std::string& name) {
               std::to_string(bytes.size()) + " bytes");
   }
   read_points(scan, n, 0, false, file.mesh.points);
-  file.mesh.tets.resize(static_cast<Eigen::Index>(*n_tets), 4);
+  file.mesh.tets.resize(index(*n_tets), 4);
   for (int t = 0; t < file.mesh.n_tets(); ++t) {
     const auto corners =
         scan.integer([&] { return "the number of corners of tet " + std::to_string(t); });

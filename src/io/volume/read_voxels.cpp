@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "base/index.h"
 #include "io/formats.h"
 #include "io/read.h"
 #include "io/volume/volume_formats.h"
@@ -82,7 +83,7 @@ VoxelMask read_vol_bytes(std::string_view bytes, const std::string& name) {
     throw InputError(name + ": " + std::to_string(count) + " voxels do not fit into the file's " +
                          std::to_string(held) + " bytes of data",
                      "bad-file");
-  mask.inside.resize(static_cast<std::size_t>(count));
+  mask.inside.resize(std::size_t(count));
   if (version == 2) {
     std::memcpy(mask.inside.data(), data.data(), mask.inside.size());
   } else {
@@ -98,7 +99,7 @@ VoxelMask read_vol_bytes(std::string_view bytes, const std::string& name) {
 Volume read_vol(std::string_view bytes, const std::string& name, const std::string&) {
   const VoxelMask mask = read_vol_bytes(bytes, name);
   const Eigen::Map<const Eigen::Matrix<unsigned char, Eigen::Dynamic, 1>> inside(
-      mask.inside.data(), static_cast<Eigen::Index>(mask.inside.size()));
+      mask.inside.data(), index(mask.inside.size()));
   return {mask.grid, inside.cast<double>(), "voxel"};
 }
 
@@ -118,7 +119,7 @@ VoxelMask read_voxels(const std::filesystem::path& path) {
   VoxelMask mask{volume.grid, {}};
   mask.inside.resize(volume.grid.n_nodes());
   for (std::size_t i = 0; i < mask.inside.size(); ++i)
-    mask.inside[i] = volume.values[static_cast<Eigen::Index>(i)] != 0;
+    mask.inside[i] = volume.values[index(i)] != 0;
   return mask;
 }
 

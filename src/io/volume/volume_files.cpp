@@ -30,7 +30,7 @@ std::size_t chosen_field(const std::vector<std::string>& names, const std::strin
     throw InputError(file + ": " + what, "bad-file");
   };
   const auto at = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    return std::size_t(std::ranges::find(names, name) - names.begin());
   };
   const std::string known = listed(names);
   if (!wanted.empty()) {
@@ -51,7 +51,7 @@ Volume read_volume(const std::filesystem::path& path, const std::string& field) 
 
 void write_volume(const std::filesystem::path& path, const Volume& volume,
                   const VolumeWriteOptions& options) {
-  if (static_cast<std::size_t>(volume.values.size()) != volume.grid.n_nodes())
+  if (std::size_t(volume.values.size()) != volume.grid.n_nodes())
     throw InputError("cannot write " + path.string() + ": " + std::to_string(volume.values.size()) +
                          " values for " + std::to_string(volume.grid.n_nodes()) + " nodes",
                      "cannot-write");

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <limits>
 
+#include "base/index.h"
 #include "io/any_formats.h"
 #include "io/binary.h"
 #include "io/surface/surface_formats.h"
@@ -76,7 +77,7 @@ bool read_fields(std::string_view descr, NpyHeader& npy) {
         const auto [stop, code] = std::from_chars(descr.data(), descr.data() + descr.size(), n);
         if (code != std::errc() || n < 1 || n > most_numbers / field.count) return false;
         field.count *= n;
-        descr.remove_prefix(static_cast<std::size_t>(stop - descr.data()));
+        descr.remove_prefix(std::size_t(stop - descr.data()));
       }
       descr.remove_prefix(1);
       skip(descr, " ,");
@@ -86,7 +87,7 @@ bool read_fields(std::string_view descr, NpyHeader& npy) {
     const std::size_t size = bytes_of_type(field.type);
     if (size == 0) return false;
     field.at = npy.record;
-    npy.record += size * static_cast<std::size_t>(field.count);
+    npy.record += size * std::size_t(field.count);
     if (npy.record > largest_record) return false;
     npy.fields.push_back(std::move(field));
   }
@@ -136,7 +137,7 @@ namespace {
 NumberKind number_kind(const std::string& type, const std::string& name) {
   NumberKind kind;
   kind.family = type.size() != 3 ? '?' : type[1] == 'b' ? 'u' : type[1];
-  kind.size = type.size() != 3 ? 0 : static_cast<std::size_t>(type[2] - '0');
+  kind.size = type.size() != 3 ? 0 : std::size_t(type[2] - '0');
   const bool real = kind.family == 'f', whole = kind.family == 'i' || kind.family == 'u';
   const bool known =
       (real && (kind.size == 2 || kind.size == 4 || kind.size == 8)) ||
@@ -203,7 +204,7 @@ NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
   points.of_records = true;
   const auto columns = static_cast<std::int64_t>(fields.size());
   points.shape = {static_cast<std::int64_t>(rows), columns};
-  points.numbers.resize(static_cast<Eigen::Index>(rows * fields.size()));
+  points.numbers.resize(index(rows * fields.size()));
   for (std::size_t c = 0; c < fields.size(); ++c) {
     const NumberKind kind = number_kind(fields[c].type, name);
     std::string column;
@@ -212,8 +213,7 @@ NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
       column.append(bytes.substr(r * header.record + fields[c].at, kind.size));
     const VecX numbers = load_numbers(column, kind, rows, order_of(fields[c].type));
     for (std::size_t r = 0; r < rows; ++r)
-      points.numbers[static_cast<Eigen::Index>(r * fields.size() + c)] =
-          numbers[static_cast<Eigen::Index>(r)];
+      points.numbers[index(r * fields.size() + c)] = numbers[index(r)];
   }
   return points;
 }
@@ -236,7 +236,7 @@ Volume npy_volume(const NpyArray& array, const std::string& name) {
                          " dimensions, a volume has 3",
                      "bad-file");
   const std::array<std::int64_t, 3> n{array.shape[0], array.shape[1], array.shape[2]};
-  checked_nodes(n, static_cast<std::size_t>(array.numbers.size()), name);
+  checked_nodes(n, std::size_t(array.numbers.size()), name);
   Volume volume;
   for (int k = 0; k < 3; ++k) volume.grid.n[k] = static_cast<int>(n[k]);
   if (array.fortran) {
@@ -248,7 +248,7 @@ Volume npy_volume(const NpyArray& array, const std::string& name) {
   for (int i = 0; i < volume.grid.n[0]; ++i)
     for (int j = 0; j < volume.grid.n[1]; ++j)
       for (int k = 0; k < volume.grid.n[2]; ++k)
-        volume.values[static_cast<Eigen::Index>(volume.grid.node(i, j, k))] = array.numbers[from++];
+        volume.values[index(volume.grid.node(i, j, k))] = array.numbers[from++];
   return volume;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/index.h"
 #include "base/option_table.h"
 #include "io/any_formats.h"
 #include "io/volume/volume_formats.h"
@@ -177,7 +178,7 @@ void write_npz(std::ostream& out, const Table& table) {
                          }));
   for (std::size_t c = 0; c < table.names.size(); ++c)
     members.emplace_back(table.names[c] + ".npy", npy_bytes([&](std::ostream& to) {
-                           write_npy(to, {{""}, table.columns.col(static_cast<Eigen::Index>(c))});
+                           write_npy(to, {{""}, table.columns.col(index(c))});
                          }));
   write_zip(out, members);
 }

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/index.h"
 #include "io/surface/surface_writers.h"
 #include "io/text_scan.h"
 #include "io/volume/volume_formats.h"
@@ -122,10 +123,9 @@ class NrrdReader {
     const std::string_view data = bytes_.substr(at_);
     if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
       const std::size_t nodes = checked_nodes(n, data.size(), name_);
-      VecX values(static_cast<Eigen::Index>(nodes));
-      LineScanner scan(
-          data, name_, '\0', false,
-          1 + static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.begin() + at_, '\n')));
+      VecX values(index(nodes));
+      LineScanner scan(data, name_, '\0', false,
+                       1 + std::size_t(std::count(bytes_.begin(), bytes_.begin() + at_, '\n')));
       std::string_view word;
       for (double& value : values) {
         while ((word = scan.word()).empty())

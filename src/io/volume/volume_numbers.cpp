@@ -18,8 +18,7 @@ namespace {
 template <class T>
 void load_all(std::string_view bytes, std::endian order, VecX& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    values[i] =
-        static_cast<double>(load<T>(bytes.data() + sizeof(T) * static_cast<std::size_t>(i), order));
+    values[i] = static_cast<double>(load<T>(bytes.data() + sizeof(T) * std::size_t(i), order));
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ double half_precision(int bits) {
 }  // namespace
 
 VecX load_numbers(std::string_view bytes, NumberKind kind, std::size_t count, std::endian order) {
-  VecX values(static_cast<Eigen::Index>(count));
+  VecX values(index(count));
   const auto is = [&](char family, std::size_t size) {
     return kind.family == family && kind.size == size;
   };
@@ -65,8 +64,8 @@ void store_numbers(std::ostream& out, const VecX& values) {
 
 std::size_t load_size(std::string_view bytes, std::endian order) {
   if (bytes.size() == 4) return load<std::uint32_t>(bytes.data(), order);
-  return static_cast<std::size_t>(std::min<std::uint64_t>(load<std::uint64_t>(bytes.data(), order),
-                                                          std::numeric_limits<std::size_t>::max()));
+  return std::size_t(std::min<std::uint64_t>(load<std::uint64_t>(bytes.data(), order),
+                                             std::numeric_limits<std::size_t>::max()));
 }
 
 std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t most,
@@ -79,7 +78,7 @@ std::size_t checked_nodes(const std::array<std::int64_t, 3>& n, std::uint64_t mo
       throw InputError(name + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
                            std::to_string(n[2]) + " nodes are more than the file holds",
                        "bad-file");
-    nodes *= static_cast<std::size_t>(k);
+    nodes *= std::size_t(k);
   }
   return nodes;
 }

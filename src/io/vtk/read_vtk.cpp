@@ -250,7 +250,7 @@ class VtkReader {
       if (grid_.n[0] == 0) scan_.fail("there are no DIMENSIONS");
       return check_box(grid_, cells_.name);
     }
-    if (static_cast<std::size_t>(types_.size()) != cells_runs_.size())
+    if (std::size_t(types_.size()) != cells_runs_.size())
       scan_.fail("there are " + std::to_string(cells_runs_.size()) + " cells and " +
                  std::to_string(types_.size()) + " cell types");
     each(cells_runs_, [&](std::size_t c, const std::vector<int>& corners) {
@@ -271,8 +271,7 @@ class VtkReader {
     std::vector<int> corners;
     for (std::size_t c = 0; c < runs.size(); ++c) {
       corners.clear();
-      for (auto k = static_cast<Eigen::Index>(runs.starts[c]);
-           k < static_cast<Eigen::Index>(runs.starts[c + 1]); ++k)
+      for (auto k = index(runs.starts[c]); k < index(runs.starts[c + 1]); ++k)
         corners.push_back(cells_.corner(c, runs.corners[k]));
       visit(c, corners);
     }

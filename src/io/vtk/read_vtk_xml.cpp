@@ -103,7 +103,7 @@ class VtkCellReader {
         *n > std::numeric_limits<int>::max())
       fail(key + " promises " + std::to_string(*n) + ", the file has " +
            std::to_string(xml_.size()) + " bytes");
-    return static_cast<std::size_t>(*n);
+    return std::size_t(*n);
   }
 
   const VtkXml::Array& find(const std::string& place, const std::string& name) const {
@@ -116,7 +116,7 @@ class VtkCellReader {
     const VtkXml::Array& array = find(place, "");
     if (array.components != components)
       fail("the array of " + place + " must have " + std::to_string(components) + " components");
-    return xml_.values(array, n * static_cast<std::size_t>(components));
+    return xml_.values(array, n * std::size_t(components));
   }
 
   void read_cells(const Run& run) {
@@ -132,14 +132,12 @@ class VtkCellReader {
         fail("the offset of cell " + std::to_string(c) + " is out of order");
       begin = end;
     }
-    const VecX corners =
-        xml_.values(find(run.place, "connectivity"), static_cast<std::size_t>(begin));
+    const VecX corners = xml_.values(find(run.place, "connectivity"), std::size_t(begin));
     std::vector<int> held;
     Eigen::Index at = 0;
     for (std::size_t c = 0; c < n; ++c) {
       held.clear();
-      for (; at < static_cast<Eigen::Index>(ends[index(c)]); ++at)
-        held.push_back(cells_.corner(c, corners[at]));
+      for (; at < index(ends[index(c)]); ++at) held.push_back(cells_.corner(c, corners[at]));
       if (run.kind == polyline) {
         cells_.add_line(held);
         continue;

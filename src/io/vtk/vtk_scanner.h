@@ -101,8 +101,7 @@ class VtkScanner {
       const auto size = static_cast<std::uint64_t>(n) * kind.size;
       if (size > bytes_.size() - at_)
         fail("the file ends within " + std::to_string(n) + " numbers of " + what);
-      VecX out =
-          load_numbers(bytes_.substr(at_), kind, static_cast<std::size_t>(n), std::endian::big);
+      VecX out = load_numbers(bytes_.substr(at_), kind, std::size_t(n), std::endian::big);
       at_ += size;
       return out;
     }

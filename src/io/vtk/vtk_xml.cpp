@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.h"
 #include "io/contents_hint.h"
 #include "io/text_scan.h"
 #include "littoral/error.h"
@@ -50,8 +51,8 @@ VtkXml::Array VtkXml::array(const XmlTag& tag) const {
   if (array.format == "appended") {
     const auto offset = parse_integer(tag.attribute("offset"));
     if (!offset || *offset < 0) fail("an appended array has no offset");
-    array.offset = static_cast<std::size_t>(
-        std::min<std::int64_t>(*offset, static_cast<std::int64_t>(bytes().size())));
+    array.offset =
+        std::size_t(std::min<std::int64_t>(*offset, static_cast<std::int64_t>(bytes().size())));
   } else if (tag.empty) {
     fail("the array " + in_quotes(array.name) + " is empty");
   }
@@ -65,7 +66,7 @@ NumberKind VtkXml::number_kind(const std::string& type) const {
       const NumberKind kind{family[0] == 'F'   ? 'f'
                             : family[0] == 'I' ? 'i'
                                                : 'u',
-                            static_cast<std::size_t>(std::stoi(bits) / 8)};
+                            std::size_t(std::stoi(bits) / 8)};
       if (kind.family != 'f' || kind.size >= 4) return kind;
     }
   }
@@ -96,7 +97,7 @@ VecX VtkXml::ascii_values(std::string_view text, std::size_t count) const {
   if (count > text.size())
     fail("there are fewer numbers than the " + std::to_string(count) + " expected");
   LineScanner scan(text, name(), '\0');
-  VecX values(static_cast<Eigen::Index>(count));
+  VecX values(index(count));
   for (double& value : values) {
     std::string_view word = scan.word();
     while (word.empty()) {

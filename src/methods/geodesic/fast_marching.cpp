@@ -28,7 +28,7 @@ struct Stencil {
 class Stencils {
  public:
   explicit Stencils(const IntrinsicTriangulation& T) : T_(T), sides_(edge_sides(T)) {
-    all.reserve(3 * static_cast<std::size_t>(T.n_faces()));  // obtuse corners have two
+    all.reserve(3 * std::size_t(T.n_faces()));  // obtuse corners have two
     for (int f = 0; f < T.n_faces(); ++f)
       for (int k = 0; k < 3; ++k) add_corner(f, k);
     offsets_.assign(T.n_vertices + 1, 0);

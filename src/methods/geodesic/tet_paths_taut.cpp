@@ -87,7 +87,7 @@ TautInTets::TautInTets(const TetMesh& mesh, const TetSight& sight,
       sight_(sight),
       reentrant_(reentrant),
       foot_(foot),
-      seen_(static_cast<std::size_t>(mesh.n_tets()), 0) {}
+      seen_(std::size_t(mesh.n_tets()), 0) {}
 
 void TautInTets::pull(WayInTets& way, int vertex) {
   const auto length_of = [](const Nodes& nodes) {

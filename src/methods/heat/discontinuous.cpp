@@ -121,7 +121,7 @@ MatX3i pieces(const JumpCalculus& J, const MatX3& phi, const VecX& jump,
 /// function without jumps stays as it is, at the boundary too. Values at held corners are 0.
 void flow(const JumpCalculus& J, DiscontinuousField& field, int n, const HeldSource& held, double t,
           const Task& task) {
-  std::vector<char> zero(static_cast<std::size_t>(n), 0);
+  std::vector<char> zero(std::size_t(n), 0);
   for (const auto& [f, k] : held.corners) zero[field.piece(f, k)] = 1;
   Triplets entries;
   entries.reserve(12 * std::size_t(J.n_faces));

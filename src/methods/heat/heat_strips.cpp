@@ -110,13 +110,17 @@ std::unique_ptr<HeatStrips::Work> HeatStrips::taken_work() const {
 void HeatStrips::diffuse(const std::vector<const SourceSystem*>& systems, Work& work,
                          const Task& task) const {
   const Calculus& C = parts_->ops->scalar;
+  std::array<double, points_at_once> largest;  // of what was put for each
   const auto put = [&](ScaledStrip& field, bool inside_only) {
     std::vector<int> given;
+    largest.fill(0);
     field.x.setZero(index(parts_->row_of.size()), points_at_once);
     for (std::size_t k = 0; k < systems.size(); ++k)
       for (SpMat::InnerIterator it(systems[k]->u0, 0); it; ++it) {
         if (!(C.M[it.row()] > 0) || (inside_only && C.boundary[it.row()])) continue;
-        field.x(parts_->row_of[it.row()], index(k)) += it.value();
+        double& put_there = field.x(parts_->row_of[it.row()], index(k));
+        put_there += it.value();
+        largest[k] = std::max(largest[k], std::abs(put_there));
         given.push_back(parts_->row_of[it.row()]);
       }
     std::sort(given.begin(), given.end());
@@ -126,10 +130,14 @@ void HeatStrips::diffuse(const std::vector<const SourceSystem*>& systems, Work& 
   neumann_.solve(work.u, put(work.u, false), false, work.spare, task);
   if (!dirichlet_) return;
   // The mean of both where they are on the same scale, within the first layer, as in ScalarHeat.
+  // Each solution is in units of the largest entry of what was put.
+  auto unit = largest;
   dirichlet_->solve(work.other, put(work.other, true), true, work.spare, task);
+  for (int k = 0; k < points_at_once; ++k) unit[k] = unit[k] > 0 ? largest[k] / unit[k] : 0;
   for (Eigen::Index i = 0; i < work.u.x.rows(); ++i)
     for (int k = 0; k < points_at_once; ++k)
-      if (work.u.layer_at(i, k) == 0) work.u.x(i, k) = 0.5 * (work.u.x(i, k) + work.other.x(i, k));
+      if (work.u.layer_at(i, k) == 0)
+        work.u.x(i, k) = 0.5 * (work.u.x(i, k) + unit[k] * work.other.x(i, k));
 }
 
 void HeatStrips::find_near(const std::vector<const SourceSystem*>& systems, NearPoints& near,
@@ -170,7 +178,7 @@ void HeatStrips::find_near(const std::vector<const SourceSystem*>& systems, Near
     for (const int c : systems[k]->near) {
       const int place = parts_->cells.place[c];
       const auto at = std::lower_bound(near.cells.begin(), near.cells.end(), place);
-      near.holds[static_cast<std::size_t>(at - near.cells.begin())][k] = 1;
+      near.holds[std::size_t(at - near.cells.begin())][k] = 1;
     }
 }
 
@@ -244,7 +252,7 @@ void HeatStrips::write_values(const std::vector<const SourceSystem*>& systems, V
   const Calculus& C = parts_->ops->scalar;
   const double unit = parts_->ops->unit;
   // What is subtracted in each component, so that distance is 0 at its point.
-  std::vector<PerPoint> at_point(static_cast<std::size_t>(C.n_components));
+  std::vector<PerPoint> at_point(std::size_t(C.n_components));
   for (PerPoint& of : at_point) of.fill(-infinity);
   std::array<double*, strip_width> to{};
   for (std::size_t k = 0; k < systems.size(); ++k) {

@@ -53,8 +53,9 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
     Report inner;
     ScaledField<double> d = dirichlet_->solve(b, C.component, task, inner);
     restore_units(d, b, C.component);
+    const double unit = d.scale[0] / u.scale[0];  // differ where a source reaches the boundary
     for (Eigen::Index i = 0; i < b.size(); ++i)
-      if (u.layer[i] == 0) u.x[i] = 0.5 * (u.x[i] + (d.layer[i] == 0 ? d.x[i] : 0));
+      if (u.layer[i] == 0) u.x[i] = 0.5 * (u.x[i] + (d.layer[i] == 0 ? unit * d.x[i] : 0));
   }
   u.x = -u.x;
   return cell_field(C.G, u);

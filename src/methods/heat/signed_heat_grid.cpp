@@ -76,7 +76,7 @@ HeldRows held_rows(const SpaceSignedHeat& options, const VecX& weight, double sc
     held.softness = scale / (options.soft * weight.array());
   if (options.constraint == SpaceConstraint::level_sets) {
     held.group = part;
-    held.group.resize(static_cast<std::size_t>(weight.size()), 0);
+    held.group.resize(std::size_t(weight.size()), 0);
   }
   return held;
 }

@@ -111,11 +111,12 @@ VecX TetHeatSolver::signed_distance(const TetSourceSystem& system, double h, dou
     const Stopwatch watch(report, "diffuse");
     const FlushSubnormals flush;
     const double t = options.time_scale * h * h;
-    const SpMat heat = ops.face_mass + t * ops.face_laplacian;
+    const auto heat = [&] { return SpMat(ops.face_mass + t * ops.face_laplacian); };
     std::optional<MatX3> X;
     if (hint_ == SolveHint::single_rhs && ops.n_faces > quick_to_factor)
-      X = solve_by_outward_sweeps(heat, system.X0, heat_stage);
-    if (!X) X = faces_.get(t, [&] { return Cholesky<double>(heat, heat_stage); })->solve(system.X0);
+      X = solve_by_outward_sweeps(heat(), system.X0, heat_stage);
+    if (!X)
+      X = faces_.get(t, [&] { return Cholesky<double>(heat(), heat_stage); })->solve(system.X0);
     // Step II: Y = X / |X| on tets (B.2).
     int zeros = 0;
     Y = normalize_rows(ops.to_tets(*X), ops.volumes, zeros);

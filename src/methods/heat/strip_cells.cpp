@@ -9,7 +9,7 @@ namespace littoral {
 
 StripCells::StripCells(const Calculus& C, const std::vector<int>& row_of) : begin(1, 0) {
   const SpRows G = C.G.matrix();
-  const auto n = static_cast<std::size_t>(C.A.size());
+  const auto n = std::size_t(C.A.size());
   std::vector<std::pair<int, int>> order(n, {int_size(row_of), 0});  // first row, cell
   for (std::size_t c = 0; c < n; ++c) {
     order[c].second = static_cast<int>(c);

@@ -42,7 +42,7 @@ bool same(const Grid& a, const Grid& b) {
 double cloud_noise(const MatX3& points, const MatX3& normals, const PointTree& tree) {
   constexpr int neighbours = 7;  // with the point itself
   constexpr double to_deviation = 1.05;
-  const auto n = static_cast<std::size_t>(points.rows());
+  const auto n = std::size_t(points.rows());
   std::vector<double> heights(n * neighbours, -1);
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     std::array<Neighbour, neighbours> found;
@@ -109,11 +109,11 @@ CompletedCloud::CompletedCloud(std::unique_ptr<const ToriDistance> tori, const G
 
 void CompletedCloud::measure_triangles(const MatX3& corners) {
   at_corners_.resize(corners.rows());
-  parallel_for(static_cast<std::size_t>(corners.rows()), 256, [&](std::size_t b, std::size_t e) {
+  parallel_for(std::size_t(corners.rows()), 256, [&](std::size_t b, std::size_t e) {
     for (auto v = index(b); v < index(e); ++v) at_corners_[v] = tori_->value(corners.row(v));
   });
   at_centres_.resize(faces_.rows());
-  parallel_for(static_cast<std::size_t>(faces_.rows()), 256, [&](std::size_t b, std::size_t e) {
+  parallel_for(std::size_t(faces_.rows()), 256, [&](std::size_t b, std::size_t e) {
     for (auto f = index(b); f < index(e); ++f) {
       Vec3 centre = Vec3::Zero();
       for (int k = 0; k < 3; ++k) centre += corners.row(faces_(f, k)) / 3;
@@ -135,7 +135,7 @@ LevelPatch CompletedCloud::patch_beyond(double spacings, const MatX3& corners,
     far.push_back(static_cast<int>(f));
     patch.area += (b - a).cross(c - a).norm() / 2;
   }
-  std::vector<int> number(static_cast<std::size_t>(corners.rows()), -1), used;
+  std::vector<int> number(std::size_t(corners.rows()), -1), used;
   patch.faces.resize(index(far.size()), 3);
   for (std::size_t i = 0; i < far.size(); ++i)
     for (int k = 0; k < 3; ++k) {

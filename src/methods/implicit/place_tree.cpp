@@ -220,7 +220,7 @@ std::vector<unsigned char> PlaceTree::parities(const MatX3& points, const MatX3i
 #endif
   std::vector<unsigned char> sum(order_.size());
   std::mutex adding;
-  const auto n = static_cast<std::size_t>(faces.rows());
+  const auto n = std::size_t(faces.rows());
   const std::size_t piece = std::max(least_piece, (n + most_pieces - 1) / most_pieces);
   parallel_for(n, piece, [&](std::size_t begin, std::size_t end) {
     std::vector<unsigned char> bits(order_.size());

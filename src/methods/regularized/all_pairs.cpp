@@ -139,7 +139,7 @@ class AllPairs {
     K.setFromTriplets(entries.begin(), entries.end());
     K += (alpha_ + rho1_) * C_.L;
     if (!structure_) structure_ = std::make_shared<const Elimination>(K, dissection(K, task_));
-    std::vector<int> own(static_cast<std::size_t>(n_));
+    std::vector<int> own(n_);
     std::iota(own.begin(), own.end(), 0);
     factor_.emplace(raised_cholesky(K, structure_, task_).factor, own);
     response_.resize(n_, n_);

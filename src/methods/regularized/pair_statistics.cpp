@@ -24,7 +24,7 @@ struct PairCounts {
 void add_asymmetry(const MatX& D, double root, PairStatistics& out, const Task& task) {
   constexpr Eigen::Index side = 64;
   const Eigen::Index n = D.rows(), blocks = (n + side - 1) / side;
-  std::vector<PairCounts> counts(static_cast<std::size_t>(blocks));
+  std::vector<PairCounts> counts(blocks);
   parallel_for(counts.size(), 1, [&](std::size_t block, std::size_t) {
     task.checkpoint();
     PairCounts& count = counts[block];
@@ -51,8 +51,7 @@ void add_asymmetry(const MatX& D, double root, PairStatistics& out, const Task& 
 }  // namespace
 
 Eigen::Index statistics_nodes(Eigen::Index n) {
-  return std::min(n, static_cast<Eigen::Index>(
-                         std::sqrt(2 * most_triplets / static_cast<double>(std::max(n, {1})))));
+  return std::min(n, index(std::sqrt(2 * most_triplets / static_cast<double>(std::max(n, {1})))));
 }
 
 PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
@@ -63,7 +62,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
   // Pairs i < j of some nodes, evenly spread; every k.
   const auto node = [&](std::size_t p) { return index(p) * n / m; };
   MatX S(n, m);  // columns of the symmetric part
-  parallel_for(static_cast<std::size_t>(m), 1, [&](std::size_t p, std::size_t) {
+  parallel_for(std::size_t(m), 1, [&](std::size_t p, std::size_t) {
     const Eigen::Index i = node(p);
     for (Eigen::Index k = 0; k < n; ++k) {
       const double a = D(k, i), b = D(i, k);
@@ -71,7 +70,7 @@ PairStatistics pair_statistics(const MatX& D, double area, const Task& task) {
     }
   });
   const double round_off = 1e-12 * root;
-  std::vector<PairCounts> counts(static_cast<std::size_t>(m));
+  std::vector<PairCounts> counts(m);
   parallel_for(counts.size(), 4, [&](std::size_t begin, std::size_t end) {
     task.checkpoint(static_cast<double>(begin) / static_cast<double>(m));
     for (std::size_t p = begin; p < end; ++p) {

@@ -17,8 +17,8 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
                     std::vector<char>& bounds) {
   constexpr int unknown = std::numeric_limits<int>::min();
   VecXi label = VecXi::Constant(J.n_faces, unknown);
-  bounds.assign(static_cast<std::size_t>(J.n_components), 1);
-  std::vector<std::vector<int>> sheets(static_cast<std::size_t>(J.n_faces));
+  bounds.assign(std::size_t(J.n_components), 1);
+  std::vector<std::vector<int>> sheets(std::size_t(J.n_faces));
   for (const FacePair& p : pairs) {
     sheets[p.left].push_back(p.right);
     sheets[p.right].push_back(p.left);
@@ -60,7 +60,7 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
 /// How many nodes inside a component are met by the curve an odd number of times.
 void count_ends(const JumpCalculus& J, const VecX& curve,
                 std::vector<ShortestCompletion::Part>& parts) {
-  std::vector<long> met(static_cast<std::size_t>(J.n_nodes), 0);
+  std::vector<long> met(std::size_t(J.n_nodes), 0);
   std::vector<char> on_boundary(met.size(), 0);
   for (int e = 0; e < J.n_edges; ++e)
     for (const JumpCalculus::Side& side : J.sides[e]) {
@@ -91,7 +91,7 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
   std::vector<char> bounds;
   ShortestCompletion out;
   out.region = walked_labels(J, curve, pairs, bounds);
-  out.parts.resize(static_cast<std::size_t>(J.n_components));
+  out.parts.resize(std::size_t(J.n_components));
   count_ends(J, curve, out.parts);
   bool any = false;
   for (int c = 0; c < J.n_components; ++c) {
@@ -107,7 +107,7 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
     for (int f = 0; f < J.n_faces; ++f)
       if (!bounds[J.component[f]] && out.parts[J.component[f]].solved) out.region[f] = cut[f];
   }
-  std::vector<int> least(static_cast<std::size_t>(J.n_components), std::numeric_limits<int>::max());
+  std::vector<int> least(std::size_t(J.n_components), std::numeric_limits<int>::max());
   for (int f = 0; f < J.n_faces; ++f)
     least[J.component[f]] = std::min(least[J.component[f]], out.region[f]);
   for (int f = 0; f < J.n_faces; ++f) {

@@ -6,9 +6,7 @@
 namespace littoral {
 
 MinimumDegree::MinimumDegree(int n, int boundary)
-    : n_(n),
-      words_(static_cast<std::size_t>(n + boundary + 63) / 64),
-      bits_(words_ * static_cast<std::size_t>(n), 0) {
+    : n_(n), words_(std::size_t(n + boundary + 63) / 64), bits_(words_ * std::size_t(n), 0) {
   for (int v = 0; v < n; ++v) add_edge(v, v);
 }
 

@@ -120,7 +120,7 @@ class Dissection {
     Graph out;
     out.weight.assign(n, 1);
     out.begin.reserve(out.weight.size() + 1);
-    out.to.reserve(static_cast<std::size_t>(1.1 * double(n) / graph.size() * graph.begin.back()));
+    out.to.reserve(std::size_t(1.1 * double(n) / graph.size() * graph.begin.back()));
     for (int v = 0; v < graph.size(); ++v) {
       stop_now_and_then(v, task_);
       if (side[v] != s) continue;

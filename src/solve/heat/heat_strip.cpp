@@ -23,7 +23,7 @@ StripHeat::StripHeat(std::shared_ptr<const HeatSystem<double>> system,
     : system_(std::move(system)),
       row_of_(row_of),
       component_(std::move(component)),
-      size_(static_cast<std::size_t>(n_components), 0),
+      size_(std::size_t(n_components), 0),
       solve_(*system_->factor(), row_of) {
   for (const int c : component_)
     if (c >= 0) ++size_[c];

@@ -22,7 +22,7 @@ struct ScaledStrip {
   std::array<Eigen::Index, strip_width> missed{};  // unknowns that heat should reach and does not
 
   int layer_at(Eigen::Index row, int column) const {
-    return layer.empty() ? 0 : layer[static_cast<std::size_t>(row * strip_width + column)];
+    return layer.empty() ? 0 : layer[std::size_t(row * strip_width + column)];
   }
 };
 

@@ -18,7 +18,7 @@ enum class Rim : char { none, touches, lies_on };
 class EndSearch {
  public:
   EndSearch(const SurfaceMesh& mesh, const IntrinsicTriangulation& T)
-      : mesh_(mesh), T_(T), at_rim_(static_cast<std::size_t>(mesh.n_vertices()), 0) {
+      : mesh_(mesh), T_(T), at_rim_(std::size_t(mesh.n_vertices()), 0) {
     for (int e = 0; e < T.n_edges(); ++e)
       if (T.edge_use[e] != 2) at_rim_[T.edges(e, 0)] = at_rim_[T.edges(e, 1)] = 1;
   }
@@ -88,7 +88,7 @@ std::optional<CurveEnds> curve_ends(const SurfaceMesh& mesh, const IntrinsicTria
   const std::vector<OpenEnd> ends = open_ends(sources, takes);
   if (ends.size() > most_ends) return {};
   const EndSearch search(mesh, T);
-  out.of_component.assign(static_cast<std::size_t>(mesh.n_components()), 0);
+  out.of_component.assign(std::size_t(mesh.n_components()), 0);
   std::vector<Vec3> places;
   for (const OpenEnd& end : ends) {
     const SurfacePoint p = simplest(mesh, end.at);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/disjoint_sets.h"
+#include "base/index.h"
 #include "sources/space/space_distances.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/triangulate.h"
@@ -24,14 +25,14 @@ std::vector<int> parts_of_faces(const PolygonSoup& surface) {
 }
 
 std::vector<int> parts_of_samples(const PolygonSoup& surface, const OrientedPoints& samples) {
-  std::vector<int> part(static_cast<std::size_t>(samples.size()), 0);
+  std::vector<int> part(std::size_t(samples.size()), 0);
   if (surface.n_faces() == 0) return part;
   const PolygonSoup triangles = triangulate(surface);
   const std::vector<int> of_face = parts_of_faces(triangles);
   const NearestSource nearest(triangles, samples);
   std::map<int, int> number;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const int of = of_face[nearest.triangle_at(samples.points.row(static_cast<Eigen::Index>(i)))];
+    const int of = of_face[nearest.triangle_at(samples.points.row(index(i)))];
     part[i] = number.try_emplace(of, static_cast<int>(number.size())).first->second;
   }
   return part;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
 namespace littoral {
 
@@ -33,29 +34,44 @@ bool from_corner_to_corner(const TriangleSources::Segment& s) {
   return barycentrics(s.a).maxCoeff() == 1 && barycentrics(s.b).maxCoeff() == 1;
 }
 
-/// Where segments end within a side, in the triangles at that side that hold none themselves: the
-/// tips of curves, and pages at an edge of three and more faces.
+/// Where segments end within a side, in the triangles at that side where none does: the tips of
+/// curves, and pages at an edge of three and more faces.
 std::vector<TriangleSources::Segment> ends_on_sides(
     const IntrinsicTriangulation& T, std::span<const TriangleSources::Segment> segments) {
-  std::vector<char> holds(T.n_faces(), 0);
-  std::multimap<int, double> ends;  // edge -> share of the way to its head
+  struct End {
+    int edge;
+    double share;  // of the way to its head
+    int triangle;
+    auto operator<=>(const End&) const = default;
+  };
+  std::vector<End> ends;
   for (const TriangleSources::Segment& s : segments) {
     if (s.triangle < 0) continue;
-    holds[s.triangle] = 1;
     for (const auto& b : {s.a, s.b})
       for (int k = 0; k < 3; ++k) {
         const double here = b[k], next = b[(k + 1) % 3];
         if (b[(k + 2) % 3] <= at_node && std::min(here, next) > at_node)
-          ends.emplace(T.side_edge(s.triangle, k), T.along(s.triangle, k) > 0 ? next : here);
+          ends.push_back(
+              {T.side_edge(s.triangle, k), T.along(s.triangle, k) > 0 ? next : here, s.triangle});
       }
   }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   std::vector<TriangleSources::Segment> out;
   for (int f = 0; f < T.n_faces() && !ends.empty(); ++f)
-    for (int k = 0; k < 3 && !holds[f]; ++k) {
-      const auto [first, last] = ends.equal_range(T.side_edge(f, k));
-      for (auto at = first; at != last; ++at) {
+    for (int k = 0; k < 3; ++k) {
+      const int edge = T.side_edge(f, k);
+      const auto less = [](const End& end, int e) { return end.edge < e; };
+      auto near = std::lower_bound(ends.begin(), ends.end(), edge, less);
+      for (auto at = near; at != ends.end() && at->edge == edge; ++at) {
+        while (near->share < at->share - at_node) ++near;
+        bool own = false;
+        for (auto o = near; o != ends.end() && o->edge == edge && o->share <= at->share + at_node;
+             ++o)
+          own = own || o->triangle == f;
+        if (own) continue;
         std::array<double, 3> b{};
-        b[(k + 1) % 3] = T.along(f, k) > 0 ? at->second : 1 - at->second;
+        b[(k + 1) % 3] = T.along(f, k) > 0 ? at->share : 1 - at->share;
         b[k] = 1 - b[(k + 1) % 3];
         out.push_back({f, b, b});
       }

@@ -7,11 +7,11 @@
 #include <atomic>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include "broken_shapes.h"
+#include "constants.h"
 #include "methods/implicit/level_patch.h"
 #include "methods/implicit/orient_soup.h"
 #include "methods/implicit/place_tree.h"
@@ -20,10 +20,10 @@
 namespace littoral {
 namespace {
 
-using std::numbers::pi;
 using test::hemisphere;
 using test::joined;
 using test::part_of;
+using test::pi;
 using test::turned;
 
 TEST(LevelPatch, CornersLieOnTheLevelAndCracksGetNone) {

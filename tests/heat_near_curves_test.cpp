@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "constants.h"
 #include "heat_helpers.h"
 #include "one_call.h"
 #include "sources/curves/completed_curves.h"
@@ -17,7 +17,7 @@
 namespace littoral {
 namespace {
 
-using std::numbers::pi;
+using test::pi;
 
 /// Runs of a circle in the plane, the missing ones left out; clockwise if `outside` is positive.
 Sources runs_of_circle(double radius, int segments, int runs, const std::vector<int>& missing,

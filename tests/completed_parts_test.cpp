@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -95,19 +96,25 @@ TEST(LevelPatch, CoversASlotThatLiesAskewToTheCubesOnce) {
   const MatX3 on_plane = patch.points * frame;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-0.7, 0.7);
-  for (int i = 0; i < 3000; ++i) {
-    const double x = place(random), y = 3 * place(random);
-    int covered = 0;
-    for (Eigen::Index f = 0; f < patch.faces.rows(); ++f) {
+  std::vector<Vec2> places(3000);
+  for (Vec2& q : places) q = Vec2(place(random), 3 * place(random));
+  std::sort(places.begin(), places.end(), [](const Vec2& p, const Vec2& q) { return p[0] < q[0]; });
+  std::vector<int> covered(places.size(), 0);
+  for (Eigen::Index f = 0; f < patch.faces.rows(); ++f) {
+    const auto corners = on_plane.block<3, 2>(3 * f, 0).eval();
+    const auto left_end = [](const Vec2& q, double x) { return q[0] < x; };
+    const auto first =
+        std::lower_bound(places.begin(), places.end(), corners.col(0).minCoeff(), left_end);
+    for (auto q = first; q != places.end() && (*q)[0] <= corners.col(0).maxCoeff(); ++q) {
       int left = 0;
       for (int k = 0; k < 3; ++k) {
-        const Vec3 a = on_plane.row(3 * f + k), b = on_plane.row(3 * f + (k + 1) % 3);
-        left += (b[0] - a[0]) * (y - a[1]) > (b[1] - a[1]) * (x - a[0]);
+        const Vec2 a = corners.row(k), b = corners.row((k + 1) % 3);
+        left += (b[0] - a[0]) * ((*q)[1] - a[1]) > (b[1] - a[1]) * ((*q)[0] - a[0]);
       }
-      covered += left == 3 || left == 0;
+      covered[q - places.begin()] += left == 3 || left == 0;
     }
-    EXPECT_EQ(covered, 1) << x << " " << y;
   }
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(covered[i], 1) << places[i].transpose();
 }
 
 TEST(BoundaryEdges, AreThoseOfTheChain) {

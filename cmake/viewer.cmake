@@ -54,8 +54,13 @@ function(littoral_studio_page target)
             ${CMAKE_SOURCE_DIR}/src/io/render/colour_maps.inc
     COMMENT "Bundling the studio"
     VERBATIM)
-  target_sources(${target} PRIVATE ${to}/studio_page.cpp)
-  set_source_files_properties(${to}/studio_page.cpp PROPERTIES
-    SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -Wno-overlength-strings)
+  # A target of its own: the rest of the program need not wait for the library then, on which all
+  # that is made for the program depends.
+  add_library(littoral_studio OBJECT ${to}/studio_page.cpp)
+  target_compile_features(littoral_studio PRIVATE cxx_std_20)
+  target_include_directories(littoral_studio PRIVATE ${CMAKE_SOURCE_DIR}/src)
+  littoral_warnings(littoral_studio)
+  target_compile_options(littoral_studio PRIVATE -Wno-overlength-strings)
+  target_sources(${target} PRIVATE $<TARGET_OBJECTS:littoral_studio>)
   set_property(SOURCE src/cli/studio.cpp APPEND PROPERTY COMPILE_DEFINITIONS LITTORAL_HAS_STUDIO=1)
 endfunction()

@@ -109,7 +109,7 @@ void parallel_for(std::size_t n, std::size_t grain,
 }
 
 struct ThreadCrew::Shared {
-  static constexpr int patience = 2000;  // looks, some 20 us, before a thread goes to sleep
+  static constexpr int patience = 8000;  // looks, some 80 us, before a thread goes to sleep
 
   /// Returns when `done` does not hold any more: soon if that is soon.
   template <class Done>

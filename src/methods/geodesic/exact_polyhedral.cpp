@@ -23,7 +23,7 @@ constexpr double most_held = 3e7;  // windows, 2 GB
 constexpr double together_share =
     0.25;                              // of the wait of an edge: what is due until then goes on too
 constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 1e3;  // windows to carry on; ten times as many to put away
+constexpr double worth_threads = 500;  // windows to carry on; four times as many to put away
 
 class Front {
  public:
@@ -151,7 +151,7 @@ class Front {
     for (std::size_t part = 0; part < parts; ++part)
       for (const RayCrossing::Offer& o : crew_[part]->offers())
         if (offer(o) && search_.pages.bends[o.vertex]) push({o.distance, -1 - o.vertex});
-    const std::size_t n = load > 10 * worth_threads ? std::min<std::size_t>(parts, 16) : 1;
+    const std::size_t n = load > 4 * worth_threads ? std::min<std::size_t>(parts, 16) : 1;
     threads_.run(n, [&](std::size_t share) {
       for (std::size_t part = 0; part < parts; ++part)
         for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {

@@ -5,16 +5,15 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "api/surface/discretization.h"
 #include "api/surface/heat_surface.h"
 #include "base/index.h"
-#include "base/now_and_then.h"
 #include "methods/heat/time_scale.h"
 #include "sources/curves/curve_ends.h"
+#include "sources/surface/source_values.h"
 #include "sources/surface/surface_points.h"
 
 namespace littoral {
@@ -27,12 +26,6 @@ constexpr double beside_curves = 6;     // decay lengths of heat that a band rea
 constexpr double around_ends = 1.75;    // gaps that it reaches there
 constexpr double well_inside = 1;       // of how far the zero set goes: what is left beyond it
 constexpr double widest = 64;           // times as wide as at first; most_faces stops it before
-
-/// Where a band grows from: a vertex, and how much farther than elsewhere it reaches there [units].
-struct Start {
-  int vertex;
-  double farther;
-};
 
 /// An end, and how far it is to the nearest end of what is not joined to it; if there is none, to
 /// the nearest of its own [length].
@@ -59,40 +52,6 @@ std::vector<Gap> gaps_at(const SurfaceMesh& mesh, const std::vector<OpenEnd>& en
     if (least < infinity) gaps[i].width = least;
   }
   return gaps;
-}
-
-/// Vertices: distance along edges from the starts, less what they reach farther [units]; +inf
-/// beyond a limit.
-VecX distances_along_edges(const IntrinsicTriangulation& T, const std::vector<Start>& from,
-                           double limit, const Task& task) {
-  std::vector<int> first(std::size_t(T.n_vertices) + 1, 0), sides(3 * std::size_t(T.n_faces()));
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) ++first[T.faces(f, k) + 1];
-  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k) sides[next[T.faces(f, k)]++] = 3 * f + k;
-  VecX d = VecX::Constant(T.n_vertices, infinity);
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto reach = [&](int v, double at) {
-    if (!(at < d[v]) || at > limit) return;
-    d[v] = at;
-    queue.emplace(at, v);
-  };
-  for (const Start& start : from) reach(start.vertex, -start.farther);
-  for (int steps = 0; !queue.empty(); ++steps) {
-    stop_now_and_then(steps, task);
-    const auto [at, v] = queue.top();
-    queue.pop();
-    if (at > d[v]) continue;
-    for (int i = first[v]; i < first[v + 1]; ++i) {
-      const int f = sides[i] / 3, k = sides[i] % 3, before = (k + 2) % 3;
-      reach(T.faces(f, (k + 1) % 3), at + T.length(f, k));
-      reach(T.faces(f, before), at + T.length(f, before));
-    }
-  }
-  return d;
 }
 
 /// The faces of a mesh that have a vertex with finite d, as a mesh.
@@ -178,6 +137,7 @@ class NearCurves {
   NearCurves(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, const PlacedSources& sided)
       : mesh_(mesh),
         T_(T),
+        along_edges_(T),
         sided_(sided),
         scale_(automatic_time_scale_of_curves(T.n_faces())),
         marked_(sided.nodes.size(), 0) {
@@ -192,8 +152,8 @@ class NearCurves {
     const double least = beside_curves * 0.5 * T_.mean_edge_length * std::sqrt(scale_);
     for (double wider = 1; wider <= widest; wider *= 2) {
       const double radius = wider * least;
-      const std::vector<Start> from = starts(gaps, wider, radius);
-      const VecX d = distances_along_edges(T_, from, radius, task);
+      const std::vector<EdgePaths::Start> from = starts(gaps, wider, radius);
+      const VecX d = along_edges_.lengths(from, radius, task);
       const Band band(mesh_, d);
       if (band.mesh()->n_faces() > most_faces * mesh_.n_faces()) return {};
       VecX phi = VecX::Constant(mesh_.n_vertices(), infinity);
@@ -208,13 +168,16 @@ class NearCurves {
 
  private:
   /// Distances from the curves as far as a band can reach.
-  VecX beside(std::vector<Start> from, double radius, const Task& task) const {
+  VecX beside(std::vector<EdgePaths::Start> from, double radius, const Task& task) const {
     double farthest = 0;
-    for (Start& start : from) farthest = std::max(farthest, std::exchange(start.farther, 0));
-    return distances_along_edges(T_, from, radius + farthest, task);
+    for (EdgePaths::Start& start : from)
+      farthest = std::max(farthest, -std::exchange(start.value, 0));
+    return along_edges_.lengths(from, radius + farthest, task);
   }
-  std::vector<Start> starts(const std::vector<Gap>& gaps, double wider, double radius) const {
-    std::vector<Start> out;
+  /// Where a band grows from: values below 0 where it reaches farther than elsewhere.
+  std::vector<EdgePaths::Start> starts(const std::vector<Gap>& gaps, double wider,
+                                       double radius) const {
+    std::vector<EdgePaths::Start> out;
     for (const CurvePiece& piece : sided_.pieces)
       for (const int v : mesh_.face(piece.face)) out.push_back({v, 0});
     for (const auto& nodes : kept_nodes())
@@ -224,7 +187,7 @@ class NearCurves {
     for (const Gap& gap : gaps)
       for (const int f : gap.faces)
         for (const int v : mesh_.face(f))
-          out.push_back({v, std::max(0.0, wider * around_ends * gap.width / T_.unit - radius)});
+          out.push_back({v, std::min(0.0, radius - wider * around_ends * gap.width / T_.unit)});
     return out;
   }
   std::vector<const std::vector<SurfacePoint>*> kept_nodes() const {
@@ -258,6 +221,7 @@ class NearCurves {
 
   const SurfaceMesh& mesh_;
   const IntrinsicTriangulation& T_;
+  const EdgePaths along_edges_;
   const PlacedSources& sided_;
   double scale_;              // of the diffusion time on the whole mesh
   std::vector<char> marked_;  // curves with pieces

@@ -64,17 +64,18 @@ std::vector<double> values_of_samples(const PolygonSoup& surface, const Oriented
 
 void warn_of_shadowed(const TetMesh& mesh, const TetOperators& ops,
                       const std::vector<ValuedPlace>& sources, double unit, Report& report) {
-  EdgePaths paths(mesh.n_vertices());
+  std::vector<EdgePaths::Edge> edges;
   for (int t = 0; t < mesh.n_tets(); ++t)
     for (int i = 0; i < 4 && ops.volumes[t] > 0; ++i)
       for (int j = 0; j < i; ++j) {
         const int a = mesh.tets(t, i), b = mesh.tets(t, j);
-        paths.add_edge(a, b, (mesh.points.row(a) - mesh.points.row(b)).norm());
+        edges.push_back({a, b, (mesh.points.row(a) - mesh.points.row(b)).norm()});
       }
+  std::vector<EdgePaths::Start> from;
   for (const ValuedPlace& source : sources)
     for (int k = 0; k < 4 && source.at.tet >= 0; ++k)
-      paths.start(mesh.tets(source.at.tet, k), source.value + to_corner(mesh, source.at, k));
-  const VecX reach = paths.lengths();
+      from.push_back({mesh.tets(source.at.tet, k), source.value + to_corner(mesh, source.at, k)});
+  const VecX reach = EdgePaths(mesh.n_vertices(), edges).lengths(from);
   std::map<double, double> excess;  // value -> largest
   for (const ValuedPlace& source : sources) {
     if (source.at.tet < 0) continue;

@@ -10,6 +10,7 @@
 
 #include "base/counted.h"
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/option_table.h"
 
 namespace littoral {
@@ -64,53 +65,66 @@ Sources shifted_values(const Sources& sources, double shift) {
   return out;
 }
 
-EdgePaths::EdgePaths(int n_vertices)
-    : around_(n_vertices), start_(VecX::Constant(n_vertices, infinity)) {}
-
-void EdgePaths::add_edge(int a, int b, double length) {
-  around_[a].emplace_back(b, length);
-  around_[b].emplace_back(a, length);
+EdgePaths::EdgePaths(int n_vertices, const std::vector<Edge>& edges)
+    : first_(std::size_t(n_vertices) + 1, 0), neighbours_(2 * edges.size()) {
+  for (const auto& [a, b, length] : edges) ++first_[a + 1], ++first_[b + 1];
+  for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (const auto& [a, b, length] : edges) {
+    neighbours_[next[a]++] = {b, length};
+    neighbours_[next[b]++] = {a, length};
+  }
 }
 
-void EdgePaths::start(int vertex, double value) {
-  start_[vertex] = std::min(start_[vertex], value);
+namespace {
+
+std::vector<EdgePaths::Edge> sides_of(const IntrinsicTriangulation& T) {
+  std::vector<EdgePaths::Edge> sides;
+  sides.reserve(3 * std::size_t(T.n_faces()));
+  for (int f = 0; f < T.n_faces(); ++f)
+    for (int k = 0; k < 3; ++k)
+      sides.push_back({T.faces(f, k), T.faces(f, (k + 1) % 3), T.length(f, k)});
+  return sides;
 }
 
-VecX EdgePaths::lengths() const {
-  VecX reach = start_;
+}  // namespace
+
+EdgePaths::EdgePaths(const IntrinsicTriangulation& T) : EdgePaths(T.n_vertices, sides_of(T)) {}
+
+VecX EdgePaths::lengths(const std::vector<Start>& from, double limit, const Task& task) const {
+  VecX d = VecX::Constant(index(first_.size()) - 1, infinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (int v = 0; v < reach.size(); ++v)
-    if (reach[v] < infinity) queue.emplace(reach[v], v);
-  while (!queue.empty()) {
+  const auto reach = [&](int v, double at) {
+    if (!(at < d[v]) || at > limit) return;
+    d[v] = at;
+    queue.emplace(at, v);
+  };
+  for (const Start& start : from) reach(start.vertex, start.value);
+  for (int steps = 0; !queue.empty(); ++steps) {
+    stop_now_and_then(steps, task);
     const auto [at, v] = queue.top();
     queue.pop();
-    if (at > reach[v]) continue;
-    for (const auto& [w, length] : around_[v]) {
-      if (!(at + length < reach[w])) continue;
-      reach[w] = at + length;
-      queue.emplace(reach[w], w);
-    }
+    if (at > d[v]) continue;
+    for (int i = first_[v]; i < first_[v + 1]; ++i)
+      reach(neighbours_[i].first, at + neighbours_[i].second);
   }
-  return reach;
+  return d;
 }
 
 VecX reach_along_edges(const IntrinsicTriangulation& T, const TriangleSources& sources) {
-  EdgePaths paths(T.n_vertices);
-  for (int f = 0; f < T.n_faces(); ++f)
-    for (int k = 0; k < 3; ++k)
-      paths.add_edge(T.faces(f, k), T.faces(f, (k + 1) % 3), T.length(f, k));
+  std::vector<EdgePaths::Start> from;
   for (const auto* points : {&sources.nodes, &sources.isolated}) {
     for (std::size_t i = 0; i < points->vertices.size(); ++i)
-      paths.start(points->vertices[i], sources.value_of(points->vertex_source[i]));
+      from.push_back({points->vertices[i], sources.value_of(points->vertex_source[i])});
     for (std::size_t i = 0; i < points->inside.size(); ++i) {
       const auto far = from_corners(T, points->inside[i]);
       for (int k = 0; k < 3; ++k)
-        paths.start(T.faces(points->inside[i].face, k),
-                    sources.value_of(points->inside_source[i]) + far[k]);
+        from.push_back({T.faces(points->inside[i].face, k),
+                        sources.value_of(points->inside_source[i]) + far[k]});
     }
   }
-  return paths.lengths();
+  return EdgePaths(T).lengths(from);
 }
 
 void warn_of_shadowed(const IntrinsicTriangulation& T, const TriangleSources& sources,

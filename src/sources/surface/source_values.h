@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/index.h"
+#include "base/task.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 #include "littoral/report.h"
 #include "littoral/sources.h"
@@ -24,19 +26,27 @@ ValueRange signed_value_range(const Sources& sources);
 /// The same sources with `shift` added to every value.
 Sources shifted_values(const Sources& sources, double shift);
 
-/// Shortest paths along edges from starts that are counted from values.
+/// Shortest paths along edges from vertices that are counted from values.
 class EdgePaths {
  public:
-  explicit EdgePaths(int n_vertices);
+  struct Edge {
+    int a, b;
+    double length;
+  };
+  struct Start {
+    int vertex;
+    double value;
+  };
+  EdgePaths(int n_vertices, const std::vector<Edge>& edges);
+  explicit EdgePaths(const IntrinsicTriangulation& T);  // sides of its triangles [units]
 
-  void add_edge(int a, int b, double length);
-  void start(int vertex, double value);
-  /// At the vertices, +inf where none leads.
-  VecX lengths() const;
+  /// At the vertices, +inf where none leads and beyond `limit`.
+  VecX lengths(const std::vector<Start>& from, double limit = infinity,
+               const Task& task = Task()) const;
 
  private:
-  std::vector<std::vector<std::pair<int, double>>> around_;
-  VecX start_;
+  std::vector<int> first_;  // by vertex, in neighbours_
+  std::vector<std::pair<int, double>> neighbours_;
 };
 
 /// The least of c_i + d_i at the vertices [units], d_i being the length of a path along edges: no

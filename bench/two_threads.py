@@ -1,4 +1,4 @@
-"""What a second thread saves, beside what the machine's second core can give.
+"""How much faster two threads are than one, beside what the machine's second core can give.
 
 usage: two_threads.py PROGRAM DATA ROUNDS [NAME...]    prints Markdown
 
@@ -39,7 +39,9 @@ def seconds(*commands: list[str]) -> float:
 
 
 def main(program: str, data: Path, rounds: int, names: list[str]) -> None:
-    print("| job | s, one thread | s, two threads | of it | two runs at once | same bytes |")
+    print(
+        "| job | s, one thread | s, two threads | times as fast | two runs at once | same bytes |"
+    )
     print("|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name in names or JOBS:
@@ -59,8 +61,8 @@ def main(program: str, data: Path, rounds: int, names: list[str]) -> None:
             same = outs[0].read_bytes() == outs[1].read_bytes()
             a, b, c = (statistics.median(x) for x in (one, two, both))
             print(
-                f"| {name} | {a:.2f} | {b:.2f} | 1/{a / b:.2f} | {2 * a / c:.2f} times as much"
-                f" | {'yes' if same else '**no**'} |",
+                f"| {name} | {a:.2f} | {b:.2f} | {a / b:.2f} | {2 * a / c:.2f} | "
+                f"{'yes' if same else '**no**'} |",
                 flush=True,
             )
 

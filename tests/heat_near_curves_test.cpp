@@ -57,6 +57,16 @@ void expect_inside_of_circle(const Case& c) {
   }
 }
 
+/// Signs are those of signed heat on the whole mesh.
+void expect_sides_of_whole(const SurfaceMesh& mesh, const Sources& sources) {
+  const Case c(mesh, sources);
+  ASSERT_TRUE(c.near);
+  Report report;
+  const VecX whole = test::surface_distance(mesh, sources, SignedHeat{}, report);
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    EXPECT_TRUE(std::abs(whole[v]) <= 0.002 || ((*c.near)[v] > 0) == (whole[v] > 0)) << v;
+}
+
 double completed_length(const Case& c) {
   double length = 0;
   for (const CurvePiece& piece : completed_curves(c.mesh, c.placed, *c.near).pieces)
@@ -79,12 +89,7 @@ TEST(HeatNearCurves, WidensUntilTheZeroSetLiesWellInside) {
   const Sources inner = runs_of_circle(0.185, 160, 40, {3, 4}, true);
   sources.space_curves.insert(sources.space_curves.end(), inner.space_curves.begin(),
                               inner.space_curves.end());
-  const Case c(mesh, sources);
-  ASSERT_TRUE(c.near);
-  Report report;
-  const VecX whole = test::surface_distance(mesh, sources, SignedHeat{}, report);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    EXPECT_TRUE(std::abs(whole[v]) <= 0.002 || ((*c.near)[v] > 0) == (whole[v] > 0)) << v;
+  expect_sides_of_whole(mesh, sources);
 }
 
 TEST(HeatNearCurves, CurvesThatCloseFarAwayNeedTheWholeMesh) {
@@ -133,12 +138,7 @@ TEST(HeatNearCurves, FacesBesideAnEdgeOfThree) {
   }
   const SurfaceMesh mesh(std::move(soup));
   const Sources sources = runs_of_circle(0.3, 160, 40, {3, 9, 14, 30});
-  const Case c(mesh, sources);
-  ASSERT_TRUE(c.near);
-  Report report;
-  const VecX whole = test::surface_distance(mesh, sources, SignedHeat{}, report);
-  for (int v = 0; v < mesh.n_vertices(); ++v)
-    EXPECT_TRUE(std::abs(whole[v]) <= 0.002 || ((*c.near)[v] > 0) == (whole[v] > 0)) << v;
+  expect_sides_of_whole(mesh, sources);
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "base/index.h"
-#include "methods/geodesic/polyhedral_window.h"
+#include "methods/geodesic/ray_kernels.h"
 
 namespace littoral {
 
 /// The windows of an edge.
 struct WindowList {
-  std::vector<Window> windows;  // from tail to head, do not overlap
-  double due = infinity;        // when the open ones are to go on
-  bool none_open = false;       // all have gone on, whatever they say themselves
+  WindowBlock windows;     // from tail to head, do not overlap
+  double due = infinity;   // when the open ones are to go on
+  bool none_open = false;  // all have gone on, whatever they say themselves
 };
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of
@@ -38,12 +38,17 @@ class EdgeEnvelopes {
   /// Several windows for one list, in order from tail to head but for few: the last one of the
   /// batch has just been added, and what is nearest stays. False if it is gone, or is no longer the
   /// last.
-  bool settle(std::vector<Window>& batch, double length) {
+  bool settle(WindowBlock& batch, double length) {
     const std::size_t n = batch.size();
-    if (n == 1 || batch[n - 2].b1 <= batch[n - 1].b0) return true;
-    const Fit fit = divide_neighbours(batch[n - 2], batch[n - 1], length);
-    if (fit == Fit::both) return true;
-    const Window w = batch.back();
+    if (n == 1 || batch.column(WindowBlock::b1)[n - 2] <= batch.column(WindowBlock::b0)[n - 1])
+      return true;
+    Window o = batch[n - 2], w = batch[n - 1];
+    const Fit fit = divide_neighbours(o, w, length);
+    if (fit == Fit::both) {
+      batch.set(n - 2, o);
+      batch.set(n - 1, w);
+      return true;
+    }
     batch.pop_back();
     const double taken = n_taken_;
     if (fit == Fit::otherwise) insert(batch, length, w);
@@ -52,35 +57,37 @@ class EdgeEnvelopes {
   }
 
   /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is.
-  double take(WindowList& list, std::vector<Window>&& batch, double length) {
+  double take(WindowList& list, WindowBlock&& batch, double length) {
     double least = infinity;
     if (batch.empty()) return least;
     close(list);
-    std::vector<Window>& all = list.windows;
-    const std::size_t before = all.size();
+    WindowBlock& all = list.windows;
+    const std::size_t before = all.size(), n = batch.size();
     if (before == 0) {
-      for (const Window& w : batch) least = std::min(least, w.least());
-      n_taken_ += double(batch.size());
-      n_held_ += double(batch.size());
+      n_taken_ += double(n);
+      n_held_ += double(n);
       all = std::move(batch);
-      return least;
+      return ray_kernels().least(all, 0, n);
     }
-    const double start = all.front().b0, end = all.back().b1;
-    auto first = batch.begin(), last = batch.end();
-    while (first != last && first->b1 <= start) ++first;
-    while (last != first && (last - 1)->b0 >= end) --last;
-    for (auto w = first; w != last; ++w) least = std::min(least, insert(all, length, *w));
-    for (auto w = batch.begin(); w != first; ++w) least = std::min(least, w->least());
-    for (auto w = last; w != batch.end(); ++w) least = std::min(least, w->least());
-    n_taken_ += double(first - batch.begin()) + double(batch.end() - last);
-    if (first != batch.begin() || last != batch.end()) {
-      std::vector<Window> joined;  // no larger than it has to be
-      joined.reserve(all.size() + std::size_t(first - batch.begin()) +
-                     std::size_t(batch.end() - last));
-      joined.insert(joined.end(), batch.begin(), first);
-      joined.insert(joined.end(), all.begin(), all.end());
-      joined.insert(joined.end(), last, batch.end());
-      all.swap(joined);
+    const double *b0 = batch.column(WindowBlock::b0), *b1 = batch.column(WindowBlock::b1);
+    const double start = all.column(WindowBlock::b0)[0],
+                 end = all.column(WindowBlock::b1)[before - 1];
+    std::size_t first = 0, last = n;
+    while (first != last && b1[first] <= start) ++first;
+    while (last != first && b0[last - 1] >= end) --last;
+    for (std::size_t i = first; i < last; ++i)
+      least = std::min(least, insert(all, length, batch[i]));
+    if (first != 0) least = std::min(least, ray_kernels().least(batch, 0, first));
+    if (last != n) least = std::min(least, ray_kernels().least(batch, last, n));
+    const std::size_t outside = first + (n - last);
+    n_taken_ += double(outside);
+    if (outside > 0) {
+      WindowBlock joined;  // no larger than it has to be
+      joined.reserve(all.size() + outside);
+      joined.append(batch, 0, first);
+      joined.append(all, 0, all.size());
+      joined.append(batch, last, n);
+      all = std::move(joined);
     }
     rejoin(all, start, length);
     rejoin(all, end, length);
@@ -92,22 +99,28 @@ class EdgeEnvelopes {
   template <class Take>
   static void take_open(WindowList& list, const Take& take) {
     if (list.none_open) return;
-    for (Window& w : list.windows)
-      if (w.open) take(w);
+    for (std::size_t i = 0; i < list.windows.size(); ++i) {
+      Window w = list.windows[i];
+      if (!w.open) continue;
+      take(w);
+      list.windows.set(i, w);
+    }
     list.none_open = true;
   }
 
   static double least_open(const WindowList& list) {
     double least = infinity;
     if (list.none_open) return least;
-    for (const Window& w : list.windows)
+    for (std::size_t i = 0; i < list.windows.size(); ++i) {
+      const Window w = list.windows[i];
       if (w.open) least = std::min(least, w.least());
+    }
     return least;
   }
 
   void forget(WindowList& list) {
     n_held_ -= double(list.windows.size());
-    std::vector<Window>().swap(list.windows);
+    list.windows = WindowBlock();
     list.none_open = false;
   }
 
@@ -117,44 +130,55 @@ class EdgeEnvelopes {
  private:
   /// Neighbours near p whose rays are the same, to rounding, become one again: on a flat place the
   /// rays that a vertex divides come together behind it.
-  static void rejoin(std::vector<Window>& all, double p, double length) {
-    const auto there =
-        std::partition_point(all.begin(), all.end(), [&](const Window& w) { return w.b1 < p; });
-    std::size_t i = std::size_t(std::max<std::ptrdiff_t>(there - all.begin(), 1)) - 1;
+  static void rejoin(WindowBlock& all, double p, double length) {
+    const std::size_t there = beyond(all, WindowBlock::b1, p, false);
+    std::size_t i = std::max(there, std::size_t(1)) - 1;
     for (int pair = 0; pair < 2 && i + 1 < all.size(); ++pair) {
-      const Window &w = all[i], &next = all[i + 1];
-      if (next.b0 - w.b1 > narrow_share * length || !w.same_rays(next)) {
+      const double end = all.column(WindowBlock::b1)[i],
+                   next_start = all.column(WindowBlock::b0)[i + 1];
+      if (next_start - end > narrow_share * length || !all[i].same_rays(all[i + 1])) {
         ++i;
         continue;
       }
+      const Window w = all[i], next = all[i + 1];
       Window joined = next.b1 - next.b0 > w.b1 - w.b0 ? next : w;
       joined.b0 = w.b0;
       joined.b1 = next.b1;
       joined.depth = std::max(w.depth, next.depth);
       joined.measure_ends();
-      all[i] = joined;
-      all.erase(all.begin() + std::ptrdiff_t(i) + 1);
+      all.set(i, joined);
+      all.shift(i + 1, -1);
     }
+  }
+
+  /// The first window whose number in a column is not less than p (`or_more`: more than p).
+  static std::size_t beyond(const WindowBlock& all, WindowBlock::Column c, double p, bool or_more) {
+    const double *first = all.column(c), *last = first + all.size();
+    return std::size_t((or_more ? std::upper_bound(first, last, p)
+                                : std::lower_bound(first, last, p)) -
+                       first);
   }
 
   /// Lets every window say for itself that it has gone on.
   static void close(WindowList& list) {
     if (!list.none_open) return;
-    for (Window& w : list.windows) w.open = false;
+    std::int64_t* tags = list.windows.tags();
+    for (std::size_t i = 0; i < list.windows.size(); ++i) tags[i] &= ~WindowTag::open;
     list.none_open = false;
   }
 
-  double insert(std::vector<Window>& all, double length, const Window& w) {
-    if (all.empty() || all.back().b1 <= w.b0) {
-      all.push_back(w);
-      ++n_taken_;
-      return w.least();
+  double insert(WindowBlock& all, double length, const Window& w) {
+    const std::size_t n = all.size();
+    std::size_t at = n;
+    if (n > 0 && all.column(WindowBlock::b1)[n - 1] > w.b0) {
+      at = beyond(all, WindowBlock::b1, w.b0, true);
+      if (at < n && all.column(WindowBlock::b0)[at] < w.b1)
+        return replace(all, compare(w, all, at, length), w, narrow_share * length);
+      all.shift(at, 1);
+    } else {
+      all.resize(n + 1);
     }
-    const auto beyond =
-        std::partition_point(all.begin(), all.end(), [&](const Window& o) { return o.b1 <= w.b0; });
-    if (beyond != all.end() && beyond->b0 < w.b1)
-      return replace(all, compare(w, all, beyond - all.begin(), length), w, narrow_share * length);
-    all.insert(beyond, w);
+    all.set(at, w);
     ++n_taken_;
     return w.least();
   }
@@ -206,16 +230,16 @@ class EdgeEnvelopes {
   };
 
   /// Cuts the new window and the old ones it overlaps into pieces where one of them is nearest.
-  Range compare(const Window& w, const std::vector<Window>& all, std::size_t first, double length) {
+  Range compare(const Window& w, const WindowBlock& all, std::size_t first, double length) {
     pieces_.clear();
     double u = w.b0, wu = w.d0;
     std::size_t i = first;
     while (u < w.b1) {
-      if (i == all.size() || all[i].b0 >= w.b1) {
+      if (i == all.size() || all.column(WindowBlock::b0)[i] >= w.b1) {
         emit(-1, u, w.b1, wu, w.d1);
         break;
       }
-      const Window& o = all[i];
+      const Window o = all[i];
       const int old = static_cast<int>(i++);
       double ou = o.d0;
       if (o.b0 > u) {
@@ -326,7 +350,7 @@ class EdgeEnvelopes {
   }
 
   /// Puts the pieces in the place of the windows they were cut from.
-  double replace(std::vector<Window>& all, Range range, const Window& w, double narrow) {
+  double replace(WindowBlock& all, Range range, const Window& w, double narrow) {
     double least = infinity;
     bool taken = false;
     for (const Piece& p : pieces_) taken |= p.old < 0 && p.b1 - p.b0 > narrow;
@@ -334,7 +358,7 @@ class EdgeEnvelopes {
     made_.clear();
     for (const Piece& p : pieces_) {
       if (!(p.b1 - p.b0 > narrow)) continue;
-      Window& made = made_.emplace_back(p.old < 0 ? w : all[p.old]);
+      Window& made = made_.emplace_back(p.old < 0 ? w : all[std::size_t(p.old)]);
       made.b0 = p.b0;
       made.b1 = p.b1;
       made.d0 = p.d0;
@@ -343,13 +367,13 @@ class EdgeEnvelopes {
       ++n_taken_;
       least = std::min(least, made.least());
     }
-    const auto at = all.begin() + std::ptrdiff_t(range.first);
-    const std::size_t before = range.last - range.first, kept = std::min(before, made_.size());
-    std::copy_n(made_.begin(), kept, at);
-    if (made_.size() > before)
-      all.insert(at + std::ptrdiff_t(kept), made_.begin() + std::ptrdiff_t(kept), made_.end());
-    else
-      all.erase(at + std::ptrdiff_t(kept), at + std::ptrdiff_t(before));
+    const std::ptrdiff_t more =
+        std::ptrdiff_t(made_.size()) - std::ptrdiff_t(range.last - range.first);
+    if (more > 0)
+      all.shift(range.last, more);
+    else if (more < 0)
+      all.shift(std::size_t(std::ptrdiff_t(range.last) + more), more);
+    for (std::size_t i = 0; i < made_.size(); ++i) all.set(range.first + i, made_[i]);
     return least;
   }
 

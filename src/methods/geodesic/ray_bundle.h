@@ -36,18 +36,19 @@ class RayBundle {
  public:
   explicit RayBundle(const RayKernels& kernels = ray_kernels()) : kernels_(kernels) {}
 
-  void clear() { windows_.clear(); }
-  /// Windows stay where they are.
-  void add(const Window& w) { windows_.push_back(&w); }
-  int size() const { return static_cast<int>(windows_.size()); }
-  const Window& operator[](int i) const { return *windows_[i]; }
+  /// These windows, which stay as they are.
+  void use(const WindowBlock& windows);
+  int size() const { return static_cast<int>(windows_->size()); }
+  Window operator[](int i) const { return (*windows_)[std::size_t(i)]; }
 
   /// On which side of the rays at the ends of each window the apex lies; rays that pass it by less
   /// than `tolerance` reach it.
-  void look_at(const TriangleAbove& triangle, double tolerance);
+  void look_at(const TriangleAbove& triangle, double tolerance) {
+    kernels_.look_at_apex(columns_, size(), triangle.apex.real(), triangle.apex.imag(), tolerance);
+  }
   /// Which sides of the apex each window goes on to (`RayColumns::goes`).
-  void see_where_to(double crossing, double reach) {
-    kernels_.see_where_to(columns_, size(), crossing, reach);
+  void see_where_to(const CornerNumbers& corner) {
+    kernels_.see_where_to(columns_, size(), corner);
   }
   /// Carries windows first, ..., last - 1, and perhaps their neighbours, to a side with these ends.
   void leave(const TriangleAbove& triangle, const RayExit& exit, const EdgeEnds& ends, int first,
@@ -55,7 +56,7 @@ class RayBundle {
   const RayColumns& columns() const { return columns_; }
   /// A window that has been carried there, in the coordinates of the edge of that side.
   Window left_as(int i, std::uint16_t page) const {
-    const Window& from = *windows_[i];
+    const Window from = (*this)[i];
     const RayColumns& c = columns_;
     return {.b0 = c.to0[i],
             .b1 = c.to1[i],
@@ -69,11 +70,19 @@ class RayBundle {
             .depth = static_cast<std::uint8_t>(from.depth + (from.depth < Window::deep)),
             .parallel = from.parallel};
   }
+  /// Adds windows first, ..., last - 1, which follow each other (`RayColumns::follows`), to a batch
+  /// with room for them; all but the last in that order are cut from the one after them.
+  void put(int first, int last, bool turned, std::uint16_t page, WindowBlock& batch) const {
+    const std::size_t at = batch.size();
+    batch.resize(at + std::size_t(last - first));
+    kernels_.put(columns_, first, last, turned, page, batch, at);
+    const int end = turned ? first : last - 1;
+    batch.column(WindowBlock::b1)[batch.size() - 1] = columns_.to1[end];
+    batch.column(WindowBlock::d1)[batch.size() - 1] = columns_.to_d1[end];
+  }
 
  private:
-  void make_room();
-
-  std::vector<const Window*> windows_;
+  const WindowBlock* windows_ = nullptr;
   std::vector<double> numbers_;
   std::vector<std::int64_t> flags_;
   RayColumns columns_{};

@@ -15,8 +15,6 @@ constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's
 
 constexpr double bend_slack = 1e-6;  // of a bend of half a turn; costs 1e-12 of a path
 
-double norm(double x, double y) { return std::sqrt(x * x + y * y); }
-
 Complex apex_of(double a, double b, double c) {
   return {law_of_cosines(a, c, b) / (2 * a), 2 * area_of_lengths(a, b, c) / a};
 }
@@ -47,7 +45,7 @@ RayCrossing::Batch& RayCrossing::next_batch(int edge) {
   if (n_batches_ == batches_.size()) batches_.emplace_back();
   Batch& batch = batches_[n_batches_++];
   batch.edge = edge;
-  batch.windows = {};
+  batch.windows = WindowBlock();
   return batch;
 }
 
@@ -144,18 +142,30 @@ void RayCrossing::leave(int side, Window w) {
 }
 
 void RayCrossing::go_on(int id) {
+  WindowList& list = s_.lists[id];
+  if (list.none_open || list.windows.empty()) return;
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   const EdgeEnds ends = s_.ends(edge);
-  open_.clear();
-  EdgeEnvelopes::take_open(s_.lists[id], [&](Window& w) {
-    if (ends.trim(w)) open_.push_back(&w);
-  });
   const auto sides = s_.pages.at(edge);
+  if (ray_kernels().all_whole(list.windows, ends)) {
+    list.none_open = true;
+    rays_.use(list.windows);
+    const int from = rays_[0].page;
+    for (int page = 0; page < int(sides.size()); ++page)
+      if (page != from) cross(sides[std::size_t(page)]);
+    return;
+  }
+  open_.clear();
+  EdgeEnvelopes::take_open(list, [&](Window& w) {
+    if (ends.trim(w)) open_.push_back(w);
+  });
   for (std::size_t page = 0; page < sides.size(); ++page) {
-    rays_.clear();
-    for (const Window* w : open_)
-      if (w->page != page) rays_.add(*w);
-    if (rays_.size() > 0) cross(sides[page]);
+    others_.clear();
+    for (const Window& w : open_)
+      if (w.page != page) others_.push_back(w);
+    if (others_.empty()) continue;
+    rays_.use(others_);
+    cross(sides[page]);
   }
 }
 
@@ -173,14 +183,11 @@ void RayCrossing::cross(int side) {
   far_ = s_.distance[apex];
   for (int i = 0; i < n; ++i)
     if (c.covers[i]) look(rays_[i], above, side);
-  // Beyond the line from an end of a window to the far corner, that corner may be nearer.
-  const double slack = slack_share * (far_ + above.length);
-  rays_.see_where_to(winner.crossing, far_ + above.apex.imag() + slack);
-  const bool doubt = s_.most_straight <= Window::deep;
+  rays_.see_where_to({above.apex.real(), above.apex.imag(), winner.crossing, winner.distance, far_,
+                      slack_share * (far_ + above.length), s_.most_straight});
   int first[2] = {n, n}, last[2] = {0, 0};
   for (int i = 0; i < n; ++i) {
-    std::int64_t goes = c.goes[i];
-    if (doubt || goes & 4) c.goes[i] = goes = where_to(i, above, winner);
+    const std::int64_t goes = c.goes[i];
     if (goes & 1) {
       first[0] = std::min(first[0], i);
       last[0] = i + 1;
@@ -226,65 +233,65 @@ void RayCrossing::look(const Window& w, const TriangleAbove& above, int side) {
   if (at_apex < winner.distance) winner = {at_apex, crossing};
 }
 
-/// Sides of the apex that a window goes on to: 1 left, 2 right.
-int RayCrossing::where_to(int i, const TriangleAbove& above,
-                          const PolyhedralSearch::Winner& winner) const {
-  const Window& w = rays_[i];
-  if (w.depth >= s_.most_straight) return 0;
-  bool left = rays_.columns().apex0[i]<0, right = rays_.columns().apex1[i]> 0;
-  const double px = above.apex.real(), py = above.apex.imag();
-  const double slack = slack_share * (far_ + above.length);
-  // One angle, one split: rays beyond those that reach the far corner soonest do not cross them.
-  const bool beyond_left = left && w.b0 >= winner.crossing,
-             beyond_right = right && w.b1 <= winner.crossing;
-  if ((beyond_left || beyond_right) && w.at(px, py) > winner.distance + slack) {
-    left &= !beyond_left;
-    right &= !beyond_right;
-  }
-  // py bounds the norms from below.
-  const double reach = far_ + py + slack;
-  if (left && reach < w.d0 && far_ + norm(px - w.b0, py) + slack < w.d0) left = false;
-  if (right && reach < w.d1 && far_ + norm(px - w.b1, py) + slack < w.d1) right = false;
-  return int(left) + 2 * int(right);
-}
-
 /// Windows from the tail to the head of a side, each compared with the one before it.
 void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, const RayExit& exit,
                                  const EdgeEnds& ends, int first, int last) {
   const std::uint16_t page = s_.pages.page_of(s_.pages.edges[id], side);
   rays_.leave(above, exit, ends, first, last);
   const RayColumns& c = rays_.columns();
-  const std::int64_t goes = exit.right ? 2 : 1;
-  std::vector<Window>& batch = next_batch(id).windows;
-  const int n = last - first, step = exit.turned() ? -1 : 1;
+  WindowBlock& batch = next_batch(id).windows;
+  const bool turned = exit.turned();
+  const int n = last - first, step = turned ? -1 : 1, start = turned ? last - 1 : first;
   batch.reserve(std::size_t(n));
   bool as_left = false;  // the last of the batch is the one before, and its head end as it left
-  for (int j = 0, i = exit.turned() ? last - 1 : first; j < n; ++j, i += step) {
-    if (!(c.goes[i] & goes)) {
+  bool follows = true;   // and its start as it left or cut from the one before it
+  for (int j = 0; j < n;) {
+    const int i = start + step * j, pair = turned ? i : i - 1;
+    if (follows && (j == 0 ? c.ends[i] == 0 : c.follows[pair] != 0)) {
+      int beyond = j + 1;
+      while (beyond < n && c.follows[turned ? i + j - beyond : i - j + beyond - 1] != 0) ++beyond;
+      if (j > 0 && c.meets[pair] == cut_once) {
+        batch.column(WindowBlock::b1)[batch.size() - 1] = c.cut[pair];
+        batch.column(WindowBlock::d1)[batch.size() - 1] = c.cut_first[pair];
+      }
+      const int k = start + step * (beyond - 1);
+      rays_.put(std::min(i, k), std::max(i, k) + 1, turned, page, batch);
+      as_left = true;
+      j = beyond;
+      if (j == n) break;
+      follows = false;
+      continue;
+    }
+    ++j;
+    follows = false;
+    if (c.ends[i] & 8) {
       as_left = false;
       continue;
     }
-    Window& w = batch.emplace_back(rays_.left_as(i, page));
+    Window w = rays_.left_as(i, page);
     if (c.ends[i] != 0) {
       as_left = false;
-      if (ends.trim(w))
+      if (ends.trim(w)) {
+        batch.push_back(w);
         envelopes.settle(batch, ends.length);
-      else
-        batch.pop_back();
+      }
       continue;
     }
-    const int pair = exit.turned() ? i : i - 1;
-    if (as_left && c.meets[pair] == apart) continue;
     if (as_left && c.meets[pair] == cut_once) {
-      Window& o = batch[batch.size() - 2];
-      if (o.b0 <= w.b0 && c.cut[pair] - o.b0 > ends.narrow()) {
-        o.b1 = w.b0 = c.cut[pair];
-        o.d1 = c.cut_first[pair];
+      const std::size_t o = batch.size() - 1;
+      const double o_start = batch.column(WindowBlock::b0)[o];
+      if (o_start <= w.b0 && c.cut[pair] - o_start > ends.narrow()) {
+        batch.column(WindowBlock::b1)[o] = w.b0 = c.cut[pair];
+        batch.column(WindowBlock::d1)[o] = c.cut_first[pair];
         w.d0 = c.cut_second[pair];
+        batch.push_back(w);
+        follows = true;
         continue;
       }
     }
-    as_left = envelopes.settle(batch, ends.length);
+    batch.push_back(w);
+    follows = as_left && c.meets[pair] == apart;
+    as_left = follows || envelopes.settle(batch, ends.length);
   }
   if (batch.empty()) --n_batches_;
 }

@@ -56,7 +56,7 @@ class RayCrossing {
   };
   struct Batch {
     int edge;
-    std::vector<Window> windows;
+    WindowBlock windows;
     double least;  // of what is taken
   };
 
@@ -76,7 +76,6 @@ class RayCrossing {
  private:
   void cross(int side);
   void look(const Window& w, const TriangleAbove& above, int side);
-  int where_to(int i, const TriangleAbove& above, const PolyhedralSearch::Winner& winner) const;
   void leave_together(int side, int edge, const TriangleAbove& above, const RayExit& exit,
                       const EdgeEnds& ends, int first, int last);
   void leave_corner(int v, int side, double b0, double b1);
@@ -99,7 +98,8 @@ class RayCrossing {
     double crossing(double turned) const { return x + y * std::tan(turned - std::atan2(x, y)); }
   };
   std::vector<Corner> corners_;
-  std::vector<const Window*> open_;
+  std::vector<Window> open_;
+  WindowBlock others_;  // the open ones that did not come through a triangle
   RayBundle rays_;
   double far_ = 0;  // distance of the far corner of the triangle that is crossed
 };

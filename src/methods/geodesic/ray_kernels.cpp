@@ -4,8 +4,10 @@
 
 #include "methods/geodesic/ray_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/kernel_choice.h"
 #include "base/vector_lanes.h"
 
@@ -18,6 +20,81 @@ namespace {
 template <class V>
 LITTORAL_INLINE void take_root(V& v) {
   for (int l = 0; l < int(sizeof v / sizeof(double)); ++l) v[l] = std::sqrt(v[l]);
+}
+
+template <int width, class B>
+LITTORAL_INLINE bool any(const B& b) {
+  std::int64_t bits = 0;
+  for (int l = 0; l < width; ++l) bits |= b[l];
+  return bits != 0;
+}
+
+/// Leaves out lanes beyond the windows that are left.
+template <class B>
+LITTORAL_INLINE void keep_first(B& b, std::int64_t left) {
+  for (int l = 0; l < int(sizeof b / sizeof(std::int64_t)); ++l)
+    if (l >= left) b[l] = 0;
+}
+
+template <bool turned, class Scalar, class V>
+LITTORAL_INLINE void store_in_order(Scalar* to, const V& v) {
+  if constexpr (!turned)
+    store(to, v);
+  else if constexpr (sizeof(V) == 4 * sizeof(double))
+    store(to, V(__builtin_shufflevector(v, v, 3, 2, 1, 0)));
+  else
+    store(to, V(__builtin_shufflevector(v, v, 1, 0)));
+}
+
+template <int width>
+LITTORAL_INLINE bool whole_lanes(const WindowBlock& w, const EdgeEnds& ends) {
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
+  const std::int64_t n = std::int64_t(w.size()), same = WindowTag::page_all | WindowTag::open,
+                     first = (w.tags()[0] & same) | WindowTag::open;
+  const double narrow = ends.narrow();
+  for (std::int64_t i = 0; i < n; i += width) {
+    V b0, b1, d0, d1;
+    B tag;
+    load(b0, w.column(WindowBlock::b0) + i);
+    load(b1, w.column(WindowBlock::b1) + i);
+    load(d0, w.column(WindowBlock::d0) + i);
+    load(d1, w.column(WindowBlock::d1) + i);
+    load(tag, w.tags() + i);
+    B broken = ~((d0 <= ends.tail + b0 + ends.tail_slack) &
+                    (d1 <= ends.head + (ends.length - b1) + ends.head_slack) &
+                    (b1 - b0 > narrow) & ((tag & same) == first));
+    if (n - i < width) keep_first(broken, n - i);
+    if (any<width>(broken)) return false;
+  }
+  return true;
+}
+
+template <int width>
+LITTORAL_INLINE double least_lanes(const WindowBlock& w, std::size_t first, std::size_t last) {
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
+  V least = V{} + infinity;
+  for (std::size_t i = first; i < last; i += width) {
+    V b0, b1, d0, d1, x, y, behind;
+    B tag;
+    load(b0, w.column(WindowBlock::b0) + i);
+    load(b1, w.column(WindowBlock::b1) + i);
+    load(d0, w.column(WindowBlock::d0) + i);
+    load(d1, w.column(WindowBlock::d1) + i);
+    load(x, w.column(WindowBlock::x) + i);
+    load(y, w.column(WindowBlock::y) + i);
+    load(behind, w.column(WindowBlock::behind) + i);
+    load(tag, w.tags() + i);
+    const B at_end = ((tag & WindowTag::parallel) != 0) | (x <= b0) | (x >= b1);
+    const V ends = d1 < d0 ? d1 : d0, here = at_end ? ends : behind - y;
+    B nearer = here < least;
+    if (last - i < width) keep_first(nearer, std::int64_t(last - i));
+    least = nearer ? here : least;
+  }
+  double found = infinity;
+  for (int l = 0; l < width; ++l) found = std::min(found, least[l]);
+  return found;
 }
 
 /// Several windows of an edge.
@@ -36,9 +113,9 @@ struct SomeRays {
     load(x, c.to_x + i);
     load(y, c.to_y + i);
     load(behind, c.to_behind + i);
-    V p;
-    load(p, c.parallel + i);
-    parallel = p != 0;
+    B tag;
+    load(tag, c.tag + i);
+    parallel = (tag & WindowTag::parallel) != 0;
     y2 = y * y;
   }
   LITTORAL_INLINE void at(const V& p, V& d) const {
@@ -61,9 +138,9 @@ struct EnteringRays {
     load(b1, c.b1 + i);
     load(x, c.x + i);
     load(y, c.y + i);
-    V parallel;
-    load(parallel, c.parallel + i);
-    straight = parallel != 0;
+    typename Wide<width>::Bits tag;
+    load(tag, c.tag + i);
+    straight = (tag & WindowTag::parallel) != 0;
     g0 = straight ? x : b0 - x;
     g1 = straight ? x : b1 - x;
     gy = straight ? y : -y;
@@ -87,9 +164,10 @@ LITTORAL_INLINE void look_lanes(const RayColumns& c, int n, double px, double py
 }
 
 template <int width>
-LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, double crossing, double reach) {
+LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, const CornerNumbers& q) {
   using V = typename Wide<width>::Lanes;
   using B = typename Wide<width>::Bits;
+  const double px = q.apex_x, py = q.apex_y, reach = q.far + py + q.slack;
   for (int i = 0; i < n; i += width) {
     V b0, b1, d0, d1, a0, a1;
     load(b0, c.b0 + i);
@@ -98,9 +176,30 @@ LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, double crossing, do
     load(d1, c.d1 + i);
     load(a0, c.apex0 + i);
     load(a1, c.apex1 + i);
-    const B left = a0<0, right = a1> 0;
-    const B not_left = (b0 >= crossing) | (d0 > reach), not_right = (b1 <= crossing) | (d1 > reach);
-    store(c.goes + i, (left & 1) | (right & 2) | (((left & not_left) | (right & not_right)) & 4));
+    B tag;
+    load(tag, c.tag + i);
+    B left = a0 < 0, right = a1 > 0;
+    const B beyond_left = left & (b0 >= q.crossing), beyond_right = right & (b1 <= q.crossing);
+    // py bounds the norms from below.
+    const B far_left = left & (d0 > reach), far_right = right & (d1 > reach);
+    if (any<width>(beyond_left | beyond_right | far_left | far_right)) {
+      V x, y, behind;
+      load(x, c.x + i);
+      load(y, c.y + i);
+      load(behind, c.behind + i);
+      const V u = px - x, v = py - y, u0 = px - b0, u1 = px - b1;
+      V r = u * u + v * v, r0 = u0 * u0 + py * py, r1 = u1 * u1 + py * py;
+      take_root(r);
+      take_root(r0);
+      take_root(r1);
+      const B parallel = (tag & WindowTag::parallel) != 0;
+      const V at = parallel ? behind + x * px + y * py : behind + r;
+      const B crossed = at > q.nearest + q.slack;
+      left &= ~(beyond_left & crossed) & ~(far_left & (q.far + r0 + q.slack < d0));
+      right &= ~(beyond_right & crossed) & ~(far_right & (q.far + r1 + q.slack < d1));
+    }
+    const B goes_on = ((tag & WindowTag::depth_all) >> 48) < q.most_straight;
+    store(c.goes + i, ((left & 1) | (right & 2)) & goes_on);
   }
 }
 
@@ -110,7 +209,7 @@ LITTORAL_INLINE void carry_lanes(const RayColumns& c, int first, int last, const
   using B = typename Wide<width>::Bits;
   const double px = e.apex_x, py = e.apex_y, base = right ? e.triangle_length : 0.0;
   const double start = e.from_apex ? e.length : 0.0, step = e.from_apex ? -e.length : e.length;
-  const bool turned = right != e.from_apex;
+  const bool turned = e.turned();
   for (int i = first; i < last; i += width) {
     EnteringRays<width> w;
     w.load_from(c, i);
@@ -218,51 +317,139 @@ LITTORAL_INLINE void meet_lanes(const RayColumns& c, int first, int last, const 
   }
 }
 
+template <int width, bool turned>
+LITTORAL_INLINE void follow_lanes(const RayColumns& c, int first, int last, const ExitNumbers& e) {
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
+  const std::int64_t side = e.right ? 2 : 1;
+  for (int i = first; i < last; i += width) {
+    B goes, ends;
+    load(goes, c.goes + i);
+    load(ends, c.ends + i);
+    store(c.ends + i, ends | (((goes & side) == 0) & 8));
+  }
+  c.meets[turned ? last - 1 : first - 1] = apart;
+  for (int i = first; i < last - 1; i += width) {
+    const int o = turned ? i + 1 : i, w = turned ? i : i + 1, before = turned ? i + 1 : i - 1;
+    V start, left, cut, cut_before;
+    B ends, next_ends, meets, met_before;
+    load(left, c.to0 + o);
+    load(start, c.to0 + w);
+    load(cut, c.cut + i);
+    load(cut_before, c.cut + before);
+    load(ends, c.ends + i);
+    load(next_ends, c.ends + i + 1);
+    load(meets, c.meets + i);
+    load(met_before, c.meets + before);
+    const V from = met_before == cut_once ? cut_before : left;
+    const B cuts = (meets == cut_once) & (from <= start) & (cut - from > e.narrow);
+    store(c.follows + i, ((ends | next_ends) == 0) & ((meets == apart) | cuts));
+  }
+}
+
 template <int width>
 LITTORAL_INLINE void leave_lanes(const RayColumns& c, int first, int last, const ExitNumbers& e) {
   if (e.right)
     carry_lanes<width, true>(c, first, last, e);
   else
     carry_lanes<width, false>(c, first, last, e);
-  if (e.right != e.from_apex)
+  if (e.turned()) {
     meet_lanes<width, true>(c, first, last, e);
-  else
+    follow_lanes<width, true>(c, first, last, e);
+  } else {
     meet_lanes<width, false>(c, first, last, e);
+    follow_lanes<width, false>(c, first, last, e);
+  }
 }
 
-void look_plain(const RayColumns& c, int n, double px, double py, double tolerance) {
-  look_lanes<2>(c, n, px, py, tolerance);
+template <int width, bool turned>
+LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, std::uint16_t page,
+                               WindowBlock& to, std::size_t at) {
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
+  for (int k = 0; k < last - first; k += width) {
+    const int i = turned ? last - k - width : first + k;
+    const int before = turned ? i : i - 1, after = turned ? i - 1 : i;
+    const std::size_t j = at + std::size_t(k);
+    V start, end, at_start, at_end, x, y, behind, cut0, cut1, at_cut0, at_cut1;
+    B met0, met1, tag;
+    load(start, c.to0 + i);
+    load(end, c.to1 + i);
+    load(at_start, c.to_d0 + i);
+    load(at_end, c.to_d1 + i);
+    load(x, c.to_x + i);
+    load(y, c.to_y + i);
+    load(behind, c.to_behind + i);
+    load(cut0, c.cut + before);
+    load(at_cut0, c.cut_second + before);
+    load(met0, c.meets + before);
+    load(cut1, c.cut + after);
+    load(at_cut1, c.cut_first + after);
+    load(met1, c.meets + after);
+    load(tag, c.tag + i);
+    const B cuts0 = met0 == cut_once, cuts1 = met1 == cut_once;
+    const B deeper = (tag & WindowTag::depth_all) != WindowTag::depth_all;
+    tag = (tag & ~WindowTag::page_all) | (page * WindowTag::page_one) | WindowTag::open;
+    store_in_order<turned>(to.column(WindowBlock::b0) + j, V(cuts0 ? cut0 : start));
+    store_in_order<turned>(to.column(WindowBlock::d0) + j, V(cuts0 ? at_cut0 : at_start));
+    store_in_order<turned>(to.column(WindowBlock::b1) + j, V(cuts1 ? cut1 : end));
+    store_in_order<turned>(to.column(WindowBlock::d1) + j, V(cuts1 ? at_cut1 : at_end));
+    store_in_order<turned>(to.column(WindowBlock::x) + j, x);
+    store_in_order<turned>(to.column(WindowBlock::y) + j, y);
+    store_in_order<turned>(to.column(WindowBlock::behind) + j, behind);
+    store_in_order<turned>(to.tags() + j, B(tag + (deeper & WindowTag::depth_one)));
+  }
 }
-void where_plain(const RayColumns& c, int n, double crossing, double reach) {
-  where_lanes<2>(c, n, crossing, reach);
+
+template <int width>
+LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, bool turned,
+                               std::uint16_t page, WindowBlock& to, std::size_t at) {
+  if (turned)
+    put_lanes<width, true>(c, first, last, page, to, at);
+  else
+    put_lanes<width, false>(c, first, last, page, to, at);
 }
-void leave_plain(const RayColumns& c, int first, int last, const ExitNumbers& e) {
-  leave_lanes<2>(c, first, last, e);
-}
+
+// The same for every set of instructions.
+#define LITTORAL_RAY_KERNELS(name, target, width)                                                 \
+  target bool whole_##name(const WindowBlock& w, const EdgeEnds& ends) {                          \
+    return whole_lanes<width>(w, ends);                                                           \
+  }                                                                                               \
+  target double least_##name(const WindowBlock& w, std::size_t first, std::size_t last) {         \
+    return least_lanes<width>(w, first, last);                                                    \
+  }                                                                                               \
+  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance) {   \
+    look_lanes<width>(c, n, px, py, tolerance);                                                   \
+  }                                                                                               \
+  target void where_##name(const RayColumns& c, int n, const CornerNumbers& corner) {             \
+    where_lanes<width>(c, n, corner);                                                             \
+  }                                                                                               \
+  target void leave_##name(const RayColumns& c, int first, int last, const ExitNumbers& e) {      \
+    leave_lanes<width>(c, first, last, e);                                                        \
+  }                                                                                               \
+  target void put_##name(const RayColumns& c, int first, int last, bool turned,                   \
+                         std::uint16_t page, WindowBlock& to, std::size_t at) {                   \
+    put_lanes<width>(c, first, last, turned, page, to, at);                                       \
+  }                                                                                               \
+  constexpr RayKernels kernels_##name = {&whole_##name, &least_##name, &look_##name,              \
+                                         &where_##name, &leave_##name, &put_##name}
+
+LITTORAL_RAY_KERNELS(plain, , 2);
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void look_avx2(const RayColumns& c, int n, double px, double py,
-                                       double tolerance) {
-  look_lanes<4>(c, n, px, py, tolerance);
-}
-[[gnu::target("avx2")]] void where_avx2(const RayColumns& c, int n, double crossing, double reach) {
-  where_lanes<4>(c, n, crossing, reach);
-}
-[[gnu::target("avx2")]] void leave_avx2(const RayColumns& c, int first, int last,
-                                        const ExitNumbers& e) {
-  leave_lanes<4>(c, first, last, e);
-}
+LITTORAL_RAY_KERNELS(avx2, [[gnu::target("avx2")]], 4);
 #endif
 
 }  // namespace
 
-const RayKernels plain_ray_kernels = {&look_plain, &where_plain, &leave_plain};
+const RayKernels plain_ray_kernels = kernels_plain;
 
 const RayKernels& ray_kernels() {
 #if defined(__x86_64__)
-  static const RayKernels wide = {&look_avx2, &where_avx2, &leave_avx2};
-#endif
-  static const RayKernels& best = LITTORAL_FASTEST(plain_ray_kernels, wide);
+  static const RayKernels& best = LITTORAL_FASTEST(plain_ray_kernels, kernels_avx2);
   return best;
+#else
+  return plain_ray_kernels;
+#endif
 }
 
 }  // namespace littoral

@@ -66,6 +66,7 @@ class EdgeEnvelopes {
     if (before == 0) {
       n_taken_ += double(n);
       n_held_ += double(n);
+      spare.give(std::move(all));
       all = std::move(batch);
       return ray_kernels().least(all, 0, n);
     }
@@ -82,13 +83,13 @@ class EdgeEnvelopes {
     const std::size_t outside = first + (n - last);
     n_taken_ += double(outside);
     if (outside > 0) {
-      WindowBlock joined;  // no larger than it has to be
-      joined.reserve(all.size() + outside);
+      WindowBlock joined = spare.take(all.size() + outside);
       joined.append(batch, 0, first);
       joined.append(all, 0, all.size());
       joined.append(batch, last, n);
-      all = std::move(joined);
+      spare.give(std::exchange(all, std::move(joined)));
     }
+    spare.give(std::move(batch));
     rejoin(all, start, length);
     rejoin(all, end, length);
     n_held_ += double(all.size()) - double(before);
@@ -120,12 +121,14 @@ class EdgeEnvelopes {
 
   void forget(WindowList& list) {
     n_held_ -= double(list.windows.size());
-    list.windows = WindowBlock();
+    spare.give(std::move(list.windows));
     list.none_open = false;
   }
 
   double n_taken() const { return n_taken_; }  // windows ever held
   double n_held() const { return n_held_; }
+
+  SpareBlocks spare;
 
  private:
   /// Neighbours near p whose rays are the same, to rounding, become one again: on a flat place the

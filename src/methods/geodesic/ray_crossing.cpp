@@ -41,11 +41,11 @@ void RayCrossing::clear() {
   n_batches_ = 0;
 }
 
-RayCrossing::Batch& RayCrossing::next_batch(int edge) {
+RayCrossing::Batch& RayCrossing::next_batch(int edge, std::size_t n) {
   if (n_batches_ == batches_.size()) batches_.emplace_back();
   Batch& batch = batches_[n_batches_++];
   batch.edge = edge;
-  batch.windows = WindowBlock();
+  batch.windows = envelopes.spare.take(n);
   return batch;
 }
 
@@ -138,7 +138,7 @@ void RayCrossing::leave(int side, Window w) {
   w.b0 = std::max(w.b0, 0.0);
   w.b1 = std::min(w.b1, edge.length);
   w.measure_ends();
-  if (s_.ends(edge).trim(w)) next_batch(id).windows.push_back(w);
+  if (s_.ends(edge).trim(w)) next_batch(id, 1).windows.push_back(w);
 }
 
 void RayCrossing::go_on(int id) {
@@ -239,10 +239,9 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
   const std::uint16_t page = s_.pages.page_of(s_.pages.edges[id], side);
   rays_.leave(above, exit, ends, first, last);
   const RayColumns& c = rays_.columns();
-  WindowBlock& batch = next_batch(id).windows;
   const bool turned = exit.turned();
   const int n = last - first, step = turned ? -1 : 1, start = turned ? last - 1 : first;
-  batch.reserve(std::size_t(n));
+  WindowBlock& batch = next_batch(id, std::size_t(n)).windows;
   bool as_left = false;  // the last of the batch is the one before, and its head end as it left
   bool follows = true;   // and its start as it left or cut from the one before it
   for (int j = 0; j < n;) {
@@ -293,7 +292,9 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
     follows = as_left && c.meets[pair] == apart;
     as_left = follows || envelopes.settle(batch, ends.length);
   }
-  if (batch.empty()) --n_batches_;
+  if (!batch.empty()) return;
+  envelopes.spare.give(std::move(batch));
+  --n_batches_;
 }
 
 }  // namespace littoral

@@ -81,7 +81,7 @@ class RayCrossing {
   void leave_corner(int v, int side, double b0, double b1);
   void leave_behind(int v, const PolyhedralSearch::Arrival& arrival);
   void leave(int side, Window w);
-  Batch& next_batch(int edge);
+  Batch& next_batch(int edge, std::size_t n);
 
   PolyhedralSearch& s_;
   const IntrinsicTriangulation& T_;

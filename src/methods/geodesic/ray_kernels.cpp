@@ -367,37 +367,46 @@ LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, std::ui
                                WindowBlock& to, std::size_t at) {
   using V = typename Wide<width>::Lanes;
   using B = typename Wide<width>::Bits;
+  // Stores could change any pointer that is not a local one.
+  const double *to0 = c.to0, *to1 = c.to1, *to_d0 = c.to_d0, *to_d1 = c.to_d1, *to_x = c.to_x,
+               *to_y = c.to_y, *to_behind = c.to_behind, *cut = c.cut, *cut_first = c.cut_first,
+               *cut_second = c.cut_second;
+  const std::int64_t *meets = c.meets, *tags = c.tag;
+  double *out_b0 = to.column(WindowBlock::b0) + at, *out_b1 = to.column(WindowBlock::b1) + at,
+         *out_d0 = to.column(WindowBlock::d0) + at, *out_d1 = to.column(WindowBlock::d1) + at,
+         *out_x = to.column(WindowBlock::x) + at, *out_y = to.column(WindowBlock::y) + at,
+         *out_behind = to.column(WindowBlock::behind) + at;
+  std::int64_t* out_tags = to.tags() + at;
   for (int k = 0; k < last - first; k += width) {
     const int i = turned ? last - k - width : first + k;
     const int before = turned ? i : i - 1, after = turned ? i - 1 : i;
-    const std::size_t j = at + std::size_t(k);
     V start, end, at_start, at_end, x, y, behind, cut0, cut1, at_cut0, at_cut1;
     B met0, met1, tag;
-    load(start, c.to0 + i);
-    load(end, c.to1 + i);
-    load(at_start, c.to_d0 + i);
-    load(at_end, c.to_d1 + i);
-    load(x, c.to_x + i);
-    load(y, c.to_y + i);
-    load(behind, c.to_behind + i);
-    load(cut0, c.cut + before);
-    load(at_cut0, c.cut_second + before);
-    load(met0, c.meets + before);
-    load(cut1, c.cut + after);
-    load(at_cut1, c.cut_first + after);
-    load(met1, c.meets + after);
-    load(tag, c.tag + i);
+    load(start, to0 + i);
+    load(end, to1 + i);
+    load(at_start, to_d0 + i);
+    load(at_end, to_d1 + i);
+    load(x, to_x + i);
+    load(y, to_y + i);
+    load(behind, to_behind + i);
+    load(cut0, cut + before);
+    load(at_cut0, cut_second + before);
+    load(met0, meets + before);
+    load(cut1, cut + after);
+    load(at_cut1, cut_first + after);
+    load(met1, meets + after);
+    load(tag, tags + i);
     const B cuts0 = met0 == cut_once, cuts1 = met1 == cut_once;
     const B deeper = (tag & WindowTag::depth_all) != WindowTag::depth_all;
     tag = (tag & ~WindowTag::page_all) | (page * WindowTag::page_one) | WindowTag::open;
-    store_in_order<turned>(to.column(WindowBlock::b0) + j, V(cuts0 ? cut0 : start));
-    store_in_order<turned>(to.column(WindowBlock::d0) + j, V(cuts0 ? at_cut0 : at_start));
-    store_in_order<turned>(to.column(WindowBlock::b1) + j, V(cuts1 ? cut1 : end));
-    store_in_order<turned>(to.column(WindowBlock::d1) + j, V(cuts1 ? at_cut1 : at_end));
-    store_in_order<turned>(to.column(WindowBlock::x) + j, x);
-    store_in_order<turned>(to.column(WindowBlock::y) + j, y);
-    store_in_order<turned>(to.column(WindowBlock::behind) + j, behind);
-    store_in_order<turned>(to.tags() + j, B(tag + (deeper & WindowTag::depth_one)));
+    store_in_order<turned>(out_b0 + k, V(cuts0 ? cut0 : start));
+    store_in_order<turned>(out_d0 + k, V(cuts0 ? at_cut0 : at_start));
+    store_in_order<turned>(out_b1 + k, V(cuts1 ? cut1 : end));
+    store_in_order<turned>(out_d1 + k, V(cuts1 ? at_cut1 : at_end));
+    store_in_order<turned>(out_x + k, x);
+    store_in_order<turned>(out_y + k, y);
+    store_in_order<turned>(out_behind + k, behind);
+    store_in_order<turned>(out_tags + k, B(tag + (deeper & WindowTag::depth_one)));
   }
 }
 

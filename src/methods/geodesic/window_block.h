@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "methods/geodesic/polyhedral_window.h"
 
@@ -49,6 +50,7 @@ class WindowBlock {
   }
 
   std::size_t size() const { return size_; }
+  std::size_t room() const { return stride_ > spare ? stride_ - spare : 0; }
   bool empty() const { return size_ == 0; }
   double* column(Column c) { return data_.get() + c * std::size_t(stride_); }
   const double* column(Column c) const { return data_.get() + c * std::size_t(stride_); }
@@ -112,8 +114,13 @@ class WindowBlock {
   }
   /// Windows first, ..., last - 1 of another block, at the end of this one, which has room.
   void append(const WindowBlock& from, std::size_t first, std::size_t last) {
-    move_columns(data_.get(), stride_, size_, from.data_.get(), from.stride_, first, last - first);
-    size_ += std::uint32_t(last - first);
+    const std::size_t n = last - first;
+    for (std::size_t c = 0; c <= n_numbers; ++c) {
+      double* to = data_.get() + c * stride_ + size_;
+      const double* read = from.data_.get() + c * from.stride_ + first;
+      for (std::size_t i = 0; i < n; i += spare) std::memcpy(to + i, read + i, spare * sizeof *to);
+    }
+    size_ += std::uint32_t(n);
   }
 
  private:
@@ -141,6 +148,46 @@ class WindowBlock {
 
   Memory data_;
   std::uint32_t size_ = 0, stride_ = 0;
+};
+
+/// Blocks that are not in use, by how much they have room for: most live shortly.
+class SpareBlocks {
+ public:
+  /// An empty block with room for n windows.
+  WindowBlock take(std::size_t n) {
+    const std::size_t size = size_for(n);
+    WindowBlock block;
+    if (size < spare_.size() && !spare_[size].empty()) {
+      block = std::move(spare_[size].back());
+      spare_[size].pop_back();
+      block.clear();
+    } else {
+      block.reserve(room_of(size));
+    }
+    return block;
+  }
+  void give(WindowBlock&& block) {
+    if (block.room() < least_room) return;
+    std::size_t size = size_for(block.room());
+    if (room_of(size) > block.room()) --size;
+    if (size >= spare_.size()) spare_.resize(size + 1);
+    spare_[size].push_back(std::move(block));
+  }
+
+ private:
+  static constexpr std::size_t least_room = 4;
+
+  /// 4, 6, 8, 12, 16, ...
+  static std::size_t room_of(std::size_t size) {
+    return (size % 2 == 0 ? least_room : least_room + least_room / 2) << (size / 2);
+  }
+  static std::size_t size_for(std::size_t n) {
+    std::size_t size = 0;
+    while (room_of(size) < n) ++size;
+    return size;
+  }
+
+  std::vector<std::vector<WindowBlock>> spare_;
 };
 
 }  // namespace littoral

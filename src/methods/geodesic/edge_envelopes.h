@@ -137,13 +137,17 @@ class EdgeEnvelopes {
     const std::size_t there = beyond(all, WindowBlock::b1, p, false);
     std::size_t i = std::max(there, std::size_t(1)) - 1;
     for (int pair = 0; pair < 2 && i + 1 < all.size(); ++pair) {
-      const double end = all.column(WindowBlock::b1)[i],
-                   next_start = all.column(WindowBlock::b0)[i + 1];
-      if (next_start - end > narrow_share * length || !all[i].same_rays(all[i + 1])) {
+      const double* behind = all.column(WindowBlock::behind) + i;
+      // Nearly always apart by what lies behind them already.
+      if (std::abs(behind[0] - behind[1]) > same_share * all.column(WindowBlock::d1)[i]) {
         ++i;
         continue;
       }
       const Window w = all[i], next = all[i + 1];
+      if (next.b0 - w.b1 > narrow_share * length || !w.same_rays(next)) {
+        ++i;
+        continue;
+      }
       Window joined = next.b1 - next.b0 > w.b1 - w.b0 ? next : w;
       joined.b0 = w.b0;
       joined.b1 = next.b1;

@@ -44,8 +44,12 @@ class RayBundle {
   /// On which side of the rays at the ends of each window the apex lies; rays that pass it by less
   /// than `tolerance` reach it.
   void look_at(const TriangleAbove& triangle, double tolerance) {
-    kernels_.look_at_apex(columns_, size(), triangle.apex.real(), triangle.apex.imag(), tolerance);
+    kernels_.look_at_apex(columns_, size(), triangle.apex.real(), triangle.apex.imag(), tolerance,
+                          covering_);
   }
+  /// No window but first_covering(), ..., last_covering() - 1 has rays that reach the apex.
+  int first_covering() const { return covering_[0]; }
+  int last_covering() const { return covering_[1]; }
   /// Which sides of the apex each window goes on to (`RayColumns::goes`).
   void see_where_to(const CornerNumbers& corner) {
     kernels_.see_where_to(columns_, size(), corner);
@@ -86,6 +90,7 @@ class RayBundle {
   std::vector<double> numbers_;
   std::vector<std::int64_t> flags_;
   RayColumns columns_{};
+  int covering_[2] = {0, 0};
   const RayKernels& kernels_;
 };
 

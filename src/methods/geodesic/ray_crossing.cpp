@@ -181,24 +181,15 @@ void RayCrossing::cross(int side) {
   const int apex = T_.faces(f, k2), n = rays_.size();
   const PolyhedralSearch::Winner& winner = s_.winner[side];
   far_ = s_.distance[apex];
-  for (int i = 0; i < n; ++i)
+  for (int i = rays_.first_covering(); i < rays_.last_covering(); ++i)
     if (c.covers[i]) look(rays_[i], above, side);
   rays_.see_where_to({above.apex.real(), above.apex.imag(), winner.crossing, winner.distance, far_,
                       slack_share * (far_ + above.length), s_.most_straight});
-  int first[2] = {n, n}, last[2] = {0, 0};
-  for (int i = 0; i < n; ++i) {
-    const std::int64_t goes = c.goes[i];
-    if (goes & 1) {
-      first[0] = std::min(first[0], i);
-      last[0] = i + 1;
-    }
-    if (goes & 2) {
-      first[1] = std::min(first[1], i);
-      last[1] = i + 1;
-    }
-  }
   for (const int right : {1, 0}) {
-    if (first[right] >= last[right]) continue;
+    int first = 0, last = n;
+    while (first < last && !(c.goes[first] & (1 + right))) ++first;
+    if (first == last) continue;
+    while (!(c.goes[last - 1] & (1 + right))) --last;
     const int next = (right == 1) != turned ? k1 : k2;  // of the triangle's sides
     const int id = T_.side_edge(f, next);
     const PolyhedralPages::Edge& edge = s_.pages.edges[id];
@@ -208,8 +199,7 @@ void RayCrossing::cross(int side) {
     const RayExit exit(above, T_.length(f, next), right == 1, !to_apex);
     const double base = s_.distance[to_apex ? edge.tail : edge.head];
     leave_together(3 * f + next, id, above, exit,
-                   {to_apex ? base : far_, to_apex ? far_ : base, edge.length}, first[right],
-                   last[right]);
+                   {to_apex ? base : far_, to_apex ? far_ : base, edge.length}, first, last);
   }
 }
 

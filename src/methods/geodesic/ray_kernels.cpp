@@ -148,19 +148,26 @@ struct EnteringRays {
 };
 
 template <int width>
-LITTORAL_INLINE void look_lanes(const RayColumns& c, int n, double px, double py,
-                                double tolerance) {
+LITTORAL_INLINE void look_lanes(const RayColumns& c, int n, double px, double py, double tolerance,
+                                int covering[2]) {
   using V = typename Wide<width>::Lanes;
   using B = typename Wide<width>::Bits;
+  int first = n, last = 0;
   for (int i = 0; i < n; i += width) {
     EnteringRays<width> w;
     w.load_from(c, i);
     const V a0 = w.g0 * py - w.gy * (px - w.b0), a1 = w.g1 * py - w.gy * (px - w.b1);
     store(c.apex0 + i, a0);
     store(c.apex1 + i, a1);
-    const B past = (a0 > w.gy * tolerance) | (a1 < -w.gy * tolerance);
-    store(c.covers + i, ~past);
+    const B covers = (a0 <= w.gy * tolerance) & (a1 >= -w.gy * tolerance);
+    store(c.covers + i, covers);
+    if (any<width>(covers)) {
+      first = std::min(first, i);
+      last = i + width;
+    }
   }
+  covering[0] = first;
+  covering[1] = std::min(last, n);
 }
 
 template <int width>
@@ -427,8 +434,9 @@ LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, bool tu
   target double least_##name(const WindowBlock& w, std::size_t first, std::size_t last) {         \
     return least_lanes<width>(w, first, last);                                                    \
   }                                                                                               \
-  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance) {   \
-    look_lanes<width>(c, n, px, py, tolerance);                                                   \
+  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance,     \
+                          int covering[2]) {                                                      \
+    look_lanes<width>(c, n, px, py, tolerance, covering);                                         \
   }                                                                                               \
   target void where_##name(const RayColumns& c, int n, const CornerNumbers& corner) {             \
     where_lanes<width>(c, n, corner);                                                             \

@@ -62,7 +62,9 @@ struct RayKernels {
   bool (*all_whole)(const WindowBlock& windows, const EdgeEnds& ends);
   /// The least distance of windows first, ..., last - 1.
   double (*least)(const WindowBlock& windows, std::size_t first, std::size_t last);
-  void (*look_at_apex)(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance);
+  /// No window but covering[0], ..., covering[1] - 1 has rays that reach the far corner.
+  void (*look_at_apex)(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance,
+                       int covering[2]);
   /// Rays beyond those that reach the far corner soonest do not cross them: one angle, one split.
   /// Beyond the line from an end of a window to the far corner, that corner may be nearer.
   void (*see_where_to)(const RayColumns& c, int n, const CornerNumbers& corner);

@@ -143,7 +143,7 @@ class Front {
     });
     settle(parts, load);
     for (const int id : together_)
-      if (id >= 0) gone_on_.push_back(id);
+      if (id >= 0) gone_on_.push_back({passed(id), id});
   }
 
   /// Puts what the first members of the crew have collected where it belongs.
@@ -183,17 +183,24 @@ class Front {
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
   void forget_passed(double now) {
     for (std::size_t i = 0; i < 2 * together_.size() && !gone_on_.empty(); ++i) {
-      const int id = gone_on_.front();
+      Passing next = gone_on_.front();
       gone_on_.pop_front();
-      WindowList& list = search_.lists[id];
-      if (list.windows.empty() || list.due < infinity) continue;  // it will go on again
-      const PolyhedralPages::Edge& edge = search_.pages.edges[id];
-      const double ends = search_.distance[edge.tail] + search_.distance[edge.head];
-      if (0.5 * (ends + edge.length) < now)
-        crew_[0]->envelopes.forget(list);
-      else
-        gone_on_.push_back(id);
+      if (next.when < now || next.when == infinity) {
+        WindowList& list = search_.lists[next.edge];
+        if (list.windows.empty() || list.due < infinity) continue;  // it will go on again
+        next.when = passed(next.edge);
+        if (next.when < now) {
+          crew_[0]->envelopes.forget(list);
+          continue;
+        }
+      }
+      gone_on_.push_back(next);
     }
+  }
+  /// When the front has passed an edge, as far as is known: perhaps later than that.
+  double passed(int id) const {
+    const PolyhedralPages::Edge& edge = search_.pages.edges[id];
+    return 0.5 * (search_.distance[edge.tail] + search_.distance[edge.head] + edge.length);
   }
 
   /// Follows straight lines less far from now on, and lets paths bend at every vertex instead.
@@ -225,7 +232,11 @@ class Front {
   double exact_within_ = infinity;
   std::vector<Entry> queue_;   // a heap
   std::vector<int> together_;  // `Entry::id` of what goes on now
-  std::deque<int> gone_on_;    // edges, nearly in order
+  struct Passing {
+    double when;
+    int edge;
+  };
+  std::deque<Passing> gone_on_;
   std::vector<std::unique_ptr<RayCrossing>> crew_;
   ThreadCrew threads_;
   int n_reached_ = 0;

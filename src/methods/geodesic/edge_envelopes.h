@@ -56,7 +56,8 @@ class EdgeEnvelopes {
     return false;
   }
 
-  /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is.
+  /// Puts a batch into a list; the least distance of what is taken, +inf if nothing is, anything
+  /// for a list that is to go on already.
   double take(WindowList& list, WindowBlock&& batch, double length) {
     double least = infinity;
     if (batch.empty()) return least;
@@ -68,7 +69,7 @@ class EdgeEnvelopes {
       n_held_ += double(n);
       spare.give(std::move(all));
       all = std::move(batch);
-      return ray_kernels().least(all, 0, n);
+      return list.due < infinity ? 0 : ray_kernels().least(all, 0, n);
     }
     const double *b0 = batch.column(WindowBlock::b0), *b1 = batch.column(WindowBlock::b1);
     const double start = all.column(WindowBlock::b0)[0],
@@ -78,8 +79,11 @@ class EdgeEnvelopes {
     while (last != first && b0[last - 1] >= end) --last;
     for (std::size_t i = first; i < last; ++i)
       least = std::min(least, insert(all, length, batch[i]));
-    if (first != 0) least = std::min(least, ray_kernels().least(batch, 0, first));
-    if (last != n) least = std::min(least, ray_kernels().least(batch, last, n));
+    if (list.due < infinity)
+      least = 0;
+    else if (first != 0)
+      least = std::min(least, ray_kernels().least(batch, 0, first));
+    if (last != n && !(list.due < infinity)) least = std::min(least, ray_kernels().least(batch, last, n));
     const std::size_t outside = first + (n - last);
     n_taken_ += double(outside);
     if (outside > 0) {

@@ -134,7 +134,11 @@ class Front {
     threads_.run(parts, [&](std::size_t part) {
       RayCrossing& member = *crew_[part];
       member.clear();
-      for (std::size_t i = part * n / parts; i < (part + 1) * n / parts; ++i) {
+      const std::size_t end = (part + 1) * n / parts;
+      for (std::size_t i = part * n / parts; i < end; ++i) {
+        for (int step = 0; step < 3; ++step)
+          if (i + 3 - step < end && together_[i + 3 - step] >= 0)
+            member.fetch(together_[i + 3 - step], step);
         if (together_[i] < 0)
           member.leave_vertex(-1 - together_[i]);
         else
@@ -156,6 +160,10 @@ class Front {
       for (std::size_t part = 0; part < parts; ++part)
         for (std::size_t i = 0; i < crew_[part]->n_batches(); ++i) {
           RayCrossing::Batch& batch = crew_[part]->batch(i);
+          if (i + 4 < crew_[part]->n_batches()) {
+            __builtin_prefetch(&search_.lists[crew_[part]->batch(i + 4).edge]);
+            __builtin_prefetch(&search_.pages.edges[crew_[part]->batch(i + 4).edge]);
+          }
           if (std::size_t(batch.edge) % n != share) continue;
           batch.least =
               crew_[share]->envelopes.take(search_.lists[batch.edge], std::move(batch.windows),

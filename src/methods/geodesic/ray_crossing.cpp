@@ -141,6 +141,27 @@ void RayCrossing::leave(int side, Window w) {
   if (s_.ends(edge).trim(w)) next_batch(id, 1).windows.push_back(w);
 }
 
+void RayCrossing::fetch(int id, int step) const {
+  const PolyhedralPages::Edge& edge = s_.pages.edges[id];
+  if (step == 0) {
+    __builtin_prefetch(&edge);
+    __builtin_prefetch(&s_.lists[id]);
+  } else if (step == 1) {
+    __builtin_prefetch(s_.pages.pages.data() + edge.first_page);
+    __builtin_prefetch(&s_.distance[edge.tail]);
+    __builtin_prefetch(&s_.distance[edge.head]);
+  } else {
+    s_.lists[id].windows.fetch();
+    for (const int side : s_.pages.at(edge)) {
+      __builtin_prefetch(&T_.length(side / 3, 0));
+      __builtin_prefetch(&T_.faces(side / 3, 0));
+      __builtin_prefetch(&T_.side_edge(side / 3, 0));
+      __builtin_prefetch(&T_.along(side / 3, 0));
+      __builtin_prefetch(&s_.winner[side]);
+    }
+  }
+}
+
 void RayCrossing::go_on(int id) {
   WindowList& list = s_.lists[id];
   if (list.none_open || list.windows.empty()) return;
@@ -238,7 +259,20 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
     const int i = start + step * j, pair = turned ? i : i - 1;
     if (follows && (j == 0 ? c.ends[i] == 0 : c.follows[pair] != 0)) {
       int beyond = j + 1;
-      while (beyond < n && c.follows[turned ? i + j - beyond : i - j + beyond - 1] != 0) ++beyond;
+      const std::int64_t* next = c.follows + (turned ? i - 1 : i);  // of windows j and j + 1
+      if (turned) {
+        while (beyond + 3 < n && (next[0] & next[-1] & next[-2] & next[-3])) {
+          beyond += 4;
+          next -= 4;
+        }
+        for (; beyond < n && *next; ++beyond) --next;
+      } else {
+        while (beyond + 3 < n && (next[0] & next[1] & next[2] & next[3])) {
+          beyond += 4;
+          next += 4;
+        }
+        for (; beyond < n && *next; ++beyond) ++next;
+      }
       if (j > 0 && c.meets[pair] == cut_once) {
         batch.column(WindowBlock::b1)[batch.size() - 1] = c.cut[pair];
         batch.column(WindowBlock::d1)[batch.size() - 1] = c.cut_first[pair];

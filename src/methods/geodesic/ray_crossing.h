@@ -61,6 +61,7 @@ class RayCrossing {
   };
 
   void clear();
+  void fetch(int edge, int step) const;
   /// The windows of an edge that have not gone on, to its triangles.
   void go_on(int edge);
   /// Paths that bend at a vertex: along its edges and into its triangles.

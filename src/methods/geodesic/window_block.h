@@ -1,6 +1,7 @@
 #pragma once
 // Windows of one edge, column by column, so that several are read and written at once.
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -86,6 +87,12 @@ class WindowBlock {
     tags()[i] = WindowTag::of(w);
   }
 
+  /// Lets the processor read it ahead of time.
+  void fetch() const {
+    for (std::size_t c = 0; c <= n_numbers; ++c)
+      for (std::size_t i = 0; i < size_; i += 8)
+        __builtin_prefetch(data_.get() + c * stride_ + i);
+  }
   void clear() { size_ = 0; }
   /// Room for so many windows, no more.
   void reserve(std::size_t n) {
@@ -182,9 +189,9 @@ class SpareBlocks {
     return (size % 2 == 0 ? least_room : least_room + least_room / 2) << (size / 2);
   }
   static std::size_t size_for(std::size_t n) {
-    std::size_t size = 0;
-    while (room_of(size) < n) ++size;
-    return size;
+    if (n <= least_room) return 0;
+    const std::size_t size = 2 * std::size_t(std::bit_width(n - 1)) - 4;
+    return room_of(size - 1) < n ? size : size - 1;
   }
 
   std::vector<std::vector<WindowBlock>> spare_;

@@ -20,6 +20,12 @@ Window point_window(double b0, double b1, double x, double y, double behind) {
   return w;
 }
 
+std::vector<Window> kept_by(const WindowList& list) {
+  std::vector<Window> kept;
+  for (std::size_t i = 0; i < list.windows.size(); ++i) kept.push_back(list.windows[i]);
+  return kept;
+}
+
 TEST(EdgeEnvelopes, OfTwoPointsTheNearerMayBeSoInTheMiddleOnly) {
   // p from the middle: sqrt(p^2 + 1) = sqrt(p^2 + .01) + .5, squared: .74 = sqrt(p^2 + .01).
   const double r = 0.74, p = std::sqrt(r * r - 0.01);
@@ -29,7 +35,7 @@ TEST(EdgeEnvelopes, OfTwoPointsTheNearerMayBeSoInTheMiddleOnly) {
     const Window far = point_window(0, 4, 2, -1, 0), near = point_window(0, 4, 2, -0.1, 0.5);
     all.insert(list, 4, far_first ? far : near);
     all.insert(list, 4, far_first ? near : far);
-    const std::vector<Window>& kept = list.windows;
+    const std::vector<Window> kept = kept_by(list);
     ASSERT_EQ(kept.size(), 3);
     EXPECT_EQ(kept[0].behind, 0);
     EXPECT_EQ(kept[1].behind, 0.5);
@@ -66,11 +72,11 @@ TEST(EdgeEnvelopes, AgainstTheLeastOfAllAtEveryPoint) {
       offered.push_back(w);
       const double least = all.insert(list, length, w);
       double best = std::numeric_limits<double>::infinity();
-      for (const Window& kept : list.windows)
+      for (const Window& kept : kept_by(list))
         if (kept.source == i) best = std::min(best, kept.least());
       EXPECT_EQ(least, best);
     }
-    const std::vector<Window>& kept = list.windows;
+    const std::vector<Window> kept = kept_by(list);
     for (std::size_t i = 1; i < kept.size(); ++i) EXPECT_LE(kept[i - 1].b1, kept[i].b0);
     EXPECT_EQ(all.n_held(), double(kept.size()));
     for (int s = 0; s <= 1000; ++s) {
@@ -97,7 +103,7 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
     EdgeEnvelopes all;
     WindowList lists[2];
     for (int n = 0; n < 4; ++n) {
-      std::vector<Window> batch;
+      WindowBlock batch;
       double least = std::numeric_limits<double>::infinity();
       for (int i = 0; i < 8; ++i) {
         const double b0 = length * std::min(0.9, i / 10. + 0.2 * u(random)),
@@ -109,16 +115,16 @@ TEST(EdgeEnvelopes, BatchesAsOneByOne) {
         all.settle(batch, length);
       }
       const double found = all.take(lists[0], std::move(batch), length);
-      for (const Window& w : lists[0].windows)
+      for (const Window& w : kept_by(lists[0]))
         if (w.source >= 8 * n) least = std::min(least, w.least());
       EXPECT_EQ(found, least);
     }
     EXPECT_EQ(all.n_held(), double(lists[0].windows.size() + lists[1].windows.size()));
-    for (std::size_t i = 1; i < lists[0].windows.size(); ++i)
-      EXPECT_LE(lists[0].windows[i - 1].b1, lists[0].windows[i].b0);
+    const std::vector<Window> kept[2] = {kept_by(lists[0]), kept_by(lists[1])};
+    for (std::size_t i = 1; i < kept[0].size(); ++i) EXPECT_LE(kept[0][i - 1].b1, kept[0][i].b0);
     const auto at = [&](int list, double p) {
       double d = std::numeric_limits<double>::infinity();
-      for (const Window& w : lists[list].windows)
+      for (const Window& w : kept[list])
         if (p >= w.b0 && p <= w.b1) d = std::min(d, w.at(p));
       return d;
     };

@@ -15,7 +15,7 @@ namespace littoral {
 namespace {
 
 /// The lower envelope on an edge of points below it, some with parallel rays among them.
-std::vector<Window> crossing_windows(std::mt19937& random, double length, int n) {
+WindowBlock crossing_windows(std::mt19937& random, double length, int n) {
   std::uniform_real_distribution<double> u(0, 1);
   EdgeEnvelopes all;
   WindowList list;
@@ -37,12 +37,14 @@ std::vector<Window> crossing_windows(std::mt19937& random, double length, int n)
     w.measure_ends();
     all.insert(list, length, w);
   }
-  for (Window& w : list.windows) {  // gaps, as beside a vertex that shades
+  for (std::size_t i = 0; i < list.windows.size(); ++i) {  // gaps, as beside a vertex that shades
     if (random() % 4 != 0) continue;
+    Window w = list.windows[i];
     w.b1 -= u(random) * (w.b1 - w.b0);
     w.measure_ends();
+    list.windows.set(i, w);
   }
-  return list.windows;
+  return std::move(list.windows);
 }
 
 /// All numbers that a bundle has found out, but for what it may leave unset.
@@ -54,6 +56,7 @@ std::vector<double> found_numbers(const RayColumns& c, int first, int last) {
       out.push_back(column[i]);
     for (const std::int64_t* column : {c.covers, c.goes, c.ends}) out.push_back(double(column[i]));
     if (i + 1 == last) break;
+    out.push_back(double(c.follows[i]));
     for (const double* column : {c.cut, c.cut_first, c.cut_second}) out.push_back(column[i]);
     out.push_back(double(c.meets[i]));
   }
@@ -84,17 +87,29 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
     const CrossedTriangle t = crossed_triangle(random);
-    const std::vector<Window> windows = crossing_windows(random, t.length, 1 + round % 30);
+    const WindowBlock windows = crossing_windows(random, t.length, 1 + round % 30);
     const int n = int(windows.size()), first = int(random() % std::size_t(n)),
               last = first + 1 + int(random() % std::size_t(n - first));
     std::vector<double> found[2];
     for (const bool plain : {true, false}) {
       RayBundle rays(plain ? plain_ray_kernels : ray_kernels());
-      for (const Window& w : windows) rays.add(w);
+      rays.use(windows);
       rays.look_at(t.above, 1e-9 * t.length);
-      rays.see_where_to(0.5 * t.length, 1.4);
+      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), 0.5 * t.length, 1.3, 1, 1e-12,
+                         round % 3 == 0 ? 1 : Window::deep + 1});
       rays.leave(t.above, t.exit, t.ends, first, last);
       found[plain] = found_numbers(rays.columns(), first, last);
+      const RayKernels& kernels = plain ? plain_ray_kernels : ray_kernels();
+      found[plain].push_back(kernels.least(windows, std::size_t(first), std::size_t(last)));
+      found[plain].push_back(kernels.all_whole(windows, t.ends));
+      WindowBlock batch;
+      rays.put(first, last, t.exit.turned(), 3, batch);
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        const Window w = batch[i];
+        for (const double number : {w.b0, w.b1, w.d0, w.d1, w.x, w.y, w.behind})
+          found[plain].push_back(number);
+        found[plain].push_back(double(WindowTag::of(w)));
+      }
     }
     ASSERT_EQ(found[0].size(), found[1].size());
     for (std::size_t i = 0; i < found[0].size(); ++i) {
@@ -110,14 +125,15 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
 /// What the kernels say of two neighbours is what comparing the two finds.
 TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
   std::mt19937 random(2);
-  int n_cut = 0, n_before_end = 0, n_apart = 0;
+  int n_cut = 0, n_before_end = 0, n_apart = 0, n_put = 0;
   for (int round = 0; round < 3000; ++round) {
     const CrossedTriangle t = crossed_triangle(random);
-    const std::vector<Window> windows = crossing_windows(random, t.length, 20);
+    const WindowBlock windows = crossing_windows(random, t.length, 20);
     RayBundle rays;
-    for (const Window& w : windows) rays.add(w);
+    rays.use(windows);
     rays.look_at(t.above, 1e-9 * t.length);
-    rays.see_where_to(t.exit.right ? -1 : 2 * t.length, 1e300);
+    rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), t.exit.right ? -1 : 2 * t.length,
+                       infinity, infinity, 0, Window::deep + 1});
     const RayColumns& c = rays.columns();
     rays.leave(t.above, t.exit, t.ends, 0, rays.size());
     for (int i = 0; i + 1 < rays.size(); ++i) {
@@ -126,8 +142,10 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
       if (!(c.goes[i] & c.goes[i + 1] & side) || (c.ends[i] | c.ends[i + 1]) != 0 ||
           c.meets[i] == unclear)
         continue;
-      std::vector<Window> batch = {rays.left_as(before, 0), rays.left_as(after, 0)};
-      const Window o = batch[0], w = batch[1];
+      const Window o = rays.left_as(before, 0), w = rays.left_as(after, 0);
+      WindowBlock batch, both;
+      batch.push_back(o);
+      batch.push_back(w);
       EdgeEnvelopes envelopes;
       ASSERT_TRUE(envelopes.settle(batch, t.ends.length)) << round;
       if (c.meets[i] == apart) {
@@ -137,6 +155,22 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
         continue;
       }
       if (!(c.cut[i] - o.b0 > t.ends.narrow())) continue;  // left to the comparison
+      if (c.follows[i]) {                                  // what is put is cut there
+        ++n_put;
+        rays.put(i, i + 2, t.exit.turned(), 7, both);
+        EXPECT_EQ(both[0].b1, c.cut[i]);
+        EXPECT_EQ(both[0].d1, c.cut_first[i]);
+        EXPECT_EQ(both[1].b0, c.cut[i]);
+        EXPECT_EQ(both[1].d0, c.cut_second[i]);
+        EXPECT_EQ(both[1].b1, w.b1);
+        EXPECT_EQ(both[0].x, o.x);
+        EXPECT_EQ(both[1].behind, w.behind);
+        EXPECT_EQ(both[0].source, o.source);
+        EXPECT_EQ(both[1].page, 7);
+        EXPECT_EQ(both[1].depth, w.depth);
+        EXPECT_EQ(both[1].parallel, w.parallel);
+        EXPECT_TRUE(both[1].open);
+      }
       ++n_cut;
       // They are equally far there, or the first is nearer all the way to its end.
       const double here = c.cut[i], slack = 2 * slack_share * (o.at(here) + t.ends.length);
@@ -153,6 +187,48 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
   EXPECT_GT(n_cut, 1000);
   EXPECT_GT(n_before_end, n_cut / 2);
   EXPECT_GT(n_apart, 200);
+  EXPECT_GT(n_put, n_cut / 2);
+}
+
+/// Windows that neither an end of their edge cuts nor anything else sets apart go on where they
+/// lie.
+TEST(RayCrossing, WholeAreWindowsThatNothingChanges) {
+  for (const RayKernels* kernels : {&plain_ray_kernels, &ray_kernels()})
+    for (const std::size_t odd_one : {0, 3, 4, 8}) {
+      WindowBlock windows;
+      for (int i = 0; i < 9; ++i) {
+        Window w;
+        w.b0 = 0.1 * i;
+        w.b1 = 0.1 * (i + 1);
+        w.x = 0.5;
+        w.y = -1 - 0.01 * std::abs(i - 4);
+        w.page = 1;
+        w.measure_ends();
+        windows.push_back(w);
+      }
+      const EdgeEnds far(2, 2, 1);
+      EXPECT_TRUE(kernels->all_whole(windows, far));
+      EXPECT_FALSE(kernels->all_whole(windows, EdgeEnds(0.9, 2, 1)));
+      EXPECT_FALSE(kernels->all_whole(windows, EdgeEnds(2, 0.9, 1)));
+      EXPECT_EQ(kernels->least(windows, 0, 9), 1);
+      EXPECT_EQ(kernels->least(windows, 5, 9), windows[5].d0);
+      EXPECT_EQ(kernels->least(windows, 2, 2), infinity);
+      const Window good = windows[odd_one];
+      Window bad = good;
+      bad.page = 0;
+      windows.set(odd_one, bad);
+      EXPECT_FALSE(kernels->all_whole(windows, far));
+      bad = good;
+      bad.open = false;
+      windows.set(odd_one, bad);
+      EXPECT_FALSE(kernels->all_whole(windows, far));
+      bad = good;
+      bad.b1 = bad.b0;
+      windows.set(odd_one, bad);
+      EXPECT_FALSE(kernels->all_whole(windows, far));
+      windows.set(odd_one, good);
+      EXPECT_TRUE(kernels->all_whole(windows, far));
+    }
 }
 
 /// Eight equilateral triangles around vertex 0, and one more beyond each outer edge.
@@ -208,7 +284,8 @@ TEST(RayCrossing, PathsThatBendLeaveBehindTheVertex) {
       double covered = 0;
       for (std::size_t b = 0; b < crossing.n_batches(); ++b) {
         const RayCrossing::Batch& batch = crossing.batch(b);
-        for (const Window& w : batch.windows) {
+        for (std::size_t i = 0; i < batch.windows.size(); ++i) {
+          const Window w = batch.windows[i];
           EXPECT_EQ(w.source, 7);
           EXPECT_EQ(w.behind, 2 * side);
           // The side that this edge is of the fan.

@@ -83,7 +83,8 @@ class EdgeEnvelopes {
       least = 0;
     else if (first != 0)
       least = std::min(least, ray_kernels().least(batch, 0, first));
-    if (last != n && !(list.due < infinity)) least = std::min(least, ray_kernels().least(batch, last, n));
+    if (last != n && !(list.due < infinity))
+      least = std::min(least, ray_kernels().least(batch, last, n));
     const std::size_t outside = first + (n - last);
     n_taken_ += double(outside);
     if (outside > 0) {
@@ -165,9 +166,8 @@ class EdgeEnvelopes {
   /// The first window whose number in a column is not less than p (`or_more`: more than p).
   static std::size_t beyond(const WindowBlock& all, WindowBlock::Column c, double p, bool or_more) {
     const double *first = all.column(c), *last = first + all.size();
-    return std::size_t((or_more ? std::upper_bound(first, last, p)
-                                : std::lower_bound(first, last, p)) -
-                       first);
+    return std::size_t(
+        (or_more ? std::upper_bound(first, last, p) : std::lower_bound(first, last, p)) - first);
   }
 
   /// Lets every window say for itself that it has gone on.

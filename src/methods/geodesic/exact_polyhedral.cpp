@@ -198,7 +198,7 @@ class Front {
         if (list.windows.empty() || list.due < infinity) continue;  // it will go on again
         next.when = passed(next.edge);
         if (next.when < now) {
-          crew_[0]->envelopes.forget(list);
+          crew_[n_forgotten_++ % crew_.size()]->envelopes.forget(list);
           continue;
         }
       }
@@ -245,6 +245,7 @@ class Front {
     int edge;
   };
   std::deque<Passing> gone_on_;
+  std::size_t n_forgotten_ = 0;
   std::vector<std::unique_ptr<RayCrossing>> crew_;
   ThreadCrew threads_;
   int n_reached_ = 0;

@@ -22,12 +22,14 @@ void RayBundle::use(const WindowBlock& windows) {
   c.y = windows.column(WindowBlock::y);
   c.behind = windows.column(WindowBlock::behind);
   c.tag = windows.tags();
-  double** const numbers[] = {&c.apex0, &c.apex1, &c.to0,  &c.to1,       &c.to_d0,     &c.to_d1,
-                              &c.to_x,  &c.to_y,  &c.to_behind, &c.cut, &c.cut_first, &c.cut_second};
+  double** const numbers[] = {&c.apex0,     &c.apex1, &c.to0,       &c.to1,
+                              &c.to_d0,     &c.to_d1, &c.to_x,      &c.to_y,
+                              &c.to_behind, &c.cut,   &c.cut_first, &c.cut_second};
   std::int64_t** const flags[] = {&c.covers, &c.goes, &c.ends, &c.meets, &c.follows};
   const std::size_t needed = windows.size() + 2 * RayColumns::spare;
   if (numbers_.size() >= needed * std::size(numbers)) return;
-  const std::size_t room = 2 * needed;
+  // An odd number of lines of the cache, so that columns do not lie in the same places of it.
+  const std::size_t room = (2 * needed / 8 | 1) * 8;
   numbers_.assign(room * std::size(numbers), 0);
   flags_.assign(room * std::size(flags), 0);
   for (std::size_t i = 0; i < std::size(numbers); ++i)

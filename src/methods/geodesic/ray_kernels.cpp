@@ -62,8 +62,8 @@ LITTORAL_INLINE bool whole_lanes(const WindowBlock& w, const EdgeEnds& ends) {
     load(d1, w.column(WindowBlock::d1) + i);
     load(tag, w.tags() + i);
     B broken = ~((d0 <= ends.tail + b0 + ends.tail_slack) &
-                    (d1 <= ends.head + (ends.length - b1) + ends.head_slack) &
-                    (b1 - b0 > narrow) & ((tag & same) == first));
+                 (d1 <= ends.head + (ends.length - b1) + ends.head_slack) & (b1 - b0 > narrow) &
+                 ((tag & same) == first));
     if (n - i < width) keep_first(broken, n - i);
     if (any<width>(broken)) return false;
   }
@@ -185,7 +185,7 @@ LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, const CornerNumbers
     load(a1, c.apex1 + i);
     B tag;
     load(tag, c.tag + i);
-    B left = a0 < 0, right = a1 > 0;
+    B left = a0<0, right = a1> 0;
     const B beyond_left = left & (b0 >= q.crossing), beyond_right = right & (b1 <= q.crossing);
     // py bounds the norms from below.
     const B far_left = left & (d0 > reach), far_right = right & (d1 > reach);
@@ -427,28 +427,28 @@ LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, bool tu
 }
 
 // The same for every set of instructions.
-#define LITTORAL_RAY_KERNELS(name, target, width)                                                 \
-  target bool whole_##name(const WindowBlock& w, const EdgeEnds& ends) {                          \
-    return whole_lanes<width>(w, ends);                                                           \
-  }                                                                                               \
-  target double least_##name(const WindowBlock& w, std::size_t first, std::size_t last) {         \
-    return least_lanes<width>(w, first, last);                                                    \
-  }                                                                                               \
-  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance,     \
-                          int covering[2]) {                                                      \
-    look_lanes<width>(c, n, px, py, tolerance, covering);                                         \
-  }                                                                                               \
-  target void where_##name(const RayColumns& c, int n, const CornerNumbers& corner) {             \
-    where_lanes<width>(c, n, corner);                                                             \
-  }                                                                                               \
-  target void leave_##name(const RayColumns& c, int first, int last, const ExitNumbers& e) {      \
-    leave_lanes<width>(c, first, last, e);                                                        \
-  }                                                                                               \
-  target void put_##name(const RayColumns& c, int first, int last, bool turned,                   \
-                         std::uint16_t page, WindowBlock& to, std::size_t at) {                   \
-    put_lanes<width>(c, first, last, turned, page, to, at);                                       \
-  }                                                                                               \
-  constexpr RayKernels kernels_##name = {&whole_##name, &least_##name, &look_##name,              \
+#define LITTORAL_RAY_KERNELS(name, target, width)                                             \
+  target bool whole_##name(const WindowBlock& w, const EdgeEnds& ends) {                      \
+    return whole_lanes<width>(w, ends);                                                       \
+  }                                                                                           \
+  target double least_##name(const WindowBlock& w, std::size_t first, std::size_t last) {     \
+    return least_lanes<width>(w, first, last);                                                \
+  }                                                                                           \
+  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance, \
+                          int covering[2]) {                                                  \
+    look_lanes<width>(c, n, px, py, tolerance, covering);                                     \
+  }                                                                                           \
+  target void where_##name(const RayColumns& c, int n, const CornerNumbers& corner) {         \
+    where_lanes<width>(c, n, corner);                                                         \
+  }                                                                                           \
+  target void leave_##name(const RayColumns& c, int first, int last, const ExitNumbers& e) {  \
+    leave_lanes<width>(c, first, last, e);                                                    \
+  }                                                                                           \
+  target void put_##name(const RayColumns& c, int first, int last, bool turned,               \
+                         std::uint16_t page, WindowBlock& to, std::size_t at) {               \
+    put_lanes<width>(c, first, last, turned, page, to, at);                                   \
+  }                                                                                           \
+  constexpr RayKernels kernels_##name = {&whole_##name, &least_##name, &look_##name,          \
                                          &where_##name, &leave_##name, &put_##name}
 
 LITTORAL_RAY_KERNELS(plain, , 2);

@@ -25,8 +25,8 @@ struct RayColumns {
   double *cut, *cut_first, *cut_second;
   std::int64_t* covers;  // all bits if rays of the window reach the far corner
   std::int64_t* goes;    // sides of the far corner: 1 left, 2 right
-  std::int64_t* ends;  // 1, 2: an end of the edge reaches the window's start, end sooner; 4: narrow;
-                       // 8: does not go there
+  std::int64_t* ends;    // 1, 2: an end of the edge reaches the window's start, end sooner; 4:
+                       // narrow; 8: does not go there
   std::int64_t* meets;  // window i + 1: `apart`, ...
   /// Not 0: windows i and i + 1 go there as they are but for the cut between them, if the one
   /// nearer to the tail starts where it left or is cut from the one before it.

@@ -89,8 +89,8 @@ class WindowBlock {
 
   /// Lets the processor read it ahead of time.
   void fetch() const {
-    for (std::size_t c = 0; c <= n_numbers; ++c)
-      for (std::size_t i = 0; i < size_; i += 8)
+    for (std::size_t i = 0; i < size_; i += 8)
+      for (std::size_t c = 0; c <= n_numbers; ++c)
         __builtin_prefetch(data_.get() + c * stride_ + i);
   }
   void clear() { size_ = 0; }
@@ -138,8 +138,7 @@ class WindowBlock {
 
   static Memory memory(std::size_t stride) {
     static_assert(sizeof(double) == sizeof(std::int64_t));
-    return Memory(
-        static_cast<double*>(::operator new((n_numbers + 1) * stride * sizeof(double))));
+    return Memory(static_cast<double*>(::operator new((n_numbers + 1) * stride * sizeof(double))));
   }
   static std::int64_t* tags_of(double* data, std::size_t stride) {
     return reinterpret_cast<std::int64_t*>(data + n_numbers * stride);
@@ -168,13 +167,16 @@ class SpareBlocks {
       block = std::move(spare_[size].back());
       spare_[size].pop_back();
       block.clear();
+      room_ -= block.room();
     } else {
       block.reserve(room_of(size));
     }
     return block;
   }
-  void give(WindowBlock&& block) {
-    if (block.room() < least_room) return;
+  void give(WindowBlock&& given) {
+    WindowBlock block = std::move(given);
+    if (block.room() < least_room || room_ + block.room() > most_room) return;
+    room_ += block.room();
     std::size_t size = size_for(block.room());
     if (room_of(size) > block.room()) --size;
     if (size >= spare_.size()) spare_.resize(size + 1);
@@ -182,7 +184,7 @@ class SpareBlocks {
   }
 
  private:
-  static constexpr std::size_t least_room = 4;
+  static constexpr std::size_t least_room = 4, most_room = 30000;  // windows
 
   /// 4, 6, 8, 12, 16, ...
   static std::size_t room_of(std::size_t size) {
@@ -195,6 +197,7 @@ class SpareBlocks {
   }
 
   std::vector<std::vector<WindowBlock>> spare_;
+  std::size_t room_ = 0;  // in all of them
 };
 
 }  // namespace littoral

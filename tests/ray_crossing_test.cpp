@@ -99,7 +99,7 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
                          round % 3 == 0 ? 1 : Window::deep + 1});
       rays.leave(t.above, t.exit, t.ends, first, last);
       found[plain] = found_numbers(rays.columns(), first, last);
-      const RayKernels& kernels = plain ? plain_ray_kernels : ray_kernels();
+      const WindowKernels& kernels = plain ? plain_window_kernels : window_kernels();
       found[plain].push_back(kernels.least(windows, std::size_t(first), std::size_t(last)));
       found[plain].push_back(kernels.all_whole(windows, t.ends));
       WindowBlock batch;
@@ -193,7 +193,7 @@ TEST(RayCrossing, KernelsCutNeighboursWhereComparingThemDoes) {
 /// Windows that neither an end of their edge cuts nor anything else sets apart go on where they
 /// lie.
 TEST(RayCrossing, WholeAreWindowsThatNothingChanges) {
-  for (const RayKernels* kernels : {&plain_ray_kernels, &ray_kernels()})
+  for (const WindowKernels* kernels : {&plain_window_kernels, &window_kernels()})
     for (const std::size_t odd_one : {0, 3, 4, 8}) {
       WindowBlock windows;
       for (int i = 0; i < 9; ++i) {

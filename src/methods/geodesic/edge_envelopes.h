@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/index.h"
-#include "methods/geodesic/ray_kernels.h"
+#include "methods/geodesic/window_kernels.h"
 
 namespace littoral {
 
@@ -69,7 +69,7 @@ class EdgeEnvelopes {
       n_held_ += double(n);
       spare.give(std::move(all));
       all = std::move(batch);
-      return list.due < infinity ? 0 : ray_kernels().least(all, 0, n);
+      return list.due < infinity ? 0 : window_kernels().least(all, 0, n);
     }
     const double *b0 = batch.column(WindowBlock::b0), *b1 = batch.column(WindowBlock::b1);
     const double start = all.column(WindowBlock::b0)[0],
@@ -82,9 +82,9 @@ class EdgeEnvelopes {
     if (list.due < infinity)
       least = 0;
     else if (first != 0)
-      least = std::min(least, ray_kernels().least(batch, 0, first));
+      least = std::min(least, window_kernels().least(batch, 0, first));
     if (last != n && !(list.due < infinity))
-      least = std::min(least, ray_kernels().least(batch, last, n));
+      least = std::min(least, window_kernels().least(batch, last, n));
     const std::size_t outside = first + (n - last);
     n_taken_ += double(outside);
     if (outside > 0) {

@@ -168,7 +168,7 @@ void RayCrossing::go_on(int id) {
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   const EdgeEnds ends = s_.ends(edge);
   const auto sides = s_.pages.at(edge);
-  if (ray_kernels().all_whole(list.windows, ends)) {
+  if (window_kernels().all_whole(list.windows, ends)) {
     list.none_open = true;
     rays_.use(list.windows);
     const int from = rays_[0].page;

@@ -5,36 +5,13 @@
 #include "methods/geodesic/ray_kernels.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "base/index.h"
 #include "base/kernel_choice.h"
-#include "base/vector_lanes.h"
+#include "methods/geodesic/ray_lanes.h"
 
 namespace littoral {
 
 namespace {
-
-#define LITTORAL_INLINE [[gnu::always_inline]] inline
-
-template <class V>
-LITTORAL_INLINE void take_root(V& v) {
-  for (int l = 0; l < int(sizeof v / sizeof(double)); ++l) v[l] = std::sqrt(v[l]);
-}
-
-template <int width, class B>
-LITTORAL_INLINE bool any(const B& b) {
-  std::int64_t bits = 0;
-  for (int l = 0; l < width; ++l) bits |= b[l];
-  return bits != 0;
-}
-
-/// Leaves out lanes beyond the windows that are left.
-template <class B>
-LITTORAL_INLINE void keep_first(B& b, std::int64_t left) {
-  for (int l = 0; l < int(sizeof b / sizeof(std::int64_t)); ++l)
-    if (l >= left) b[l] = 0;
-}
 
 template <bool turned, class Scalar, class V>
 LITTORAL_INLINE void store_in_order(Scalar* to, const V& v) {
@@ -44,57 +21,6 @@ LITTORAL_INLINE void store_in_order(Scalar* to, const V& v) {
     store(to, V(__builtin_shufflevector(v, v, 3, 2, 1, 0)));
   else
     store(to, V(__builtin_shufflevector(v, v, 1, 0)));
-}
-
-template <int width>
-LITTORAL_INLINE bool whole_lanes(const WindowBlock& w, const EdgeEnds& ends) {
-  using V = typename Wide<width>::Lanes;
-  using B = typename Wide<width>::Bits;
-  const std::int64_t n = std::int64_t(w.size()), same = WindowTag::page_all | WindowTag::open,
-                     first = (w.tags()[0] & same) | WindowTag::open;
-  const double narrow = ends.narrow();
-  for (std::int64_t i = 0; i < n; i += width) {
-    V b0, b1, d0, d1;
-    B tag;
-    load(b0, w.column(WindowBlock::b0) + i);
-    load(b1, w.column(WindowBlock::b1) + i);
-    load(d0, w.column(WindowBlock::d0) + i);
-    load(d1, w.column(WindowBlock::d1) + i);
-    load(tag, w.tags() + i);
-    B broken = ~((d0 <= ends.tail + b0 + ends.tail_slack) &
-                 (d1 <= ends.head + (ends.length - b1) + ends.head_slack) & (b1 - b0 > narrow) &
-                 ((tag & same) == first));
-    if (n - i < width) keep_first(broken, n - i);
-    if (any<width>(broken)) return false;
-  }
-  return true;
-}
-
-template <int width>
-LITTORAL_INLINE double least_lanes(const WindowBlock& w, std::size_t first, std::size_t last) {
-  using V = typename Wide<width>::Lanes;
-  using B = typename Wide<width>::Bits;
-  V least = V{} + infinity;
-  for (std::size_t i = first; i < last; i += width) {
-    V b0, b1, d0, d1, x, y, behind;
-    B tag;
-    load(b0, w.column(WindowBlock::b0) + i);
-    load(b1, w.column(WindowBlock::b1) + i);
-    load(d0, w.column(WindowBlock::d0) + i);
-    load(d1, w.column(WindowBlock::d1) + i);
-    load(x, w.column(WindowBlock::x) + i);
-    load(y, w.column(WindowBlock::y) + i);
-    load(behind, w.column(WindowBlock::behind) + i);
-    load(tag, w.tags() + i);
-    const B at_end = ((tag & WindowTag::parallel) != 0) | (x <= b0) | (x >= b1);
-    const V ends = d1 < d0 ? d1 : d0, here = at_end ? ends : behind - y;
-    B nearer = here < least;
-    if (last - i < width) keep_first(nearer, std::int64_t(last - i));
-    least = nearer ? here : least;
-  }
-  double found = infinity;
-  for (int l = 0; l < width; ++l) found = std::min(found, least[l]);
-  return found;
 }
 
 /// Several windows of an edge.
@@ -426,47 +352,48 @@ LITTORAL_INLINE void put_lanes(const RayColumns& c, int first, int last, bool tu
     put_lanes<width, false>(c, first, last, page, to, at);
 }
 
-// The same for every set of instructions.
-#define LITTORAL_RAY_KERNELS(name, target, width)                                             \
-  target bool whole_##name(const WindowBlock& w, const EdgeEnds& ends) {                      \
-    return whole_lanes<width>(w, ends);                                                       \
-  }                                                                                           \
-  target double least_##name(const WindowBlock& w, std::size_t first, std::size_t last) {     \
-    return least_lanes<width>(w, first, last);                                                \
-  }                                                                                           \
-  target void look_##name(const RayColumns& c, int n, double px, double py, double tolerance, \
-                          int covering[2]) {                                                  \
-    look_lanes<width>(c, n, px, py, tolerance, covering);                                     \
-  }                                                                                           \
-  target void where_##name(const RayColumns& c, int n, const CornerNumbers& corner) {         \
-    where_lanes<width>(c, n, corner);                                                         \
-  }                                                                                           \
-  target void leave_##name(const RayColumns& c, int first, int last, const ExitNumbers& e) {  \
-    leave_lanes<width>(c, first, last, e);                                                    \
-  }                                                                                           \
-  target void put_##name(const RayColumns& c, int first, int last, bool turned,               \
-                         std::uint16_t page, WindowBlock& to, std::size_t at) {               \
-    put_lanes<width>(c, first, last, turned, page, to, at);                                   \
-  }                                                                                           \
-  constexpr RayKernels kernels_##name = {&whole_##name, &least_##name, &look_##name,          \
-                                         &where_##name, &leave_##name, &put_##name}
-
-LITTORAL_RAY_KERNELS(plain, , 2);
+void look_plain(const RayColumns& c, int n, double px, double py, double tolerance,
+                int covering[2]) {
+  look_lanes<2>(c, n, px, py, tolerance, covering);
+}
+void where_plain(const RayColumns& c, int n, const CornerNumbers& corner) {
+  where_lanes<2>(c, n, corner);
+}
+void leave_plain(const RayColumns& c, int first, int last, const ExitNumbers& e) {
+  leave_lanes<2>(c, first, last, e);
+}
+void put_plain(const RayColumns& c, int first, int last, bool turned, std::uint16_t page,
+               WindowBlock& to, std::size_t at) {
+  put_lanes<2>(c, first, last, turned, page, to, at);
+}
 #if defined(__x86_64__)
-LITTORAL_RAY_KERNELS(avx2, [[gnu::target("avx2")]], 4);
+[[gnu::target("avx2")]] void look_avx2(const RayColumns& c, int n, double px, double py,
+                                       double tolerance, int covering[2]) {
+  look_lanes<4>(c, n, px, py, tolerance, covering);
+}
+[[gnu::target("avx2")]] void where_avx2(const RayColumns& c, int n, const CornerNumbers& corner) {
+  where_lanes<4>(c, n, corner);
+}
+[[gnu::target("avx2")]] void leave_avx2(const RayColumns& c, int first, int last,
+                                        const ExitNumbers& e) {
+  leave_lanes<4>(c, first, last, e);
+}
+[[gnu::target("avx2")]] void put_avx2(const RayColumns& c, int first, int last, bool turned,
+                                      std::uint16_t page, WindowBlock& to, std::size_t at) {
+  put_lanes<4>(c, first, last, turned, page, to, at);
+}
 #endif
 
 }  // namespace
 
-const RayKernels plain_ray_kernels = kernels_plain;
+const RayKernels plain_ray_kernels = {&look_plain, &where_plain, &leave_plain, &put_plain};
 
 const RayKernels& ray_kernels() {
 #if defined(__x86_64__)
-  static const RayKernels& best = LITTORAL_FASTEST(plain_ray_kernels, kernels_avx2);
-  return best;
-#else
-  return plain_ray_kernels;
+  static const RayKernels wide = {&look_avx2, &where_avx2, &leave_avx2, &put_avx2};
 #endif
+  static const RayKernels& best = LITTORAL_FASTEST(plain_ray_kernels, wide);
+  return best;
 }
 
 }  // namespace littoral

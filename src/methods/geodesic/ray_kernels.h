@@ -26,8 +26,8 @@ struct RayColumns {
   std::int64_t* covers;  // all bits if rays of the window reach the far corner
   std::int64_t* goes;    // sides of the far corner: 1 left, 2 right
   std::int64_t* ends;    // 1, 2: an end of the edge reaches the window's start, end sooner; 4:
-                       // narrow; 8: does not go there
-  std::int64_t* meets;  // window i + 1: `apart`, ...
+                         // narrow; 8: does not go there
+  std::int64_t* meets;   // window i + 1: `apart`, ...
   /// Not 0: windows i and i + 1 go there as they are but for the cut between them, if the one
   /// nearer to the tail starts where it left or is cut from the one before it.
   std::int64_t* follows;
@@ -57,11 +57,6 @@ struct ExitNumbers {
 };
 
 struct RayKernels {
-  /// Whether all windows of a block are open, came through one triangle, and the ends of the edge
-  /// reach nothing of them sooner.
-  bool (*all_whole)(const WindowBlock& windows, const EdgeEnds& ends);
-  /// The least distance of windows first, ..., last - 1.
-  double (*least)(const WindowBlock& windows, std::size_t first, std::size_t last);
   /// No window but covering[0], ..., covering[1] - 1 has rays that reach the far corner.
   void (*look_at_apex)(const RayColumns& c, int n, double apex_x, double apex_y, double tolerance,
                        int covering[2]);

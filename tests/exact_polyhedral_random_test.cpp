@@ -19,7 +19,7 @@ struct OnMesh {
     placed = place_sources(mesh, sources, report);
   }
   ExactDistance exact(double most_windows = 0) {
-    return exact_polyhedral(T, triangle_sources(mesh, T, placed), {}, report, most_windows);
+    return exact_polyhedral(T, triangle_sources(mesh, T, placed), {}, report, {most_windows, 0});
   }
   double windows() const {
     for (const auto& [loop, count] : report.iterations)

@@ -41,7 +41,7 @@ Measured median(int rounds, const Run& run) {
 Measured exact(const IntrinsicTriangulation& T, const TriangleSources& on, double most_windows) {
   Report report;
   Measured m;
-  m.distance = exact_polyhedral(T, on, {}, report, most_windows).distance;
+  m.distance = exact_polyhedral(T, on, {}, report, {most_windows, 0}).distance;
   m.windows = report.iterations.front().second;
   return m;
 }

@@ -21,12 +21,15 @@ enum class Completion { automatic, shortest, heat, none };
 enum class Metric { automatic, exact, fast_marching, heat };
 
 /// The default: signed curves are completed where they are broken, and distance is measured from
-/// both. Exact on triangle meshes where curves bound, for unsigned curves and for points.
+/// both. Exact on triangle meshes where curves bound, for unsigned curves and for points; on large
+/// ones to `tolerance`.
 struct Automatic {
   static constexpr const char* method = "auto";
   Completion completion = Completion::automatic;
   Metric metric = Metric::automatic;
   bool confidence = false;  // how sure each sign is, 0 to 1, beside the distance
+  double tolerance = 1e-5;  // share of every distance that it may be off by on more than 100,000
+                            // triangles; 0: exact
 };
 
 /// How values at the source are held (signed heat method, section 7.1).
@@ -73,6 +76,7 @@ struct UnsignedHeat {
 /// Mitchell, Mount, Papadimitriou: The Discrete Geodesic Problem (1987).
 struct Exact {
   static constexpr const char* method = "exact";
+  double tolerance = 0;  // share of every distance that it may be off by; more is faster
 };
 
 /// First-order distance to points and unbroken curves, signed or not.

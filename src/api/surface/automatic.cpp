@@ -27,6 +27,7 @@ namespace {
 
 // Calibrated on damaged curves (docs/measurements/robustness.md).
 constexpr double spread = 0.1;
+constexpr int many_triangles = 100'000;  // where windows are merged
 
 const OptionTable<Automatic>& automatic_options() {
   using O = Automatic;
@@ -43,7 +44,10 @@ const OptionTable<Automatic>& automatic_options() {
                   "triangles, around voxels on these without their steps.")
           .toggle(&O::confidence, "confidence",
                   "Beside the distance, how sure its sign is, from 0 on what completes a curve to "
-                  "1 far from it.");
+                  "1 far from it.")
+          .number(&O::tolerance, "tolerance", "share of a distance", 0, 0.01,
+                  "Every exact distance may be off by that share of it on meshes of more than "
+                  "100,000 triangles, where exact search takes long; 0: exact.");
   return table;
 }
 
@@ -68,10 +72,8 @@ class AutomaticOnTriangles {
     if (options.metric == Metric::automatic) options.metric = Metric::exact;
     SurfaceAnswer answer{
         value_range(given).same()
-            ? VecX(measured(on, options.metric, measuring, report)
-                       .cwiseAbs()
-                       .cwiseProduct(whole.sign))
-            : from_values(on, whole, placed.n_curves, options.metric, measuring, report),
+            ? VecX(measured(on, options, measuring, report).cwiseAbs().cwiseProduct(whole.sign))
+            : from_values(on, whole, placed.n_curves, options, measuring, report),
         {},
         {}};
     answer.values.array() += 0.0;  // no -0
@@ -84,23 +86,25 @@ class AutomaticOnTriangles {
   }
 
  private:
-  VecX measured(const TriangleSources& on, Metric metric, const Task& task, Report& report) const {
-    return metric == Metric::exact ? exact_polyhedral(*T_, on, task, report).distance
-                                   : fast_marching(*T_, on, task, report);
+  VecX measured(const TriangleSources& on, const Automatic& options, const Task& task,
+                Report& report) const {
+    if (options.metric != Metric::exact) return fast_marching(*T_, on, task, report);
+    const double tolerance = T_->n_faces() > many_triangles ? options.tolerance : 0;
+    return exact_polyhedral(*T_, on, task, report, {0, tolerance}).distance;
   }
 
   /// The least of c_i + d_i on positive sides, the largest of c_i - d_i on negative ones: viscosity
   /// solutions of |grad phi| = 1 for increasing and decreasing phi (Hopf and Lax). Where no source
   /// is shadowed both are c_i at source i.
-  VecX from_values(TriangleSources on, const WholeSources& whole, int n_curves, Metric metric,
-                   Task task, Report& report) const {
+  VecX from_values(TriangleSources on, const WholeSources& whole, int n_curves,
+                   const Automatic& options, Task task, Report& report) const {
     for (TriangleSources::Segment& segment : on.segments) segment.is_signed = false;
-    VecX phi = measured(on, metric, task.stage(0.5, "walking over the mesh"), report);
+    VecX phi = measured(on, options, task.stage(0.5, "walking over the mesh"), report);
     warn_of_shadowed(*T_, on, whole.sources, n_curves, phi / T_->unit, report);
     if (!(whole.sign.minCoeff() < 0)) return phi;
     for (double& value : on.value) value = -value;
     Report again;
-    const VecX below = measured(on, metric, task.stage(1, "walking over the mesh"), again);
+    const VecX below = measured(on, options, task.stage(1, "walking over the mesh"), again);
     for (Eigen::Index v = 0; v < phi.size(); ++v)
       if (whole.sign[v] < 0) phi[v] = -below[v];
     return phi;

@@ -16,6 +16,7 @@ struct WindowList {
   WindowBlock windows;     // from tail to head, do not overlap
   double due = infinity;   // when the open ones are to go on
   bool none_open = false;  // all have gone on, whatever they say themselves
+  double error = 0;        // of distances: by how much merged windows may misstate them
 };
 
 /// For every edge a list of windows from tail to head that do not overlap: the lower envelope of

@@ -27,8 +27,9 @@ constexpr double worth_threads = 500;  // windows to carry on; four times as man
 
 class Front {
  public:
-  Front(const IntrinsicTriangulation& T, double most_windows)
+  Front(const IntrinsicTriangulation& T, double most_windows, double tolerance)
       : search_(T), T_(T), most_windows_(most_windows) {
+    search_.tolerance = tolerance;
     crew_.push_back(std::make_unique<RayCrossing>(search_));
   }
 
@@ -54,6 +55,13 @@ class Front {
 
   const VecX& distance() const { return search_.distance; }
   const VecXi& nearest() const { return search_.nearest; }
+  /// What distances may be off by, as a share of them, at most.
+  double largest_error() const {
+    double most = 0;
+    for (int v = 0; v < T_.n_vertices; ++v)
+      if (search_.error[v] > 0) most = std::max(most, search_.error[v] / search_.distance[v]);
+    return most;
+  }
   double windows() const {
     double sum = 0;
     for (const auto& member : crew_) sum += member->envelopes.n_taken();
@@ -82,7 +90,7 @@ class Front {
       crew_[0]->clear();
       crew_[0]->leave_source(start);
       settle(1, 0);
-    } else if (offer({start.vertex, start.value, start.source, {}})) {
+    } else if (offer({start.vertex, start.value, start.source, {}, 0})) {
       push({start.value, -1 - start.vertex});
     }
   }
@@ -91,12 +99,13 @@ class Front {
     std::push_heap(queue_.begin(), queue_.end());
   }
   bool offer(const RayCrossing::Offer& better) {
-    const auto& [v, distance, source, arrival] = better;
+    const auto& [v, distance, source, arrival, error] = better;
     if (!(distance < search_.distance[v])) return false;
     if (search_.distance[v] == infinity) ++n_reached_;
     search_.distance[v] = distance;
     search_.nearest[v] = source;
     search_.arrival[v] = arrival;
+    search_.error[v] = error;
     return true;
   }
 
@@ -165,6 +174,8 @@ class Front {
             __builtin_prefetch(&search_.pages.edges[crew_[part]->batch(i + 4).edge]);
           }
           if (std::size_t(batch.edge) % n != share) continue;
+          double& error = search_.lists[batch.edge].error;
+          error = std::max(error, batch.error);
           batch.least =
               crew_[share]->envelopes.take(search_.lists[batch.edge], std::move(batch.windows),
                                            search_.pages.edges[batch.edge].length);
@@ -254,13 +265,16 @@ class Front {
 }  // namespace
 
 ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
-                               const Task& task, Report& report, double most_windows) {
+                               const Task& task, Report& report, const ExactSearch& search) {
+  double most_windows = search.most_windows;
   if (!(most_windows > 0)) most_windows = std::max(1e7, 1000.0 * T.n_faces());
-  Front front(T, most_windows);
+  Front front(T, most_windows, search.tolerance);
   double least = 0;
   const std::vector<PolyhedralStart> starts = starts_of(sources, least);
   front.run(starts, task);
   report.iterations.emplace_back("windows", front.windows());
+  if (search.tolerance > 0)
+    report.residuals.emplace_back("merged windows, share of a distance", front.largest_error());
   const double exact_within = (front.exact_within() + least) * T.unit;
   if (exact_within < infinity) {
     report.warn("not-converged",

@@ -14,6 +14,12 @@ struct ExactDistance {
   double exact_within = 0;  // [length of the input] values up to here are exact; +inf: all are
 };
 
+/// How far the search goes.
+struct ExactSearch {
+  double most_windows = 0;  // that are followed exactly; 0: 1000 a triangle and at least 1e7
+  double tolerance = 0;     // share of every distance that it may be off by
+};
+
 /// Unsigned distance at the vertices, exact to rounding, from points, and from curves as the exact
 /// distance to their straight pieces; +inf on components that no source reaches. Sources are
 /// numbered as in TriangleSources; of equally near ones any is named.
@@ -32,11 +38,13 @@ struct ExactDistance {
 /// into each; paths bend only at vertices with more than a full turn around them, on the boundary
 /// and where the surface is not a manifold.
 ///
-/// More than `most_windows` (0: 1000 a triangle and at least 1e7) are not followed: from there on
-/// paths may bend at every vertex and run straight through 16 triangles only, then 4, then 1. A
-/// warning says up to which distance values are exact; those beyond are lengths of paths, hence too
-/// large if not exact.
+/// With a tolerance, neighbouring windows become one where no distance is then further off than
+/// that: on fine meshes there are few left. What values are off by at most is in the report.
+///
+/// More than `most_windows` are not followed: from there on paths may bend at every vertex and run
+/// straight through 16 triangles only, then 4, then 1. A warning says up to which distance values
+/// are exact; those beyond are lengths of paths, hence too large if not exact.
 ExactDistance exact_polyhedral(const IntrinsicTriangulation& T, const TriangleSources& sources,
-                               const Task& task, Report& report, double most_windows = 0);
+                               const Task& task, Report& report, const ExactSearch& search = {});
 
 }  // namespace littoral

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "methods/geodesic/merge_windows.h"
 
 namespace littoral {
 
@@ -34,7 +35,8 @@ PolyhedralSearch::PolyhedralSearch(const IntrinsicTriangulation& triangulation)
       distance(VecX::Constant(T.n_vertices, infinity)),
       nearest(VecXi::Constant(T.n_vertices, -1)),
       arrival(T.n_vertices),
-      winner(3 * std::size_t(T.n_faces()), {infinity, 0}) {}
+      winner(3 * std::size_t(T.n_faces()), {infinity, 0}),
+      error(VecX::Zero(T.n_vertices)) {}
 
 void RayCrossing::clear() {
   offers_.clear();
@@ -45,16 +47,18 @@ RayCrossing::Batch& RayCrossing::next_batch(int edge, std::size_t n) {
   if (n_batches_ == batches_.size()) batches_.emplace_back();
   Batch& batch = batches_[n_batches_++];
   batch.edge = edge;
+  batch.error = error_;
   batch.windows = envelopes.spare.take(n);
   return batch;
 }
 
 void RayCrossing::leave_source(const PolyhedralStart& start) {
   const int triangle = start.point ? start.point->face : start.segment->triangle;
+  error_ = 0;
   const TriangleRays rays =
       start.point ? rays_of_point(T_, *start.point) : rays_of_segment(T_, *start.segment);
   for (int k = 0; k < 3; ++k)
-    offers_.push_back({T_.faces(triangle, k), start.value + rays.corners[k], start.source, {}});
+    offers_.push_back({T_.faces(triangle, k), start.value + rays.corners[k], start.source, {}, 0});
   for (auto [side, w] : rays.leaving) {
     w.source = start.source;
     w.behind += start.value;
@@ -65,10 +69,11 @@ void RayCrossing::leave_source(const PolyhedralStart& start) {
 void RayCrossing::leave_vertex(int v) {
   const double d = s_.distance[v];
   const int source = s_.nearest[v];
+  error_ = s_.error[v];
   for (const int side : s_.pages.around(v)) {
     const int f = side / 3, k1 = side % 3, k2 = (k1 + 1) % 3, k = (k1 + 2) % 3;
-    offers_.push_back({T_.faces(f, k1), d + T_.length(f, k), source, {3 * f + k2, 1}});
-    offers_.push_back({T_.faces(f, k2), d + T_.length(f, k2), source, {3 * f + k, 0}});
+    offers_.push_back({T_.faces(f, k1), d + T_.length(f, k), source, {3 * f + k2, 1}, error_});
+    offers_.push_back({T_.faces(f, k2), d + T_.length(f, k2), source, {3 * f + k, 0}, error_});
   }
   const PolyhedralSearch::Arrival& arrival = s_.arrival[v];
   if (s_.pages.bends[v] == PolyhedralPages::behind && arrival.side >= 0)
@@ -168,6 +173,9 @@ void RayCrossing::go_on(int id) {
   const PolyhedralPages::Edge& edge = s_.pages.edges[id];
   const EdgeEnds ends = s_.ends(edge);
   const auto sides = s_.pages.at(edge);
+  if (s_.tolerance > 0)
+    list.error += merge_windows(list.windows, edge.length, s_.tolerance, list.error);
+  error_ = list.error;
   if (window_kernels().all_whole(list.windows, ends)) {
     list.none_open = true;
     rays_.use(list.windows);
@@ -239,7 +247,8 @@ void RayCrossing::look(const Window& w, const TriangleAbove& above, int side) {
     offers_.push_back({T_.faces(f, (k + 2) % 3),
                        reached,
                        w.source,
-                       {side, T_.along(f, k) < 0 ? 1 - share : share}});
+                       {side, T_.along(f, k) < 0 ? 1 - share : share},
+                       error_});
   }
   if (at_apex < winner.distance) winner = {at_apex, crossing};
 }

@@ -35,7 +35,9 @@ struct PolyhedralSearch {
   VecXi nearest;
   std::vector<Arrival> arrival;          // vertices
   std::vector<Winner> winner;            // sides
+  VecX error;                            // vertices; see WindowList
   int most_straight = Window::deep + 1;  // how many triangles paths run straight through
+  double tolerance = 0;                  // share of a distance that merging may change it by
 
   EdgeEnds ends(const PolyhedralPages::Edge& edge) const {
     return {distance[edge.tail], distance[edge.head], edge.length};
@@ -53,11 +55,13 @@ class RayCrossing {
     double distance;
     int source;
     PolyhedralSearch::Arrival arrival;
+    double error;
   };
   struct Batch {
     int edge;
     WindowBlock windows;
     double least;  // of what is taken
+    double error;
   };
 
   void clear();
@@ -102,7 +106,8 @@ class RayCrossing {
   std::vector<Window> open_;
   WindowBlock others_;  // the open ones that did not come through a triangle
   RayBundle rays_;
-  double far_ = 0;  // distance of the far corner of the triangle that is crossed
+  double far_ = 0;    // distance of the far corner of the triangle that is crossed
+  double error_ = 0;  // of what is sent
 };
 
 }  // namespace littoral

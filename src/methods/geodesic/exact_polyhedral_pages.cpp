@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -46,6 +46,22 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
   return n == n_corners && side / 3 == first_side / 3;
 }
 
+/// Angles added up as a product of rotations: arc tangents would take longer than all the rest.
+struct Turn {
+  double x = 1, y = 0;  // some multiple of the rotation
+  int full = 0;         // turns
+
+  void add(double cot) {  // an angle below half a turn
+    const bool low = y < 0;
+    const double next_x = x * cot - y, next_y = y * cot + x;
+    const double size = std::max(std::abs(next_x), std::abs(next_y));
+    x = next_x / size;
+    y = next_y / size;
+    full += low && y >= 0;
+  }
+  bool more_than_full() const { return full > 1 || (full == 1 && !(x > 0 && y <= 1e-12 * x)); }
+};
+
 }  // namespace
 
 PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
@@ -70,7 +86,7 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
   pages.resize(n_pages);
   across.resize(n_pages);
   std::vector<int> next_corner(corner_offsets.begin(), corner_offsets.end() - 1);
-  VecX turn = VecX::Zero(T.n_vertices);
+  std::vector<Turn> turn(std::size_t(T.n_vertices));
   for (int f = 0; f < T.n_faces(); ++f) {
     if (!is_first[f]) continue;
     const TriangleShape shape = T.shape(f);
@@ -78,7 +94,7 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
       Edge& edge = edges[T.side_edge(f, k)];
       pages[edge.first_page + edge.n_pages++] = 3 * f + k;
       across[next_corner[T.faces(f, k)]++] = 3 * f + (k + 1) % 3;
-      turn[T.faces(f, k)] += std::atan2(1.0, shape.cot[k]);
+      turn[T.faces(f, k)].add(shape.cot[k]);
     }
   }
   for (int e = 0; e < T.n_edges(); ++e)
@@ -93,7 +109,7 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     const auto corners = around(v);
     if (bends[v] || corners.empty()) continue;
     const int side = corners.front(), f = side / 3;
-    const bool more = turn[v] > 2 * std::numbers::pi + 1e-12;
+    const bool more = turn[v].more_than_full();
     if (!closes_up(T, *this, v, 3 * f + (side + 2) % 3, static_cast<int>(corners.size())))
       bends[v] = anywhere;
     else if (more)

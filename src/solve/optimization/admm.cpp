@@ -113,12 +113,13 @@ class Admm {
   }
 
   void iterate(bool keep_old) {
-    VecX &z = state_.z, &w = state_.w;
+    VecX& z = state_.z;
     multiply(D_, pull_, force_, task_);
     parallel_for(p_.b.size(), grain, [&](std::size_t i, std::size_t end) {
       for (; i < end; ++i) force_[index(i)] += p_.b[index(i)];
     });
     u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
+    stop_if_cancelled(task_);
     if (keep_old) {
       old_z_.swap(z);
       old_pull_.swap(pull_);
@@ -127,7 +128,6 @@ class Admm {
     }
     const double* const before = keep_old ? old_z_.data() : z.data();
     g_.resize(z.size());
-    stop_if_cancelled(task_);
     parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
       for (; c < end; c += cells_in_cache)
         step_in_cells(index(c), index(std::min(end, c + cells_in_cache)), before);

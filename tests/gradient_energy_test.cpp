@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "solve/optimization/bounded_values.h"
+
 namespace littoral {
 namespace {
 
@@ -46,6 +48,36 @@ TEST(GradientEnergy, ProximalStepsAreTheLeastInTheBall) {
     expect_least(BallMaxNormEnergy(a, frame), rho, w);
     expect_least(BallQuadraticEnergy(2, a, b, v), rho, w);
     expect_least(BallQuadraticEnergy(2, a, 0, {}), rho, w);
+  }
+}
+
+/// Many cells at once are the cells one by one, to the last bit.
+TEST(GradientEnergy, StepsOfManyCellsAreThoseOfEach) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  const auto expect_same = [&](const GradientEnergy& energy, int dim, Eigen::Index cells) {
+    VecX w(dim * cells), rho(cells), all = VecX::Constant(dim * cells, 7), one = all;
+    for (double& x : w) x = 2 * normal(random);
+    for (double& x : rho) x = std::exp(normal(random));
+    w.head(dim).setZero();
+    const Eigen::Index first = 1, count = cells - 2;  // neither from the first nor to the last
+    energy.prox_all(first, count, dim, rho.data() + first, w.data() + dim * first,
+                    all.data() + dim * first);
+    for (Eigen::Index c = first; c < first + count; ++c)
+      energy.prox(c, rho[c], w.data() + dim * c, one.data() + dim * c);
+    EXPECT_EQ(all, one) << dim;
+  };
+  for (const int dim : {1, 2, 3}) {
+    constexpr Eigen::Index cells = 9, bounds = 4;
+    const BallQuadraticEnergy ball(dim, 0.7, 0, {});
+    VecX v(dim * cells);
+    for (double& x : v) x = normal(random);
+    v.segment(2 * dim, dim).setZero();
+    expect_same(ball, dim, cells);
+    expect_same(BallQuadraticEnergy(dim, 0.7, 1.2, v), dim, cells);
+    const VecX bound = VecX::Constant(bounds, 0.5);
+    expect_same(BoundedEnergy(ball, dim, cells, {1, -1, 1, -1}, bound), dim, cells + bounds);
+    expect_same(BoundedEnergy(ball, dim, 0, {1, -1, 1, -1}, bound), dim, bounds);
   }
 }
 

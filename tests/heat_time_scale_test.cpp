@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/surface/beside_marching.h"
+#include "base/parallel.h"
 #include "heat_helpers.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
@@ -190,6 +191,11 @@ TEST(HeatTimeScale, SaysHowFarItIsFromFastMarching) {
     Report one;
     const VecX u = test::surface_distance(mesh, sources, AnyMethod::named(method), one);
     EXPECT_NEAR(beside_marching(one), (u - d).cwiseAbs().mean() / d.maxCoeff(), 1e-12) << method;
+    Report alone;  // without a thread for the march
+    set_thread_count(1);
+    test::surface_distance(mesh, sources, AnyMethod::named(method), alone);
+    set_thread_count(0);
+    EXPECT_EQ(beside_marching(alone), beside_marching(one)) << method;
     // Solves that share what they prepare leave it out.
     Report many;
     const auto solver =
@@ -222,10 +228,8 @@ TEST(HeatTimeScale, TheWorstComponentSpeaksWhateverItsSize) {
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
   const VecX d = marched(coarse, test::vertex_points({0}));
-  EXPECT_NEAR(
-      report_beside_marching(mesh, T, place_sources(mesh, test::vertex_points({0, n}), report),
-                             values, {}, report),
-      0.1 * d.mean() / d.maxCoeff(), 1e-6);
+  BesideMarching marching(mesh, T, place_sources(mesh, test::vertex_points({0, n}), report));
+  EXPECT_NEAR(marching.report(values, {}, report), 0.1 * d.mean() / d.maxCoeff(), 1e-6);
 }
 
 TEST(HeatTimeScale, WarnsWhereFastMarchingDisagrees) {
@@ -251,9 +255,9 @@ TEST(HeatTimeScale, WarnsWhereFastMarchingDisagrees) {
   }
   Report signed_one, unsigned_one;
   const VecX zero = VecX::Zero(mesh.n_vertices());
-  EXPECT_EQ(report_beside_marching(mesh, T, placed, zero, {}, signed_one), 0);
+  EXPECT_EQ(BesideMarching(mesh, T, placed).report(zero, {}, signed_one), 0);
   for (CurvePiece& piece : placed.pieces) piece.is_signed = false;
-  EXPECT_GT(report_beside_marching(mesh, T, placed, zero, {}, unsigned_one), 0.2);
+  EXPECT_GT(BesideMarching(mesh, T, placed).report(zero, {}, unsigned_one), 0.2);
 }
 
 TEST(TimeScale, OfCurvesIsLargerOnFinerMeshesUpToFourTimes) {

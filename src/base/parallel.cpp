@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "base/beside.h"
+#include "base/now_and_then.h"
 #include "base/platform/memory.h"
 #include "base/platform/threads.h"
 #include "base/thread_crew.h"
@@ -106,6 +111,37 @@ void parallel_for(std::size_t n, std::size_t grain,
   loop.work();
   for (auto& thread : threads) thread.join();
   loop.rethrow();
+}
+
+struct Beside::Shared {
+  explicit Shared(std::function<void()> what) : work(std::move(what)) {}
+
+  const std::function<void()> work;
+  const std::function<void(std::size_t)> piece = [this](std::size_t) { work(); };
+  SharedLoop loop{1, piece};
+  std::promise<void> over;
+  std::future<void> ended = over.get_future();
+  std::vector<std::thread> threads;  // one or none
+};
+
+Beside::Beside(std::function<void()> work) : shared_(std::make_unique<Shared>(std::move(work))) {
+  if (thread_count() > 1 && !inside_parallel)
+    add_threads(shared_->threads, 1, [shared = shared_.get()] {
+      shared->loop.work();
+      shared->over.set_value();
+    });
+}
+
+Beside::~Beside() {
+  for (auto& thread : shared_->threads) thread.join();
+}
+
+bool Beside::begun() const { return !shared_->threads.empty(); }
+
+void Beside::wait(const Task& task) {
+  while (shared_->ended.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    stop_if_cancelled(task);
+  shared_->loop.rethrow();
 }
 
 struct ThreadCrew::Shared {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/component_values.h"
@@ -20,28 +21,37 @@ constexpr double remarkable = 0.02;
 
 }  // namespace
 
-double report_beside_marching(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
-                              const PlacedSources& placed, const VecX& values, const Task& task,
-                              Report& report) {
-  const Stopwatch watch(report, "check");
+BesideMarching::BesideMarching(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                               PlacedSources placed)
+    : mesh_(mesh), T_(T), placed_(std::move(placed)), march_([this] { walk(Task(stop_)); }) {}
+
+void BesideMarching::walk(const Task& task) {
   Report quiet;
-  const VecX d = fast_marching(T, triangle_sources(mesh, T, placed), task, quiet).cwiseAbs();
-  const bool completes = std::any_of(placed.pieces.begin(), placed.pieces.end(),
+  d_ = fast_marching(T_, triangle_sources(mesh_, T_, placed_), task, quiet).cwiseAbs();
+}
+
+double BesideMarching::report(const VecX& values, const Task& task, Report& report) {
+  const Stopwatch watch(report, "check");
+  if (march_.begun())
+    march_.wait(task);
+  else
+    walk(task);
+  const bool completes = std::any_of(placed_.pieces.begin(), placed_.pieces.end(),
                                      [](const CurvePiece& piece) { return piece.is_signed; });
   struct Sum {
     double difference = 0, vertices = 0, largest = 0;
   };
-  std::vector<Sum> of(T.n_components);
-  for (int v = 0; v < T.n_vertices; ++v) {
-    if (T.component[v] < 0 || !std::isfinite(d[v]) || !std::isfinite(values[v])) continue;
-    Sum& sum = of[T.component[v]];
-    const double over = std::abs(values[v]) - d[v];
+  std::vector<Sum> of(T_.n_components);
+  for (int v = 0; v < T_.n_vertices; ++v) {
+    if (T_.component[v] < 0 || !std::isfinite(d_[v]) || !std::isfinite(values[v])) continue;
+    Sum& sum = of[T_.component[v]];
+    const double over = std::abs(values[v]) - d_[v];
     sum.difference += completes ? std::max(0.0, over) : std::abs(over);
     sum.vertices += 1;
-    sum.largest = std::max(sum.largest, d[v]);
+    sum.largest = std::max(sum.largest, d_[v]);
   }
   ComponentValues mean(mean_beside_marching);
-  for (int c = 0; c < T.n_components; ++c)
+  for (int c = 0; c < T_.n_components; ++c)
     if (of[c].largest > 0) mean.add(c, of[c].difference / of[c].vertices / of[c].largest);
   mean.report_worst(report.residuals);
   return mean.worst();

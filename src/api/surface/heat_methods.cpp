@@ -160,6 +160,8 @@ class SignedHeatOnSurface {
     const HeatProblem problem = surface_.problem(sources, needs, shared, task, report);
     const Operators& ops = *problem.ops;
     const SourceSystem& terms = problem.terms;
+    const bool checks = checks_ && !options.discontinuous && options.sharpen == Sharpening::off;
+    const auto marching = checks ? surface_.marching(sources, hint_, task) : nullptr;
     const bool rises = may_rise(options.time_scale, ops);
     if (options.time_scale == 0) options.time_scale = automatic_time_scale(terms, ops);
     const auto factors = factors_of(problem.ops, shared);
@@ -188,8 +190,7 @@ class SignedHeatOnSurface {
       phi = solve(*first, solving, report);
       warn_misaligned(report);
     }
-    if (checks_ && options.sharpen == Sharpening::off)
-      surface_.check(sources, phi, hint_, task.stage(0.5, "checking"), report);
+    if (checks) surface_.check(marching.get(), phi, task.stage(0.5, "checking"), report);
     if (options.sharpen == Sharpening::quadratic) {
       const auto elements =
           elements_.get([&] { return QuadraticOnSurface(surface_.domain(), report); });
@@ -241,6 +242,7 @@ class UnsignedHeatOnSurface {
     const auto needs = [](const PlacedSources&) { return Diffused::functions; };
     bool shared = false;
     const HeatProblem problem = surface_.problem(sources, needs, shared, task, report);
+    const auto marching = surface_.marching(sources, hint_, task);
     const bool rises = may_rise(options.time_scale, *problem.ops);
     if (options.time_scale == 0) options.time_scale = 1;
     const auto factors = factors_of(problem.ops, shared, options);
@@ -263,7 +265,7 @@ class UnsignedHeatOnSurface {
       phi = solve(*first, solving, report);
       warn_misaligned(report);
     }
-    surface_.check(sources, phi, hint_, task.stage(0.5, "checking"), report);
+    surface_.check(marching.get(), phi, task.stage(0.5, "checking"), report);
     return surface_.at_input(phi);
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "api/surface/beside_marching.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/covering_mesh.h"
 #include "methods/heat/time_scale.h"
@@ -60,17 +59,22 @@ RetriangulatedSurface::Made RetriangulatedSurface::made_for(const PlacedSources&
   return {std::move(fine.mesh), std::move(fine.T), std::move(fine.sources), std::move(ops)};
 }
 
-void HeatSurface::check(const Sources& sources, const VecX& phi, SolveHint hint, const Task& task,
+std::unique_ptr<BesideMarching> HeatSurface::marching(const Sources& sources, SolveHint hint,
+                                                      const Task& task) const {
+  const auto& T = plain_ ? plain_->triangulation() : fine_->given();
+  if (!T || hint != SolveHint::single_rhs || domain_.kind() != "triangle mesh") return nullptr;
+  Report quiet;  // they have been placed before
+  PlacedSources placed = place_sources(domain_, sources, task, quiet);
+  if (!value_range(sources).same() && !pieces_with_sides(placed).empty()) return nullptr;
+  return std::make_unique<BesideMarching>(*domain_.mesh, *T, std::move(placed));
+}
+
+void HeatSurface::check(BesideMarching* marching, const VecX& phi, const Task& task,
                         Report& report) const {
   const std::size_t before = report.warnings.size();
   warn_off_unit(domain_.kind(), report);
-  const auto& T = plain_ ? plain_->triangulation() : fine_->given();
-  if (!T || hint != SolveHint::single_rhs || domain_.kind() != "triangle mesh") return;
-  Report quiet;  // they have been placed before
-  const PlacedSources placed = place_sources(domain_, sources, task, quiet);
-  if (!value_range(sources).same() && !pieces_with_sides(placed).empty()) return;
-  const double mean =
-      report_beside_marching(*domain_.mesh, *T, placed, at_input(phi).values, task, report);
+  if (!marching) return;
+  const double mean = marching->report(at_input(phi).values, task, report);
   if (report.warnings.size() == before) warn_beside_marching(mean, report);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/surface/beside_marching.h"
 #include "api/surface/discretization.h"
 #include "base/lazy.h"
 #include "solve/heat/heat_system.h"
@@ -81,10 +82,13 @@ class HeatSurface {
     return {phi.head(domain_.mesh->n_vertices()), {}};
   }
 
-  /// What the answer says about itself. Fast marching takes a tenth of the time of a first solve,
-  /// and longer than a later one, so it is walked where there is one only.
-  void check(const Sources& sources, const VecX& phi, SolveHint hint, const Task& task,
-             Report& report) const;
+  /// What the answer is to be measured by, walked beside the solve; null: nothing. Fast marching
+  /// takes a tenth of the time of a first solve, and longer than a later one, so it is walked where
+  /// there is one only.
+  std::unique_ptr<BesideMarching> marching(const Sources& sources, SolveHint hint,
+                                           const Task& task) const;
+  /// What the answer says about itself.
+  void check(BesideMarching* marching, const VecX& phi, const Task& task, Report& report) const;
 
  private:
   SurfaceDomain domain_;

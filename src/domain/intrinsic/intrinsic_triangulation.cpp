@@ -7,6 +7,7 @@
 #include "base/counted.h"
 #include "base/disjoint_sets.h"
 #include "base/option_table.h"
+#include "base/parallel.h"
 #include "domain/intrinsic/lengthened_sides.h"
 #include "domain/mesh/edge_sides.h"
 #include "domain/mesh/face_orientation.h"
@@ -87,6 +88,13 @@ void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report)
                     " (to a relative 1e-10) had their sides lengthened minimally");
 }
 
+void take_orientation(const SurfaceMesh& mesh, IntrinsicTriangulation& T) {
+  const FaceOrientation& oriented = face_orientation(mesh);
+  T.orientation.resize(T.n_faces());
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    if (const int t = T.triangle_of_face[f]; t >= 0) T.orientation[t] = oriented.sign[f];
+}
+
 /// Unit vector from side k of f into the face, in space; zero if the face is degenerate.
 Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, int k) {
   const Vec3 a = mesh.point(T.faces(f, k)) / T.unit,
@@ -139,14 +147,17 @@ IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& 
   T.n_vertices = mesh.n_vertices();
   T.edges = mesh.edges();
   take_faces(mesh, T, report);
-  measure(mesh, T, report);
-  const EdgeSides sides = edge_sides(T);
-  const FaceOrientation& oriented = face_orientation(mesh);
-  T.orientation.resize(T.n_faces());
-  for (int f = 0; f < mesh.n_faces(); ++f)
-    if (const int t = T.triangle_of_face[f]; t >= 0) T.orientation[t] = oriented.sign[f];
+  EdgeSides sides;
+  parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other
+    if (half == 0) {
+      measure(mesh, T, report);
+      find_components(T);
+    } else {
+      sides = edge_sides(T);
+      take_orientation(mesh, T);
+    }
+  });
   mark_seams(mesh, T, sides);
-  find_components(T);
   return T;
 }
 

@@ -32,20 +32,23 @@ std::optional<SpMat> weighted_laplacian(const SpMat& L, const SpRows& D, const S
       plain.assign(stop - begin, 0);
       std::fill(out, out + (stop - begin), 0.0);
       double diagonal = 0, elsewhere = 0;
-      for (SpRows::InnerIterator a(D, j); a; ++a) {
-        const Eigen::Index cell = a.col() / dim;
+      for (int e = D.outerIndexPtr()[j]; e < D.outerIndexPtr()[j + 1]; ++e) {
+        const int row = D.innerIndexPtr()[e], cell = row / dim;
         if (cell >= weight.size()) continue;
-        for (SpRows::InnerIterator b(G, a.col()); b; ++b) {
-          if (b.col() < j) continue;
-          const double product = a.value() * b.value();
-          const int* const at = std::lower_bound(begin, stop, static_cast<int>(b.col()));
-          if (b.col() == j) diagonal += product;
-          if (at == stop || *at != b.col()) {
+        const double a = D.valuePtr()[e], w = weight[cell];
+        for (int g = G.outerIndexPtr()[row]; g < G.outerIndexPtr()[row + 1]; ++g) {
+          const int i = G.innerIndexPtr()[g];
+          if (i < j) continue;
+          const double product = a * G.valuePtr()[g];
+          if (i == j) diagonal += product;
+          const int* at = begin;  // few, in ascending order
+          while (at != stop && *at < i) ++at;
+          if (at == stop || *at != i) {
             elsewhere += std::abs(product);
             continue;
           }
           plain[at - begin] += product;
-          out[at - begin] += weight[cell] * product;
+          out[at - begin] += w * product;
         }
       }
       bool here = elsewhere <= rounding * diagonal;

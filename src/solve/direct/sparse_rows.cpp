@@ -47,19 +47,23 @@ SpRows full_rows(const SpMat& lower) {
   return A;
 }
 
+void multiply_rows(const SpRows& A, Eigen::Index first, Eigen::Index end, const double* x,
+                   double* y) {
+  const int* const begin = A.outerIndexPtr();
+  const int* const to = A.innerIndexPtr();
+  const double* const a = A.valuePtr();
+  for (Eigen::Index i = first; i < end; ++i) {
+    double sum = 0;
+    for (int e = begin[i]; e < begin[i + 1]; ++e) sum += a[e] * x[to[e]];
+    y[i] = sum;
+  }
+}
+
 void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task) {
   y.resize(A.rows());
-  const int* begin = A.outerIndexPtr();
-  const int* to = A.innerIndexPtr();
-  const double* a = A.valuePtr();
-  const double* from = x.data();
   parallel_for(A.rows(), row_grain, [&](std::size_t i, std::size_t end) {
     stop_if_cancelled(task);
-    for (; i < end; ++i) {
-      double sum = 0;
-      for (int e = begin[i]; e < begin[i + 1]; ++e) sum += a[e] * from[to[e]];
-      y[i] = sum;
-    }
+    multiply_rows(A, index(i), index(end), x.data(), y.data());
   });
 }
 

@@ -15,6 +15,10 @@ SpRows full_rows(const SpMat& lower);
 /// y := A x. Throws Cancelled within 0.1 s of a request, as do the others.
 void multiply(const SpRows& A, const VecX& x, VecX& y, const Task& task);
 
+/// Rows [first, end) of it.
+void multiply_rows(const SpRows& A, Eigen::Index first, Eigen::Index end, const double* x,
+                   double* y);
+
 /// A B; the entries of a row are in no particular order.
 SpRows product(const SpRows& A, const SpRows& B, const Task& task);
 

@@ -8,6 +8,7 @@
 #include "base/component_values.h"
 #include "base/counted.h"
 #include "base/index.h"
+#include "base/now_and_then.h"
 #include "base/parallel.h"
 #include "base/platform/large_pages.h"
 #include "littoral/error.h"
@@ -18,6 +19,7 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t grain = 16384;
+constexpr std::size_t cells_in_cache = 512;  // whose numbers stay there from one loop to the next
 
 constexpr int check_every = 5;
 constexpr int cells_from = 10;             // iteration in which cells get penalties of their own
@@ -109,33 +111,45 @@ class Admm {
     for_cells([&](Eigen::Index c, Eigen::Index i) { part[c / grain] += p_.A[c] * term(c, i); });
     return std::accumulate(part.begin(), part.end(), 0.0);
   }
-  double norm2(const VecX& z) const {
-    return sum_cells(
-        [&](Eigen::Index, Eigen::Index i) { return z.segment(i, p_.dim).squaredNorm(); });
-  }
 
   void iterate(bool keep_old) {
-    VecX &z = state_.z, &w = state_.w;
-    if (keep_old) {
-      old_z_ = z;
-      old_w_ = w;
-    }
+    VecX& z = state_.z;
     multiply(D_, pull_, force_, task_);
-    force_ += p_.b;
+    parallel_for(p_.b.size(), grain, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) force_[index(i)] += p_.b[index(i)];
+    });
     u_ = solve_cells_ ? solve_cells_(force_) : p_.solve(force_, state_.rho);
-    multiply(p_.G, u_, g_, task_);
+    stop_if_cancelled(task_);
+    if (keep_old) {
+      old_z_.swap(z);
+      old_pull_.swap(pull_);
+      z.resize(old_z_.size());
+      pull_.resize(old_pull_.size());
+    }
+    const double* const before = keep_old ? old_z_.data() : z.data();
+    g_.resize(z.size());
+    parallel_for(p_.A.size(), grain, [&](std::size_t c, std::size_t end) {
+      for (; c < end; c += cells_in_cache)
+        step_in_cells(index(c), index(std::min(end, c + cells_in_cache)), before);
+    });
+  }
+
+  /// g := G u, then z and w from it.
+  void step_in_cells(Eigen::Index first, Eigen::Index end, const double* before) {
+    const int dim = p_.dim;
+    const Eigen::Index begin = first * dim, stop = end * dim;
+    double *g = g_.data(), *z = state_.z.data(), *w = state_.w.data();
+    multiply_rows(p_.G, begin, stop, u_.data(), g);
     // Over-relaxation: G u is replaced by a mixture with the old z.
     const double relax = o_.relaxation;
-    for_cells([&](Eigen::Index c, Eigen::Index i) {
-      const double rho = rho_[c];
-      double s[3];
-      for (int d = 0; d < p_.dim; ++d) s[d] = relax * g_[i + d] + (1 - relax) * z[i + d] + w[i + d];
-      p_.energy->prox(c, rho, s, z.data() + i);
-      for (int d = 0; d < p_.dim; ++d) {
-        w[i + d] = s[d] - z[i + d];
-        pull_[i + d] = rho * (z[i + d] - w[i + d]);
+    for (Eigen::Index i = begin; i < stop; ++i)
+      w[i] = relax * g[i] + (1 - relax) * before[i] + w[i];
+    p_.energy->prox_all(first, end - first, dim, rho_.data() + first, w + begin, z + begin);
+    for (Eigen::Index c = first, i = begin; c < end; ++c)
+      for (int d = 0; d < dim; ++d, ++i) {
+        w[i] -= z[i];
+        pull_[i] = rho_[c] * (z[i] - w[i]);
       }
-    });
   }
 
   VecX times_penalties(VecX v) const {
@@ -147,22 +161,51 @@ class Admm {
 
   void update_pull() { pull_ = times_penalties(state_.z - state_.w); }
 
-  double force_of(const VecX& z) {
-    multiply(D_, times_penalties(z), force_, task_);
+  double force_of(const VecX& scaled) {
+    multiply(D_, scaled, force_, task_);
     return force_.norm() / total_;
   }
 
   /// Supplement 8, in units in which the total weight is 1.
   void residuals(AdmmResult& r) {
-    r.primal = std::sqrt(sum_cells([&](Eigen::Index, Eigen::Index i) {
-                           return (g_ - state_.z).segment(i, p_.dim).squaredNorm();
-                         }) /
-                         total_);
-    r.dual = force_of(state_.z - old_z_);
+    const VecX &z = state_.z, &w = state_.w;
+    scaled_.resize(z.size());
+    double of_g = 0, of_z = 0;
+    {
+      struct Sums {
+        double split = 0, g = 0, z = 0;
+      };
+      std::vector<Sums> part((p_.A.size() + grain - 1) / grain);
+      for_cells([&](Eigen::Index c, Eigen::Index i) {
+        double split = 0, g = 0, of = 0;
+        for (int d = 0; d < p_.dim; ++d) {
+          const double difference = g_[i + d] - z[i + d];
+          split += difference * difference;
+          g += g_[i + d] * g_[i + d];
+          of += z[i + d] * z[i + d];
+          scaled_[i + d] = rho_[c] * (z[i + d] - old_z_[i + d]);
+        }
+        Sums& sums = part[c / grain];
+        sums.split += p_.A[c] * split;
+        sums.g += p_.A[c] * g;
+        sums.z += p_.A[c] * of;
+      });
+      double of_split = 0;
+      for (const Sums& sums : part) {
+        of_split += sums.split;
+        of_g += sums.g;
+        of_z += sums.z;
+      }
+      r.primal = std::sqrt(of_split / total_);
+    }
+    r.dual = force_of(scaled_);
+    for_cells([&](Eigen::Index c, Eigen::Index i) {
+      for (int d = 0; d < p_.dim; ++d) scaled_[i + d] = rho_[c] * w[i + d];
+    });
     primal_tolerance_ = std::sqrt(double(p_.dim) * double(p_.A.size())) * o_.absolute +
-                        o_.relative * std::sqrt(std::max(norm2(g_), norm2(state_.z)) / total_);
+                        o_.relative * std::sqrt(std::max(of_g, of_z) / total_);
     dual_tolerance_ =
-        std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(state_.w);
+        std::sqrt(double(p_.b.size())) * o_.absolute + o_.relative * force_of(scaled_);
     if (!std::isfinite(r.primal) || !std::isfinite(r.dual))
       throw SolveError("alternating directions diverged: non-finite iterate", "diverged");
   }
@@ -237,7 +280,7 @@ class Admm {
     const double shrink = 1 / std::max(1.0, r.largest);
     g *= shrink;
     const auto squared = [&](const VecX& x) { return p_.quadratic ? x.dot(p_.quadratic(x)) : 0; };
-    const VecX y = times_penalties(old_w_ + g_ - old_z_);
+    const VecX y = times_penalties(g_) - old_pull_;
     const double phi = sum_cells(
         [&](Eigen::Index c, Eigen::Index i) { return p_.energy->value(c, g.data() + i); });
     const double conjugate = sum_cells(
@@ -258,10 +301,10 @@ class Admm {
   const Task& task_;
   SpRows D_;
   double total_;
-  SplitProblem::Solve solve_cells_;            // with rho_, where cells have their own
-  VecX rho_;                                   // cells; state_.rho is that of all until then
-  VecX u_, g_, force_, pull_, old_z_, old_w_;  // pull: rho (z - w)
-  VecX answer_;                                // u_ as it is given back
+  SplitProblem::Solve solve_cells_;  // with rho_, where cells have their own
+  VecX rho_;                         // cells; state_.rho is that of all until then
+  VecX u_, g_, force_, pull_, old_z_, old_pull_, scaled_;  // pull: rho (z - w)
+  VecX answer_;                                            // u_ as it is given back
   double primal_tolerance_ = 0, dual_tolerance_ = 0, progress_ = 0;
   int next_change_ = 0, next_of_cells_ = cells_from;
 };

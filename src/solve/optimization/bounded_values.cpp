@@ -16,6 +16,13 @@ void BoundedEnergy::prox(Eigen::Index cell, double rho, const double* w, double*
   z[0] = sign * std::clamp(sign * w[0], 0.0, bound_[cell - cells_]);
 }
 
+void BoundedEnergy::prox_all(Eigen::Index first, Eigen::Index count, int dim, const double* rho,
+                             const double* w, double* z) const {
+  const Eigen::Index of_inner = std::clamp<Eigen::Index>(cells_ - first, 0, count);
+  inner_.prox_all(first, of_inner, dim, rho, w, z);
+  for (Eigen::Index k = of_inner; k < count; ++k) prox(first + k, rho[k], w + k * dim, z + k * dim);
+}
+
 double BoundedEnergy::value(Eigen::Index cell, const double* z) const {
   return cell < cells_ ? inner_.value(cell, z) : 0;
 }

@@ -17,6 +17,8 @@ class BoundedEnergy : public GradientEnergy {
   BoundedEnergy(const GradientEnergy& inner, int dim, Eigen::Index cells, std::vector<int> sign,
                 VecX bound);
   void prox(Eigen::Index cell, double rho, const double* w, double* z) const override;
+  void prox_all(Eigen::Index first, Eigen::Index count, int dim, const double* rho, const double* w,
+                double* z) const override;
   double value(Eigen::Index cell, const double* z) const override;
   double conjugate(Eigen::Index cell, const double* y) const override;
   /// 0 for a bound: what is beyond it is put right by SplitProblem::allowed.

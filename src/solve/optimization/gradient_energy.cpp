@@ -47,7 +47,30 @@ Small minimize_in_ball(double c, double d, const Small& n, const Small& q) {
   return length > 1 ? Small(z / length) : z;
 }
 
+/// argmin a/2 |z|^2 + rho/2 |z - w|^2 over the unit ball, for every cell.
+template <int dim>
+void into_ball(Eigen::Index cells, double a, const double* rho, const double* w, double* z) {
+  for (Eigen::Index c = 0; c < cells; ++c, w += dim, z += dim) {
+    double length2 = 0;
+    for (int d = 0; d < dim; ++d) length2 += w[d] * w[d];
+    const double share = rho[c] / (a + rho[c]), length = share * std::sqrt(length2);
+    const double shrink = share / std::max(1.0, length);
+    for (int d = 0; d < dim; ++d) z[d] = shrink * w[d];
+  }
+}
+void into_ball(Eigen::Index cells, int dim, double a, const double* rho, const double* w,
+               double* z) {
+  if (dim == 3) return into_ball<3>(cells, a, rho, w, z);
+  if (dim == 2) return into_ball<2>(cells, a, rho, w, z);
+  into_ball<1>(cells, a, rho, w, z);
+}
+
 }  // namespace
+
+void GradientEnergy::prox_all(Eigen::Index first, Eigen::Index count, int dim, const double* rho,
+                              const double* w, double* z) const {
+  for (Eigen::Index k = 0; k < count; ++k) prox(first + k, rho[k], w + k * dim, z + k * dim);
+}
 
 BallQuadraticEnergy::BallQuadraticEnergy(int dim, double a, double b, VecX v)
     : dim_(dim), a_(a), b_(b), v_(std::move(v)) {}
@@ -59,11 +82,13 @@ void BallQuadraticEnergy::prox(Eigen::Index cell, double rho, const double* w, d
     Out(z, dim_) = minimize_in_ball(a_ + rho, b_ * v2, n, Small(rho * In(w, dim_)));
     return;
   }
-  double length2 = 0;
-  for (int d = 0; d < dim_; ++d) length2 += w[d] * w[d];
-  const double share = rho / (a_ + rho), length = share * std::sqrt(length2);
-  const double shrink = length > 1 ? share / length : share;
-  for (int d = 0; d < dim_; ++d) z[d] = shrink * w[d];
+  into_ball(1, dim_, a_, &rho, w, z);
+}
+
+void BallQuadraticEnergy::prox_all(Eigen::Index first, Eigen::Index count, int dim,
+                                   const double* rho, const double* w, double* z) const {
+  if (b_ > 0) return GradientEnergy::prox_all(first, count, dim, rho, w, z);
+  into_ball(count, dim, a_, rho, w, z);
 }
 
 double BallQuadraticEnergy::value(Eigen::Index cell, const double* z) const {

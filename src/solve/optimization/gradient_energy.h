@@ -15,6 +15,9 @@ class GradientEnergy {
   virtual ~GradientEnergy() = default;
   /// z := argmin phi(z) + rho/2 |z - w|^2.
   virtual void prox(Eigen::Index cell, double rho, const double* w, double* z) const = 0;
+  /// The same for `count` cells from `first` on, whose numbers begin at the given places.
+  virtual void prox_all(Eigen::Index first, Eigen::Index count, int dim, const double* rho,
+                        const double* w, double* z) const;
   /// phi(z); z is in the set.
   virtual double value(Eigen::Index cell, const double* z) const = 0;
   /// sup_z y.z - phi(z).
@@ -30,6 +33,8 @@ class BallQuadraticEnergy : public GradientEnergy {
   /// v: dim cells, or empty where b = 0.
   BallQuadraticEnergy(int dim, double a, double b, VecX v);
   void prox(Eigen::Index cell, double rho, const double* w, double* z) const override;
+  void prox_all(Eigen::Index first, Eigen::Index count, int dim, const double* rho, const double* w,
+                double* z) const override;
   double value(Eigen::Index cell, const double* z) const override;
   double conjugate(Eigen::Index cell, const double* y) const override;
   double gauge(Eigen::Index cell, const double* z) const override;

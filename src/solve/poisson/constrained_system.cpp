@@ -5,12 +5,14 @@
 
 #include "base/dense_decompositions.h"
 #include "base/index.h"
+#include "base/parallel.h"
 
 namespace littoral {
 
 namespace {
 
 constexpr Eigen::Index few_rows = 64;
+constexpr std::size_t unknowns_at_once = 1 << 14;
 constexpr double stiffness = 1e8;  // of many rows, times the mean diagonal
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -176,27 +178,34 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain(const SpMat& A, cons
 /// With the gauge rows alone: what they exert is the sum of b, so that K u = b - a sum(b) has a
 /// solution; then the constant that makes a^T u = 0, or as much as the row gives under that force.
 VecX ConstrainedSystem::Constrained::solve_gauged(const VecX& b) const {
-  VecX rhs = b;
-  VecX sum = VecX::Zero(gauge_.cols());
-  for (Eigen::Index i = 0; i < rhs.size(); ++i) {
-    const int c = component_[i];
-    if (c < 0 || !active_[c] || gone_[i])
-      rhs[i] = 0;
-    else
-      sum[c] += rhs[i];
-  }
-  rhs -= gauge_ * sum;
-  for (Eigen::Index i = 0; i < rhs.size(); ++i)
-    if (pinned_[i]) rhs[i] = 0;
+  const std::size_t n = component_.size(), parts = gauge_.cols();
+  const std::size_t grain = std::max(unknowns_at_once, 16 * parts);
+  VecX rhs(b.size()), sum = VecX::Zero(gauge_.cols());
+  MatX of_piece = MatX::Zero(gauge_.cols(), index((n + grain - 1) / grain));
+  parallel_for(n, grain, [&](std::size_t i, std::size_t end) {
+    auto own = of_piece.col(index(i / grain));
+    for (; i < end; ++i) {
+      const int c = component_[i];
+      const bool has_part = c >= 0 && active_[c] && !gone_[i];
+      if (has_part) own[c] += b[index(i)];
+      rhs[index(i)] = has_part && !pinned_[i] ? b[index(i)] : 0;
+    }
+  });
+  for (Eigen::Index k = 0; k < of_piece.cols(); ++k) sum += of_piece.col(k);
+  for (int c = 0; c < gauge_.outerSize(); ++c)
+    for (SpMat::InnerIterator it(gauge_, c); it; ++it)
+      if (!pinned_[it.row()]) rhs[it.row()] -= it.value() * sum[c];
   VecX u = factor_->solve_once(rhs);
   const VecX shift = gauge_.transpose() * u - give_.cwiseProduct(sum);
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const int c = component_[i];
-    if (c < 0 || !active_[c])
-      u[i] = 0;
-    else if (!gone_[i])
-      u[i] -= shift[c];
-  }
+  parallel_for(n, grain, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const int c = component_[i];
+      if (c < 0 || !active_[c])
+        u[index(i)] = 0;
+      else if (!gone_[i])
+        u[index(i)] -= shift[c];
+    }
+  });
   return u;
 }
 

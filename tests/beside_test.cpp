@@ -1,0 +1,108 @@
+// Work beside the caller's: done once, on a thread of its own.
+
+#include "base/beside.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "base/parallel.h"
+#include "base/platform/floating_point.h"
+#include "littoral/error.h"
+
+namespace littoral {
+namespace {
+
+/// The caller and the work wait for each other: one thread alone would never end.
+TEST(Beside, RunsWhileTheCallerGoesOn) {
+  set_thread_count(2);
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<int> there{0};
+    Beside work([&] {
+      ++there;
+      while (there < 2) std::this_thread::yield();
+    });
+    while (there < 1) std::this_thread::yield();
+    ++there;
+    work.wait({});
+    EXPECT_EQ(there, 2);
+  }
+  set_thread_count(0);
+}
+
+TEST(Beside, IsDoneOnceAsTheCallerWould) {
+  set_thread_count(2);
+  const FlushSubnormals flush;
+  int done = 0;
+  std::uint64_t mode = 0;
+  Beside work([&] {
+    ++done;
+    mode = floating_point_mode();
+  });
+  ASSERT_TRUE(work.begun());
+  work.wait({});
+  EXPECT_EQ(done, 1);
+  EXPECT_EQ(mode, floating_point_mode());
+  set_thread_count(0);
+}
+
+TEST(Beside, LeavesItToTheCallerWhereThereIsOneThreadOnly) {
+  bool done = false;
+  set_thread_count(1);
+  {
+    EXPECT_FALSE(Beside([&] { done = true; }).begun());
+  }
+  set_thread_count(2);
+  std::atomic<int> begun{0};
+  parallel_for(4, 1, [&](std::size_t, std::size_t) { begun += Beside([] {}).begun(); });
+  EXPECT_EQ(begun, 0);
+  EXPECT_FALSE(done);
+  set_thread_count(0);
+}
+
+TEST(Beside, ThrowsWhatTheWorkThrew) {
+  set_thread_count(2);
+  Beside work([] { throw std::runtime_error("beside"); });
+  try {
+    work.wait({});
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "beside");
+  }
+  const Beside forgotten([] { throw std::runtime_error("beside"); });
+  set_thread_count(0);
+}
+
+/// The work ends only when the one that waits for it has given up.
+TEST(Beside, WaitingCanBeCancelled) {
+  set_thread_count(2);
+  const CancelToken cancel, stop;
+  Beside work([&] {
+    cancel.cancel();
+    while (!stop.cancelled()) std::this_thread::yield();
+  });
+  EXPECT_THROW(work.wait(Task(cancel)), Cancelled);
+  stop.cancel();
+  set_thread_count(0);
+}
+
+TEST(Beside, EndsBeforeItIsGone) {
+  set_thread_count(2);
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<bool> inside{false};
+    {
+      const Beside work([&] {
+        inside = true;
+        std::this_thread::yield();
+        inside = false;
+      });
+    }
+    EXPECT_FALSE(inside);
+  }
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace littoral

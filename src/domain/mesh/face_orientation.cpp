@@ -12,6 +12,27 @@ struct Side {
   int face = -1, k = 0;
 };
 
+bool repeats_a_vertex(const SurfaceMesh& mesh, int f) {
+  const auto c = mesh.face(f);
+  return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+}
+
+/// Do the faces run oppositely along every edge of two? Then all are right as given.
+bool agrees_as_given(const SurfaceMesh& mesh) {
+  std::vector<std::int8_t> count(mesh.n_edges(), 0), along(mesh.n_edges(), 0);
+  for (int f = 0; f < mesh.n_faces(); ++f) {
+    if (repeats_a_vertex(mesh, f)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int e = mesh.side_edge(f, k);
+      count[e] = static_cast<std::int8_t>(std::min(count[e] + 1, 3));
+      if (mesh.side_along(f, k) && along[e] < 3) ++along[e];
+    }
+  }
+  for (int e = 0; e < mesh.n_edges(); ++e)
+    if (count[e] == 2 && along[e] != 1) return false;
+  return true;
+}
+
 /// The two sides at an edge of two faces with three different corners each.
 struct Gluing {
   std::vector<std::array<Side, 2>> sides;
@@ -19,8 +40,7 @@ struct Gluing {
 
   explicit Gluing(const SurfaceMesh& mesh) : sides(mesh.n_edges()), count(mesh.n_edges(), 0) {
     for (int f = 0; f < mesh.n_faces(); ++f) {
-      const auto c = mesh.face(f);
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+      if (repeats_a_vertex(mesh, f)) continue;
       for (int k = 0; k < 3; ++k) {
         const int e = mesh.side_edge(f, k);
         if (count[e] < 2) sides[e][count[e]] = {f, k};
@@ -36,9 +56,13 @@ struct Gluing {
 };
 
 FaceOrientation find_orientation(const SurfaceMesh& mesh) {
+  FaceOrientation out;
+  if (agrees_as_given(mesh)) {
+    out.sign.assign(mesh.n_faces(), 1);
+    return out;
+  }
   const double size = mesh.scale();
   const Gluing glued(mesh);
-  FaceOrientation out;
   out.sign.assign(mesh.n_faces(), 0);
   std::vector<int> patch;
   for (int seed = 0; seed < mesh.n_faces(); ++seed) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/counted.h"
+#include "base/disjoint_sets.h"
 #include "domain/mesh/face_orientation.h"
 #include "littoral/error.h"
 
@@ -142,26 +143,16 @@ void SurfaceMesh::connect(const std::vector<int>& first_side) {
 }
 
 void SurfaceMesh::find_components() {
-  const int n = n_vertices();
-  vertex_component_.assign(n, -1);
-  std::vector<int> stack;
-  for (int seed = 0; seed < n; ++seed) {
-    if (vertex_component_[seed] >= 0 || vertex_faces(seed).empty()) continue;
-    vertex_component_[seed] = n_components_;
-    stack.assign(1, seed);
-    while (!stack.empty()) {
-      const int v = stack.back();
-      stack.pop_back();
-      for (int f : vertex_faces(v)) {
-        for (int w : face(f)) {
-          if (vertex_component_[w] >= 0) continue;
-          vertex_component_[w] = n_components_;
-          stack.push_back(w);
-        }
-      }
+  DisjointSets sets(n_vertices());
+  std::vector<char> used(n_vertices(), 0);
+  for (int f = 0; f < n_faces(); ++f) {
+    const auto corners = face(f);
+    for (const int v : corners) {
+      used[v] = 1;
+      sets.join(corners[0], v);
     }
-    ++n_components_;
   }
+  vertex_component_ = sets.numbered(n_components_, used);
 }
 
 Vec3 SurfaceMesh::position(const SurfacePoint& p) const {

@@ -35,7 +35,7 @@ Ordering order_of_blocks(const Eigen::SparseMatrix<Scalar>& lower, int block, co
 }  // namespace
 
 Eigen::Index largest_to_factor(SolveHint hint) {
-  return hint == SolveHint::single_rhs ? 1'500'000 : 8'000'000;
+  return hint == SolveHint::single_rhs ? 800'000 : 8'000'000;
 }
 
 template <class Scalar>

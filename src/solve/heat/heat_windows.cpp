@@ -14,10 +14,10 @@
 namespace littoral {
 
 namespace {
-constexpr double window = 60;            // decay lengths kept of every window
-constexpr double shortest_overlap = 24;  // and solved for beyond: the error made at the far end
-                                         // arrives at what is kept exp(-2 * overlap) times smaller
-constexpr double longest_overlap = 96;
+constexpr int window = 40;            // decay lengths kept of every window
+constexpr int shortest_overlap = 20;  // and solved for beyond: the error made at the far end
+                                      // arrives at what is kept exp(-2 * overlap) times smaller
+constexpr int longest_overlap = 80;
 constexpr double around_prescribed =
     18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
@@ -44,6 +44,22 @@ ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
   }
   field.scale = std::move(scale);
   return field;
+}
+
+Outward in_steps(const std::vector<double>& d) {
+  Outward out;
+  for (const double at : d) {
+    if (!(at < infinity)) continue;
+    const auto k = static_cast<std::size_t>(at);
+    if (k + 1 >= out.begin.size()) out.begin.resize(k + 2, 0);
+    ++out.begin[k + 1];
+  }
+  std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+  out.blocks.resize(out.begin.back());
+  std::vector<std::size_t> next = out.begin;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    if (d[i] < infinity) out.blocks[next[static_cast<std::size_t>(d[i])]++] = static_cast<int>(i);
+  return out;
 }
 
 }  // namespace
@@ -108,13 +124,17 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
 template <class Scalar>
 std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> blocks) const {
   constexpr int outside = -2, in_none = -1;
-  std::vector<int> part(position_.size(), outside);
-  for (const int i : blocks) part[i] = in_none;
-  std::vector<std::vector<int>> out;
+  std::vector<int> part(position_.size(), outside), in_order(position_.size(), -1);
+  for (const int i : blocks) {
+    part[i] = in_none;
+    in_order[position_[i]] = i;
+  }
+  std::vector<std::size_t> sizes;
+  std::vector<int> own;
   for (const int first : blocks) {
     if (part[first] != in_none) continue;
-    const int number = int_size(out);
-    std::vector<int> own(1, first);
+    const int number = int_size(sizes);
+    own.assign(1, first);
     part[first] = number;
     for (std::size_t k = 0; k < own.size(); ++k)  // grows meanwhile
       for (int e = begin_[own[k]]; e < begin_[own[k] + 1]; ++e)
@@ -122,9 +142,12 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
           part[to_[e]] = number;
           own.push_back(to_[e]);
         }
-    std::sort(own.begin(), own.end(), [&](int i, int j) { return position_[i] < position_[j]; });
-    out.push_back(std::move(own));
+    sizes.push_back(own.size());
   }
+  std::vector<std::vector<int>> out(sizes.size());
+  for (std::size_t p = 0; p < out.size(); ++p) out[p].reserve(sizes[p]);
+  for (const int i : in_order)
+    if (i >= 0) out[part[i]].push_back(i);
   return out;
 }
 
@@ -190,18 +213,13 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
   std::vector<int> from;
   for (int i = 0; i < n; ++i)
     if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
-  const std::vector<double> d = distances(from, infinity, task);
-  std::vector<int> order;
-  for (int i = 0; i < n; ++i)
-    if (d[i] < infinity) order.push_back(i);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return d[i] != d[j] ? d[i] < d[j] : i < j; });
+  const Outward outward = in_steps(distances(from, infinity, task));
 
   std::optional<ScaledField<Scalar>> best;
   double least = 1e-9;  // more is not an answer
   int best_windows = 0;
-  for (double overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
-    auto field = solve(b, d, order, overlap, task);
+  for (int overlap = shortest_overlap; overlap <= longest_overlap; overlap *= 2) {
+    auto field = solve(b, outward, overlap, task);
     if (!field) break;
     const double error = misfit(*field, b, task);
     if (best && !(error < 0.1 * least)) break;  // round-off
@@ -209,7 +227,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
     best_windows = field->scale.size();
     best = std::move(field);
     least = error;
-    if (error < 1e-13) break;
+    if (error < 1e-12) break;
   }
   if (!best) return std::nullopt;
   report.iterations.emplace_back("heat windows", best_windows);
@@ -219,21 +237,20 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 
 template <class Scalar>
 std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
-                                                              const std::vector<double>& d,
-                                                              const std::vector<int>& order,
-                                                              double overlap,
+                                                              const Outward& outward, int overlap,
                                                               const Task& task) const {
+  const std::vector<int>& order = outward.blocks;
   ScaledField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
-  std::vector<char> known(position_.size(), 0);
+  std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
   int windows = 0;
   for (std::size_t before = 0, start = 0; start < order.size(); ++windows) {
     task.checkpoint(double(start) / double(order.size()));
-    const double reach = (windows + 1) * window;
-    std::size_t kept = start, end = start;
-    while (kept < order.size() && d[order[kept]] <= reach) ++kept;
-    for (end = kept; end < order.size() && d[order[end]] <= reach + overlap;) ++end;
+    const int reach = (windows + 1) * window;
+    const std::size_t kept = outward.nearer_than(reach);
+    const std::size_t end = outward.nearer_than(reach + overlap);
     if (kept == start) return std::nullopt;  // steps longer than a window
+    for (std::size_t k = start; k < kept; ++k) inside[order[k]] = 1;
     double top = 0;
     for (const std::vector<int>& blocks : parts({&order[start], &order[start] + (end - start)})) {
       Vector r = Vector::Zero(index(blocks.size()) * block_);
@@ -243,7 +260,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
               b.segment(Eigen::Index(blocks[k]) * block_, block_);
       const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
       for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
-        if (d[blocks[k]] > reach) continue;
+        if (!inside[blocks[k]]) continue;
         top = std::max(top, block_magnitude(z, k, block_));
         field.x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(k * block_, block_);
       }

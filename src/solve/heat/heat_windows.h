@@ -1,6 +1,7 @@
 #pragma once
 // (M + t L) x = b for small t without one big factorization: window by window, outward from b.
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,16 @@ namespace littoral {
 /// sqrt(M / t): the extent of the place a mass stands for, in units of the length over which heat
 /// decays in time t.
 VecX decay_lengths(const VecX& M, double t);
+
+/// Blocks by the decay lengths to them, rounded down, and in ascending order where these are equal.
+struct Outward {
+  std::vector<int> blocks;
+  std::vector<std::size_t> begin{0};  // of those k lengths away; and one more
+
+  std::size_t nearer_than(int lengths) const {
+    return begin[std::min(std::size_t(lengths), begin.size() - 1)];
+  }
+};
 
 /// A matrix whose inverse decays exponentially along its graph; immutable.
 template <class Scalar>
@@ -48,8 +59,7 @@ class HeatWindows {
   std::vector<std::vector<int>> parts(std::span<const int> blocks) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
-  std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<double>& d,
-                                           const std::vector<int>& order, double overlap,
+  std::optional<ScaledField<Scalar>> solve(const Vector& b, const Outward& outward, int overlap,
                                            const Task& task) const;
   double misfit(const ScaledField<Scalar>& field, const Vector& b, const Task& task) const;
 

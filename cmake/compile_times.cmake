@@ -25,11 +25,13 @@ foreach(source ${littoral_hot_sources})
     message(FATAL_ERROR "cmake/compile_times.cmake names ${source}, which is not there")
   endif()
 endforeach()
-set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
-# Beside a precompiled header of -O2 GCC does not do all that -O3 does; here it shows in the times.
-set_property(SOURCE src/solve/direct/small_supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
-  src/spatial/crossing_number.cpp src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp
-  PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+if(NOT LITTORAL_SANITIZE)  # files with options are compiled alone
+  set_property(SOURCE ${littoral_hot_sources} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+  # Beside a precompiled header of -O2 GCC does not do all that -O3 does; here it shows in the times.
+  set_property(SOURCE src/solve/direct/small_supernode_kernels.cpp src/solve/direct/strip_kernels.cpp
+    src/spatial/crossing_number.cpp src/spatial/triangle_bvh.cpp src/spatial/winding_number.cpp
+    PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+endif()
 
 # Eigen's decompositions of small matrices, as long to compile as a dozen other files.
 set_property(SOURCE src/base/dense_decompositions.cpp APPEND PROPERTY COMPILE_OPTIONS

@@ -23,10 +23,12 @@ oldest_node=18
 
 die() { echo "setup: error: $*" >&2; exit 1; }
 
-# For this machine's architecture: that of another may be installed beside it.
+# For this machine's architecture, or the one that is named: that of another may be installed beside it.
 is_installed() {
+  local architecture
+  case "$1" in *:*) architecture=${1#*:} ;; *) architecture=$(dpkg --print-architecture) ;; esac
   dpkg-query -W -f '${Architecture} ${db:Status-Status}\n' "$1" 2>/dev/null |
-    grep -qE "^($(dpkg --print-architecture)|all) installed$"
+    grep -qE "^($architecture|all) installed$"
 }
 
 # Releases that no longer carry version 14 of Clang take their default one instead.

@@ -31,12 +31,22 @@ shared_between_threads='Parallel|Threads|Registry|Solver'
 build() {  # preset, further arguments of cmake --build
   local preset=$1
   shift
-  cmake --preset "$preset" ${compilers[@]+"${compilers[@]}"} >/dev/null && cmake --build "build/$preset" -j "$jobs" "$@"
+  (
+    flock 9 && cmake --preset "$preset" ${compilers[@]+"${compilers[@]}"} >/dev/null &&
+      cmake --build "build/$preset" -j "$jobs" "$@"
+  ) 9>"build/$preset.lock"
 }
 compilers=()
-build_release() {  # the same, with the module of the Python package
+# The same, with the module of the Python package. What has been built whole in this run stays as it is:
+# stages that run side by side read it.
+build_release() {
   local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
-  build release "$@"
+  [[ -f $logs/release.built && "$*" != *permissive* ]] && return
+  build release "$@" && { [ $# -gt 0 ] || touch "$logs/release.built"; }
+}
+viewer_packages() {  # once, as `npm ci` takes away what another stage may be running
+  flock build/viewer.lock sh -c 'cd viewer && [ node_modules/.package-lock.json -nt package-lock.json ] ||
+    npm ci --no-audit --no-fund --loglevel=error'
 }
 # The presets name Clang 14, Debian 12's; newer releases have theirs under the plain name.
 with_clang() {
@@ -116,7 +126,7 @@ viewer_tests() {
   local page="$PWD/build/viewer-test.html" volume="$PWD/build/viewer-volume-test.html" trace="$PWD/build/viewer-trace-test.html"
   build_release &&
     LITTORAL_PAGE_OUT="$page" LITTORAL_VOLUME_PAGE_OUT="$volume" LITTORAL_TRACE_PAGE_OUT="$trace" build/release/tests/littoral_tests --gtest_brief=1 --gtest_filter='*BrowserTest*' &&
-    (cd viewer && npm ci --no-audit --no-fund --loglevel=error && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" "$@" npm test)
+    viewer_packages && (cd viewer && PAGE="$page" VOLUME_PAGE="$volume" TRACE_PAGE="$trace" "$@" npm test)
 }
 
 stage_viewer() { viewer_tests env; }
@@ -125,7 +135,7 @@ stage_viewer() { viewer_tests env; }
 stage_web() {
   local dist="$PWD/build/web/dist"
   build web && build_release --target littoral_cli && node web/build.mjs build/web "$dist" &&
-    (cd viewer && npm ci --no-audit --no-fund --loglevel=error) &&
+    viewer_packages &&
     DIST="$dist" TOOLS="$PWD/build/web/node_modules" LITTORAL="$PWD/build/release/littoral" \
       node --test web/test/package.test.mjs web/test/browser.test.mjs &&
     (cd web/studio && npm ci --no-audit --no-fund --loglevel=error && npm run --silent check &&
@@ -224,7 +234,7 @@ for stage in "${stages[@]}"; do
 done
 
 mkdir -p "$logs"
-rm -f "$logs"/*.result
+rm -rf "$logs"/*.result "$logs"/*.taken "$logs/release.built"
 begin=$SECONDS
 run_stage() {  # its output goes to its log, too; how it ended, and its times by the clock and of processors, to its result
   local stage=$1 start=$SECONDS result=FAILED
@@ -240,7 +250,8 @@ run_stage() {  # its output goes to its log, too; how it ended, and its times by
     >"$logs/$stage.result"
 }
 # Two lanes: what waits for one core most of the time runs beside what keeps all of them busy. Both may
-# use build/release, but only the first lane while it builds it, which is the first thing it does.
+# use build/release, but only the first lane while it builds it, which is the first thing it does. When
+# the first lane has no more, it takes of the second's what only reads there.
 busy=() beside=() other=()
 for stage in "${stages[@]}"; do
   case "$stage" in
@@ -249,9 +260,11 @@ for stage in "${stages[@]}"; do
     *) other+=("$stage") ;;
   esac
 done
+take() { mkdir "$logs/$1.taken" 2>/dev/null; }  # by the lane that comes first
 run_beside() {
   local stage before
   for stage in "${beside[@]}"; do
+    take "$stage" || continue
     case "$stage" in
       files | format | tools | docs) ;;
       *) for before in "${busy[@]}"; do
@@ -267,13 +280,18 @@ run_beside() {
 if [ ${#busy[@]} -gt 0 ] && [ ${#beside[@]} -gt 0 ] && [ ${#other[@]} = 0 ] && [ "$jobs" -gt 1 ]; then
   trap 'trap - INT; kill 0' INT  # jobs in the background would go on
   run_beside &
-  in_turn=("${busy[@]}")
+  in_turn=("${busy[@]}") after=(web cli)
+  [[ " ${stages[*]} " == *" wheel "* ]] || after+=(pages)  # it links the package again
 else
-  in_turn=("${stages[@]}")
+  in_turn=("${stages[@]}") after=()
 fi
-for stage in "${in_turn[@]}"; do
-  echo "==== $stage"
-  run_stage "$stage"
+run_aloud() {
+  echo "==== $1"
+  run_stage "$1"
+}
+for stage in "${in_turn[@]}"; do run_aloud "$stage"; done
+for stage in ${after[@]+"${after[@]}"}; do
+  if [[ " ${beside[*]} " == *" $stage "* ]] && take "$stage"; then run_aloud "$stage"; fi
 done
 wait
 results=("${stages[@]/#/$logs/}")

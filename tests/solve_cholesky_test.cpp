@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "base/platform/large_pages.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
+#include "solve/direct/cholesky.h"
 #include "solve/poisson/poisson.h"
 #include "test_meshes.h"
 
@@ -133,6 +135,31 @@ TEST(Cholesky, ALargeFactorIsPatchedToo) {
   EXPECT_TRUE(patched.solve(b) == Cholesky<double>(changed, base.structure(), {}).solve(b));
   EXPECT_FALSE(patched.solve(b) == x);
   EXPECT_TRUE(base.solve(b) == x);
+}
+
+TEST(Cholesky, WhatIsIndefiniteByRoundOffIsRaisedByTheLeastShareThatHelps) {
+  // 1 and 1 + d beside each other have the eigenvalue -d; raised by a share s it is s - d.
+  const auto pair = [](double d) {
+    SpMat A(3, 3);
+    A.insert(0, 0) = A.insert(1, 1) = 1;
+    A.insert(1, 0) = 1 + d;
+    A.insert(2, 2) = 4;
+    A.makeCompressed();
+    return A;
+  };
+  const auto raised = [&](double d) {
+    const SpMat A = pair(d);
+    return raised_cholesky(A, std::make_shared<const Elimination>(A, Ordering{0, 1, 2}, Task()),
+                           {});
+  };
+  EXPECT_EQ(raised(-0.5).raised, 0);
+  EXPECT_DOUBLE_EQ(raised(1e-13).raised, 1e-12);
+  EXPECT_DOUBLE_EQ(raised(1e-11).raised, 1e-10);
+  const RaisedCholesky<double> made = raised(1e-9);
+  EXPECT_DOUBLE_EQ(made.raised, 1e-8);
+  const VecX x = made.factor.solve(VecX(Vec3(1, 1, 4)));  // (1, 1) / (2 + s + d), 1 / (1 + s)
+  EXPECT_LE((x - Vec3(0.5, 0.5, 1)).cwiseAbs().maxCoeff(), 2e-8);
+  EXPECT_THROW(raised(1e-7), SolveError);
 }
 
 TEST(LargePages, AreZeroWhereThereAreAny) {

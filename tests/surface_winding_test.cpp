@@ -14,9 +14,12 @@
 #include "operators/jump_calculus.h"
 #include "shared_data.h"
 #include "test_meshes.h"
+#include "torus_loops.h"
 
 namespace littoral {
 namespace {
+
+using test::nu, test::nv, test::meridian, test::longitude, test::disk;
 
 Curve curve_of(std::vector<int> vertices) {
   Curve curve;
@@ -24,28 +27,6 @@ Curve curve_of(std::vector<int> vertices) {
   return curve;
 }
 
-constexpr int nu = 24, nv = 16;
-
-/// Loops round the tube of a torus at station i, or along it at j.
-std::vector<int> meridian(int i) {
-  std::vector<int> loop;
-  for (int j = 0; j <= nv; ++j) loop.push_back(i * nv + j % nv);
-  return loop;
-}
-std::vector<int> longitude(int j) {
-  std::vector<int> loop;
-  for (int i = 0; i <= nu; ++i) loop.push_back((i % nu) * nv + j);
-  return loop;
-}
-/// A disk of the torus between stations, counter-clockwise.
-std::vector<int> disk(int i0, int i1, int j0, int j1) {
-  std::vector<int> loop;
-  for (int i = i0; i < i1; ++i) loop.push_back(i * nv + j0);
-  for (int j = j0; j < j1; ++j) loop.push_back(i1 * nv + j);
-  for (int i = i1; i > i0; --i) loop.push_back(i * nv + j1);
-  for (int j = j1; j >= j0; --j) loop.push_back(i0 * nv + j);
-  return loop;
-}
 bool in_quads(int face, int i0, int i1, int j0, int j1) {
   const int i = face / 2 / nv, j = face / 2 % nv;
   return i >= i0 && i < i1 && j >= j0 && j < j1;

@@ -33,4 +33,14 @@ template <class Lanes, class Scalar>
   __builtin_memcpy(to, &from, sizeof from);
 }
 
+/// Of two numbers, by value: loops of these become vector instructions.
+template <class S>
+[[gnu::always_inline]] inline S smaller(S a, S b) {
+  return a < b ? a : b;
+}
+template <class S>
+[[gnu::always_inline]] inline S larger(S a, S b) {
+  return a > b ? a : b;
+}
+
 }  // namespace littoral

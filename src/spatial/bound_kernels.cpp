@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/kernel_choice.h"
+#include "base/vector_lanes.h"
 #include "spatial/bound_node.h"
 
 #if defined(__x86_64__)
@@ -14,11 +15,6 @@
 namespace littoral {
 
 namespace {
-
-template <class S>
-[[gnu::always_inline]] inline S larger(S a, S b) {
-  return a > b ? a : b;
-}
 
 /// Distances of q to box and disk, each less by `slack` for lane l, squares less by `relative` of
 /// what cancels.

@@ -20,8 +20,6 @@ namespace littoral {
 
 namespace {
 
-constexpr int lanes = winding_lanes;
-
 // In the plane z = 0 an edge from a to b that passes it is the point (x, y) = (g, f) / (b_z - a_z).
 double side_y(const double* a, const double* b) { return a[1] * b[2] - a[2] * b[1]; }
 double side_x(const double* a, const double* b) { return a[0] * b[2] - a[2] * b[0]; }
@@ -34,7 +32,7 @@ bool beyond(const double* low, const double* high) {
 
 int exact_crossings(const TriangleLanes& t, const double* q) {
   int sum = 0;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < winding_lanes; ++l) {
     double p[3][3];
     for (int c = 0; c < 9; ++c) p[c / 3][c % 3] = t.corner[c][l] - q[c % 3];
     sum += crossing(p[0], p[1], p[2]);
@@ -91,7 +89,7 @@ template <int width>
 template <int width>
 [[gnu::always_inline]] inline int crossings_of(const TriangleLanes& t, const double* q) {
   typename Wide<width>::Bits sum{}, tied{};
-  for (int l = 0; l < lanes; l += width) add_crossings<width>(t, l, q, sum, tied);
+  for (int l = 0; l < winding_lanes; l += width) add_crossings<width>(t, l, q, sum, tied);
   std::int64_t total = 0, ties = 0;
   for (int l = 0; l < width; ++l) {
     total += sum[l];
@@ -127,9 +125,9 @@ template <int width>
 [[gnu::always_inline]] inline bool walk_of(const WalkView& walk, const double* q, WalkAngle& out) {
   using Lanes = typename Wide<width>::Lanes;
   using Bits = typename Wide<width>::Bits;
-  constexpr int block = 256, parts = lanes / width, together = 4;
+  constexpr int block = 256, parts = winding_lanes / width, together = 4;
   constexpr double narrow = 1e-6;
-  alignas(64) double s[block + lanes], y[block + lanes], z[block + lanes];
+  alignas(64) double s[block + winding_lanes], y[block + winding_lanes], z[block + winding_lanes];
   TurnLanes<width> angle[parts];
   const Lanes zero{};
   const Bits sign = (Bits)(-zero);
@@ -139,18 +137,18 @@ template <int width>
   for (int from = 0; from < walk.n_edges; from += block) {
     const int n = std::min(block, walk.n_edges - from);
     const double *X = walk.x + from, *Y = walk.y + from, *Z = walk.z + from;
-    for (int i = 0; i < n + lanes; i += lanes)
-      for (int l = 0; l < lanes; ++l) {
+    for (int i = 0; i < n + winding_lanes; i += winding_lanes)
+      for (int l = 0; l < winding_lanes; ++l) {
         const double x = X[i + l] - qx, v = Y[i + l] - qy, w = Z[i + l] - qz;
         s[i + l] = std::sqrt(x * x + (v * v + w * w)) - x;
         y[i + l] = v;
         z[i + l] = w;
       }
-    for (int i = 0; i < n; i += together * lanes) {
+    for (int i = 0; i < n; i += together * winding_lanes) {
       Lanes dens[parts][together], nums[parts][together], steepest = zero + walk.reach;
       for (int p = 0; p < parts; ++p)
         for (int k = 0; k < together; ++k) {
-          const int at = i + k * lanes + p * width;
+          const int at = i + k * winding_lanes + p * width;
           Lanes sa, sb, ya, yb, za, zb;
           load(sa, s + at), load(sb, s + at + 1);
           load(ya, y + at), load(yb, y + at + 1);
@@ -208,7 +206,7 @@ template <int width>
 
 unsigned pierced_plain(const ShadowNode& n, const float* q) {
   unsigned bits = 0;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < winding_lanes; ++l) {
     const bool in = n.low_y[l] <= q[1] && q[1] <= n.high_y[l] && n.low_z[l] <= q[2] &&
                     q[2] <= n.high_z[l] && q[0] <= n.high_x[l];
     bits |= (in ? 1u : 0u) << l;

@@ -8,32 +8,22 @@
 #include <cstdint>
 
 #include "base/kernel_choice.h"
+#include "base/vector_lanes.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr int lanes = nearest_lanes;
-
-template <class S>
-[[gnu::always_inline]] inline S smaller(S a, S b) {
-  return a < b ? a : b;
-}
-template <class S>
-[[gnu::always_inline]] inline S larger(S a, S b) {
-  return a > b ? a : b;
-}
-
-[[gnu::always_inline]] inline float least_of(const std::array<float, lanes>& s) {
+[[gnu::always_inline]] inline float least_of(const std::array<float, nearest_lanes>& s) {
   return smaller(smaller(smaller(s[0], s[4]), smaller(s[2], s[6])),
                  smaller(smaller(s[1], s[5]), smaller(s[3], s[7])));
 }
 
 /// To the nearest side, or to the plane where the point lies above the triangle.
 [[gnu::always_inline]] inline float ways_of(const CornerLanes& t, const float* from, WayLanes& out,
-                                            std::array<float, lanes>* sides = nullptr) {
+                                            std::array<float, nearest_lanes>* sides = nullptr) {
   const float qx = from[0], qy = from[1], qz = from[2];
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     const float ax = t.corner[0][l] - qx, ay = t.corner[1][l] - qy, az = t.corner[2][l] - qz;
     const float bx = t.corner[3][l] - qx, by = t.corner[4][l] - qy, bz = t.corner[5][l] - qz;
     const float cx = t.corner[6][l] - qx, cy = t.corner[7][l] - qy, cz = t.corner[8][l] - qz;
@@ -76,7 +66,7 @@ template <class S>
 
 [[gnu::always_inline]] inline float ways_to_middles_of(const CornerLanes& t, const float* from,
                                                        WayLanes& out) {
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     float squared = 0;
     for (int d = 0; d < 3; ++d) {
       const float sum = t.corner[d][l] + t.corner[d + 3][l] + t.corner[d + 6][l];
@@ -105,11 +95,11 @@ template <class S>
   return most + length * b.slack;
 }
 
-using Flags = std::array<std::int32_t, lanes>;
+using Flags = std::array<std::int32_t, nearest_lanes>;
 
 [[gnu::always_inline]] inline unsigned bits_of(const Flags& flags) {
   unsigned bits = 0;
-  for (int l = 0; l < lanes; ++l) bits |= static_cast<unsigned>(flags[l]) << l;
+  for (int l = 0; l < nearest_lanes; ++l) bits |= static_cast<unsigned>(flags[l]) << l;
   return bits;
 }
 
@@ -127,7 +117,7 @@ using Flags = std::array<std::int32_t, lanes>;
 [[gnu::always_inline]] inline unsigned within_of(const CornerLanes& t, const WayLanes& w,
                                                  const BoxWithBalls& b) {
   alignas(32) Flags met;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     const float x = w.way[0][l], y = w.way[1][l], z = w.way[2][l];
     const float least = least_along(t, w, l, b.centre.data());
     met[l] = least > reach_of(b, x, y, z, std::sqrt(w.squared[l])) ? 0 : 1;
@@ -142,12 +132,12 @@ using Flags = std::array<std::int32_t, lanes>;
   constexpr float tiny = 1e-30f, rounding = 4e-6f;
   const float slack = 2e-6f * (2 + std::abs(from[0]) + std::abs(from[1]) + std::abs(from[2]));
   WayLanes w;
-  alignas(32) std::array<float, lanes> sides;
+  alignas(32) std::array<float, nearest_lanes> sides;
   ways_of(t, from, w, &sides);
   const float reach = std::sqrt(least_of(sides)) * (1 + rounding) + slack;
   most = smaller(most, reach * reach);
   alignas(32) Flags met;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     const float least = least_along(t, w, l, from);
     const float length = std::sqrt(w.squared[l] + tiny);
     const float away = larger((1 - rounding) * least / length - slack, 0.0f);
@@ -162,7 +152,7 @@ using Flags = std::array<std::int32_t, lanes>;
   constexpr float small = 0.25f;
   const float qx = b.centre[0], qy = b.centre[1], qz = b.centre[2];
   alignas(32) Flags met, small_beside;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     const float x = t.x[l] - qx, y = t.y[l] - qy, z = t.z[l] - qz;
     const float squared = x * x + y * y + z * z, length = std::sqrt(squared);
     met[l] = squared - length * t.radius[l] > reach_of(b, x, y, z, length) ? 0 : 1;
@@ -175,13 +165,13 @@ using Flags = std::array<std::int32_t, lanes>;
 [[gnu::always_inline]] inline void put_ball_of(const CornerLanes& t, BallLanes& out, int lane) {
   float middle[3], squared = 0;
   for (int d = 0; d < 3; ++d) {
-    alignas(32) std::array<float, lanes> low, high;
-    for (int l = 0; l < lanes; ++l) {
+    alignas(32) std::array<float, nearest_lanes> low, high;
+    for (int l = 0; l < nearest_lanes; ++l) {
       const float a = t.corner[d][l], b = t.corner[d + 3][l], c = t.corner[d + 6][l];
       low[l] = smaller(a, smaller(b, c));
       high[l] = larger(a, larger(b, c));
     }
-    for (int step = lanes / 2; step > 0; step /= 2)
+    for (int step = nearest_lanes / 2; step > 0; step /= 2)
       for (int l = 0; l < step; ++l) {
         low[l] = smaller(low[l], low[l + step]);
         high[l] = larger(high[l], high[l + step]);
@@ -199,7 +189,7 @@ using Flags = std::array<std::int32_t, lanes>;
 [[gnu::always_inline]] inline void look_eight(
     const NearTriangle& t, double number, const double* __restrict X, const double* __restrict Y,
     const double* __restrict Z, double* __restrict squared, double* __restrict nearest) {
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < nearest_lanes; ++l) {
     const double x = X[l], y = Y[l], z = Z[l], best = squared[l], before = nearest[l];
     double side = best, above = 1;
     const auto add_side = [&](int k) {
@@ -225,7 +215,7 @@ using Flags = std::array<std::int32_t, lanes>;
 
 [[gnu::always_inline]] inline void look_of(const NearTriangle& t, double number,
                                            const NearNodes& nodes) {
-  for (int i = 0; i < nodes.n; i += lanes)
+  for (int i = 0; i < nodes.n; i += nearest_lanes)
     look_eight(t, number, nodes.x + i, nodes.y + i, nodes.z + i, nodes.squared + i,
                nodes.nearest + i);
 }

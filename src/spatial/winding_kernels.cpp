@@ -14,18 +14,16 @@ namespace littoral {
 
 namespace {
 
-constexpr int lanes = winding_lanes;
-
 // The expansion of dipole_moments.h, degree by degree: its polynomials in u_z stand beside their
 // coefficients.
 [[gnu::always_inline]] inline float far_sum(const ClusterLanes& c, const float* q, float accuracy,
                                             unsigned& near) {
   static_assert(dipole_degree == 4);
-  alignas(32) std::array<float, lanes> value;
-  alignas(32) std::array<std::int32_t, lanes> is_far;
+  alignas(32) std::array<float, winding_lanes> value;
+  alignas(32) std::array<std::int32_t, winding_lanes> is_far;
   const float qx = q[0], qy = q[1], qz = q[2], squared = accuracy * accuracy;
   const auto& M = c.moments;
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < winding_lanes; ++l) {
     const float rx = c.x[l] - qx, ry = c.y[l] - qy, rz = c.z[l] - qz;
     const float r2 = rx * rx + ry * ry + rz * rz, reach = squared * c.radius[l] * c.radius[l];
     is_far[l] = std::bit_cast<std::int32_t>(reach - r2) >> 31;  // the sign
@@ -48,7 +46,7 @@ constexpr int lanes = winding_lanes;
     value[l] = std::bit_cast<float>(std::bit_cast<std::int32_t>(v) & is_far[l]);
   }
   unsigned bits = 0;
-  for (int l = 0; l < lanes; ++l) bits |= (is_far[l] == 0 ? 1u : 0u) << l;
+  for (int l = 0; l < winding_lanes; ++l) bits |= (is_far[l] == 0 ? 1u : 0u) << l;
   near = bits;
   // A fixed order of additions, whatever the instructions.
   return ((value[0] + value[4]) + (value[2] + value[6])) +
@@ -58,7 +56,7 @@ constexpr int lanes = winding_lanes;
 [[gnu::always_inline]] inline void angle_lanes(const TriangleLanes& t, const double* q,
                                                AngleLanes& out) {
   const double qx = q[0], qy = q[1], qz = q[2];
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < winding_lanes; ++l) {
     const double ax = t.corner[0][l] - qx, ay = t.corner[1][l] - qy, az = t.corner[2][l] - qz;
     const double bx = t.corner[3][l] - qx, by = t.corner[4][l] - qy, bz = t.corner[5][l] - qz;
     const double cx = t.corner[6][l] - qx, cy = t.corner[7][l] - qy, cz = t.corner[8][l] - qz;
@@ -77,9 +75,9 @@ constexpr int lanes = winding_lanes;
 }
 
 [[gnu::always_inline]] inline double dipole_sum(const DipoleLanes& d, const double* q) {
-  alignas(64) std::array<double, lanes> value;
+  alignas(64) std::array<double, winding_lanes> value;
   const double qx = q[0], qy = q[1], qz = q[2];
-  for (int l = 0; l < lanes; ++l) {
+  for (int l = 0; l < winding_lanes; ++l) {
     const double x = d.at[0][l] - qx, y = d.at[1][l] - qy, z = d.at[2][l] - qz;
     // At the point itself r is zero, and so is what follows.
     const double r2 = x * x + y * y + z * z + 1e-200;

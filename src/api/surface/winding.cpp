@@ -13,10 +13,12 @@
 #include "base/lazy.h"
 #include "base/stopwatch.h"
 #include "domain/mesh/split_at_jumps.h"
+#include "domain/mesh/unique_faces.h"
 #include "littoral/error.h"
 #include "methods/winding/dual_winding.h"
 #include "methods/winding/nonconforming_winding.h"
 #include "sources/curves/conform.h"
+#include "sources/surface/surface_points.h"
 #include "sources/surface/triangle_sources.h"
 
 namespace littoral {
@@ -68,8 +70,8 @@ PolygonSoup split_by_value(const SurfaceMesh& mesh, const std::vector<int>& tria
   return std::move(split.soup);
 }
 
-/// The label of the largest part of every face of the input.
-VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, const JumpCalculus& J) {
+/// The label of the largest part of every face of the mesh that was cut.
+VecXi labels_of_faces(const SurfaceMesh& mesh, const WindingAnswer& answer, const JumpCalculus& J) {
   std::vector<std::map<int, double>> area(mesh.n_faces());
   for (int f = 0; f < answer.cut.mesh.n_faces(); ++f)
     if (const int t = answer.triangle_of_face[f]; t >= 0)
@@ -84,6 +86,25 @@ VecXi labels_of_input(const SurfaceMesh& mesh, const WindingAnswer& answer, cons
       }
   }
   return region;
+}
+
+/// Sources of the input on its faces without copies; chains, of whole faces, keep their numbers.
+Sources without_copies(const SurfaceMesh& input, const UniqueFaces& unique, Sources sources) {
+  const auto move = [&](SurfacePoint& p) { p = unique.on_mesh(input, simplest(input, p)); };
+  for (Curve& curve : sources.curves) std::for_each(curve.nodes.begin(), curve.nodes.end(), move);
+  std::for_each(sources.points.begin(), sources.points.end(), move);
+  return sources;
+}
+
+/// An answer without copies of faces, in the numbers of the input.
+void number_as_input(const UniqueFaces& unique, WindingAnswer& answer) {
+  const VecXi region = answer.region;
+  answer.region.resize(index(unique.face_of_input.size()));
+  for (Eigen::Index f = 0; f < answer.region.size(); ++f)
+    answer.region[f] = region[unique.face_of_input[f]];
+  for (int& f : answer.cut.parent_face) f = unique.input_face[f];
+  for (SurfacePoint& p : answer.cut.point)
+    if (p.on == SurfacePoint::On::face) p.element = unique.input_face[p.element];
 }
 
 std::vector<CurvePiece> drawn_pieces(const SurfaceMesh& mesh, Sources drawn, Task& task,
@@ -191,11 +212,23 @@ std::shared_ptr<const DelaunayJumps> better_triangles(const SurfaceMesh& cut, co
 
 class WindingOnSurface {
  public:
-  explicit WindingOnSurface(WindingDomain domain) : domain_(std::move(domain)) {}
+  explicit WindingOnSurface(WindingDomain domain)
+      : domain_(std::move(domain)), unique_(domain_.mesh) {}
 
   WindingAnswer solve(const Sources& sources, SurfaceWinding& options, Task& task,
                       Report& report) const {
-    const SurfaceMesh& mesh = *domain_.mesh;
+    if (!unique_.any_copies()) return solve_unique(sources, options, task, report);
+    report.sizes.emplace_back("copies of faces", unique_.n_copies());
+    WindingAnswer answer =
+        solve_unique(without_copies(*domain_.mesh, unique_, sources), options, task, report);
+    number_as_input(unique_, answer);
+    return answer;
+  }
+
+ private:
+  WindingAnswer solve_unique(const Sources& sources, SurfaceWinding& options, Task& task,
+                             Report& report) const {
+    const SurfaceMesh& mesh = *unique_.mesh;
     if (!sources.chains.empty()) options.formulation = Formulation::dual;
     const Formulation formulation = options.formulation;
     check_combination(options);
@@ -219,7 +252,7 @@ class WindingOnSurface {
     if (formulation == Formulation::dual) {
       DualCurve curve{curves.times, pairs_at_nonmanifold_edges(*J)};
       require_manifold_edges(cut, *J, curve.edge);
-      add_chains(sources.chains, *J, answer.triangle_of_face, curve);
+      add_chains(sources.chains, *J, triangles_of_input(answer.triangle_of_face), curve);
       answer.numbers = dual_winding(*J, curve, options, work, report);
     } else {
       require_manifold_edges(cut, *J, curves.times);
@@ -230,7 +263,7 @@ class WindingOnSurface {
                     .solve(curves.times, options, work, report)
               : nonconforming_winding(*J, in_faces(cut, T, pieces), options, work, report);
     }
-    answer.region = labels_of_input(mesh, answer, *J);
+    answer.region = labels_of_faces(mesh, answer, *J);
     answer.shown = split_by_value(cut, answer.triangle_of_face, *J, answer.numbers);
     answer.completed = polylines(cut, answer.numbers.completed);
     const VecX& bounding = answer.numbers.bounding;
@@ -245,9 +278,17 @@ class WindingOnSurface {
     return answer;
   }
 
- private:
+  /// Without cuts.
+  std::vector<int> triangles_of_input(std::vector<int> triangle_of_face) const {
+    if (!unique_.any_copies()) return triangle_of_face;
+    std::vector<int> out;
+    for (const int f : unique_.face_of_input) out.push_back(triangle_of_face[f]);
+    return out;
+  }
+
   WindingDomain domain_;
-  Kept<JumpSurface> uncut_;
+  UniqueFaces unique_;
+  Kept<JumpSurface> uncut_;  // of `unique_`
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "methods/geodesic/exact_polyhedral_pages.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/index.h"
+#include "base/same_rows.h"
 
 namespace littoral {
 
@@ -14,20 +14,13 @@ namespace {
 
 /// Triangles but for those with the same three edges as one before.
 std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
-  const int n = T.n_faces();
-  std::vector<std::array<int, 3>> key(n);
-  for (int f = 0; f < n; ++f) {
-    for (int k = 0; k < 3; ++k) key[f][k] = T.side_edge(f, k);
-    std::sort(key[f].begin(), key[f].end());
-  }
-  std::vector<char> is_first(n, 1);
-  std::vector<int> order;  // only where all three edges have a third triangle can there be a copy
-  for (int f = 0; f < n; ++f)
-    if (T.edge_use[key[f][0]] > 1 && T.edge_use[key[f][1]] > 1 && T.edge_use[key[f][2]] > 1)
-      order.push_back(f);
-  std::stable_sort(order.begin(), order.end(), [&](int f, int g) { return key[f] < key[g]; });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (key[order[i]] == key[order[i - 1]]) is_first[order[i]] = 0;
+  std::vector<int> shared;  // only where all three edges have a second triangle can there be a copy
+  for (int f = 0; f < T.n_faces(); ++f)
+    if (T.edge_use[T.side_edge(f, 0)] > 1 && T.edge_use[T.side_edge(f, 1)] > 1 &&
+        T.edge_use[T.side_edge(f, 2)] > 1)
+      shared.push_back(f);
+  std::vector<char> is_first(std::size_t(T.n_faces()), 1);
+  for (const RepeatedRow& copy : repeated_rows(T.side_edge, shared)) is_first[copy.row] = 0;
   return is_first;
 }
 

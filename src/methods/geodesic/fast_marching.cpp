@@ -115,9 +115,9 @@ double arrival(const Stencil& s, double ta, double tb) {
   return qa >= 0 && qb >= 0 ? p : infinity;
 }
 
-class Front {
+class MarchingFront {
  public:
-  Front(const IntrinsicTriangulation& T, const TriangleSources& sources)
+  MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources)
       : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
@@ -256,7 +256,7 @@ class Front {
 
 VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sources,
                    const Task& task, Report& report) {
-  Front front(T, sources);
+  MarchingFront front(T, sources);
   front.run(task);
   report.sizes.emplace_back("obtuse_corners_left", front.n_unsplit());
   return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),

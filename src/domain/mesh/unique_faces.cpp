@@ -1,0 +1,53 @@
+#include "domain/mesh/unique_faces.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/index.h"
+#include "base/same_rows.h"
+
+namespace littoral {
+
+UniqueFaces::UniqueFaces(std::shared_ptr<const SurfaceMesh> input) : mesh(std::move(input)) {
+  const SurfaceMesh& all = *mesh;
+  if (!all.is_triangle_mesh()) return;
+  MatX3i edges(all.n_faces(), 3);
+  std::vector<int> shared;  // a copy has company at all three edges
+  for (int f = 0; f < all.n_faces(); ++f) {
+    bool alone = false;
+    for (int k = 0; k < 3; ++k) {
+      edges(f, k) = all.side_edge(f, k);
+      alone = alone || all.edge_faces(edges(f, k)).size() < 2;
+    }
+    if (!alone) shared.push_back(f);
+  }
+  const std::vector<RepeatedRow> copies = repeated_rows(edges, shared);
+  if (copies.empty()) return;
+  std::vector<int> first(std::size_t(all.n_faces()), -1);
+  for (const RepeatedRow& copy : copies) first[copy.row] = copy.first;
+  PolygonSoup soup;
+  soup.points = all.points();
+  soup.corners.reserve(all.soup().corners.size());
+  face_of_input.resize(first.size());
+  for (int f = 0; f < all.n_faces(); ++f) {
+    if (first[f] >= 0) continue;
+    face_of_input[f] = soup.n_faces();
+    input_face.push_back(f);
+    soup.add_face(all.face(f));
+  }
+  for (int f = 0; f < all.n_faces(); ++f)
+    if (first[f] >= 0) face_of_input[f] = face_of_input[first[f]];
+  // The edges of a copy were numbered and directed by the first.
+  mesh = std::make_shared<const SurfaceMesh>(std::move(soup));
+}
+
+SurfacePoint UniqueFaces::on_mesh(const SurfaceMesh& input, const SurfacePoint& p) const {
+  if (p.on != SurfacePoint::On::face || !any_copies()) return p;
+  SurfacePoint out{p.on, face_of_input[p.element], {0, 0, 0}};
+  const auto from = input.face(p.element), to = mesh->face(out.element);
+  for (int k = 0; k < 3; ++k)
+    out.b[std::size_t(std::find(to.begin(), to.end(), from[k]) - to.begin())] += p.b[k];
+  return out;
+}
+
+}  // namespace littoral

@@ -114,7 +114,11 @@ TEST(MergeWindows, LeaveAloneWhatIsNotOfOneKind) {
   EXPECT_EQ(left([](Window& w) { w.source = 4; }), 8u);
   EXPECT_EQ(left([](Window& w) { w.page = 1; }), 8u);
   EXPECT_EQ(left([](Window& w) { w.open = false; }), 8u);
-  EXPECT_EQ(left([](Window& w) { w.b1 -= 1e-3 * (w.b1 - w.b0); }), 8u);
+  EXPECT_EQ(left([](Window& w) {
+              w.b0 += 1e-3 * (w.b1 - w.b0);
+              w.b1 -= 1e-3 * (w.b1 - w.b0);
+            }),
+            8u);
   EXPECT_EQ(left([](Window& w) {
               w.parallel = true;
               w.x = 0.6;

@@ -110,7 +110,8 @@ def test_json_report(run: Run, mesh: Path) -> None:
 def test_the_default_says_what_it_chose(run: Run, mesh: Path) -> None:
     report = json.loads(run(*CURVE, "--json", "-o", "a.txt").stdout)
     assert report["method"] == "auto"
-    assert report["options"] == {"completion": "none", "metric": "exact", "confidence": False}
+    chosen = {"completion": "none", "metric": "exact", "confidence": False, "tolerance": 0}
+    assert report["options"] == chosen
     assert report["sizes"]["curve_ends"] == 0
     assert report["status"] == "converged"
 

@@ -70,6 +70,7 @@ class AutomaticOnTriangles {
     const Stopwatch watch(report, "distance");
     const Task measuring = task.stage(0.55, "walking over the mesh");
     if (options.metric == Metric::automatic) options.metric = Metric::exact;
+    if (T_->n_faces() <= many_triangles || options.metric != Metric::exact) options.tolerance = 0;
     SurfaceAnswer answer{
         value_range(given).same()
             ? VecX(measured(on, options, measuring, report).cwiseAbs().cwiseProduct(whole.sign))
@@ -89,8 +90,7 @@ class AutomaticOnTriangles {
   VecX measured(const TriangleSources& on, const Automatic& options, const Task& task,
                 Report& report) const {
     if (options.metric != Metric::exact) return fast_marching(*T_, on, task, report);
-    const double tolerance = T_->n_faces() > many_triangles ? options.tolerance : 0;
-    return exact_polyhedral(*T_, on, task, report, {0, tolerance}).distance;
+    return exact_polyhedral(*T_, on, task, report, {0, options.tolerance}).distance;
   }
 
   /// The least of c_i + d_i on positive sides, the largest of c_i - d_i on negative ones: viscosity

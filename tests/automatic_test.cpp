@@ -319,6 +319,23 @@ TEST(Automatic, PointsAndUnsignedCurvesAreExact) {
     EXPECT_NEAR(u[v], std::abs(to_polygon(polygon, mesh.point(v))), 1e-9);
 }
 
+TEST(Automatic, ManyTrianglesAreMeasuredToTheToleranceOfTheReport) {
+  const SurfaceMesh few(test::octasphere_soup(6)), many(test::octasphere_soup(7));
+  ASSERT_LT(few.n_faces(), 100'000);
+  ASSERT_GT(many.n_faces(), 100'000);
+  for (const SurfaceMesh* mesh : {&few, &many}) {
+    Automatic exactly;
+    exactly.tolerance = 0;
+    Report report, exact_report;
+    const VecX d = answer(*mesh, test::vertex_points({5}), report),
+               exact = answer(*mesh, test::vertex_points({5}), exact_report, exactly);
+    const double tolerance = std::stod(option(report, "tolerance"));
+    EXPECT_EQ(tolerance, mesh == &few ? 0 : 1e-5);
+    EXPECT_LE(((d - exact).array().abs() - tolerance * exact.array()).maxCoeff(), 1e-12);
+    EXPECT_EQ(d == exact, mesh == &few);
+  }
+}
+
 TEST(Automatic, OptionsThatCannotBeMetAreRefused) {
   const SurfaceMesh mesh(test::jittered_grid_soup(12, 12, 0.2));
   Report report;

@@ -1,11 +1,15 @@
 #pragma once
-// Rows of three numbers that are the same but for their order.
+// Triples of numbers that are there more than once.
 
+#include <array>
 #include <vector>
 
 #include "littoral/types.h"
 
 namespace littoral {
+
+/// Places of the first of each key, ascending.
+std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys);
 
 /// Of some rows, ascending, those that hold the same three numbers, in any order, as an earlier one
 /// of them.

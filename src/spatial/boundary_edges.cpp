@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/same_rows.h"
 #include "spatial/covered_triangles.h"
 #include "spatial/finite_box.h"
 
@@ -92,17 +93,6 @@ std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i
     for (int i = side.count; i < 0; ++i) out.push_back({b, a});
   }
   return out;
-}
-
-std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys) {
-  std::vector<int> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return keys[a] < keys[b] || (keys[a] == keys[b] && a < b); });
-  const auto same = [&](int a, int b) { return keys[a] == keys[b]; };
-  order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  std::sort(order.begin(), order.end());
-  return order;
 }
 
 MatX3i without_copies(const MatX3& points, const MatX3i& faces) {

@@ -24,9 +24,6 @@ std::vector<std::array<int, 2>> boundary_chain(const MatX3& points, const MatX3i
 /// A chain's edges, each as often as it is there one after the other, once.
 std::vector<std::array<int, 2>> each_once(std::vector<std::array<int, 2>> chain);
 
-/// Places of the first of each key, ascending.
-std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys);
-
 /// The faces in their order, but for those with the corners of an earlier one, by position and in
 /// the same sense: the surface as a set, which is covered once. m x 3, as given where there are no
 /// copies.

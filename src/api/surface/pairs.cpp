@@ -76,7 +76,7 @@ void merge_components(const std::vector<std::pair<int, Report>>& of, Report& rep
 
 bool has_triangle(const SurfaceMesh& mesh) {
   for (int f = 0; f < mesh.n_faces(); ++f)
-    if (has_distinct_corners(mesh, f)) return true;
+    if (mesh.has_distinct_corners(f)) return true;
   return false;
 }
 

@@ -21,8 +21,7 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
   std::vector<int> kept;
   T.triangle_of_face.assign(mesh.n_faces(), -1);
   for (int f = 0; f < mesh.n_faces(); ++f) {
-    const auto c = mesh.face(f);
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    if (!mesh.has_distinct_corners(f)) continue;
     T.triangle_of_face[f] = kept.size();
     kept.push_back(f);
   }

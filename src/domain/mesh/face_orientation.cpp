@@ -12,16 +12,11 @@ struct Side {
   int face = -1, k = 0;
 };
 
-bool repeats_a_vertex(const SurfaceMesh& mesh, int f) {
-  const auto c = mesh.face(f);
-  return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
-}
-
 /// Do the faces run oppositely along every edge of two? Then all are right as given.
 bool agrees_as_given(const SurfaceMesh& mesh) {
   std::vector<std::int8_t> count(mesh.n_edges(), 0), along(mesh.n_edges(), 0);
   for (int f = 0; f < mesh.n_faces(); ++f) {
-    if (repeats_a_vertex(mesh, f)) continue;
+    if (!mesh.has_distinct_corners(f)) continue;
     for (int k = 0; k < 3; ++k) {
       const int e = mesh.side_edge(f, k);
       count[e] = static_cast<std::int8_t>(std::min(count[e] + 1, 3));
@@ -40,7 +35,7 @@ struct Gluing {
 
   explicit Gluing(const SurfaceMesh& mesh) : sides(mesh.n_edges()), count(mesh.n_edges(), 0) {
     for (int f = 0; f < mesh.n_faces(); ++f) {
-      if (repeats_a_vertex(mesh, f)) continue;
+      if (!mesh.has_distinct_corners(f)) continue;
       for (int k = 0; k < 3; ++k) {
         const int e = mesh.side_edge(f, k);
         if (count[e] < 2) sides[e][count[e]] = {f, k};

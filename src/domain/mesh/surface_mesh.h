@@ -38,6 +38,10 @@ class SurfaceMesh {
   const PolygonSoup& soup() const { return soup_; }
   const MatX3& points() const { return soup_.points; }
   std::span<const int> face(int f) const { return soup_.face(f); }
+  bool has_distinct_corners(int f) const {  // of a triangle
+    const auto c = face(f);
+    return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+  }
   Vec3 point(int v) const { return soup_.points.row(v); }
   Vec3 position(const SurfacePoint& p) const;
 

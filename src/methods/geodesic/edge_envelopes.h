@@ -82,10 +82,9 @@ class EdgeEnvelopes {
       least = std::min(least, insert(all, length, batch[i]));
     if (list.due < infinity)
       least = 0;
-    else if (first != 0)
-      least = std::min(least, window_kernels().least(batch, 0, first));
-    if (last != n && !(list.due < infinity))
-      least = std::min(least, window_kernels().least(batch, last, n));
+    else
+      least = std::min(
+          {least, window_kernels().least(batch, 0, first), window_kernels().least(batch, last, n)});
     const std::size_t outside = first + (n - last);
     n_taken_ += double(outside);
     if (outside > 0) {

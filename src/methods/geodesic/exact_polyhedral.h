@@ -17,7 +17,7 @@ struct ExactDistance {
 /// How far the search goes.
 struct ExactSearch {
   double most_windows = 0;  // that are followed exactly; 0: 1000 a triangle and at least 1e7
-  double tolerance = 0;     // share of every distance that it may be off by
+  double tolerance = 0;     // share that every distance may be off by, counted from the least value
 };
 
 /// Unsigned distance at the vertices, exact to rounding, from points, and from curves as the exact

@@ -269,19 +269,11 @@ void RayCrossing::leave_together(int side, int id, const TriangleAbove& above, c
     if (follows && (j == 0 ? c.ends[i] == 0 : c.follows[pair] != 0)) {
       int beyond = j + 1;
       const std::int64_t* next = c.follows + (turned ? i - 1 : i);  // of windows j and j + 1
-      if (turned) {
-        while (beyond + 3 < n && (next[0] & next[-1] & next[-2] & next[-3])) {
-          beyond += 4;
-          next -= 4;
-        }
-        for (; beyond < n && *next; ++beyond) --next;
-      } else {
-        while (beyond + 3 < n && (next[0] & next[1] & next[2] & next[3])) {
-          beyond += 4;
-          next += 4;
-        }
-        for (; beyond < n && *next; ++beyond) ++next;
+      while (beyond + 3 < n && (next[0] & next[step] & next[2 * step] & next[3 * step])) {
+        beyond += 4;
+        next += 4 * step;
       }
+      for (; beyond < n && *next; ++beyond) next += step;
       if (j > 0 && c.meets[pair] == cut_once) {
         batch.column(WindowBlock::b1)[batch.size() - 1] = c.cut[pair];
         batch.column(WindowBlock::d1)[batch.size() - 1] = c.cut_first[pair];

@@ -111,7 +111,8 @@ LITTORAL_INLINE void where_lanes(const RayColumns& c, int n, const CornerNumbers
     load(a1, c.apex1 + i);
     B tag;
     load(tag, c.tag + i);
-    B left = a0<0, right = a1> 0;
+    B left = a0 < 0;
+    B right = a1 > 0;
     const B beyond_left = left & (b0 >= q.crossing), beyond_right = right & (b1 <= q.crossing);
     // py bounds the norms from below.
     const B far_left = left & (d0 > reach), far_right = right & (d1 > reach);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/index.h"
+#include "base/same_rows.h"
 #include "methods/implicit/place_tree.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/covered_triangles.h"

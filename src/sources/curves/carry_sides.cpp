@@ -55,7 +55,7 @@ class Transport {
         const auto faces = mesh_.edge_faces(e);
         if (!any_edge && faces.size() != 2) continue;
         for (const int to : faces)
-          if (has_distinct_corners(mesh_, to) &&
+          if (mesh_.has_distinct_corners(to) &&
               parity.try_emplace(to, parity[at] ^ static_cast<int>(!agree(e, at, to))).second)
             queue.push_back(to);
       }

@@ -252,7 +252,7 @@ class Straightener {
           best = turn + angle(spoke, ahead);
           best_edge = edge;
         }
-        if (!has_distinct_corners(mesh_, face)) continue;
+        if (!mesh_.has_distinct_corners(face)) continue;
         for (int other : mesh_.face(face))
           if (other != v && other != tip)
             reach(face, other, turn + angle(spoke, at(other) - centre), edge);

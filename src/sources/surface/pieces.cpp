@@ -94,7 +94,7 @@ class Preparation {
       out_.add_point(simplest(mesh_, point), value);
       const std::vector<int> faces = faces_at(mesh_, out_.points.back());
       if (std::none_of(faces.begin(), faces.end(),
-                       [&](int f) { return has_distinct_corners(mesh_, f); }))
+                       [&](int f) { return mesh_.has_distinct_corners(f); }))
         dropped_.add("point source " + std::to_string(number) + " lies on " + element_name(point) +
                      ", whose faces all repeat a vertex: no distance is measured from it");
     } catch (const InputError& error) {
@@ -146,7 +146,7 @@ class Preparation {
     if (!(piece.length > 0)) return false;
     piece.edge = common_edge(mesh_, from, to);
     piece.face = piece.edge >= 0 ? face_beside(piece.edge) : common_face(mesh_, from, to);
-    if (!has_distinct_corners(mesh_, piece.face)) {  // counts as no surface
+    if (!mesh_.has_distinct_corners(piece.face)) {  // counts as no surface
       ++lost_;
       return true;
     }
@@ -158,7 +158,7 @@ class Preparation {
 
   int face_beside(int edge) const {
     for (int f : mesh_.edge_faces(edge))
-      if (has_distinct_corners(mesh_, f)) return f;
+      if (mesh_.has_distinct_corners(f)) return f;
     return mesh_.edge_faces(edge)[0];
   }
 

@@ -137,7 +137,7 @@ int common_face(const SurfaceMesh& mesh, const SurfacePoint& p, const SurfacePoi
     } else if (of_q[j] < of_p[i]) {
       ++j;
     } else {
-      if (has_distinct_corners(mesh, of_p[i])) return of_p[i];
+      if (mesh.has_distinct_corners(of_p[i])) return of_p[i];
       if (fallback < 0) fallback = of_p[i];
       ++i, ++j;
     }
@@ -157,11 +157,6 @@ bool on_closed_edge(const SurfaceMesh& mesh, const SurfacePoint& p, int edge) {
   if (p.on == SurfacePoint::On::edge) return p.element == edge;
   return p.on == SurfacePoint::On::vertex &&
          (mesh.edges()(edge, 0) == p.element || mesh.edges()(edge, 1) == p.element);
-}
-
-bool has_distinct_corners(const SurfaceMesh& mesh, int face) {
-  const auto c = mesh.face(face);
-  return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
 }
 
 }  // namespace littoral

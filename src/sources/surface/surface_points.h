@@ -58,7 +58,4 @@ int common_edge(const SurfaceMesh& mesh, const SurfacePoint& p, const SurfacePoi
 /// Does the edge, ends included, contain the point (simplest form)?
 bool on_closed_edge(const SurfaceMesh& mesh, const SurfacePoint& p, int edge);
 
-/// Do a triangle's corners have three different numbers?
-bool has_distinct_corners(const SurfaceMesh& mesh, int face);
-
 }  // namespace littoral

@@ -12,12 +12,13 @@ import pytest
 from conftest import PROGRAM, Run, square, wait_for_handler
 
 CURVE = ("distance", "square.obj", "--sources", "curve.txt")
+SIDES = 800  # of `large`: what is interrupted must take longer than the longest wait
 
 
 @pytest.fixture(scope="module")
 def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path: Path = tmp_path_factory.mktemp("large") / "large.obj"
-    path.write_text(square(400))
+    path.write_text(square(SIDES))
     return path
 
 
@@ -46,7 +47,7 @@ def test_interrupt(run: Run, tmp_path: Path, large: Path, number: int, wait: flo
     left = [file.name for file in tmp_path.iterdir()]
     assert left in ([], ["a.ply"]), "what was written before is whole, and nothing else is there"
     if left:
-        assert f"vertices: {401**2}" in run("info", "a.ply").stdout
+        assert f"vertices: {(SIDES + 1) ** 2}" in run("info", "a.ply").stdout
 
 
 def test_full_disk_leaves_nothing_behind(mesh: Path, tmp_path: Path) -> None:

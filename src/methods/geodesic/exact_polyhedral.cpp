@@ -21,9 +21,9 @@ namespace {
 constexpr std::array<int, 4> straight = {Window::deep + 1, 16, 4, 0};
 constexpr double most_held = 3e7;  // windows, 2 GB
 constexpr double together_share =
-    0.25;                              // of the wait of an edge: what is due until then goes on too
+    0.5;                               // of the wait of an edge: what is due until then goes on too
 constexpr double most_together = 3e4;  // windows
-constexpr double worth_threads = 500;  // windows to carry on; four times as many to put away
+constexpr double worth_threads = 300;  // windows to carry on; four times as many to put away
 
 class Front {
  public:
@@ -73,7 +73,8 @@ class Front {
  private:
   struct Entry {
     double key;
-    int id;  // of an edge with open windows; -1 - vertex
+    int id;      // of an edge with open windows; -1 - vertex
+    float wait;  // of the edge
     bool operator<(const Entry& other) const {
       return key > other.key || (key == other.key && id > other.id);
     }
@@ -91,7 +92,7 @@ class Front {
       crew_[0]->leave_source(start);
       settle(1, 0);
     } else if (offer({start.vertex, start.value, start.source, {}, 0})) {
-      push({start.value, -1 - start.vertex});
+      push({start.value, -1 - start.vertex, 0});
     }
   }
   void push(Entry entry) {
@@ -114,8 +115,17 @@ class Front {
   double collect() {
     together_.clear();
     double load = 0, until = infinity;
+    std::size_t n_seen = 0;
+    const auto see = [&] {
+      for (; n_seen < together_.size(); ++n_seen) {
+        if (together_[n_seen] < 0) continue;
+        WindowList& list = search_.lists[together_[n_seen]];
+        list.due = infinity;
+        load += double(list.windows.size());
+      }
+    };
     while (!queue_.empty() && queue_.front().key <= until && load < most_together) {
-      const auto [key, id] = queue_.front();
+      const auto [key, id, wait] = queue_.front();
       std::pop_heap(queue_.begin(), queue_.end());
       queue_.pop_back();
       if (id < 0) {
@@ -123,12 +133,13 @@ class Front {
         for (const int side : search_.pages.around(-1 - id))
           until = std::min(until, key + together_share * wait_of(T_.side_edge(side / 3, side % 3)));
       } else {
-        search_.lists[id].due = infinity;
-        load += double(search_.lists[id].windows.size());
-        until = std::min(until, key + together_share * wait_of(id));
+        __builtin_prefetch(&search_.lists[id], 1);
+        until = std::min(until, key + together_share * double(wait));
       }
       together_.push_back(id);
+      if (together_.size() == n_seen + 32) see();
     }
+    see();
     return load;
   }
   double wait_of(int edge) const { return search_.pages.edges[edge].wait; }
@@ -163,7 +174,7 @@ class Front {
   void settle(std::size_t parts, double load) {
     for (std::size_t part = 0; part < parts; ++part)
       for (const RayCrossing::Offer& o : crew_[part]->offers())
-        if (offer(o) && search_.pages.bends[o.vertex]) push({o.distance, -1 - o.vertex});
+        if (offer(o) && search_.pages.bends[o.vertex]) push({o.distance, -1 - o.vertex, 0});
     const std::size_t n = load > 4 * worth_threads ? std::min<std::size_t>(parts, 16) : 1;
     threads_.run(n, [&](std::size_t share) {
       for (std::size_t part = 0; part < parts; ++part)
@@ -196,12 +207,19 @@ class Front {
     const double ends = std::max(search_.distance[edge.tail], search_.distance[edge.head]);
     double& due = search_.lists[id].due;
     due = std::max(least, std::min(ends, least + edge.wait));
-    push({due, id});
+    push({due, id, float(edge.wait)});
   }
 
   /// Windows of edges that the front has passed prune nothing that the ends of the edge do not.
   void forget_passed(double now) {
     for (std::size_t i = 0; i < 2 * together_.size() && !gone_on_.empty(); ++i) {
+      if (gone_on_.size() > 12) {
+        const Passing ahead = gone_on_[12];
+        if (ahead.when < now || ahead.when == infinity) {
+          __builtin_prefetch(&search_.lists[ahead.edge]);
+          __builtin_prefetch(&search_.pages.edges[ahead.edge]);
+        }
+      }
       Passing next = gone_on_.front();
       gone_on_.pop_front();
       if (next.when < now || next.when == infinity) {
@@ -229,12 +247,12 @@ class Front {
     budget_ += most_windows_;
     std::fill(search_.pages.bends.begin(), search_.pages.bends.end(), PolyhedralPages::anywhere);
     for (int v = 0; v < T_.n_vertices; ++v)
-      if (search_.distance[v] < infinity) push({search_.distance[v], -1 - v});
+      if (search_.distance[v] < infinity) push({search_.distance[v], -1 - v, 0});
   }
   /// What is nearer has its shortest path.
   double least_open() const {
     double least = infinity;
-    for (const auto [key, id] : queue_) {
+    for (const auto [key, id, wait] : queue_) {
       if (id >= 0)
         least = std::min(least, EdgeEnvelopes::least_open(search_.lists[id]));
       else if (key <= search_.distance[-1 - id])

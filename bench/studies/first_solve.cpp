@@ -27,7 +27,9 @@ struct Used {
   static Used so_far() {
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
-    const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+    const auto seconds = [](const timeval& t) {
+      return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
     return {seconds(used.ru_utime), seconds(used.ru_stime), used.ru_minflt};
   }
 };
@@ -36,8 +38,9 @@ int run(int argc, char** argv) {
   set_thread_count(1);
   const int rounds = std::atoi(argv[1]), meshes = (argc - 2) / 2;
   VecX phi;
-  std::printf("| mesh | round | user s | system s | pages touched | stages, clock s |\n"
-              "|---|---|---|---|---|---|\n");
+  std::printf(
+      "| mesh | round | user s | system s | pages touched | stages, clock s |\n"
+      "|---|---|---|---|---|---|\n");
   for (int round = 0; round < rounds; ++round)
     for (int m = 0; m < meshes; ++m) {
       const std::string file = argv[2 + 2 * m];

@@ -23,8 +23,8 @@ struct LevelRows {
 };
 
 /// How Poisson problems are solved: by a factor, which makes further solves cheap, or by multigrid,
-/// in memory and time that grow like the number of unknowns. Where one solve is expected, the factor
-/// is made by the solve, with its constraints in it.
+/// in memory and time that grow like the number of unknowns. Where one solve is expected, the
+/// factor is made by the solve, with its constraints in it.
 enum class PoissonSolver { automatic, automatic_for_one_solve, direct, multigrid };
 
 /// Poisson problem of one operator; immutable. Constraints whose rows hold neighbours of L only (as

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/falling_keys.h"
 #include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "methods/heat/finalize.h"
@@ -152,7 +153,7 @@ double arrival(const Products& s, double last, double other) {
 class MarchingFront {
  public:
   MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources)
-      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)) {
+      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)), queue_(T.n_vertices) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
@@ -176,9 +177,7 @@ class MarchingFront {
   void run(const Task& task) {
     int n_fixed = 0;
     while (!queue_.empty()) {
-      const auto [key, v] = queue_.top();
-      queue_.pop();
-      if (fixed_[v] || key > d_[v]) continue;
+      const int v = queue_.take();
       fixed_[v] = 1;
       if ((++n_fixed & 0xfff) == 0) task.checkpoint(double(n_fixed) / T_.n_vertices);
       for (const int c : stencils_.corners_at(v)) cross_triangle(c / 3, c % 3);
@@ -196,14 +195,6 @@ class MarchingFront {
   int n_unsplit() const { return stencils_.n_unsplit; }
 
  private:
-  struct Entry {
-    double key;
-    int v;
-    bool operator<(const Entry& other) const {
-      return key > other.key || (key == other.key && v > other.v);
-    }
-  };
-
   static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
     return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
   }
@@ -212,7 +203,7 @@ class MarchingFront {
     if (!(distance < d_[v])) return;
     d_[v] = distance;
     sign_[v] = static_cast<signed char>(sign != 0 ? sign : beside_[v]);
-    queue_.push({distance, v});
+    queue_.put(v, distance);
   }
 
   /// Corners of a triangle that holds a straight piece of a curve: exact in the triangle's plane.
@@ -304,7 +295,7 @@ class MarchingFront {
   std::vector<signed char> sign_;
   std::vector<signed char> beside_;  // side of the curve next to it, 0 elsewhere
   std::vector<char> fixed_;
-  std::priority_queue<Entry> queue_;
+  FallingKeys queue_;
 };
 
 }  // namespace

@@ -16,9 +16,10 @@ namespace littoral {
 
 namespace {
 
-constexpr int small_supernode =
-    24;  // columns of a supernode up to which calls cost more than loops
-constexpr std::size_t super_grain = 4096;  // supernodes, for loops that only move numbers
+using dense::small_supernode;
+static const int small_front =
+    getenv("SF") ? atoi(getenv("SF")) : 96;  // rows of one that is factored by loops
+constexpr std::size_t super_grain = 4096;    // supernodes, for loops that only move numbers
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
@@ -55,6 +56,14 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
 template <class Scalar>
 std::shared_ptr<Scalar[]> zeros(std::size_t n) {
   return std::shared_ptr<Scalar[]>(new Scalar[n]());
+}
+
+/// A square of which the lower half is zero, the upper one anything.
+template <class Scalar>
+std::shared_ptr<Scalar[]> lower_zeros(int n) {
+  auto* at = static_cast<Scalar*>(::operator new(std::size_t(n) * n * sizeof(Scalar)));
+  for (int j = 0; j < n; ++j) std::fill_n(at + j + index(j) * n, n - j, Scalar(0));
+  return {at, [](Scalar* p) { ::operator delete(p); }};
 }
 
 }  // namespace
@@ -123,7 +132,7 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];
   if (!node.block) node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
-  node.update = zeros<Scalar>(std::size_t(below) * below);
+  node.update = lower_zeros<Scalar>(below);
   Scalar* block = node.block.get();
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
@@ -144,10 +153,13 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
     }
     if (!to_be_patched_) supernodes_[child].update.reset();
   }
-  if (!factor_columns(height, columns, block, task))
+  const bool small = columns <= small_supernode && height <= small_front;
+  if (small ? !dense::factor_small(columns, height, block, update)
+            : !factor_columns(height, columns, block, task))
     throw SolveError("the matrix is not positive definite (near unknown " +
                      std::to_string(E.old_of[E.first[s]]) + ")");
-  subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
+  if (!small)
+    subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
 }
 
 template <class Scalar>

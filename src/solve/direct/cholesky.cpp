@@ -16,10 +16,8 @@ namespace littoral {
 
 namespace {
 
-using dense::small_supernode;
-static const int small_front =
-    getenv("SF") ? atoi(getenv("SF")) : 96;  // rows of one that is factored by loops
-constexpr std::size_t super_grain = 4096;    // supernodes, for loops that only move numbers
+constexpr int small_front = 96;            // rows of a front that is factored by loops
+constexpr std::size_t super_grain = 4096;  // supernodes, for loops that only move numbers
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
 /// cancelled between.
@@ -153,7 +151,7 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
     }
     if (!to_be_patched_) supernodes_[child].update.reset();
   }
-  const bool small = columns <= small_supernode && height <= small_front;
+  const bool small = columns <= dense::small_supernode && height <= small_front;
   if (small ? !dense::factor_small(columns, height, block, update)
             : !factor_columns(height, columns, block, task))
     throw SolveError("the matrix is not positive definite (near unknown " +
@@ -251,7 +249,7 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
-    if (n_rhs == 1 && columns <= small_supernode) {
+    if (n_rhs == 1 && columns <= dense::small_supernode) {
       dense::forward_small(columns, height, block, &x(E.first[s], 0), y.data());
     } else {
       dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
@@ -280,7 +278,7 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
       y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
     const int* rows = E.rows.data() + E.rows_begin[s];
-    if (n_rhs == 1 && columns <= small_supernode) {
+    if (n_rhs == 1 && columns <= dense::small_supernode) {
       Scalar* v = y.data();
       Scalar* own = &x(E.first[s], 0);
       std::copy(own, own + columns, v);

@@ -51,11 +51,6 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
   return true;
 }
 
-template <class Scalar>
-std::shared_ptr<Scalar[]> zeros(std::size_t n) {
-  return std::shared_ptr<Scalar[]>(new Scalar[n]());
-}
-
 /// A square of which the lower half is zero, the upper one anything.
 template <class Scalar>
 std::shared_ptr<Scalar[]> lower_zeros(int n) {
@@ -129,9 +124,11 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   const Elimination& E = *structure_;
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];
-  if (!node.block) node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
-  node.update = lower_zeros<Scalar>(below);
+  const std::size_t size = E.values_begin[s + 1] - E.values_begin[s];
+  if (!node.block) node.block = std::shared_ptr<Scalar[]>(new Scalar[size]);
   Scalar* block = node.block.get();
+  std::fill_n(block, size, Scalar(0));
+  node.update = lower_zeros<Scalar>(below);
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
   for (int k = 0; k < columns; ++k)

@@ -62,17 +62,18 @@ TEST(FirstSolve, SmallFrontsAreFactoredAsDenseMatricesAre) {
 TEST(FirstSolve, KeysThatFallComeInTheOrderOfASet) {
   std::mt19937 random(3);
   const int n = 200;
+  const double never = std::numeric_limits<double>::infinity();
   for (int round = 0; round < 20; ++round) {
     FallingKeys queue(n);
     std::set<std::pair<double, int>> set;
-    std::vector<double> key(n, infinity);  // infinite: does not wait
+    std::vector<double> key(n, never);  // never: does not wait
     for (int step = 0; step < 3000; ++step) {
       const int i = static_cast<int>(random() % n);
       const double next = static_cast<double>(random() % 50);  // many are equal
       if (random() % 3 == 0 && !set.empty()) {
         const auto [least, first] = *set.begin();
         set.erase(set.begin());
-        key[first] = infinity;
+        key[first] = never;
         ASSERT_EQ(queue.take(), first);
       } else if (next < key[i]) {
         set.erase({key[i], i});

@@ -51,11 +51,6 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
   return true;
 }
 
-template <class Scalar>
-std::shared_ptr<Scalar[]> zeros(std::size_t n) {
-  return std::shared_ptr<Scalar[]>(new Scalar[n]());
-}
-
 /// A square of which the lower half is zero, the upper one anything.
 template <class Scalar>
 std::shared_ptr<Scalar[]> lower_zeros(int n) {

@@ -1,24 +1,29 @@
 #include "base/same_rows.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "base/groups.h"
 #include "base/index.h"
 
 namespace littoral {
 
 namespace {
 
-/// For each key the first place of the same.
+/// For each key the first place of the same. Only keys that begin alike are compared.
 std::vector<int> first_of_same(const std::vector<std::array<int, 3>>& keys) {
-  std::vector<int> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return keys[a] < keys[b] || (keys[a] == keys[b] && a < b); });
+  int n_groups = 0;
+  for (const auto& key : keys) n_groups = std::max(n_groups, key[0] + 1);
+  Groups<int> alike = groups_of<int>(std::size_t(n_groups), [&](const auto& put) {
+    for (int i = 0; i < int_size(keys); ++i) put(keys[i][0], i);
+  });
   std::vector<int> first(keys.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool again = i > 0 && keys[order[i]] == keys[order[i - 1]];
-    first[order[i]] = again ? first[order[i - 1]] : order[i];
+  for (int g = 0; g < n_groups; ++g) {
+    const auto begin = alike.members.begin() + alike.begin[g];
+    const auto end = alike.members.begin() + alike.begin[g + 1];
+    std::sort(begin, end,
+              [&](int a, int b) { return keys[a] < keys[b] || (keys[a] == keys[b] && a < b); });
+    for (auto i = begin; i != end; ++i)
+      first[*i] = i != begin && keys[*i] == keys[*(i - 1)] ? first[*(i - 1)] : *i;
   }
   return first;
 }

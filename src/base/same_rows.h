@@ -1,5 +1,5 @@
 #pragma once
-// Triples of numbers that are there more than once.
+// Triples of numbers that are there more than once; none is negative.
 
 #include <array>
 #include <vector>

@@ -1,9 +1,7 @@
 #pragma once
 // Which triangle sides lie on an edge: how anything that crosses edges finds its way.
 
-#include <span>
-#include <vector>
-
+#include "base/groups.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
 
 namespace littoral {
@@ -14,13 +12,7 @@ struct TriangleSide {
 };
 
 /// Triangle sides at each edge, by triangle; any number of them.
-struct EdgeSides {
-  std::vector<int> offsets;         // edges + 1
-  std::vector<TriangleSide> sides;  // 3 triangles
-  std::span<const TriangleSide> at(int e) const {
-    return {sides.data() + offsets[e], sides.data() + offsets[e + 1]};
-  }
-};
+using EdgeSides = Groups<TriangleSide>;
 
 EdgeSides edge_sides(const IntrinsicTriangulation& T);
 

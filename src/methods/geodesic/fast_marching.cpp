@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <span>
 #include <string>
 
 #include "base/falling_keys.h"
+#include "base/groups.h"
 #include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "methods/heat/finalize.h"
@@ -41,40 +41,34 @@ struct UnfoldedStencil {
 class Stencils {
  public:
   explicit Stencils(const IntrinsicTriangulation& T) : T_(T) {
-    const std::size_t n = 3 * std::size_t(T.n_faces());
-    begin_.assign(T.n_vertices + 1, 0);
-    for (std::size_t c = 0; c < n; ++c) ++begin_[T.faces.data()[c] + 1];
-    for (int v = 0; v < T.n_vertices; ++v) begin_[v + 1] += begin_[v];
-    corners_.resize(n);
-    std::vector<int> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t c = 0; c < n; ++c) corners_[next[T.faces.data()[c]]++] = static_cast<int>(c);
+    corners_ = groups_of<int>(std::size_t(T.n_vertices), [&](const auto& put) {
+      for (int c = 0; c < 3 * T.n_faces(); ++c) put(T.faces.data()[c], c);
+    });
     unfold_obtuse();
   }
 
   /// Corners at a vertex: 3 f + k of triangle f.
-  std::span<const int> corners_at(int v) const {
-    return {corners_.data() + begin_[v], corners_.data() + begin_[v + 1]};
-  }
+  std::span<const int> corners_at(int v) const { return corners_.at(v); }
   /// Is the corner's vertex reached by unfolded stencils, not from the side across?
   bool unfolds(int f, int k) const { return unfolds_[3 * std::size_t(f) + k] != 0; }
   /// Unfolded stencils with an end at a vertex.
   template <class Body>
   void for_unfolded_at(int v, const Body& body) const {
     if (unfolded_.empty()) return;
-    for (int u = users_begin_[v]; u < users_begin_[v + 1]; ++u) body(unfolded_[users_[u]]);
+    for (const int u : users_.at(v)) body(unfolded_[u]);
   }
 
   int n_unsplit = 0;  // obtuse corners where the mesh ends before a vertex in front is found
 
  private:
   void unfold_obtuse() {
-    unfolds_.assign(corners_.size(), 0);
+    unfolds_.assign(corners_.members.size(), 0);
     EdgeSides sides;  // found where there is an obtuse corner
     for (int f = 0; f < T_.n_faces(); ++f)
       for (int k = 0; k < 3; ++k) {
         const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
         if (law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1)) >= 0) continue;
-        if (sides.offsets.empty()) sides = edge_sides(T_);
+        if (sides.begin.empty()) sides = edge_sides(T_);
         const TriangleShape t =
             triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false);
         const auto [d, D] = vertex_in_front(sides, f, k1, t.p[1], t.p[2]);  // v at 0
@@ -88,14 +82,12 @@ class Stencils {
                                dot(t.p[end], D)});
       }
     if (unfolded_.empty()) return;
-    users_begin_.assign(T_.n_vertices + 1, 0);
-    for (const UnfoldedStencil& s : unfolded_)
-      ++users_begin_[s.side_end + 1], ++users_begin_[s.in_front + 1];
-    for (int v = 0; v < T_.n_vertices; ++v) users_begin_[v + 1] += users_begin_[v];
-    users_.resize(users_begin_.back());
-    std::vector<int> next(users_begin_.begin(), users_begin_.end() - 1);
-    for (int i = 0; i < int_size(unfolded_); ++i)
-      users_[next[unfolded_[i].side_end]++] = users_[next[unfolded_[i].in_front]++] = i;
+    users_ = groups_of<int>(std::size_t(T_.n_vertices), [&](const auto& put) {
+      for (int i = 0; i < int_size(unfolded_); ++i) {
+        put(unfolded_[i].side_end, i);
+        put(unfolded_[i].in_front, i);
+      }
+    });
   }
 
   /// Unfolds the triangles beyond the side at A, B (counter-clockwise about 0, more than a right
@@ -128,10 +120,10 @@ class Stencils {
   }
 
   const IntrinsicTriangulation& T_;
-  std::vector<int> begin_, corners_;  // vertex -> corners
-  std::vector<char> unfolds_;         // corners
+  Groups<int> corners_;        // vertices
+  std::vector<char> unfolds_;  // corners
   std::vector<UnfoldedStencil> unfolded_;
-  std::vector<int> users_begin_, users_;  // vertex -> unfolded stencils
+  Groups<int> users_;  // vertices; unfolded stencils
 };
 
 /// Where a front moving at speed 1 in a straight line, that passed the ends of an edge at `last`

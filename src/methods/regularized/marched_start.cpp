@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
-#include <utility>
 #include <vector>
 
+#include "base/falling_keys.h"
+#include "base/groups.h"
 #include "base/index.h"
 #include "base/now_and_then.h"
 #include "base/parallel.h"
@@ -21,7 +21,7 @@ constexpr std::size_t cell_grain = 1 << 14;
 class Marching {
  public:
   Marching(const SpRows& G, const VecX& A)
-      : G_(G), A_(A), n_(G.cols()), begin_(n_ + 1, 0), way_(n_), accepted_(n_, 0) {
+      : G_(G), A_(A), n_(G.cols()), way_(n_), accepted_(n_, 0), front_(static_cast<int>(n_)) {
     u_ = VecX::Constant(n_, infinity);
   }
 
@@ -33,30 +33,26 @@ class Marching {
         return false;
       for (int k = 0; k < 3; ++k) {
         if (corner(c, k) != G_.innerIndexPtr()[at + 3 + k]) return false;
-        ++begin_[corner(c, k) + 1];
       }
     }
-    for (Eigen::Index v = 0; v < n_; ++v) begin_[v + 1] += begin_[v];
-    cells_.resize(begin_[n_]);
-    std::vector<int> next(begin_.begin(), begin_.end() - 1);
-    for (Eigen::Index c = 0; c < A_.size(); ++c)
-      for (int k = 0; k < 3; ++k) cells_[next[corner(c, k)]++] = static_cast<int>(c);
+    cells_ = groups_of<int>(std::size_t(n_), [&](const auto& put) {
+      for (int c = 0; c < A_.size(); ++c)
+        for (int k = 0; k < 3; ++k) put(corner(c, k), c);
+    });
     return true;
   }
 
   void march(const KnownDistances& known, const Task& task) {
     for (const auto& [v, distance] : known) {
       u_[v] = distance;
-      front_.emplace(distance, v);
+      front_.put(v, distance);
     }
     while (!front_.empty()) {
-      const auto [t, v] = front_.top();
-      front_.pop();
-      if (accepted_[v] || t > u_[v]) continue;
+      const int v = front_.take();
       stop_now_and_then(int_size(order_), task);
       accepted_[v] = 1;
       order_.push_back(v);
-      for (int e = begin_[v]; e < begin_[v + 1]; ++e) pass(cells_[e], v);
+      for (const int c : cells_.at(v)) pass(c, v);
     }
   }
 
@@ -79,9 +75,9 @@ class Marching {
       const int from = corner(way.cell, way.from);
       const double amount = through[v];
       int beside = 0;
-      for (int e = begin_[v]; e < begin_[v + 1]; ++e) beside += place(cells_[e], from) >= 0;
-      for (int e = begin_[v]; e < begin_[v + 1]; ++e) {
-        const int c = cells_[e], at = place(c, from);
+      for (const int c : cells_.at(v)) beside += place(c, from) >= 0;
+      for (const int c : cells_.at(v)) {
+        const int at = place(c, from);
         if (at < 0) continue;
         const int to = place(c, v);
         send(c, to, side(c, at, to), amount / beside, through, flux);
@@ -98,9 +94,9 @@ class Marching {
     parallel_for(n_, cell_grain, [&](std::size_t v, std::size_t end) {
       for (; v < end; ++v) {
         double sum = 0, weight = 0;
-        for (int e = begin_[v]; e < begin_[v + 1]; ++e) {
-          sum += A_[cells_[e]] * amount[cells_[e]];
-          weight += A_[cells_[e]];
+        for (const int c : cells_.at(static_cast<int>(v))) {
+          sum += A_[c] * amount[c];
+          weight += A_[c];
         }
         at_nodes[v] = weight > 0 ? sum / weight : 0;
       }
@@ -194,19 +190,18 @@ class Marching {
     if (!(t < u_[v])) return;
     u_[v] = t;
     way_[v] = way;
-    front_.emplace(t, v);
+    front_.put(v, t);
   }
 
   const SpRows& G_;
   const VecX& A_;
   Eigen::Index n_;
-  std::vector<int> begin_, cells_;  // cells around each node
+  Groups<int> cells_;  // around each node
   VecX u_;
   std::vector<Way> way_;
   std::vector<char> accepted_;
   std::vector<int> order_;
-  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>
-      front_;
+  FallingKeys front_;
 };
 
 }  // namespace

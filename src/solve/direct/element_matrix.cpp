@@ -15,21 +15,17 @@ constexpr std::size_t grain = 1 << 12;  // of loops
 
 template <std::size_t M>
 TermsByTarget::TermsByTarget(const std::vector<std::array<int, M>>& targets, std::size_t n)
-    : begin_(n + 1, 0), from_(M * targets.size()) {
-  for (const auto& target : targets)
-    for (int t : target) ++begin_[t + 1];
-  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] += begin_[i];
-  std::vector<int> at(begin_.begin(), begin_.end() - 1);
-  int from = 0;
-  for (const auto& target : targets)
-    for (int t : target) from_[at[t]++] = from++;
-}
+    : values_(groups_of<int>(n, [&](const auto& put) {
+        int from = 0;
+        for (const auto& target : targets)
+          for (const int t : target) put(t, from++);
+      })) {}
 
 void TermsByTarget::add_up(const double* value, double* out) const {
-  parallel_for(begin_.size() - 1, grain, [&](std::size_t first, std::size_t end) {
+  parallel_for(values_.begin.size() - 1, grain, [&](std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       double sum = 0;
-      for (int k = begin_[i]; k < begin_[i + 1]; ++k) sum += value[from_[k]];
+      for (const int k : values_.at(static_cast<int>(i))) sum += value[k];
       out[i] = sum;
     }
   });

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/groups.h"
 #include "base/task.h"
 #include "littoral/types.h"
 #include "solve/direct/elimination.h"
@@ -23,7 +24,7 @@ class TermsByTarget {
   void add_up(const double* values, double* sums) const;
 
  private:
-  std::vector<int> begin_, from_;  // sum i: of the values from_[begin_[i]] .. from_[begin_[i + 1]]
+  Groups<int> values_;  // sums; which values each adds up
 };
 
 /// Elements of K unknowns, the pattern of the matrices they add up to, and its analysis; immutable.

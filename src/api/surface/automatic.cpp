@@ -139,10 +139,11 @@ class AutomaticOnTriangles {
   WholeCurves curves_;
 };
 
+using Solve = std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)>;
+
 /// Signed heat completes and measures at once.
-std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat(
-    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
-    Report& report) {
+Solve by_heat(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
+              const Task& task, Report& report) {
   if (options.confidence)
     throw UnsupportedError("option confidence: there is none with metric heat", "options-conflict");
   if (options.completion != Completion::automatic && options.completion != Completion::heat)
@@ -169,8 +170,7 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat
 }
 
 /// What lies there twice is there once: jumps along copies of faces would contradict each other.
-std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_triangles(
-    const SurfaceDomain& domain, SolveHint hint, Report& report) {
+Solve on_triangles(const SurfaceDomain& domain, SolveHint hint, Report& report) {
   const auto unique = std::make_shared<const UniqueFaces>(domain.mesh);
   return [mesh = domain.mesh, unique,
           method = std::make_shared<const AutomaticOnTriangles>(
@@ -183,8 +183,7 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_tria
 }
 
 /// Polygons cut into triangles.
-std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_polygons(
-    const SurfaceDomain& domain, SolveHint hint, Report& report) {
+Solve on_polygons(const SurfaceDomain& domain, SolveHint hint, Report& report) {
   Report quiet;  // that polygons are cut needs no warning where nobody asked for triangles
   auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, quiet));
   return [cut, solve = on_triangles(cut->triangles, hint, report)](
@@ -193,9 +192,8 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_poly
   };
 }
 
-std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> automatic(
-    const SurfaceDomain& domain, const Automatic& options, SolveHint hint, const Task& task,
-    Report& report) {
+Solve automatic(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
+                const Task& task, Report& report) {
   if (options.metric == Metric::heat) return by_heat(domain, options, hint, task, report);
   const std::string kind = domain.kind();
   if (kind == "polygon mesh") return on_polygons(domain, hint, report);

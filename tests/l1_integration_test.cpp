@@ -9,6 +9,7 @@
 
 #include "constants.h"
 #include "littoral/error.h"
+#include "solve/network/flow_interior_point.h"
 
 namespace littoral {
 namespace {
@@ -118,6 +119,40 @@ TEST(L1Integration, BothAlgorithmsReachTheSameOptimumAndProveIt) {
         }
       }
     }
+}
+
+TEST(L1Integration, TheInteriorPointIsNearTheOptimumAndInside) {
+  for (const bool bounded : {false, true}) {
+    const L1Integration p = random_problem(16, 3, bounded);
+    const InteriorPoint point = interior_point(p, 1e-9, {});
+    printf("iterations %d\n", point.iterations);
+    double primal = 0, dual = 0;
+    VecX out = VecX::Zero(p.n);
+    for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
+      const double J = p.c[e] + point.s[p.f[e]] - point.s[p.g[e]];
+      primal += p.w[e] * std::abs(J);
+      dual += p.c[e] * point.x[e];
+      EXPECT_LT(std::abs(point.x[e]), p.w[e]);
+      double flow = point.x[e];
+      if (bounded && e % 3 == 0) {
+        EXPECT_GT(point.up[e], 0);
+        EXPECT_GT(point.down[e], 0);
+        EXPECT_LT(J, p.hi[e] + 1e-8);
+        EXPECT_GT(J, p.lo[e] - 1e-8);
+        dual += (p.c[e] - p.hi[e]) * point.up[e] - (p.c[e] - p.lo[e]) * point.down[e];
+        flow += point.up[e] - point.down[e];
+      } else {
+        EXPECT_EQ(point.up[e], 0);
+        EXPECT_EQ(point.down[e], 0);
+      }
+      out[p.f[e]] += flow;
+      out[p.g[e]] -= flow;
+    }
+    EXPECT_LT(std::abs(primal - dual), 1e-8 * primal);
+    EXPECT_LT(out.cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT(point.iterations, 18);
+    EXPECT_NEAR(primal, solve(p, L1Algorithm::simplex).primal, 1e-8 * primal);
+  }
 }
 
 TEST(L1Integration, BoundsHoldAndCost) {

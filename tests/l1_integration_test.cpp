@@ -125,7 +125,6 @@ TEST(L1Integration, TheInteriorPointIsNearTheOptimumAndInside) {
   for (const bool bounded : {false, true}) {
     const L1Integration p = random_problem(16, 3, bounded);
     const InteriorPoint point = interior_point(p, 1e-9, {});
-    printf("iterations %d\n", point.iterations);
     double primal = 0, dual = 0;
     VecX out = VecX::Zero(p.n);
     for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
@@ -149,8 +148,8 @@ TEST(L1Integration, TheInteriorPointIsNearTheOptimumAndInside) {
       out[p.g[e]] -= flow;
     }
     EXPECT_LT(std::abs(primal - dual), 1e-8 * primal);
-    EXPECT_LT(out.cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LT(point.iterations, 18);
+    EXPECT_LT(out.cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT(point.iterations, 16);  // 11 and 13 with full steps
     EXPECT_NEAR(primal, solve(p, L1Algorithm::simplex).primal, 1e-8 * primal);
   }
 }

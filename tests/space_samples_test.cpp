@@ -129,13 +129,15 @@ TEST(SpaceSamples, CellsAtTheRimOfACloudEndAtADisc) {
   const double corner = 1.5 + 2 * sector(std::sqrt(2)) + 0.25;
   for (const int i : {0, 9, 90, 99}) EXPECT_NEAR(s.areas[i], corner, 1e-9);
   for (const int i : {1, 10, 29, 95}) EXPECT_NEAR(s.areas[i], 2 * sector(1) + 0.5, 1e-9);
-  // Of three neighbours the second counts, of two the first.
-  for (const double area : sample_cloud(lattice(2), report).areas)
-    EXPECT_NEAR(area, 0.75 + 2 * sector(1) + 0.25, 1e-9);
-  PolygonSoup row = lattice(3);
-  row.points.conservativeResize(3, 3);
-  row.normals.conservativeResize(3, 3);
-  EXPECT_NEAR(sample_cloud(row, report).areas[0], 1.5 + 2 * sector(1), 1e-9);
+  // At the end of a row: of three neighbours the second counts, of two the first.
+  for (const int n : {3, 4}) {
+    PolygonSoup row = lattice(n);
+    row.points.conservativeResize(n, 3);
+    row.normals.conservativeResize(n, 3);
+    const double radius = n - 2;
+    EXPECT_NEAR(sample_cloud(row, report).areas[0], 1.5 * radius * radius + 2 * sector(radius),
+                1e-9);
+  }
 }
 
 TEST(SpaceSamples, AreaOfASphereComesOut) {

@@ -63,6 +63,22 @@ TEST(SphereTrace, SteepFieldsAreBracketed) {
   EXPECT_EQ(trace_steepness(ball(0.3), Vec3::Constant(-2), Vec3::Constant(2), 0), 1);
 }
 
+TEST(SphereTrace, BracketsCloseInFewSteps) {
+  int asked = 0;
+  const Formula field([&asked](const Vec3& x) {
+    ++asked;
+    return ball(1.25).at(x);
+  });
+  TraceOptions options;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+    options.tolerance = tolerance;
+    asked = 0;
+    EXPECT_TRUE(sphere_trace(field, {0.2, 0, 5}, -Vec3::UnitZ(), 0, 10, options).found);
+    EXPECT_GT(asked, 3);
+    EXPECT_LT(asked, 40) << tolerance;  // 19, 26 and 33 were seen
+  }
+}
+
 TEST(SphereTrace, JumpsAreNoSurface) {
   // Changes sign on the plane z = 2 without being near 0, then reaches the plane z = 0.
   const Formula jump([](const Vec3& x) {

@@ -144,7 +144,9 @@ def filters(root: Path, source: Path) -> list[str]:
     near: set[str] = set()
     folder = str(source.parent.relative_to(root / "src"))
     header = str(source.relative_to(root / "src").with_suffix(".h"))
-    users = headers_by_use(root).get(header, set())
+    folders = re.findall(rf'^#include "({folder}/\w+\.h)"', source.read_text(), re.MULTILINE)
+    parts = [header] if (root / "src" / header).exists() else folders
+    users = set().union(*(headers_by_use(root).get(part, set()) for part in parts))
     words = words_of(source.stem) | words_of(source.parent.name)
     for test in sorted((root / "tests").glob("*_test.cpp")):
         text = test.read_text()
@@ -154,7 +156,7 @@ def filters(root: Path, source: Path) -> list[str]:
             if (root / "tests" / name).exists()
         )
         included = header in text + helpers or f'"{folder}/' in text
-        used = any(f'"{user}"' in text for user in users)
+        used = any(f'"{user}"' in text + helpers for user in users)
         if included or used or words & words_of(test.stem):
             near |= set(re.findall(r"^TEST(?:_[FP])?\((\w+),", text, re.MULTILINE))
     first = ":".join(f"{s}.*:*/{s}.*" for s in sorted(near) if "Slow" not in s)

@@ -155,7 +155,7 @@ TEST(HeatSolve, OneRowAComponentFixesTheConstantAlone) {
     EXPECT_EQ(steps(report), 0);  // the factor is used as it is
     ASSERT_EQ(steps(slow_report), 1);
     for (const auto& [loop, count] : slow_report.iterations)
-      if (loop == "constraint steps") EXPECT_LE(count, 3);  // 2 were seen
+      EXPECT_TRUE(loop != "constraint steps" || count <= 3) << count;  // 2 were seen
   }
 }
 

@@ -177,6 +177,19 @@ TEST(L1Integration, BoundsHoldAndCost) {
   }
 }
 
+TEST(L1Integration, BoundsFarAwayFitTheIntegersToo) {
+  // Prices of 2^30 times the others leave these few bits, but nothing overflows.
+  const L1Integration free = random_problem(12, 8, false);
+  const double expected = solve(free).primal;
+  for (const double lo : {-infinity, -std::ldexp(1.0, 30)})
+    for (const double hi : {infinity, std::ldexp(1.0, 30)}) {
+      L1Integration p = free;
+      p.lo = VecX::Constant(p.n_arcs(), lo);
+      p.hi = VecX::Constant(p.n_arcs(), hi);
+      EXPECT_NEAR(solve(p).primal, expected, 0.05 * expected) << lo << " " << hi;
+    }
+}
+
 TEST(L1Integration, DependsOnNeitherScaleNorOrientation) {
   const L1Integration p = random_problem(12, 9, false);
   const double objective = solve(p).primal;

@@ -113,7 +113,7 @@ class Builder:
         for flag in ("-MT", "-MF", "-o"):
             words[words.index(flag) + 1] = str(compiled) + (".d" if flag == "-MF" else "")
         words[words.index("-c") + 1] = str(changed)
-        words += ["-Wno-error", "-w"]
+        words += ["-Wno-error", "-w", "-D_GLIBCXX_ASSERTIONS"]  # which the sanitizers' builds have
         if subprocess.run(words, cwd=self.build, capture_output=True, check=False).returncode:
             return None
         out = self.work / "tests"
@@ -157,8 +157,10 @@ def filters(root: Path, source: Path) -> list[str]:
         )
         included = header in text + helpers or f'"{folder}/' in text
         used = any(f'"{user}"' in text + helpers for user in users)
+        suites = set(re.findall(r"^TEST(?:_[FP])?\((\w+),", text, re.MULTILINE))
         if included or used or words & words_of(test.stem):
-            near |= set(re.findall(r"^TEST(?:_[FP])?\((\w+),", text, re.MULTILINE))
+            near |= suites
+        near |= {suite for suite in suites if source.stem.replace("_", "") in suite.lower()}
     first = ":".join(f"{s}.*:*/{s}.*" for s in sorted(near) if "Slow" not in s)
     rest = "*-*Slow*:MethodCases.*" + "".join(f":{s}.*:*/{s}.*" for s in sorted(near))
     return [first, rest] if first else [rest]

@@ -3,15 +3,17 @@
 An operator, a bound, a constant or a `!` of one line changes. The changed file is compiled with
 those that are compiled together with it, and linked before the library, whose object is then not
 used; nothing in the work tree is written. A change is killed if a test fails, crashes or takes too
-long. Suites of test files that include the changed file's folder run first, the others only if
-those notice nothing.
+long. Suites of test files that include the changed file's folder, or a header that is implemented
+with the changed file's, or share a word with its name run first, the others only if those notice
+nothing.
 
 usage: mutate.py [--build build/release] [--seed N] [--count N] [--folders FOLDER...]
-                 [--under PATTERN] [--limit SECONDS] [--near] [--least SHARE]
+                 [--under PATTERN] [--limit SECONDS] [--near] [--least SHARE] [--list]
 
 The build folder holds littoral_tests; what is changed is the work tree it was made of. Prints a
 line for each change and the share that was killed; changes that do not compile do not count, nor
-do those of files whose tests fail as they are. The exit status is 1 below the least share.
+do those of files whose tests fail as they are. The exit status is 1 below the least share. With
+--list changes are printed, those that do not compile among them, and not made.
 """
 
 import argparse
@@ -111,7 +113,7 @@ class Builder:
         for flag in ("-MT", "-MF", "-o"):
             words[words.index(flag) + 1] = str(compiled) + (".d" if flag == "-MF" else "")
         words[words.index("-c") + 1] = str(changed)
-        words += ["-Wno-error", "-w"]
+        words += ["-Wno-error", "-w", "-D_GLIBCXX_ASSERTIONS"]  # which the sanitizers' builds have
         if subprocess.run(words, cwd=self.build, capture_output=True, check=False).returncode:
             return None
         out = self.work / "tests"
@@ -122,10 +124,30 @@ class Builder:
         return None if done.returncode else out
 
 
+def words_of(name: str) -> set[str]:
+    """Those that say something."""
+    return {word for word in name.split("_") if len(word) > 3 and word != "test"}
+
+
+@cache
+def headers_by_use(root: Path) -> dict[str, set[str]]:
+    """Header -> the headers of the sources that include it."""
+    users: dict[str, set[str]] = {}
+    for user in (root / "src").rglob("*.cpp"):
+        for name in re.findall(r'^#include "(.+)"', user.read_text(), re.MULTILINE):
+            users.setdefault(name, set()).add(str(user.relative_to(root / "src").with_suffix(".h")))
+    return users
+
+
 def filters(root: Path, source: Path) -> list[str]:
     """What GoogleTest runs first, and then: without suites that take long."""
     near: set[str] = set()
     folder = str(source.parent.relative_to(root / "src"))
+    header = str(source.relative_to(root / "src").with_suffix(".h"))
+    folders = re.findall(rf'^#include "({folder}/\w+\.h)"', source.read_text(), re.MULTILINE)
+    parts = [header] if (root / "src" / header).exists() else folders
+    users = set().union(*(headers_by_use(root).get(part, set()) for part in parts))
+    words = words_of(source.stem) | words_of(source.parent.name)
     for test in sorted((root / "tests").glob("*_test.cpp")):
         text = test.read_text()
         helpers = "".join(
@@ -133,9 +155,12 @@ def filters(root: Path, source: Path) -> list[str]:
             for name in re.findall(r'#include "(\w+\.h)"', text)
             if (root / "tests" / name).exists()
         )
-        header = str(source.relative_to(root / "src").with_suffix(".h"))
-        if header in text or f'"{folder}/' in text or header in helpers:
-            near |= set(re.findall(r"^TEST(?:_[FP])?\((\w+),", text, re.MULTILINE))
+        included = header in text + helpers or f'"{folder}/' in text
+        used = any(f'"{user}"' in text + helpers for user in users)
+        suites = set(re.findall(r"^TEST(?:_[FP])?\((\w+),", text, re.MULTILINE))
+        if included or used or words & words_of(test.stem):
+            near |= suites
+        near |= {suite for suite in suites if source.stem.replace("_", "") in suite.lower()}
     first = ":".join(f"{s}.*:*/{s}.*" for s in sorted(near) if "Slow" not in s)
     rest = "*-*Slow*:MethodCases.*" + "".join(f":{s}.*:*/{s}.*" for s in sorted(near))
     return [first, rest] if first else [rest]
@@ -157,7 +182,7 @@ def noticed(program: Path, chosen: list[str], limit: float) -> str:
             return "time"
         if done.returncode:
             failed = re.search(r"\[  FAILED  \] (\S+)", done.stdout)
-            return failed.group(1) if failed else f"exit {done.returncode}"
+            return failed.group(1).rstrip(",") if failed else f"exit {done.returncode}"
     return ""
 
 
@@ -172,6 +197,7 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=600)
     parser.add_argument("--near", action="store_true", help="only the suites that run first")
     parser.add_argument("--least", type=float, default=0)
+    parser.add_argument("--list", action="store_true", help="only print the changes")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as work:
         share = run(given, Builder(given.build.resolve(), Path(work)))
@@ -201,19 +227,25 @@ def run(given: argparse.Namespace, builder: Builder) -> float:
         source, (number, begin, end, other) = chosen.choice(every)
         text = list(lines[source])
         text[number] = text[number][:begin] + other + text[number][end:]
-        suites = filters(root, source)[: 1 if given.near else None]
-        if fails := failing(tuple(suites)):
-            print(f"{source.relative_to(root)}: fails unchanged: {fails}", flush=True)
-            every = [one for one in every if one[0] != source]
+        where = f"{source.relative_to(root)}:{number + 1}"
+        change = f"{where}\n    {lines[source][number].strip()}\n    {text[number].strip()}"
+        if given.list:
+            print(change)
+            survived += 1
             continue
+        suites = filters(root, source)[: 1 if given.near else None]
         program = builder.program(source, "".join(text))
         if program is None:
             continue
         by = noticed(program, suites, given.limit)
+        if by and (fails := failing((by,) if "." in by else tuple(suites))):
+            print(f"{source.relative_to(root)}: fails unchanged: {fails}", flush=True)
+            every = [one for one in every if one[0] != source]
+            continue
         killed, survived = killed + bool(by), survived + (not by)
-        where = f"{source.relative_to(root)}:{number + 1}"
-        print(f"{'killed by ' + by if by else 'SURVIVED'}  {where}\n", end="")
-        print(f"    {lines[source][number].strip()}\n    {text[number].strip()}", flush=True)
+        print(f"{'killed by ' + by if by else 'SURVIVED'}  {change}", flush=True)
+    if given.list:
+        return 1
     print(f"{killed} of {killed + survived} killed")
     return float(killed) / float(given.count)
 

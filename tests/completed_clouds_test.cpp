@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -86,6 +87,23 @@ TEST(CompletedClouds, AreClosedOverHolesAndMeasuredThroughNoise) {
     const VecX there = unasked_at(cloud, MatX3(1.3 * cloud.normals.topRows(20)), at_points);
     EXPECT_LT((there.array() - 0.3).abs().maxCoeff(), largest);
   }
+}
+
+TEST(CompletedClouds, PointsThatEncloseNothingAreNamed) {
+  const auto named = [](const PolygonSoup& cloud) {
+    Report report;
+    unasked(cloud, test::cube_grid(13, 1.4), report);
+    const bool told = std::any_of(report.warnings.begin(), report.warnings.end(),
+                                  [](const auto& w) { return w.code == "points-not-enclosing"; });
+    EXPECT_EQ(report.status == "uncertain", told);
+    return told;
+  };
+  EXPECT_FALSE(named(sphere_cloud(1000, 1, 0)));
+  PolygonSoup square;  // and nothing below it
+  square.points = test::grid_soup(30, 30).points.rowwise() - Eigen::RowVector3d(0.5, 0.5, 0);
+  square.normals = MatX3::Zero(square.points.rows(), 3);
+  square.normals.col(2).setOnes();
+  EXPECT_TRUE(named(square));
 }
 
 TEST(CompletedClouds, ThinnerThanTheGridKeepTheirDistance) {

@@ -159,6 +159,22 @@ TEST(GridOperators, RowsReproduceLinearFunctionsAndSkipPointsOutside) {
   EXPECT_EQ(rows.weight[0], 4);
 }
 
+TEST(GridOperators, RowsEndWithTheBox) {
+  const Grid grid = odd_grid();
+  const Vec3 last(grid.n[0] - 1, grid.n[1] - 1, grid.n[2] - 1);
+  const Vec3 middle = grid.origin + 0.5 * last.cwiseProduct(grid.spacing);
+  for (int a = 0; a < 3; ++a)
+    for (const bool high : {false, true}) {
+      const double rim = grid.origin[a] + (high ? last[a] * grid.spacing[a] : 0);
+      for (const double out : {0.0, 1e-9, 0.5, 1.5}) {
+        MatX3 point = middle.transpose();
+        point(0, a) = rim + (high ? out : -out) * grid.spacing[a];
+        if (out == 0) point(0, a) -= (high ? 1e-12 : -1e-12) * grid.spacing[a];  // for rounding
+        EXPECT_EQ(grid_rows(grid, point, VecX::Ones(1)).A.rows(), out == 0) << a << high << out;
+      }
+    }
+}
+
 /// A Poisson equation on a grid, with samples that its solution is held at.
 struct HeldSamples {
   Grid grid = odd_grid();

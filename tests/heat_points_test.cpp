@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "heat_helpers.h"
+#include "methods/heat/cell_field.h"
 #include "sources/systems/source_parts.h"
 #include "test_meshes.h"
 
@@ -50,6 +51,25 @@ std::vector<SurfaceMesh> squares() {
   for (unsigned seed : {1u, 2u})
     all.emplace_back(test::jittered_grid_soup(cells, cells, 0.3, seed));
   return all;
+}
+
+TEST(HeatPoints, PartsOfAFieldGetTheirUnitsBack) {
+  // Solves scale the source of every part to 1. Blocks of two; the third is on no part.
+  const std::vector<int> part{0, 1, -1, 0, 2};
+  VecX b(10), x(10), expected(10);
+  b << 3, -6, 0, 24, 7, 7, 2, 1, 0, 0;
+  x << 0.5, -1, 0, 1, 0, 0, 2. / 6, 1. / 6, 1, 1;
+  expected << 3, -6, 0, 24, 0, 0, 2, 1, 24e-20, 24e-20;  // the last has no source: as good as 0
+  ScaledField<double> field{x, {0, 0, -1, 0, 0}, {1}};
+  restore_units(field, b, part);
+  EXPECT_EQ(field.scale[0], 24);
+  EXPECT_LT((24 * field.x - expected).cwiseAbs().maxCoeff(), 1e-15);
+  // Of parts alike only the unit changes.
+  b << 3, -6, 0, 6, 0, 0, 2, 1, 6, 6;
+  field = {x, {0, 0, -1, 0, 0}, {0.5}};
+  restore_units(field, b, part);
+  EXPECT_EQ(field.scale[0], 3);
+  EXPECT_EQ(field.x, x);
 }
 
 TEST(HeatPoints, MidwayBetweenTwoPoints) {

@@ -153,7 +153,9 @@ TEST(HeatSolve, OneRowAComponentFixesTheConstantAlone) {
                            [](const auto& loop) { return loop.first == "constraint steps"; });
     };
     EXPECT_EQ(steps(report), 0);  // the factor is used as it is
-    EXPECT_EQ(steps(slow_report), 1);
+    ASSERT_EQ(steps(slow_report), 1);
+    for (const auto& [loop, count] : slow_report.iterations)
+      EXPECT_TRUE(loop != "constraint steps" || count <= 3) << count;  // 2 were seen
   }
 }
 

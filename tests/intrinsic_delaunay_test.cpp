@@ -138,6 +138,28 @@ INSTANTIATE_TEST_SUITE_P(Cases, Retriangulating,
                                                                        false}),
                                           testing::Values(0.0, 25.0)));
 
+TEST(IntrinsicDelaunay, FlipsTheOneEdgeThatIsNotWhicheverNumberItHas) {
+  // Two flat triangles on the long diagonal of a rhombus.
+  std::array<int, 4> number{0, 1, 2, 3};
+  do {
+    PolygonSoup soup;
+    soup.points.resize(4, 3);
+    const double at[4][2] = {{-1, 0}, {1, 0}, {0, 0.3}, {0, -0.3}};
+    for (int i = 0; i < 4; ++i) soup.points.row(number[i]) << at[i][0], at[i][1], 0;
+    test::add_triangle(soup, number[0], number[1], number[2]);
+    test::add_triangle(soup, number[1], number[0], number[3]);
+    const SurfaceMesh mesh(soup);
+    Report report;
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    Sources source;
+    source.points = {SurfacePoint::at_vertex(0)};
+    const Retriangulated after =
+        retriangulated(mesh, T, place_sources(mesh, source, report), {0, 3, {}}, report, {});
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 3; ++k) EXPECT_LT(after.T.length(f, k) * after.T.unit, 1.1);
+  } while (std::next_permutation(number.begin(), number.end()));
+}
+
 TEST(IntrinsicDelaunay, MakesPointDistanceOnNeedlesBetter) {
   PolygonSoup soup = test::grid_soup(12, 12);
   soup.points.col(0) *= 12;  // triangles 12 times as long as wide, sheared

@@ -9,6 +9,7 @@
 
 #include "constants.h"
 #include "littoral/error.h"
+#include "solve/network/flow_interior_point.h"
 
 namespace littoral {
 namespace {
@@ -120,6 +121,48 @@ TEST(L1Integration, BothAlgorithmsReachTheSameOptimumAndProveIt) {
     }
 }
 
+TEST(L1Integration, TheInteriorPointIsNearTheOptimumAndInside) {
+  for (const bool bounded : {false, true}) {
+    const L1Integration p = random_problem(16, 3, bounded);
+    const InteriorPoint point = interior_point(p, 1e-9, {});
+    double primal = 0, dual = 0;
+    VecX out = VecX::Zero(p.n);
+    for (Eigen::Index e = 0; e < p.n_arcs(); ++e) {
+      const double J = p.c[e] + point.s[p.f[e]] - point.s[p.g[e]];
+      primal += p.w[e] * std::abs(J);
+      dual += p.c[e] * point.x[e];
+      EXPECT_LT(std::abs(point.x[e]), p.w[e]);
+      double flow = point.x[e];
+      if (bounded && e % 3 == 0) {
+        EXPECT_GT(point.up[e], 0);
+        EXPECT_GT(point.down[e], 0);
+        EXPECT_LT(J, p.hi[e] + 1e-8);
+        EXPECT_GT(J, p.lo[e] - 1e-8);
+        dual += (p.c[e] - p.hi[e]) * point.up[e] - (p.c[e] - p.lo[e]) * point.down[e];
+        flow += point.up[e] - point.down[e];
+      } else {
+        EXPECT_EQ(point.up[e], 0);
+        EXPECT_EQ(point.down[e], 0);
+      }
+      out[p.f[e]] += flow;
+      out[p.g[e]] -= flow;
+    }
+    EXPECT_LT(std::abs(primal - dual), 1e-8 * primal);
+    EXPECT_LT(out.cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_NEAR(primal, solve(p, L1Algorithm::simplex).primal, 1e-8 * primal);
+  }
+}
+
+TEST(L1Integration, TheInteriorPointTakesFewSteps) {
+  // As s and z go the same share of the way, what they have to satisfy together stays satisfied;
+  // otherwise every problem takes about a step more.
+  int steps = 0;
+  for (const int k : {8, 16, 32})
+    for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u})
+      steps += interior_point(random_problem(k, seed, false), 1e-9, {}).iterations;
+  EXPECT_LE(steps, 204);  // 200 were seen
+}
+
 TEST(L1Integration, BoundsHoldAndCost) {
   const L1Integration bounded = random_problem(12, 8, true);
   L1Integration free = bounded;
@@ -132,6 +175,19 @@ TEST(L1Integration, BoundsHoldAndCost) {
     EXPECT_LE(J, bounded.hi[e] + 1e-9);
     EXPECT_GE(J, bounded.lo[e] - 1e-9);
   }
+}
+
+TEST(L1Integration, BoundsFarAwayFitTheIntegersToo) {
+  // Prices of 2^30 times the others leave these few bits, but nothing overflows.
+  const L1Integration free = random_problem(12, 8, false);
+  const double expected = solve(free).primal;
+  for (const double lo : {-infinity, -std::ldexp(1.0, 30)})
+    for (const double hi : {infinity, std::ldexp(1.0, 30)}) {
+      L1Integration p = free;
+      p.lo = VecX::Constant(p.n_arcs(), lo);
+      p.hi = VecX::Constant(p.n_arcs(), hi);
+      EXPECT_NEAR(solve(p).primal, expected, 0.05 * expected) << lo << " " << hi;
+    }
 }
 
 TEST(L1Integration, DependsOnNeitherScaleNorOrientation) {

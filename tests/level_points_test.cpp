@@ -54,6 +54,25 @@ TEST(LevelPoints, LieOnTheLevelSetToThirdOrder) {
   EXPECT_LT(fine.normal, 0.05);
 }
 
+TEST(LevelPoints, AreAsGoodAtOneEndOfTheGridAsAtTheOther) {
+  // The sphere touches the outermost cells.
+  const PolygonSoup cloud = level_points(
+      sampled_on(25, [](const Vec3& x) { return x.squaredNorm() * x.norm() - 1.45 * 1.45 * 1.45; }),
+      0, {});
+  for (int axis = 0; axis < 3; ++axis) {
+    double worst[2] = {0, 0};
+    for (int v = 0; v < cloud.n_vertices(); ++v) {
+      const Vec3 p = cloud.points.row(v);
+      if (std::abs(p[axis]) > 1.5 - 3. / 24) {
+        double& w = worst[p[axis] > 0];
+        w = std::max(w, std::abs(p.norm() - 1.45));
+      }
+    }
+    EXPECT_GT(worst[0], 0);
+    EXPECT_NEAR(worst[0], worst[1], 0.05 * worst[1]);
+  }
+}
+
 TEST(LevelPoints, AreAsManyAsTheSurfaceHasCellsAndNotClose) {
   const Volume field = sampled_on(28, steep);
   const PolygonSoup cloud = level_points(field, 0, {});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/direct/element_matrix.h"
 #include "solve/optimization/paraboloid_rows.h"
 
 namespace littoral {
@@ -41,6 +42,32 @@ ParaboloidResult solved(const Program& program, double tolerance = 1e-9,
 
 void expect_near(const VecX& x, const VecX& known, double tolerance) {
   EXPECT_LT((x - known).cwiseAbs().maxCoeff(), tolerance) << x.transpose();
+}
+
+TEST(ElementMatrix, SumsItsElementsOnTheirPatternAlone) {
+  // Two elements of six unknowns share two, in another order.
+  const std::vector<std::array<int, 6>> elements{{5, 1, 2, 3, 4, 0}, {6, 7, 8, 9, 5, 3}};
+  const ElementMatrix<6> matrix(10, elements, {});
+  std::vector<ElementMatrix<6>::Block> local(2);
+  std::vector<ElementMatrix<6>::Local> loads(2);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(10, 10);
+  VecX load = VecX::Zero(10);
+  for (int f = 0; f < 2; ++f) {
+    int at = 0;
+    for (int i = 0; i < 6; ++i) {
+      load[elements[f][i]] += loads[f][i] = 7 * f + i;
+      for (int j = i; j < 6; ++j) {
+        local[f][at] = 100 * f + at + 1;
+        const auto [low, high] = std::minmax(elements[f][i], elements[f][j]);
+        expected(high, low) += local[f][at++];
+      }
+    }
+  }
+  SpMat sum = matrix.pattern();
+  matrix.sum(local, sum.valuePtr());
+  EXPECT_EQ(Eigen::MatrixXd(sum), expected);
+  EXPECT_EQ(sum.nonZeros(), 2 * 21 - 3);  // 5, 3 and what is between them are there twice
+  EXPECT_EQ(matrix.sum(loads), load);
 }
 
 TEST(ParaboloidProgram, RowsAgreeWithGradientsWrittenOut) {

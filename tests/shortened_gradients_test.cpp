@@ -83,5 +83,15 @@ TEST(ShortenedGradients, NothingIsDoneWhereNoneOrMostAreTooLong) {
   EXPECT_FALSE(raised.shortened(2 * raised.u, fixed));
 }
 
+TEST(ShortenedGradients, TheGapOfADistanceClosesSooner) {
+  const SurfaceMesh mesh(test::torus_soup(40, 24));
+  Regularized options = test::with_alpha(0.02);
+  options.gap = 0.002;
+  const test::Solved solved = test::solve(mesh, test::vertex_points({7, 300}), options);
+  EXPECT_LE(test::residual(solved.report, "duality gap"), options.gap);
+  for (const auto& [loop, count] : solved.report.iterations)
+    EXPECT_TRUE(loop != "admm" || count <= 100) << count;  // 60 were seen, and 220 without
+}
+
 }  // namespace
 }  // namespace littoral

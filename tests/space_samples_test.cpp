@@ -108,6 +108,38 @@ TEST(SpaceSamples, CloudAreasAreThoseOfTheirCells) {
   EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
 }
 
+TEST(SpaceSamples, CellsAtTheRimOfACloudEndAtADisc) {
+  // A regular polygon of 12 corners at the median distance of up to six neighbours stands for the
+  // disc; its sector beside an axis, up to half a unit from the axis, has this area.
+  const auto sector = [](double radius) { return 0.5 * radius - 0.25 * (1 - std::sqrt(0.75)); };
+  const auto lattice = [](int n) {
+    PolygonSoup cloud;
+    cloud.points.resize(n * n, 3);
+    cloud.normals.resize(n * n, 3);
+    for (int i = 0; i < n * n; ++i) {
+      cloud.points.row(i) << i % n, i / n, 0;
+      cloud.normals.row(i) << 0, 0, 1;
+    }
+    return cloud;
+  };
+  Report report;
+  const OrientedPoints s = sample_cloud(lattice(10), report);
+  // A corner: two neighbours at 1, the third at the diagonal. A quarter of the disc, two sectors
+  // and the quarter of a square. A side: the third is at 1; two sectors outside, half a square.
+  const double corner = 1.5 + 2 * sector(std::sqrt(2)) + 0.25;
+  for (const int i : {0, 9, 90, 99}) EXPECT_NEAR(s.areas[i], corner, 1e-9);
+  for (const int i : {1, 10, 29, 95}) EXPECT_NEAR(s.areas[i], 2 * sector(1) + 0.5, 1e-9);
+  // At the end of a row: of three neighbours the second counts, of two the first.
+  for (const int n : {3, 4}) {
+    PolygonSoup row = lattice(n);
+    row.points.conservativeResize(n, 3);
+    row.normals.conservativeResize(n, 3);
+    const double radius = n - 2;
+    EXPECT_NEAR(sample_cloud(row, report).areas[0], 1.5 * radius * radius + 2 * sector(radius),
+                1e-9);
+  }
+}
+
 TEST(SpaceSamples, AreaOfASphereComesOut) {
   const OrientedPoints exact = test::sphere_samples(4);
   PolygonSoup cloud;

@@ -145,6 +145,39 @@ TEST(WindingSolver, DependsNeitherOnNumberingNorScaleNorPlace) {
   for (int f = 0; f < soup.n_faces(); ++f) EXPECT_EQ(after.region[f], before.region[face[f]]);
 }
 
+TEST(WindingSolver, CurvesMayEndAtTheFirstVertexAndTheLast) {
+  // Nodes where a curve ends are no unknowns; which they are does not matter.
+  const PolygonSoup soup = test::octasphere_soup(2);
+  const int n = soup.n_vertices();
+  PolygonSoup other;
+  other.points = soup.points.colwise().reverse();
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto c = soup.face(f);
+    test::add_triangle(other, n - 1 - c[0], n - 1 - c[1], n - 1 - c[2]);
+  }
+  const SurfaceMesh mesh(soup), turned(other);
+  // Along edges from vertex 0, an octant's corner, to the next corner but one edge.
+  std::vector<int> line{0};
+  while (line.size() < 4)
+    for (int e = 0; e < mesh.n_edges(); ++e) {
+      const auto ends = mesh.edges().row(e);
+      const int to = ends[0] == line.back() ? ends[1] : ends[1] == line.back() ? ends[0] : -1;
+      if (to < 0 || mesh.point(to).z() != 0 || mesh.point(to).y() <= mesh.point(line.back()).y())
+        continue;
+      line.push_back(to);
+      break;
+    }
+  std::vector<int> reversed = line;
+  for (int& v : reversed) v = n - 1 - v;
+  Sources a, b;
+  a.curves = {curve_of(line)};
+  b.curves = {curve_of(reversed)};
+  const WindingAnswer first = test::surface_winding(mesh, a),
+                      last = test::surface_winding(turned, b);
+  const MatX3 difference = first.numbers.w.u - last.numbers.w.u;
+  EXPECT_LT((difference.array() - difference(0, 0)).abs().maxCoeff(), 1e-9);
+}
+
 /// Every face cut into four at the middles of its sides; its faces 4 f to 4 f + 3.
 SurfaceMesh quartered(const SurfaceMesh& mesh) {
   PolygonSoup soup;

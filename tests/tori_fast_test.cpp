@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 
 #include "field_helpers.h"
 #include "littoral/error.h"
@@ -156,6 +158,27 @@ TEST(ToriFast, OutliersAreLeftOut) {
   chaos.normals = cloud.normals.topRows(200).eval();
   EXPECT_EQ(without_outliers(chaos, {}, report).size(), 200);
   EXPECT_NE(report.warnings.back().text.find("too few points agree"), std::string::npos);
+}
+
+TEST(TorusFit, WeightsArePowersOfTheDistance) {
+  const OrientedPoints cloud = torus_cloud(300, 21);
+  const PointTree tree(cloud.points);
+  std::array<Neighbour, 9> near;
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_EQ(tree.nearest(cloud.points.row(i), 9, near.data()), 9);
+    const double scale = std::sqrt(near[8].squared_distance);
+    for (const double exponent : {1, 2, 3}) {
+      TorusFit fit, beside;
+      fit.weight_exponent = exponent;
+      beside.weight_exponent = exponent + 1e-9;
+      const std::span<const Neighbour> others = std::span(near).subspan(1);
+      const HeightPolynomial a = fit_heights(fit, cloud, i, others, scale),
+                             b = fit_heights(beside, cloud, i, others, scale);
+      EXPECT_NEAR(a.a00 / scale, b.a00 / scale, 1e-7);
+      EXPECT_NEAR(a.a20 * scale, b.a20 * scale, 1e-7);
+      EXPECT_NEAR(a.normal_residual, b.normal_residual, 1e-7);
+    }
+  }
 }
 
 TEST(LearnedFit, ComesWithTheLibraryAndFitsAsWell) {

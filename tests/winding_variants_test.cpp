@@ -197,6 +197,23 @@ TEST(ResidualPaths, CloseGapsTheShortWay) {
   EXPECT_NEAR(length, (3 + 4 + 4 + 16) * edge, 1e-9);
 }
 
+TEST(ResidualPaths, AnyEdgeClosesTheGapOfItsSize) {
+  // Round a face of a closed surface, one side is missing. That is the shortest way, whichever side
+  // it is: edges and nodes count from 0.
+  Report report;
+  const SurfaceMesh mesh(test::octasphere_soup(0));
+  const JumpCalculus J = jump_calculus(intrinsic_triangulation(mesh, report));
+  for (const int times : {1, 2})
+    for (int f = 0; f < J.n_faces; ++f)
+      for (int k = 0; k < 3; ++k) {
+        VecX curve = VecX::Zero(J.n_edges);
+        for (const int side : {(k + 1) % 3, (k + 2) % 3})
+          curve[J.edge(f, side)] = times * J.along(f, side);
+        const std::vector<char> path = completing_paths(J, curve, {});
+        for (int e = 0; e < J.n_edges; ++e) EXPECT_EQ(path[e], e == J.edge(f, k)) << f << " " << k;
+      }
+}
+
 TEST(ResidualPaths, FindTheSameNonboundingLoops) {
   constexpr int nu = 24, nv = 16;
   const SurfaceMesh mesh(test::torus_soup(nu, nv));

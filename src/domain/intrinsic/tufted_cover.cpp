@@ -126,12 +126,9 @@ bool TuftedCover::flip(int side) {
     const auto own = std::find(before.begin(), before.end(), t);  // the two may meet again
     outside[q] = own == before.end() ? t : after[own - before.begin()];
   }
-  faces_[f] = {{c, a, d}, at_f, {0, 0, 3 * g + 2}};
-  faces_[g] = {{d, b, c}, at_g, {0, 0, 3 * f + 2}};
-  for (int q = 0; q < 4; ++q) {
-    faces_[after[q] / 3].twin[after[q] % 3] = outside[q];
-    faces_[outside[q] / 3].twin[outside[q] % 3] = after[q];
-  }
+  faces_[f] = {{c, a, d}, at_f, {outside[0], outside[1], 3 * g + 2}};
+  faces_[g] = {{d, b, c}, at_g, {outside[2], outside[3], 3 * f + 2}};
+  for (int q = 0; q < 4; ++q) faces_[outside[q] / 3].twin[outside[q] % 3] = after[q];
   return true;
 }
 

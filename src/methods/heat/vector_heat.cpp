@@ -76,9 +76,7 @@ ScaledField<double> VectorHeat::solve(const VectorDiffusion& V, const VecX& X0, 
 
 CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
                               Report& report) const {
-  auto X = solve(V, X0, task, report);
-  restore_units(X, X0, V.piece);
-  return cell_field(V.to_cells, X);
+  return cell_field(V.to_cells, solve(V, X0, task, report));
 }
 
 CellField VectorHeat::diffuse_prescribed(const VectorDiffusion& V, const VecX& values,

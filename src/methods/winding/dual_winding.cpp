@@ -101,7 +101,7 @@ std::vector<Turn> turns(const JumpCalculus& J) {
 /// gamma = omega - delta beta with d delta beta = d omega round every node (eq. 6.1.2, dual).
 void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
   const std::vector<Turn> turn = turns(J);
-  std::vector<int> unknown(turn.size(), -1), node_component(turn.size(), -1);
+  std::vector<int> unknown(turn.size(), -1), node_component(turn.size());
   std::vector<char> whole(J.n_components, 0);
   for (int c = 0; c < J.n_components; ++c) whole[c] = J.orientable[c];
   for (int f = 0; f < J.n_faces; ++f)
@@ -126,7 +126,6 @@ void subtract_coexact(const JumpCalculus& J, const Task& task, VecX& omega) {
     }
   }
   Triplets entries;
-  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
   for (int e = 0; e < J.n_edges; ++e)
     for (const auto& [i, si] : at[e])
       for (const auto& [j, sj] : at[e])

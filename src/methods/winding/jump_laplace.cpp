@@ -123,7 +123,6 @@ CornerFunction solve_jump_laplace(const JumpCalculus& J, const VecX& jump, const
   const std::vector<int> unknown = unknowns(J, jump, boundary);
   Triplets entries;
   entries.reserve(9 * std::size_t(J.n_faces));
-  for (int i = 0; i < J.n_nodes; ++i) entries.emplace_back(i, i, 0.0);
   VecX b = VecX::Zero(J.n_nodes);
   for (int f = 0; f < J.n_faces; ++f)
     for (int k = 0; k < 3; ++k) {

@@ -258,7 +258,7 @@ class Method {
     const Direction d = newton(rl, ru);
     auto [x, z] = longest(d);
     const double back = std::clamp(1 - mu_, 0.9, 0.9995);
-    x_ += std::min(1.0, back * x) * d.x;
+    x_ += back * x * d.x;
     s_ += back * z * d.s;
     zl_ += back * z * d.zl;
     zu_ += back * z * d.zu;

@@ -89,9 +89,7 @@ Vec3 NearestSource::operator()(const Vec3& x) const {
   return best;
 }
 
-int NearestSource::triangle_at(const Vec3& x) const {
-  return triangles_ ? triangles_->closest_point(x).face : -1;
-}
+int NearestSource::triangle_at(const Vec3& x) const { return triangles_->closest_point(x).face; }
 
 std::array<Vec3, 3> NearestSource::corners(int triangle) const {
   return {points_.row(faces_(triangle, 0)), points_.row(faces_(triangle, 1)),

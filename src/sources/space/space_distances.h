@@ -24,7 +24,7 @@ class NearestSource {
   NearestSource(const PolygonSoup& triangles, const OrientedPoints& samples);
 
   Vec3 operator()(const Vec3& x) const;
-  /// The triangle nearest to x; -1 of discs.
+  /// The triangle nearest to x; there are some.
   int triangle_at(const Vec3& x) const;
   std::array<Vec3, 3> corners(int triangle) const;
 

@@ -21,9 +21,9 @@ namespace littoral {
 /// and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several threads.
 class WindingNumber {
  public:
-  static constexpr double usual_accuracy = 2.6;
+  static constexpr double usual_accuracy = 2.4;
   /// For comparisons with 1/2, to which errors of 3e-3 do not matter.
-  static constexpr double sign_accuracy = 2;
+  static constexpr double sign_accuracy = 1.7;
 
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
   /// corner that is not finite count as nothing.
@@ -65,9 +65,9 @@ class WindingNumber {
 
   void set_frame(const MatX3& points);
   void build(const Items& items);
-  int add_leaf(const Items& items, const Cluster& cluster);
+  int add_leaf(const Items& items, const Cluster& cluster, const Expansion& expansion);
   int add_node(const Items& items, const std::vector<Expansion>& expansions, int root);
-  double leaf_sum(int leaf, const double* q) const;
+  double leaf_sum(int leaf, const double* q, bool exactly) const;
   /// What a sum over clusters looks at.
   struct Work {
     int nodes = 0, leaves = 0;
@@ -83,6 +83,7 @@ class WindingNumber {
   int root_ = none;
   std::vector<Node> nodes_;
   std::vector<TriangleLanes> triangle_leaves_;  // one of the two
+  std::vector<NarrowTriangleLanes> narrow_leaves_;
   std::vector<DipoleLanes> dipole_leaves_;
 };
 

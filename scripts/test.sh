@@ -81,13 +81,13 @@ stage_cli() {
   build_release && LITTORAL="$PWD/build/release/littoral" "$venv/python" -m pytest -q -rs tests/cli
 }
 
-# The Python package as it lies in the build: its stubs, and its tests.
+# The Python package as it lies in the build: its stubs, and its tests; arguments: of pytest.
 stage_package() {
   local package="$PWD/build/release/python"
   build_release &&
     PYTHONPATH="$package" "$venv/python" -m nanobind.stubgen -q -m littoral._core -o build/_core.pyi &&
     "$venv/ruff" format -q --config 'extend-exclude = []' build/_core.pyi && diff build/_core.pyi python/littoral/_core.pyi &&
-    PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests
+    LITTORAL="$PWD/build/release/littoral" PYTHONPATH="$package" "$venv/python" -m pytest -q -rs python/tests "$@"
 }
 
 # The code on the pages of the documentation.
@@ -96,7 +96,11 @@ stage_pages() {
     "$venv/python" -m pytest -q -rs tests/pages
 }
 
-stage_wheel() { stage_package && scripts/test_wheel.sh build/release; }
+# The wheel in an empty environment; then of the package's tests those that need more than that.
+stage_wheel() {
+  build_release && scripts/test_wheel.sh build/release &&
+    stage_package --but-passed-in build/wheel-test/tests.xml
+}
 
 stage_install() { build_release && scripts/test_install.sh build/release; }
 

@@ -34,7 +34,7 @@ for python in "$@"; do
   if "$python" -c 'import sys; sys.exit(sys.version_info >= (3, 11))'; then tools="hypothesis pytest"; fi
   "$venv/bin/pip" install --disable-pip-version-check -q "$wheel" $tools scipy
   env -i HOME="$out" PATH="$venv/bin" LITTORAL_SHARED="${LITTORAL_SHARED:-}" \
-    python -m pytest -q -rs -p no:cacheprovider --rootdir python/tests python/tests
+    python -m pytest -q -rs -p no:cacheprovider --rootdir python/tests --junitxml "$out/tests.xml" python/tests
   env -i HOME="$out" PATH="$venv/bin" \
     python -m pytest -q -p no:cacheprovider --doctest-modules --pyargs littoral \
     --ignore-glob='*/littoral/torch.py' --ignore-glob='*/littoral/pyvista.py' \

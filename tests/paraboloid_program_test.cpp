@@ -70,19 +70,42 @@ TEST(ParaboloidProgram, StepsEndWhereTheFirstRowDoes) {
   paraboloid::Steps steps;
   paraboloid::Row<2> r;
   r.s = 2, r.z = 1, r.exact = true;
-  steps.add(r, 1, 0.1);  // positive up to 11.7
+  steps.add(r, {1, 0.1});  // positive up to 11.7
   EXPECT_EQ(steps.to_primal, 2);
-  steps.add(r, 1, 3);  // zero at 1
+  steps.add(r, {1, 3});  // zero at 1
   EXPECT_NEAR(steps.to_primal, 1, 1e-15);
-  r.exact = false, r.ds = -4, r.dz = -0.8;
-  steps.add(r, 100, 0);
+  r.exact = false;
+  steps.add(r, {100, 0, -4, -0.8});
   EXPECT_NEAR(steps.to_primal, 0.5, 1e-15);
   EXPECT_NEAR(steps.to_dual, 1.25, 1e-15);
-  r.ds = 1, r.dz = -4;
-  steps.add(r, 0, 0);
+  steps.add(r, {0, 0, 1, -4});
   EXPECT_NEAR(steps.to_primal, 0.5, 1e-15);
   EXPECT_NEAR(steps.to_dual, 0.25, 1e-15);
   EXPECT_EQ(steps.primal(), 0.99 * 0.5);
+}
+
+TEST(ParaboloidProgram, RowsAreInsertedBehindThoseOfTheirElements) {
+  using Rows = paraboloid::ParaboloidRows<6, 2>;
+  Program program = two_disks();
+  program.transform.assign(3, Program::Transform::Identity());
+  program.samples = {{0, 0, 1}, {0, 1, 2}, {2, 0, 3}};
+  program.caps = {{1, 5, Program::Row::Unit(0)}};
+  Rows rows(program, 0);
+  const auto sizes = [&] {
+    std::vector<double> all;
+    for (const auto& origin : rows.origin) all.push_back(origin.size);
+    return all;
+  };
+  EXPECT_EQ(sizes(), (std::vector<double>{1, 2, 5, 3}));
+  EXPECT_EQ(rows.bound_of(rows.row[2]), 5);
+  paraboloid::Row<2> r;
+  r.point = 1;
+  rows.insert({{0, r, {10}}, {0, r, {11}}, {2, r, {12}}});
+  EXPECT_EQ(rows.first, (std::vector<int>{0, 4, 5, 7}));
+  EXPECT_EQ(sizes(), (std::vector<double>{1, 2, 10, 11, 5, 3, 12}));
+  std::vector<int> points;
+  for (const auto& row : rows.row) points.push_back(row.point);
+  EXPECT_EQ(points, (std::vector<int>{0, 1, 1, 1, 2, 0, 1}));
 }
 
 TEST(ParaboloidProgram, FindsTheRimOfTwoDisks) {

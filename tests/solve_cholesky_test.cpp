@@ -175,6 +175,13 @@ TEST(LargePages, AreZeroWhereThereAreAny) {
   }
 }
 
+TEST(SymmetricRows, ResidualsAreThoseOfTheWholeMatrix) {
+  const SpMat K = sphere_matrix(4);
+  const VecX x = VecX::LinSpaced(K.rows(), -1, 2), b = VecX::LinSpaced(K.rows(), 3, 4);
+  const VecX known = b - K.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_LE((SymmetricRows(K).residual(K, x, b) - known).cwiseAbs().maxCoeff(), 1e-13);
+}
+
 TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {
   const SpMat K = sphere_matrix(5);
   const Cholesky<double> factor(K, {});

@@ -15,6 +15,7 @@
 #include "base/stopwatch.h"
 #include "domain/cloud/cloud_surface.h"
 #include "domain/mesh/flattened_voxels.h"
+#include "domain/mesh/unique_faces.h"
 #include "littoral/error.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
@@ -167,14 +168,28 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> by_heat
   };
 }
 
+/// What lies there twice is there once: jumps along copies of faces would contradict each other.
+std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_triangles(
+    const SurfaceDomain& domain, SolveHint hint, Report& report) {
+  const auto unique = std::make_shared<const UniqueFaces>(domain.mesh);
+  return [mesh = domain.mesh, unique,
+          method = std::make_shared<const AutomaticOnTriangles>(
+              SurfaceDomain{unique->mesh, {}}, hint, report)](const Sources& sources,
+                                                              Automatic& used, Task& t, Report& r) {
+    if (!unique->any_copies()) return method->solve(sources, used, t, r);
+    r.sizes.emplace_back("copies of faces", unique->n_copies());
+    return method->solve(unique->on_mesh(*mesh, sources), used, t, r);
+  };
+}
+
 /// Polygons cut into triangles.
 std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> on_polygons(
     const SurfaceDomain& domain, SolveHint hint, Report& report) {
   Report quiet;  // that polygons are cut needs no warning where nobody asked for triangles
   auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, quiet));
-  return [cut, method = std::make_shared<const AutomaticOnTriangles>(cut->triangles, hint, report)](
+  return [cut, solve = on_triangles(cut->triangles, hint, report)](
              const Sources& sources, Automatic& used, Task& t, Report& r) {
-    return method->solve(cut->cut(sources), used, t, r);
+    return solve(cut->cut(sources), used, t, r);
   };
 }
 
@@ -191,16 +206,15 @@ std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)> automat
          {}},
         hint, report);
   }
-  const auto made = [&] {
-    if (kind == "triangle mesh")
-      return std::make_shared<const AutomaticOnTriangles>(domain, hint, report);
+  if (kind == "triangle mesh") return on_triangles(domain, hint, report);
+  const auto on_cloud = [&] {
     const Stopwatch watch(report, "triangulation");
     const NodalSurface S =
         cloud_surface(domain.mesh->points(), domain.mesh->soup().normals, report, task);
     return std::make_shared<const AutomaticOnTriangles>(domain, SurfaceDomain{S.refined, {}},
                                                         S.place, hint);
   };
-  return [method = made()](const Sources& sources, Automatic& used, Task& t, Report& r) {
+  return [method = on_cloud()](const Sources& sources, Automatic& used, Task& t, Report& r) {
     return method->solve(sources, used, t, r);
   };
 }

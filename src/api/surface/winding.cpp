@@ -88,14 +88,6 @@ VecXi labels_of_faces(const SurfaceMesh& mesh, const WindingAnswer& answer, cons
   return region;
 }
 
-/// Sources of the input on its faces without copies; chains, of whole faces, keep their numbers.
-Sources without_copies(const SurfaceMesh& input, const UniqueFaces& unique, Sources sources) {
-  const auto move = [&](SurfacePoint& p) { p = unique.on_mesh(input, simplest(input, p)); };
-  for (Curve& curve : sources.curves) std::for_each(curve.nodes.begin(), curve.nodes.end(), move);
-  std::for_each(sources.points.begin(), sources.points.end(), move);
-  return sources;
-}
-
 /// An answer without copies of faces, in the numbers of the input.
 void number_as_input(const UniqueFaces& unique, WindingAnswer& answer) {
   const VecXi region = answer.region;
@@ -220,7 +212,7 @@ class WindingOnSurface {
     if (!unique_.any_copies()) return solve_unique(sources, options, task, report);
     report.sizes.emplace_back("copies of faces", unique_.n_copies());
     WindingAnswer answer =
-        solve_unique(without_copies(*domain_.mesh, unique_, sources), options, task, report);
+        solve_unique(unique_.on_mesh(*domain_.mesh, sources), options, task, report);
     number_as_input(unique_, answer);
     return answer;
   }

@@ -5,7 +5,6 @@
 #endif
 
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 namespace littoral {
@@ -56,12 +55,8 @@ std::shared_ptr<void> large_pages(std::size_t bytes) {
   });
   const std::size_t into = std::size_t(-reinterpret_cast<std::uintptr_t>(mapping.at)) % page;
   void* const begin = static_cast<char*>(mapping.at) + into;
-  if (again) {
-    std::memset(begin, 0, bytes);
-    return {std::move(all), begin};
-  }
 #if defined(MADV_HUGEPAGE)
-  (void)madvise(begin, bytes / page * page, MADV_HUGEPAGE);  // small pages do as well
+  if (!again) (void)madvise(begin, bytes / page * page, MADV_HUGEPAGE);  // small pages do as well
 #endif
   return {std::move(all), begin};
 }

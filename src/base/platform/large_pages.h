@@ -6,8 +6,9 @@
 
 namespace littoral {
 
-/// Zeroed memory, handed out by the system as it is touched, in large pages where it has them;
-/// null where it is too little for that to pay, or the system has no such memory.
+/// Memory that the system hands out as it is touched, in large pages where it has them; null where
+/// it is too little for that to pay, or the system has no such memory. What is in it is left from
+/// before where memory is kept, or zero.
 std::shared_ptr<void> large_pages(std::size_t bytes);
 
 /// While one lives, its thread hands out again what it is given back: pages of the system take

@@ -41,13 +41,19 @@ UniqueFaces::UniqueFaces(std::shared_ptr<const SurfaceMesh> input) : mesh(std::m
   mesh = std::make_shared<const SurfaceMesh>(std::move(soup));
 }
 
-SurfacePoint UniqueFaces::on_mesh(const SurfaceMesh& input, const SurfacePoint& p) const {
-  if (p.on != SurfacePoint::On::face || !any_copies()) return p;
-  SurfacePoint out{p.on, face_of_input[p.element], {0, 0, 0}};
-  const auto from = input.face(p.element), to = mesh->face(out.element);
-  for (int k = 0; k < 3; ++k)
-    out.b[std::size_t(std::find(to.begin(), to.end(), from[k]) - to.begin())] += p.b[k];
-  return out;
+Sources UniqueFaces::on_mesh(const SurfaceMesh& input, Sources sources) const {
+  if (!any_copies()) return sources;
+  const auto move = [&](SurfacePoint& p) {
+    if (p.on != SurfacePoint::On::face || p.element < 0 || p.element >= input.n_faces()) return;
+    SurfacePoint there{p.on, face_of_input[p.element], {0, 0, 0}};
+    const auto from = input.face(p.element), to = mesh->face(there.element);
+    for (int k = 0; k < 3; ++k)
+      there.b[std::size_t(std::find(to.begin(), to.end(), from[k]) - to.begin())] += p.b[k];
+    p = there;
+  };
+  for (Curve& curve : sources.curves) std::for_each(curve.nodes.begin(), curve.nodes.end(), move);
+  std::for_each(sources.points.begin(), sources.points.end(), move);
+  return sources;
 }
 
 }  // namespace littoral

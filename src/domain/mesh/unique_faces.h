@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "domain/mesh/surface_mesh.h"
-#include "littoral/surface_point.h"
+#include "littoral/sources.h"
 
 namespace littoral {
 
@@ -20,8 +20,9 @@ struct UniqueFaces {
 
   bool any_copies() const { return !input_face.empty(); }
   int n_copies() const { return int(face_of_input.size() - input_face.size()); }
-  /// A point of the input, whose element must be there, on `mesh`.
-  SurfacePoint on_mesh(const SurfaceMesh& input, const SurfacePoint& p) const;
+  /// Sources of the input on `mesh`; chains, of whole faces, keep their numbers, and so do elements
+  /// that the input does not have.
+  Sources on_mesh(const SurfaceMesh& input, Sources sources) const;
 };
 
 }  // namespace littoral

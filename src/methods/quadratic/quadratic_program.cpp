@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "base/index.h"
+#include "base/parallel.h"
 
 namespace littoral {
 
@@ -338,14 +339,13 @@ template <int D>
 std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>::violated(
     const VecX& u, double allowed) const {
   using Shape = P2Shape<D>;
-  std::vector<typename Program::Inserted> found;
-  const auto insert = [&](std::size_t e, const typename Shape::Point& b) {
-    const int element = e;
-    found.push_back({element, reference_rows<D>(b), size(element, b)});
-  };
+  using Found = std::vector<typename Program::Inserted>;
   const double h2 = std::pow(part_.h / part_.scale, 2);
-  for (std::size_t e = 0; e < part_.elements.size(); ++e) {
-    if (curve_inside_[e] || crowded_[e]) continue;
+  const auto look_at = [&](std::size_t e, Found& found) {
+    const auto insert = [&, element = static_cast<int>(e)](const typename Shape::Point& b) {
+      found.push_back({element, reference_rows<D>(b), size(element, b)});
+    };
+    if (curve_inside_[e] || crowded_[e]) return;
     typename Shape::Values local;
     for (int i = 0; i < Shape::nodes; ++i) local[i] = u[part_.local_node[e][i]];
     const typename Shape::Gradients grad = E_.grad[part_.elements[e]] * part_.scale;
@@ -357,15 +357,23 @@ std::vector<typename QuadraticProgram<D>::Program::Inserted> QuadraticProgram<D>
     };
     for (int i = 0; i < Shape::corners; ++i) slack[i] = slack_at(Shape::corner(i));
     for (int k = 0; k < Shape::edges; ++k) slack[Shape::corners + k] = slack_at(Shape::middle(k));
-    if (is_positive_form<D>(slack)) continue;
+    if (is_positive_form<D>(slack)) return;
     const auto [least, b] = p2_minimum<D>(slack);
     // Next to a lone source, where u is small, a dip of v moves the source by sqrt(v).
     const double least_u = (alone_ ? 1e-3 : 1) * h2;
-    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + least_u)) continue;
-    insert(e, b);
-    for (const auto& point : quarter_points<D>()) insert(e, point);
-  }
-  return found;
+    if (least >= -allowed * (std::abs(Shape::values(b).dot(local)) + least_u)) return;
+    insert(b);
+    for (const auto& point : quarter_points<D>()) insert(point);
+  };
+  constexpr std::size_t grain = 1024;
+  const std::size_t n = part_.elements.size();
+  std::vector<Found> pieces((n + grain - 1) / grain);
+  parallel_for(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) look_at(e, pieces[begin / grain]);
+  });
+  Found all;
+  for (const Found& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+  return all;
 }
 
 template std::vector<QuadraticPart<2>> quadratic_parts(const P2Elements<2>&);

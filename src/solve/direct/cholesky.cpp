@@ -122,9 +122,11 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   const Elimination& E = *structure_;
   const int columns = E.columns(s), below = E.below(s), height = columns + below;
   Supernode& node = supernodes_[s];
-  if (!node.block) node.block = zeros<Scalar>(E.values_begin[s + 1] - E.values_begin[s]);
-  node.update = zeros<Scalar>(std::size_t(below) * below);
+  const std::size_t size = E.values_begin[s + 1] - E.values_begin[s];
+  if (!node.block) node.block = std::shared_ptr<Scalar[]>(new Scalar[size]);
   Scalar* block = node.block.get();
+  std::fill_n(block, size, Scalar(0));
+  node.update = zeros<Scalar>(std::size_t(below) * below);
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
   for (int k = 0; k < columns; ++k)

@@ -5,9 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/platform/large_pages.h"
 #include "base/task.h"
 #include "littoral/types.h"
 #include "solve/direct/elimination.h"
+#include "solve/direct/sparse_rows.h"
 
 namespace littoral {
 
@@ -88,13 +90,21 @@ extern template RaisedCholesky<Complex> raised_cholesky(const SpMatC&,
 /// and solutions are refined with the matrix itself.
 class RefinedCholesky {
  public:
+  /// pattern: a lower triangle with all of the diagonal, that `structure` was made from.
+  RefinedCholesky(const SpMat& pattern, std::shared_ptr<const Elimination> structure);
+
+  /// The matrix's, in the order of the pattern's: to be written before each factorization.
+  double* values() { return lower_.valuePtr(); }
   /// False if raising the diagonal by 1e-7 of itself does not help.
-  bool factor(SpMat lower, const std::shared_ptr<const Elimination>& structure, const Task& task);
+  bool factor(const Task& task);
   /// Refines until |rhs - A x| <= allowed, or as long as that helps, five times at most.
   VecX solve(const VecX& rhs, double allowed, const Task& task) const;
 
  private:
   SpMat lower_;
+  SymmetricRows rows_;
+  std::shared_ptr<const Elimination> structure_;
+  KeepLargePages keep_pages_;  // each factor goes where the one before was
   std::optional<Cholesky<double>> factor_;
 };
 

@@ -2,7 +2,38 @@
 
 #include <algorithm>
 
+#include "base/index.h"
+#include "base/parallel.h"
+
 namespace littoral {
+
+namespace {
+
+constexpr std::size_t grain = 1 << 12;  // of loops
+
+}  // namespace
+
+template <std::size_t M>
+TermsByTarget::TermsByTarget(const std::vector<std::array<int, M>>& targets, std::size_t n)
+    : begin_(n + 1, 0), from_(M * targets.size()) {
+  for (const auto& target : targets)
+    for (int t : target) ++begin_[t + 1];
+  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] += begin_[i];
+  std::vector<int> at(begin_.begin(), begin_.end() - 1);
+  int from = 0;
+  for (const auto& target : targets)
+    for (int t : target) from_[at[t]++] = from++;
+}
+
+void TermsByTarget::add_up(const double* value, double* out) const {
+  parallel_for(begin_.size() - 1, grain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      double sum = 0;
+      for (int k = begin_[i]; k < begin_[i + 1]; ++k) sum += value[from_[k]];
+      out[i] = sum;
+    }
+  });
+}
 
 template <int K>
 ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements, const Task& task)
@@ -18,10 +49,10 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
   std::vector<int> rows(count[n]), next(count.begin(), count.end() - 1);
   each([&](int row, int column) { rows[next[column]++] = row; });
 
-  zero_.resize(n, n);
+  pattern_.resize(n, n);
   std::vector<int> kept;
   kept.reserve(rows.size() / 2);
-  int* start = zero_.outerIndexPtr();
+  int* start = pattern_.outerIndexPtr();
   for (int j = 0; j < n; ++j) {
     start[j] = kept.size();
     std::sort(rows.begin() + count[j], rows.begin() + count[j + 1]);
@@ -29,40 +60,39 @@ ElementMatrix<K>::ElementMatrix(int n, std::vector<std::array<int, K>> elements,
                      std::back_inserter(kept));
   }
   start[n] = kept.size();
-  zero_.resizeNonZeros(kept.size());
-  std::copy(kept.begin(), kept.end(), zero_.innerIndexPtr());
-  zero_.coeffs().setZero();
+  pattern_.resizeNonZeros(kept.size());
+  std::copy(kept.begin(), kept.end(), pattern_.innerIndexPtr());
+  pattern_.coeffs().setZero();
 
-  position_.resize(elements_.size());
-  for (std::size_t f = 0; f < elements_.size(); ++f) {
-    int at = 0;
-    for (int i = 0; i < K; ++i)
-      for (int j = i; j < K; ++j) {
-        const int row = std::max(elements_[f][i], elements_[f][j]);
-        const int column = std::min(elements_[f][i], elements_[f][j]);
-        const int* first = zero_.innerIndexPtr() + start[column];
-        const int* last = zero_.innerIndexPtr() + start[column + 1];
-        position_[f][at++] = std::lower_bound(first, last, row) - zero_.innerIndexPtr();
-      }
-  }
-  structure_ = std::make_shared<const Elimination>(zero_, dissection(zero_, task));
+  std::vector<std::array<int, entries>> place(elements_.size());
+  parallel_for(place.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      int at = 0;
+      for (int i = 0; i < K; ++i)
+        for (int j = i; j < K; ++j) {
+          const int row = std::max(elements_[f][i], elements_[f][j]);
+          const int column = std::min(elements_[f][i], elements_[f][j]);
+          const int* first = pattern_.innerIndexPtr() + start[column];
+          const int* last = pattern_.innerIndexPtr() + start[column + 1];
+          place[f][at++] = std::lower_bound(first, last, row) - pattern_.innerIndexPtr();
+        }
+    }
+  });
+  of_vector_ = TermsByTarget(elements_, n);
+  of_values_ = TermsByTarget(place, pattern_.nonZeros());
+  structure_ = std::make_shared<const Elimination>(pattern_, dissection(pattern_, task));
 }
 
 template <int K>
 VecX ElementMatrix<K>::sum(const std::vector<Local>& local) const {
-  VecX x = VecX::Zero(n_);
-  for (std::size_t f = 0; f < elements_.size(); ++f)
-    for (int i = 0; i < K; ++i) x[elements_[f][i]] += local[f][i];
+  VecX x(n_);
+  of_vector_.add_up(local.data()->data(), x.data());
   return x;
 }
 
 template <int K>
-SpMat ElementMatrix<K>::sum(const std::vector<Block>& local) const {
-  SpMat A = zero_;
-  double* value = A.valuePtr();
-  for (std::size_t f = 0; f < elements_.size(); ++f)
-    for (int k = 0; k < entries; ++k) value[position_[f][k]] += local[f][k];
-  return A;
+void ElementMatrix<K>::sum(const std::vector<Block>& local, double* values) const {
+  of_values_.add_up(local.data()->data(), values);
 }
 
 template class ElementMatrix<6>;

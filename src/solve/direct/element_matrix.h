@@ -11,6 +11,21 @@
 
 namespace littoral {
 
+/// Which of many values are added up to which sums, so that several threads can: each sum is added
+/// up by one of them, in the order of the values.
+class TermsByTarget {
+ public:
+  TermsByTarget() = default;
+  /// n sums; the targets of each M values in a row.
+  template <std::size_t M>
+  TermsByTarget(const std::vector<std::array<int, M>>& targets, std::size_t n);
+
+  void add_up(const double* values, double* sums) const;
+
+ private:
+  std::vector<int> begin_, from_;  // sum i: of the values from_[begin_[i]] .. from_[begin_[i + 1]]
+};
+
 /// Elements of K unknowns, the pattern of the matrices they add up to, and its analysis; immutable.
 template <int K>
 class ElementMatrix {
@@ -25,6 +40,7 @@ class ElementMatrix {
   int n() const { return n_; }
   int n_elements() const { return elements_.size(); }
   double nonzeros() const { return static_cast<double>(structure_->values()); }  // of a factor
+  const SpMat& pattern() const { return pattern_; }                              // lower triangle
   const std::shared_ptr<const Elimination>& structure() const { return structure_; }
 
   Local gather(const VecX& x, int element) const {
@@ -34,14 +50,14 @@ class ElementMatrix {
   }
   /// Sum of the elements' vectors.
   VecX sum(const std::vector<Local>& local) const;
-  /// Sum of the elements' matrices; lower triangle.
-  SpMat sum(const std::vector<Block>& local) const;
+  /// Sum of the elements' matrices: the pattern's values.
+  void sum(const std::vector<Block>& local, double* values) const;
 
  private:
   int n_;
   std::vector<std::array<int, K>> elements_;
-  SpMat zero_;                                      // lower triangle
-  std::vector<std::array<int, entries>> position_;  // in zero_'s values
+  SpMat pattern_;  // lower triangle
+  TermsByTarget of_vector_, of_values_;
   std::shared_ptr<const Elimination> structure_;
 };
 

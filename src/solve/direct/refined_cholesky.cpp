@@ -6,13 +6,14 @@
 
 namespace littoral {
 
-bool RefinedCholesky::factor(SpMat lower, const std::shared_ptr<const Elimination>& structure,
-                             const Task& task) {
-  lower_ = std::move(lower);
+RefinedCholesky::RefinedCholesky(const SpMat& pattern, std::shared_ptr<const Elimination> structure)
+    : lower_(pattern), rows_(pattern), structure_(std::move(structure)) {}
+
+bool RefinedCholesky::factor(const Task& task) {
   double lift = 0;
   for (int attempt = 0; attempt < 5; ++attempt) {
     try {
-      factor_.emplace(lower_, structure, task);
+      factor_.emplace(lower_, structure_, task);
       return true;
     } catch (const SolveError&) {  // not positive definite to working precision
     }
@@ -29,7 +30,7 @@ VecX RefinedCholesky::solve(const VecX& rhs, double allowed, const Task& task) c
   double last = infinity;
   for (int k = 0; k < 5; ++k) {
     task.checkpoint();
-    const VecX residual = rhs - lower_.selfadjointView<Eigen::Lower>() * x;
+    const VecX residual = rows_.residual(lower_, x, rhs);
     const double size = residual.norm();
     if (size <= allowed || size > 0.5 * last) break;
     last = size;

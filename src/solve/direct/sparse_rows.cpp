@@ -111,6 +111,43 @@ SpRows product(const SpRows& A, const SpRows& B, const Task& task) {
   return C;
 }
 
+SymmetricRows::SymmetricRows(const SpMat& lower) : begin_(lower.cols() + 1, 0) {
+  const int n = lower.cols();
+  const auto for_entries = [&](const auto& put) {
+    for (int j = 0; j < n; ++j)
+      for (int e = lower.outerIndexPtr()[j]; e < lower.outerIndexPtr()[j + 1]; ++e)
+        if (lower.innerIndexPtr()[e] != j) put(lower.innerIndexPtr()[e], j, e);
+  };
+  for_entries([&](int i, int, int) { ++begin_[i + 1]; });
+  counts_to_begins(begin_.data(), n);
+  column_.resize(begin_[n]);
+  place_.resize(column_.size());
+  std::vector<int> at(begin_.begin(), begin_.end() - 1);
+  for_entries([&](int i, int j, int e) {
+    column_[at[i]] = j;
+    place_[at[i]++] = e;
+  });
+}
+
+VecX SymmetricRows::residual(const SpMat& lower, const VecX& x, const VecX& b) const {
+  VecX r(b.size());
+  const double* const a = lower.valuePtr();
+  parallel_for(r.size(), row_grain, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      double left = 0, right = 0;
+      for (int e = begin_[i]; e < begin_[i + 1]; ++e) left += a[place_[e]] * x[column_[e]];
+      for (SpMat::InnerIterator it(lower, index(i)); it; ++it) {
+        if (it.row() == index(i))
+          left += it.value() * x[it.row()];
+        else
+          right += it.value() * x[it.row()];
+      }
+      r[index(i)] = b[index(i)] - (left + right);
+    }
+  });
+  return r;
+}
+
 SpRows transposed(const SpRows& A) {
   SpRows T(A.cols(), A.rows());
   int* begin = T.outerIndexPtr();

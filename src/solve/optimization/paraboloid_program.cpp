@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/index.h"
 #include "solve/direct/cholesky.h"
+#include "solve/optimization/paraboloid_anchor.h"
 #include "solve/optimization/paraboloid_rows.h"
 
 namespace littoral {
@@ -44,23 +46,30 @@ class Run {
         task_(task),
         weight_(program.weight),
         rows_(program, 1e-3 * x0.cwiseAbs().maxCoeff()),
+        normal_(matrix.pattern(), matrix.structure()),
         x_(x0),
         local_(program.transform.size()),
         local_scaled_(program.transform.size()),
         local_normal_(program.transform.size()) {
+    const int n = matrix_.n_elements();
     double mean = 0;
-    for (const Row& r : rows_.row) mean += weight_[r.element];
+    for (int e = 0; e < n; ++e)
+      for (int i = rows_.first[e]; i < rows_.first[e + 1]; ++i) mean += weight_[e];
     mean /= static_cast<double>(rows_.row.size());
     for (double& w : weight_) w = std::max(w / mean, 1.0);
-    for (const Row& r : rows_.row) total_weight_ += weight_[r.element];
+    for (int e = 0; e < n; ++e)
+      for (int i = rows_.first[e]; i < rows_.first[e + 1]; ++i) total_weight_ += weight_[e];
     // A large first mu: 300 times the mean of s z that the objective, about `size`, suggests.
     mu_ = 300 * x0.cwiseAbs().maxCoeff() * std::max(program.c.sum(), 1e-300) / total_weight_;
-    for (Row& r : rows_.row) {
-      const double g = at(r).value(r.bound, matrix_.gather(x_, r.element));
-      r.s = std::max(g, 0.1 * r.size);
-      r.z = mu_ * weight_[r.element] / r.s;
-      r.exact = r.s == g;
-    }
+    each_element(local_.size(), [&](int e) {
+      const Local x = matrix_.gather(x_, e);
+      for_rows(e, [&](Row& r, RowOrigin& origin) {
+        const double g = at(e, r).value(bound(r), x);
+        r.s = std::max(g, 0.1 * origin.size);
+        r.z = mu_ * weight_[e] / r.s;
+        r.exact = r.s == g;
+      });
+    });
   }
 
   ParaboloidResult run(const Inserter& insert) {
@@ -68,8 +77,8 @@ class Run {
     double best_merit = infinity;
     int rounds = 0;
     double next_stage = first_stage;  // of looking for dips early
-    for (int iteration = 0;; ++iteration) {
-      if (!refresh()) break;
+    bool inside = set_up();
+    for (int iteration = 0; inside; ++iteration) {
       ParaboloidResult now = measure();
       now.iterations = iteration;
       const double merit = std::max({now.gap, now.dual_residual, now.primal_residual});
@@ -89,9 +98,11 @@ class Run {
         auto found = insert(x_, early ? 0.1 : 1);
         if (!early && !found.empty()) found = insert(x_, 0.1);
         if (!early) ++rounds;
-        if (early || anchor_x_.size() == 0) set_anchor();
+        if (early || !anchor_.is_set()) anchor_.set(x_, mu_, rows_);
         if (!found.empty()) {
-          insert_rows(found);
+          anchor_.insert(found, program_, matrix_, weight_, rows_, x_);
+          for (const auto& sample : found) total_weight_ += weight_[sample.element];
+          inside = set_up();
           best_merit = infinity;
           best.converged = false;
           --iteration;
@@ -101,7 +112,7 @@ class Run {
       if (insert && now.converged && rounds == most_rounds) best.missing = insert(x_, 1).size();
       if (best.missing > 0) best.converged = false;
       if (now.converged || iteration >= options_.max_iterations || merit > 1e6 * best_merit) break;
-      if (!step()) break;
+      inside = step();
     }
     best.samples = rows_.row.size() - program_.caps.size();
     return best;
@@ -111,96 +122,65 @@ class Run {
   static constexpr int most_rounds = 8, correctors = 4;  // of insertion in the end; of Gondzio's
   static constexpr double first_stage = 0.3, last_stage = 5e-3;  // gaps
 
-  At at(const Row& r) const { return {rows_.points[r.point], program_.transform[r.element]}; }
+  At at(int element, const Row& r) const { return rows_.at(r, program_.transform[element]); }
+  double bound(const Row& r) const { return rows_.bound_of(r); }
 
   // ---- loops over elements; contributions are kept per element and added up in order
 
   template <class F>
   void for_rows(int element, F&& f) {
-    for (int i = rows_.first[element]; i < rows_.first[element + 1]; ++i) f(rows_.row[i]);
-  }
-
-  // ---- samples inserted on the way
-
-  /// Remembers this point, which is well inside, for rows to be inserted.
-  void set_anchor() {
-    anchor_x_ = x_;
-    anchor_mu_ = mu_;
-    for (Row& r : rows_.row) r.anchor_s = r.s, r.anchor_z = r.z;
-  }
-  /// Adds rows, and moves back towards the anchor as far as they ask for, within measure.
-  void insert_rows(const std::vector<typename Program::Inserted>& inserted) {
-    double back = 0.02;
-    std::vector<Row> grown;
-    std::size_t next = 0;
-    for (int e = 0; e < matrix_.n_elements(); ++e) {
-      for_rows(e, [&](const Row& r) { grown.push_back(r); });
-      for (; next < inserted.size() && inserted[next].element == e; ++next) {
-        Row r;
-        r.element = e;
-        r.point = rows_.add_point(inserted[next].point);
-        r.size = inserted[next].tau;
-        const double there = at(r).value(0, matrix_.gather(anchor_x_, e));
-        const double here = at(r).value(0, matrix_.gather(x_, e));
-        r.anchor_s = std::max({there, -here, 1e-4 * r.size});
-        r.anchor_z = 0.1 * anchor_mu_ * weight_[e] / r.anchor_s;
-        if (here < 0)
-          back = std::max(back, std::min(0.3, there > 0 ? -1.5 * here / (there - here) : 1));
-        total_weight_ += weight_[e];
-        grown.push_back(r);
-      }
-    }
-    rows_.row = std::move(grown);
-    rows_.index(matrix_.n_elements());
-    x_ += back * (anchor_x_ - x_);
-    for (Row& r : rows_.row) {
-      const double g = at(r).value(r.bound, matrix_.gather(x_, r.element));
-      const double s = r.s + back * (r.anchor_s - r.s);
-      r.exact = g >= 0.5 * s;
-      r.s = r.exact ? g : s;
-      r.z += back * (r.anchor_z - r.z);
-    }
+    rows_.each(element, std::forward<F>(f));
   }
 
   // ---- one iteration
 
+  struct Sums {
+    double gap = 0, primal = 0;
+    bool outside = false;
+
+    static void combine(Sums& total, const Sums& p) {
+      total.gap += p.gap;
+      total.primal = std::max(total.primal, p.primal);
+      total.outside = total.outside || p.outside;
+    }
+  };
+
   /// Residuals, the normal matrix and the predictor's right-hand side; false if outside.
-  bool refresh() {
-    struct Sums {
-      double gap = 0, primal = 0;
-      bool outside = false;
-    };
-    const Sums sums = for_elements<Sums>(
+  bool set_up() {
+    return add_up(for_elements<Sums>(
         local_.size(),
         [&](int e, Sums& sum) {
           const Local x = matrix_.gather(x_, e);
-          Eigen::Matrix<double, K, K> N = Eigen::Matrix<double, K, K>::Zero();
-          Local dual = Local::Zero(), right = Local::Zero();
-          for_rows(e, [&](Row& r) {
-            const At p = at(r);
-            r.y = p.slopes(x);
-            r.residual = r.exact ? 0 : r.s - p.value(r.bound, x, r.y);
-            sum.gap += r.s * r.z;
-            sum.primal = std::max(sum.primal, std::abs(r.residual) / r.size);
-            sum.outside = sum.outside || !(r.s > 0 && r.z > 0);
-            Local a = Local::Zero();
-            p.add_gradient(1, r.y, a);
-            dual += r.z * a;
-            right += (r.z * r.residual / r.s) * a;
-            add_square(r.z / r.s, a, N);
-            for (int d = 0; d < D; ++d) add_square(0.5 * r.z, p.slope_row(d), N);
-          });
-          local_[e] = dual;
-          local_scaled_[e] = right;
-          int k = 0;
-          for (int i = 0; i < K; ++i)
-            for (int j = i; j < K; ++j) local_normal_[e][k++] = N(i, j);
+          set_up_rows(e, x, sum, [&](Row& r, const At& p) { r.y = p.slopes(x); });
         },
-        [](Sums& total, const Sums& p) {
-          total.gap += p.gap;
-          total.primal = std::max(total.primal, p.primal);
-          total.outside = total.outside || p.outside;
-        });
+        Sums::combine));
+  }
+  /// An element's part; f(row, its functions) is to leave the slopes of x in the row.
+  template <class F>
+  void set_up_rows(int e, const Local& x, Sums& sum, F&& f) {
+    Eigen::Matrix<double, K, K> N = Eigen::Matrix<double, K, K>::Zero();
+    Local dual = Local::Zero(), right = Local::Zero();
+    for_rows(e, [&](Row& r, const RowOrigin& origin) {
+      const At p = at(e, r);
+      f(r, p);
+      const double residual = r.exact ? 0 : r.s - p.value(bound(r), x, r.y);
+      sum.gap += r.s * r.z;
+      if (!r.exact) sum.primal = std::max(sum.primal, std::abs(residual) / origin.size);
+      sum.outside = sum.outside || !(r.s > 0 && r.z > 0);
+      Local a = Local::Zero();
+      p.add_gradient(1, r.y, a);
+      dual += r.z * a;
+      right += (r.z * residual / r.s) * a;
+      add_square(r.z / r.s, a, N);
+      for (int d = 0; d < D; ++d) add_square(0.5 * r.z, p.slope_row(d), N);
+    });
+    local_[e] = dual;
+    local_scaled_[e] = right;
+    int k = 0;
+    for (int i = 0; i < K; ++i)
+      for (int j = i; j < K; ++j) local_normal_[e][k++] = N(i, j);
+  }
+  bool add_up(const Sums& sums) {
     dual_residual_ = program_.c + matrix_.sum(local_);
     predictor_ = program_.c + matrix_.sum(local_scaled_);
     gap_ = sums.gap;
@@ -218,29 +198,45 @@ class Run {
     return now;
   }
 
-  /// False if no further progress is possible.
+  /// To the next point, with Newton's equations there; false if no further progress is possible.
   bool step() {
-    if (!normal_.factor(matrix_.sum(local_normal_), matrix_.structure(), task_)) return false;
+    matrix_.sum(local_normal_, normal_.values());
+    if (!normal_.factor(task_)) return false;
     double sigma = predict();
     Steps steps = correct(sigma, 1);
     if (steps.least() < 0.1) {
       sigma = std::max(sigma, 0.5);
       steps = correct(sigma, 0);
     }
-    for (int k = 0; k < correctors && steps.least() < 0.9; ++k)
-      if (!recentre(sigma, steps)) break;
+    bool changed = false;
+    for (int k = 0; k < correctors && steps.least() < 0.9; ++k) {
+      changed = recentre(sigma, steps);
+      if (!changed) break;
+    }
+    return advance(removed(sigma), changed, steps) && steps.greatest() > 1e-6;
+  }
+
+  /// Along the direction; changed: with the changes of the targets that were tried last.
+  bool advance(double keep, bool changed, const Steps& steps) {
     const double primal = steps.primal(), dual = steps.dual();
-    x_ += primal * dx_;
-    each_element(local_.size(), [&, a = primal, b = dual](int e) {
-      const Local x = matrix_.gather(x_, e);
-      for_rows(e, [&](Row& r) {
-        const double g = at(r).value(r.bound, x), s = r.s + a * r.ds;
-        r.exact = g > (r.exact ? 1e-3 * r.s : 0.1 * s);
-        r.s = r.exact ? g : std::max(s, 1e-3 * r.s);
-        r.z += b * r.dz;
-      });
-    });
-    return std::max(primal, dual) > 1e-6;
+    const VecX next = x_ + primal * dx_;
+    const Sums sums = for_elements<Sums>(
+        local_.size(),
+        [&](int e, Sums& sum) {
+          const Local x = matrix_.gather(next, e), dx = matrix_.gather(dx_, e);
+          set_up_rows(e, x, sum, [&](Row& r, const At& p) {
+            const RowStep now =
+                row_step(e, r, p, dx, changed ? r.target + r.change : r.target, keep);
+            r.y = p.slopes(x);
+            const double g = p.value(bound(r), x, r.y), s = r.s + primal * now.ds;
+            r.exact = g > (r.exact ? 1e-3 * r.s : 0.1 * s);
+            r.s = r.exact ? g : std::max(s, 1e-3 * r.s);
+            r.z += dual * now.dz;
+          });
+        },
+        Sums::combine);
+    x_ = next;
+    return add_up(sums);
   }
 
   /// What is left of an equation becomes dual residual, so it is compared with c and with that.
@@ -260,17 +256,17 @@ class Run {
           const Local dx = matrix_.gather(dx_, e);
           Local second = Local::Zero(), centre = Local::Zero();
           for_rows(e, [&](Row& r) {
-            const At p = at(r);
+            const At p = at(e, r);
             const Small dy = p.slopes(dx);
-            const double b = p.slope(r.y, dx, dy);
-            r.bend = 0.25 * dy.squaredNorm();
-            r.ds = b - r.residual;
-            r.dz = -r.z - r.z * r.ds / r.s;
-            limits.add(r, b, r.bend);
-            r.cross = r.ds * r.dz;
-            r.cross = std::clamp(r.cross, -10 * r.s * r.z, 10 * r.s * r.z);
-            const double of_a = (r.z * r.bend - r.cross) / r.s;
-            p.add(of_a, (-0.5 * of_a) * r.y - (0.5 * r.dz) * dy, second);
+            RowStep now{p.slope(r.y, dx, dy), 0.25 * dy.squaredNorm()};
+            now.ds = now.b - residual(e, r, p);
+            now.dz = -r.z - r.z * now.ds / r.s;
+            limits.add(r, now);
+            const double cross = std::clamp(now.ds * now.dz, -10 * r.s * r.z, 10 * r.s * r.z);
+            r.bend = now.bend;
+            r.target = cross;
+            const double of_a = (r.z * r.bend - cross) / r.s;
+            p.add(of_a, (-0.5 * of_a) * r.y - (0.5 * now.dz) * dy, second);
             p.add_gradient(mu_ * weight_[e] / r.s, r.y, centre);
           });
           local_[e] = second;
@@ -290,69 +286,73 @@ class Run {
 
   /// Mehrotra's corrector, target sigma mu w - s z - second (ds dz of the predictor); its steps.
   Steps correct(double sigma, double second) {
-    each_element(local_.size(), [&](int e) {
-      for_rows(e, [&](Row& r) {
-        r.target = sigma * mu_ * weight_[e] - second * r.cross;
-        r.bend *= second;
-      });
-    });
     right_ = predictor_ + second * second_ + sigma * centre_ -
              (1 - removed(sigma)) * (dual_residual_ + predictor_ - program_.c);
     solve(right_);
-    return direction(removed(sigma));
+    return direction(removed(sigma), [&](int e, Row& r) {
+      r.target = sigma * mu_ * weight_[e] - second * r.target;
+      r.bend *= second;
+      r.change = 0;
+    });
   }
-  /// The rows' directions that go with dx.
-  Steps direction(double keep) {
+  /// How far the rows go with dx, each after f(element, row).
+  template <class F>
+  Steps direction(double keep, F&& f) {
     return for_elements<Steps>(
         local_.size(),
         [&](int e, Steps& limits) {
           const Local dx = matrix_.gather(dx_, e);
           for_rows(e, [&](Row& r) {
-            const At p = at(r);
-            const Small dy = p.slopes(dx);
-            const double b = p.slope(r.y, dx, dy);
-            r.ds = b - keep * r.residual - r.bend;
-            r.dz = (r.target - r.z * r.ds) / r.s - r.z;
-            limits.add(r, b, 0.25 * dy.squaredNorm());
+            f(e, r);
+            limits.add(r, row_step(e, r, at(e, r), dx, r.target + r.change, keep));
           });
         },
         Steps::combine);
   }
+  RowStep row_step(int e, const Row& r, const At& p, const Local& dx, double target,
+                   double keep) const {
+    const Small dy = p.slopes(dx);
+    RowStep now{p.slope(r.y, dx, dy), 0.25 * dy.squaredNorm()};
+    now.ds = now.b - keep * residual(e, r, p) - r.bend;
+    now.dz = (target - r.z * now.ds) / r.s - r.z;
+    return now;
+  }
+  /// s - g(x) where Newton's equations were set up.
+  double residual(int e, const Row& r, const At& p) const {
+    return r.exact ? 0 : r.s - p.value(bound(r), matrix_.gather(x_, e), r.y);
+  }
   /// Gondzio's corrector: products that longer steps would lead away from the aim are brought back
-  /// into [0.1, 10] times it. False, changing nothing, if the steps do not grow.
+  /// into [0.1, 10] times it. False if the steps do not grow: then dx and the targets, without the
+  /// changes left in the rows, are as before.
   bool recentre(double sigma, Steps& steps) {
     const double p = std::min(1.0, 1.2 * steps.primal() + 0.1);
     const double d = std::min(1.0, 1.2 * steps.dual() + 0.1);
-    const double aim = std::max(sigma, 1e-4) * mu_;
+    const double aim = std::max(sigma, 1e-4) * mu_, keep = removed(sigma);
     each_element(local_.size(), [&](int e) {
       const Local dx = matrix_.gather(dx_, e);
       const double low = 0.1 * aim * weight_[e], high = 10 * aim * weight_[e];
       Local right = Local::Zero();
       for_rows(e, [&](Row& r) {
-        double ds = r.ds;
-        if (r.exact) {
-          const Small dy = at(r).slopes(dx);
-          ds = at(r).slope(r.y, dx, dy) - p * 0.25 * dy.squaredNorm();
-        }
-        const double v = (r.s + p * ds) * (r.z + d * r.dz);
-        r.change = v < low ? low - v : v > high ? std::max(high - v, -high) : 0;
+        const At a = at(e, r);
         r.target += r.change;
-        if (r.change != 0) at(r).add_gradient(r.change / r.s, r.y, right);
+        const RowStep now = row_step(e, r, a, dx, r.target, keep);
+        const double ds = r.exact ? now.b - p * now.bend : now.ds;
+        const double v = (r.s + p * ds) * (r.z + d * now.dz);
+        r.change = v < low ? low - v : v > high ? std::max(high - v, -high) : 0;
+        if (r.change != 0) a.add_gradient(r.change / r.s, r.y, right);
       });
       local_[e] = right;
     });
-    const VecX before = dx_;
+    VecX before = dx_;
     VecX right = right_ + matrix_.sum(local_);
     solve(right);
-    const Steps now = direction(removed(sigma));
+    const Steps now = direction(keep, [](int, const Row&) {});
     if (now.sum() > steps.sum() + 0.02) {
       right_.swap(right);
       steps = now;
       return true;
     }
-    dx_ = before;
-    for (Row& r : rows_.row) r.target -= r.change;
-    direction(removed(sigma));
+    dx_.swap(before);
     return false;
   }
 
@@ -366,8 +366,7 @@ class Run {
   RefinedCholesky normal_;
   VecX x_, dx_, dual_residual_, predictor_, second_, centre_, right_;
   double mu_ = 0, gap_ = 0, primal_residual_ = 0;
-  VecX anchor_x_;
-  double anchor_mu_ = 0;
+  Anchor<K, D> anchor_;
   std::vector<Local> local_, local_scaled_;
   std::vector<typename Matrix::Block> local_normal_;
 };

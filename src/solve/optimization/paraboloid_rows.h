@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "base/index.h"
@@ -13,20 +14,23 @@
 
 namespace littoral::paraboloid {
 
-/// A row and its interior-point state: slack s, multiplier z.
+/// A row's interior-point state: slack s, multiplier z. Loops over the rows wait for memory, so it
+/// holds what most of them need and no direction, which is found again from dx: 64 bytes for D = 2.
 template <int D>
 struct Row {
-  int element = 0, point = 0;
-  double bound = 0, size = 1;
   double s = 0, z = 0;
-  bool exact = false;   // s is g(x); otherwise s - g(x) is still to be removed
-  double residual = 0;  // s - g(x), as it was when Newton's equations were set up
-  Eigen::Matrix<double, D, 1> y = Eigen::Matrix<double, D, 1>::Zero();  // T G x, likewise
-  double ds = 0, dz = 0;                                                // direction
-  double cross = 0;                                                     // ds dz of the predictor
-  double bend = 0;    // |T G dx|^2 / 4 of the predictor
-  double target = 0;  // of s z
-  double change = 0;  // of the target, on trial
+  Eigen::Matrix<double, D, 1> y =
+      Eigen::Matrix<double, D, 1>::Zero();  // T G x at Newton's equations
+  double bend = 0;                          // |T G dx|^2 / 4 of the predictor
+  double target = 0;                        // of s z; until that is known, ds dz of the predictor
+  double change = 0;                        // of the target, on trial
+  int point = 0;
+  bool exact = false;  // s is g(x); otherwise s - g(x) is still to be removed
+};
+
+/// What is seldom needed of a row.
+struct RowOrigin {
+  double size = 1;  // of x expected here
   double anchor_s = 0, anchor_z = 0;
 };
 
@@ -80,6 +84,12 @@ void add_square(double factor, const Eigen::Matrix<double, K, 1>& a,
   for (int k = 0; k < K; ++k) N.col(k) += (factor * a[k]) * a;
 }
 
+/// A row's part of a direction: b = a^T dx and bend = |T G dx|^2 / 4 say where g goes.
+struct RowStep {
+  double b = 0, bend = 0;
+  double ds = 0, dz = 0;
+};
+
 /// The largest step that keeps a slack s >= 0 on its way s + t b - t^2 bend, bend >= 0.
 inline double step_to_zero(double s, double b, double bend) {
   const double down = std::sqrt(b * b + 4 * bend * s) - b;
@@ -95,21 +105,21 @@ struct Steps {
   double primal() const { return std::min(1.0, 0.99 * to_primal); }
   double dual() const { return std::min(1.0, 0.99 * to_dual); }
   double least() const { return std::min(primal(), dual()); }
+  double greatest() const { return std::max(primal(), dual()); }
   double sum() const { return primal() + dual(); }
 
-  /// b = a^T dx and bend = |T G dx|^2 / 4 say where g goes.
   template <int D>
-  void add(const Row<D>& r, double b, double bend) {
+  void add(const Row<D>& r, const RowStep& step) {
     if (r.exact) {
-      if (r.s + to_primal * (b - to_primal * bend) < 0)
-        to_primal = std::min(to_primal, step_to_zero(r.s, b, bend));
-    } else if (r.s + to_primal * r.ds < 0) {
-      to_primal = -r.s / r.ds;
+      if (r.s + to_primal * (step.b - to_primal * step.bend) < 0)
+        to_primal = std::min(to_primal, step_to_zero(r.s, step.b, step.bend));
+    } else if (r.s + to_primal * step.ds < 0) {
+      to_primal = -r.s / step.ds;
     }
-    if (r.z + to_dual * r.dz < 0) to_dual = -r.z / r.dz;
-    s_dz += r.s * r.dz;
-    ds_z += r.ds * r.z;
-    ds_dz += r.ds * r.dz;
+    if (r.z + to_dual * step.dz < 0) to_dual = -r.z / step.dz;
+    s_dz += r.s * step.dz;
+    ds_z += step.ds * r.z;
+    ds_dz += step.ds * step.dz;
   }
   static void combine(Steps& total, const Steps& p) {
     total.to_primal = std::min(total.to_primal, p.to_primal);
@@ -125,41 +135,83 @@ template <int K, int D>
 struct ParaboloidRows {
   using Program = ParaboloidProgram<K, D>;
   using Row = paraboloid::Row<D>;
+  /// A row that is to be among those of an element.
+  struct Inserted {
+    int element;
+    Row row;
+    RowOrigin origin;
+  };
 
-  std::vector<Row> row;    // ascending elements
-  std::vector<int> first;  // elements + 1
+  std::vector<int> first;         // elements + 1
+  std::vector<Row> row;           // element by element
+  std::vector<RowOrigin> origin;  // rows
   std::vector<typename Program::Point> points;
+  std::vector<double> bound;  // points
 
   /// Caps are as large as their bound, but no smaller than `least`.
-  ParaboloidRows(const Program& program, double least) : points(program.points) {
-    for (const auto& s : program.samples) add(s.element, s.point, 0, s.tau);
+  ParaboloidRows(const Program& program, double least)
+      : first(program.transform.size() + 1, 0),
+        points(program.points),
+        bound(program.points.size(), 0) {
+    for (const auto& s : program.samples) ++first[s.element + 1];
+    for (const auto& cap : program.caps) ++first[cap.element + 1];
+    for (std::size_t e = 1; e < first.size(); ++e) first[e] += first[e - 1];
+    row.reserve(first.back() + first.back() / 16);  // with room for what is inserted
+    origin.reserve(row.capacity());
+    row.resize(first.back());
+    origin.resize(row.size());
+    std::vector<int> next(first.begin(), first.end() - 1);
+    const auto put = [&](int element, int point, double size) {
+      row[next[element]].point = point;
+      origin[next[element]++].size = size;
+    };
+    for (const auto& s : program.samples) put(s.element, s.point, s.tau);
     for (const auto& cap : program.caps) {
       typename Program::Point p{-cap.q, {}};
       p.g.fill(Program::Row::Zero());
-      add(cap.element, add_point(p), cap.bound, std::max(cap.bound, least));
+      put(cap.element, add_point(p, cap.bound), std::max(cap.bound, least));
     }
-    std::stable_sort(row.begin(), row.end(),
-                     [](const Row& a, const Row& b) { return a.element < b.element; });
-    index(int_size(program.transform));
   }
-  int add_point(const typename Program::Point& p) {
+  int add_point(const typename Program::Point& p, double its_bound = 0) {
     points.push_back(p);
+    bound.push_back(its_bound);
     return int_size(points) - 1;
   }
-  void index(int n_elements) {
-    first.assign(n_elements + 1, 0);
-    for (const Row& r : row) ++first[r.element + 1];
-    for (int e = 0; e < n_elements; ++e) first[e + 1] += first[e];
+  RowAt<K, D> at(const Row& r, const typename Program::Transform& T) const {
+    return {points[r.point], T};
   }
-
- private:
-  void add(int element, int point, double bound, double size) {
-    Row r;
-    r.element = element;
-    r.point = point;
-    r.bound = bound;
-    r.size = size;
-    row.push_back(r);
+  double bound_of(const Row& r) const { return bound[r.point]; }
+  /// Calls f(row) or f(row, its origin) for the rows of an element.
+  template <class F>
+  void each(int element, F&& f) {
+    for (int i = first[element]; i < first[element + 1]; ++i) {
+      if constexpr (std::is_invocable_v<F, Row&>)
+        f(row[i]);
+      else
+        f(row[i], origin[i]);
+    }
+  }
+  /// Puts new rows, of ascending elements, behind those of their elements.
+  void insert(const std::vector<Inserted>& inserted) {
+    int left = int_size(inserted);
+    int end = int_size(row);  // of the rows that are not yet in place
+    row.resize(row.size() + inserted.size());
+    origin.resize(row.size());
+    const auto shift_from = [&](int begin) {
+      std::move_backward(row.begin() + begin, row.begin() + end, row.begin() + end + left);
+      std::move_backward(origin.begin() + begin, origin.begin() + end, origin.begin() + end + left);
+      end = begin;
+    };
+    for (int e = int_size(first) - 1; left > 0; --e) {
+      const int rows_end = first[e];
+      first[e] += left;
+      if (inserted[left - 1].element != e - 1) continue;
+      shift_from(rows_end);
+      for (; left > 0 && inserted[left - 1].element == e - 1; --left) {
+        row[end + left - 1] = inserted[left - 1].row;
+        origin[end + left - 1] = inserted[left - 1].origin;
+      }
+    }
   }
 };
 

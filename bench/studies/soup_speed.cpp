@@ -158,8 +158,9 @@ void run(const std::string& word, int count, int checked) {
 
 int main(int count, char** words) {
   int queries = 100000, checked = 5000;
-  std::printf("| soup, faces, queries | building, s | us | side, us | mean error | 99.9 %% | largest "
-              "| of sides |\n|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| soup, faces, queries | building, s | us | side, us | mean error | 99.9 %% | largest "
+      "| of sides |\n|---|---|---|---|---|---|---|---|\n");
   for (int i = 1; i < count; ++i) {
     const std::string word = words[i];
     if (word == "--queries" && i + 1 < count)

@@ -57,9 +57,9 @@ template <class Lanes>
     const float A3 = (M[13][l] + M[29][l] * q53) + Z * M[20][l];
     const float B3 = (M[14][l] + M[30][l] * q53) + Z * M[21][l];
     const float A4 = M[22][l] + Z * M[31][l], B4 = M[23][l] + Z * M[32][l];
-    const float v = std::sqrt(i2) * ((zero + ((A1 * X + B1 * Y) + (A2 * c2 + B2 * s2))) +
-                                     ((A3 * c3 + B3 * s3) + (A4 * c4 + B4 * s4)) +
-                                     (M[33][l] * c5 + M[34][l] * s5));
+    const float v = std::sqrt(i2) *
+                    ((zero + ((A1 * X + B1 * Y) + (A2 * c2 + B2 * s2))) +
+                     ((A3 * c3 + B3 * s3) + (A4 * c4 + B4 * s4)) + (M[33][l] * c5 + M[34][l] * s5));
     value[l] = std::bit_cast<float>(std::bit_cast<std::int32_t>(v) & is_far[l]);
   }
   unsigned bits = 0;

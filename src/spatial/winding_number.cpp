@@ -17,9 +17,9 @@ constexpr int leaf_size = winding_lanes;
 constexpr int few_boundary_edges = 1500;    // beyond, the sum over clusters is mostly faster
 constexpr int most_boundary_edges = 20000;  // beyond, surely
 // What was measured on average.
-constexpr double ns_an_edge = 1.2, ns_a_node = 12, ns_a_leaf = 28;
+constexpr double ns_an_edge = 1.2, ns_a_node = 12, ns_a_leaf = 14;
 constexpr double least_radius = 1e-6;  // in units, of a cluster
-constexpr double far_away = 1e5;  // in units: what is there sees one vector area
+constexpr double far_away = 1e5;       // in units: what is there sees one vector area
 
 using Triangle = std::array<Vec3, 3>;
 
@@ -216,8 +216,8 @@ int WindingNumber::add_node(const Items& items, const std::vector<Expansion>& ex
     const auto moments = e.moments.coefficients(e.radius);
     for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k][l] = f(moments[k] / e.radius);
     const Cluster& cluster = clusters[members[l]];
-    node.child[l] =
-        cluster.child < 0 ? -1 - add_leaf(items, cluster, e) : add_node(items, expansions, members[l]);
+    node.child[l] = cluster.child < 0 ? -1 - add_leaf(items, cluster, e)
+                                      : add_node(items, expansions, members[l]);
   }
   nodes_[at] = node;
   return at;

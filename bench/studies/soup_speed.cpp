@@ -5,8 +5,9 @@
 //        moved likewise and reversed for one in three); strewn (as many faces of that size anywhere
 //        in the box)
 // Queries are drawn from the box and a tenth of it around, and on faces, moved by a normal deviate
-// of 1 % of the mesh's size along each axis. Processor time of one thread, points in order, the least
-// of three; errors of N of them beside the sum of all angles. To compare two versions take turns.
+// of 1 % of the mesh's size along each axis. Processor time of one thread, points in order, the
+// least of three; errors of N of them beside the sum of all angles. To compare two versions take
+// turns.
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/falling_keys.h"
 #include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "methods/heat/finalize.h"
@@ -17,64 +18,95 @@ namespace {
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
-/// A vertex v and the two ends a, b of the edge from which a front reaches it.
-struct Stencil {
-  int v, a, b;
-  double aa, bb, ab;  // scalar products of v->a and v->b
-  int unfolded;       // the end that is no neighbour of v, or -1
+/// How a front reaches a vertex from an edge: scalar products of the vectors from the vertex to the
+/// end that is fixed last, and to the other one.
+struct Products {
+  double last, other, both;
 };
 
-/// All stencils, found by the vertices a and b.
+/// Of the corner between sides of lengths `last` and `other`, across from `opposite`.
+Products of_corner(double last, double other, double opposite) {
+  return {last * last, other * other, 0.5 * law_of_cosines(last, other, opposite)};
+}
+
+/// A vertex v at an obtuse corner and an edge that it is reached from: one end, that of the
+/// corner's own side, is a neighbour, the other was found by unfolding.
+struct UnfoldedStencil {
+  int v, side_end, in_front;
+  double to_side_end, to_in_front, both;  // scalar products
+};
+
+/// From where fronts reach vertices: from the side of each triangle across from them; where that is
+/// seen at an obtuse angle, from two edges to a vertex in front.
 class Stencils {
  public:
-  explicit Stencils(const IntrinsicTriangulation& T) : T_(T), sides_(edge_sides(T)) {
-    all.reserve(3 * std::size_t(T.n_faces()));  // obtuse corners have two
-    for (int f = 0; f < T.n_faces(); ++f)
-      for (int k = 0; k < 3; ++k) add_corner(f, k);
-    offsets_.assign(T.n_vertices + 1, 0);
-    for (const Stencil& s : all) ++offsets_[s.a + 1], ++offsets_[s.b + 1];
-    for (int v = 0; v < T.n_vertices; ++v) offsets_[v + 1] += offsets_[v];
-    users_.resize(offsets_.back());
-    std::vector<int> next(offsets_.begin(), offsets_.end() - 1);
-    for (int i = 0; i < int_size(all); ++i) users_[next[all[i].a]++] = users_[next[all[i].b]++] = i;
-  }
-  std::span<const int> using_vertex(int v) const {
-    return {users_.data() + offsets_[v], users_.data() + offsets_[v + 1]};
+  explicit Stencils(const IntrinsicTriangulation& T) : T_(T) {
+    const std::size_t n = 3 * std::size_t(T.n_faces());
+    begin_.assign(T.n_vertices + 1, 0);
+    for (std::size_t c = 0; c < n; ++c) ++begin_[T.faces.data()[c] + 1];
+    for (int v = 0; v < T.n_vertices; ++v) begin_[v + 1] += begin_[v];
+    corners_.resize(n);
+    std::vector<int> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t c = 0; c < n; ++c) corners_[next[T.faces.data()[c]]++] = static_cast<int>(c);
+    unfold_obtuse();
   }
 
-  std::vector<Stencil> all;
+  /// Corners at a vertex: 3 f + k of triangle f.
+  std::span<const int> corners_at(int v) const {
+    return {corners_.data() + begin_[v], corners_.data() + begin_[v + 1]};
+  }
+  /// Is the corner's vertex reached by unfolded stencils, not from the side across?
+  bool unfolds(int f, int k) const { return unfolds_[3 * std::size_t(f) + k] != 0; }
+  /// Unfolded stencils with an end at a vertex.
+  template <class Body>
+  void for_unfolded_at(int v, const Body& body) const {
+    if (unfolded_.empty()) return;
+    for (int u = users_begin_[v]; u < users_begin_[v + 1]; ++u) body(unfolded_[users_[u]]);
+  }
+
   int n_unsplit = 0;  // obtuse corners where the mesh ends before a vertex in front is found
 
  private:
-  void add_corner(int f, int k) {
-    const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
-    const TriangleShape t =
-        triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false);
-    const Complex A = t.p[1], B = t.p[2];  // v at 0
-    const int a = T_.faces(f, k1), b = T_.faces(f, k2);
-    if (t.cot[0] < 0) {
-      const auto [d, D] = vertex_in_front(f, k1, A, B);
-      if (d >= 0 && d != v) {
-        add(v, a, A, d, D, d);
-        add(v, d, D, b, B, d);
-        return;
+  void unfold_obtuse() {
+    unfolds_.assign(corners_.size(), 0);
+    EdgeSides sides;  // found where there is an obtuse corner
+    for (int f = 0; f < T_.n_faces(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
+        if (law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1)) >= 0) continue;
+        if (sides.offsets.empty()) sides = edge_sides(T_);
+        const TriangleShape t =
+            triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false);
+        const auto [d, D] = vertex_in_front(sides, f, k1, t.p[1], t.p[2]);  // v at 0
+        if (d < 0 || d == v) {
+          ++n_unsplit;
+          continue;
+        }
+        unfolds_[3 * std::size_t(f) + k] = 1;
+        for (const int end : {1, 2})
+          unfolded_.push_back({v, T_.faces(f, (k + end) % 3), d, std::norm(t.p[end]), std::norm(D),
+                               dot(t.p[end], D)});
       }
-      ++n_unsplit;
-    }
-    add(v, a, A, b, B, -1);
-  }
-  void add(int v, int a, Complex A, int b, Complex B, int unfolded) {
-    all.push_back({v, a, b, std::norm(A), std::norm(B), dot(A, B), unfolded});
+    if (unfolded_.empty()) return;
+    users_begin_.assign(T_.n_vertices + 1, 0);
+    for (const UnfoldedStencil& s : unfolded_)
+      ++users_begin_[s.side_end + 1], ++users_begin_[s.in_front + 1];
+    for (int v = 0; v < T_.n_vertices; ++v) users_begin_[v + 1] += users_begin_[v];
+    users_.resize(users_begin_.back());
+    std::vector<int> next(users_begin_.begin(), users_begin_.end() - 1);
+    for (int i = 0; i < int_size(unfolded_); ++i)
+      users_[next[unfolded_[i].side_end]++] = users_[next[unfolded_[i].in_front]++] = i;
   }
 
   /// Unfolds the triangles beyond the side at A, B (counter-clockwise about 0, more than a right
   /// angle apart) until a corner lies at most a right angle from both: its vertex and position.
-  std::pair<int, Complex> vertex_in_front(int f, int k, Complex A, Complex B) const {
+  std::pair<int, Complex> vertex_in_front(const EdgeSides& sides, int f, int k, Complex A,
+                                          Complex B) const {
     const Complex middle = Complex(0, 1) * A / std::abs(A) - Complex(0, 1) * B / std::abs(B);
     Complex P = A, Q = B;     // ends of the edge about to be crossed
     bool starts_at_P = true;  // does side k of f?
     for (int step = 0; step < 64; ++step) {
-      const auto at = sides_.at(T_.side_edge(f, k));
+      const auto at = sides.at(T_.side_edge(f, k));
       if (at.size() != 2) break;
       const TriangleSide next = at[0].face == f && at[0].k == k ? at[1] : at[0];
       if (T_.along(next.face, next.k) != T_.along(f, k)) starts_at_P = !starts_at_P;
@@ -96,29 +128,32 @@ class Stencils {
   }
 
   const IntrinsicTriangulation& T_;
-  EdgeSides sides_;
-  std::vector<int> offsets_, users_;
+  std::vector<int> begin_, corners_;  // vertex -> corners
+  std::vector<char> unfolds_;         // corners
+  std::vector<UnfoldedStencil> unfolded_;
+  std::vector<int> users_begin_, users_;  // vertex -> unfolded stencils
 };
 
-/// Where a front moving at speed 1 in a straight line, that passed a at ta and b at tb, passes v;
-/// inf if it does not come from between them.
-double arrival(const Stencil& s, double ta, double tb) {
+/// Where a front moving at speed 1 in a straight line, that passed the ends of an edge at `last`
+/// and `other`, passes the vertex; inf if it does not come from between them.
+double arrival(const Products& s, double last, double other) {
   // |grad| = 1: (p 1 - t)^T Q (p 1 - t) = 1 with Q the inverse of the Gram matrix.
-  const double det = s.aa * s.bb - s.ab * s.ab;
-  const double sum_a = s.bb - s.ab, sum_b = s.aa - s.ab;  // det Q 1
-  const double a = sum_a + sum_b, half_b = sum_a * ta + sum_b * tb;
-  const double c = s.bb * ta * ta - 2 * s.ab * ta * tb + s.aa * tb * tb - det;
+  const double det = s.last * s.other - s.both * s.both;
+  const double sum_a = s.other - s.both, sum_b = s.last - s.both;  // det Q 1
+  const double a = sum_a + sum_b, half_b = sum_a * last + sum_b * other;
+  const double c = s.other * last * last - 2 * s.both * last * other + s.last * other * other - det;
   const double discriminant = half_b * half_b - a * c;
   if (!(discriminant >= 0) || !(a > 0)) return infinity;
   const double p = (half_b + std::sqrt(discriminant)) / a;
-  const double qa = s.bb * (p - ta) - s.ab * (p - tb), qb = s.aa * (p - tb) - s.ab * (p - ta);
+  const double qa = s.other * (p - last) - s.both * (p - other),
+               qb = s.last * (p - other) - s.both * (p - last);
   return qa >= 0 && qb >= 0 ? p : infinity;
 }
 
 class MarchingFront {
  public:
   MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources)
-      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)) {
+      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)), queue_(T.n_vertices) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
@@ -142,12 +177,11 @@ class MarchingFront {
   void run(const Task& task) {
     int n_fixed = 0;
     while (!queue_.empty()) {
-      const auto [key, v] = queue_.top();
-      queue_.pop();
-      if (fixed_[v] || key > d_[v]) continue;
+      const int v = queue_.take();
       fixed_[v] = 1;
       if ((++n_fixed & 0xfff) == 0) task.checkpoint(double(n_fixed) / T_.n_vertices);
-      for (int i : stencils_.using_vertex(v)) reach(stencils_.all[i], v);
+      for (const int c : stencils_.corners_at(v)) cross_triangle(c / 3, c % 3);
+      stencils_.for_unfolded_at(v, [&](const UnfoldedStencil& s) { reach_unfolded(s, v); });
     }
   }
 
@@ -161,14 +195,6 @@ class MarchingFront {
   int n_unsplit() const { return stencils_.n_unsplit; }
 
  private:
-  struct Entry {
-    double key;
-    int v;
-    bool operator<(const Entry& other) const {
-      return key > other.key || (key == other.key && v > other.v);
-    }
-  };
-
   static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
     return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
   }
@@ -177,7 +203,7 @@ class MarchingFront {
     if (!(distance < d_[v])) return;
     d_[v] = distance;
     sign_[v] = static_cast<signed char>(sign != 0 ? sign : beside_[v]);
-    queue_.push({distance, v});
+    queue_.put(v, distance);
   }
 
   /// Corners of a triangle that holds a straight piece of a curve: exact in the triangle's plane.
@@ -230,16 +256,36 @@ class MarchingFront {
     }
   }
 
-  void reach(const Stencil& s, int fixed) {
-    if (fixed_[s.v] || beside_[s.v] * sign_[fixed] < 0) return;  // never across the curve
-    const int other = s.a == fixed ? s.b : s.a;
-    const double edge = std::sqrt(s.a == fixed ? s.aa : s.bb);
+  /// Reaches the two others from corner k of f, which has been fixed.
+  void cross_triangle(int f, int k) {
+    const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+    const int v = T_.faces(f, k), v1 = T_.faces(f, k1), v2 = T_.faces(f, k2);
+    const double to_1 = T_.length(f, k), between = T_.length(f, k1), to_2 = T_.length(f, k2);
+    if (!fixed_[v1] && !stencils_.unfolds(f, k1))
+      reach(v1, v, v2, to_1, false, [&] { return of_corner(to_1, between, to_2); });
+    if (!fixed_[v2] && !stencils_.unfolds(f, k2))
+      reach(v2, v, v1, to_2, false, [&] { return of_corner(to_2, between, to_1); });
+  }
+
+  void reach_unfolded(const UnfoldedStencil& s, int fixed) {
+    if (fixed_[s.v]) return;
+    const bool in_front = fixed == s.in_front;
+    const double last = in_front ? s.to_in_front : s.to_side_end,
+                 other = in_front ? s.to_side_end : s.to_in_front;
+    reach(s.v, fixed, in_front ? s.side_end : s.in_front, std::sqrt(last), in_front, [&] {
+      return Products{last, other, s.both};
+    });
+  }
+
+  /// Vertex v from the one that was fixed last, `edge` away, and the other end of the stencil.
+  template <class MakeProducts>
+  void reach(int v, int last, int other, double edge, bool in_front, const MakeProducts& products) {
+    if (beside_[v] * sign_[last] < 0) return;  // never across the curve
     // A straight line over unfolded triangles may cross a curve beside its far end.
-    if (fixed != s.unfolded || beside_[fixed] == 0 || beside_[s.v] != 0)
-      offer(s.v, d_[fixed] + edge, sign_[fixed]);
-    if (!fixed_[other] || sign_[fixed] * sign_[other] < 0 || beside_[s.v] * sign_[other] < 0)
-      return;
-    offer(s.v, arrival(s, d_[s.a], d_[s.b]), sign_[fixed] != 0 ? sign_[fixed] : sign_[other]);
+    if (!in_front || beside_[last] == 0 || beside_[v] != 0) offer(v, d_[last] + edge, sign_[last]);
+    if (!fixed_[other] || sign_[last] * sign_[other] < 0 || beside_[v] * sign_[other] < 0) return;
+    offer(v, arrival(products(), d_[last], d_[other]),
+          sign_[last] != 0 ? sign_[last] : sign_[other]);
   }
 
   const IntrinsicTriangulation& T_;
@@ -249,7 +295,7 @@ class MarchingFront {
   std::vector<signed char> sign_;
   std::vector<signed char> beside_;  // side of the curve next to it, 0 elsewhere
   std::vector<char> fixed_;
-  std::priority_queue<Entry> queue_;
+  FallingKeys queue_;
 };
 
 }  // namespace

@@ -106,7 +106,10 @@ void Bisection::contract(const Graph& g, Level& level, const Task& task) {
     c.to.resize(g.begin[n]);
     c.edge_weight.resize(g.begin[n]);
   }
+  c.weight.reserve(n_coarse);
+  c.begin.reserve(n_coarse + 1);
   place_.assign(n_coarse, -1);
+  const int* const edge_weight = g.edge_weight.empty() ? nullptr : g.edge_weight.data();
   int end = 0;
   for (int v = 0; v < n; ++v) {
     stop_now_and_then(v, task);
@@ -114,13 +117,14 @@ void Bisection::contract(const Graph& g, Level& level, const Task& task) {
     const int self = c.size(), row = end;
     const auto add_row = [&](int from) {
       for (int e = g.begin[from]; e < g.begin[from + 1]; ++e) {
-        const int to = level.coarse_of[g.to[e]], w = g.edge_weight.empty() ? 1 : g.edge_weight[e];
+        const int to = level.coarse_of[g.to[e]], w = edge_weight ? edge_weight[e] : 1;
         if (to == self) continue;
-        if (place_[to] >= row) {
-          c.edge_weight[place_[to]] += w;
+        int& at = place_[to];
+        if (at >= row) {
+          c.edge_weight[at] += w;
           continue;
         }
-        place_[to] = end;
+        at = end;
         c.to[end] = to;
         c.edge_weight[end++] = w;
       }

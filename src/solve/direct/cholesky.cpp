@@ -16,8 +16,7 @@ namespace littoral {
 
 namespace {
 
-constexpr int small_supernode =
-    24;  // columns of a supernode up to which calls cost more than loops
+constexpr int small_front = 96;            // rows of a front that is factored by loops
 constexpr std::size_t super_grain = 4096;  // supernodes, for loops that only move numbers
 
 /// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
@@ -55,6 +54,14 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
 template <class Scalar>
 std::shared_ptr<Scalar[]> zeros(std::size_t n) {
   return std::shared_ptr<Scalar[]>(new Scalar[n]());
+}
+
+/// A square of which the lower half is zero, the upper one anything.
+template <class Scalar>
+std::shared_ptr<Scalar[]> lower_zeros(int n) {
+  auto* at = static_cast<Scalar*>(::operator new(std::size_t(n) * n * sizeof(Scalar)));
+  for (int j = 0; j < n; ++j) std::fill_n(at + j + index(j) * n, n - j, Scalar(0));
+  return {at, [](Scalar* p) { ::operator delete(p); }};
 }
 
 }  // namespace
@@ -126,7 +133,7 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   if (!node.block) node.block = std::shared_ptr<Scalar[]>(new Scalar[size]);
   Scalar* block = node.block.get();
   std::fill_n(block, size, Scalar(0));
-  node.update = zeros<Scalar>(std::size_t(below) * below);
+  node.update = lower_zeros<Scalar>(below);
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
   for (int k = 0; k < columns; ++k)
@@ -146,10 +153,13 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
     }
     if (!to_be_patched_) supernodes_[child].update.reset();
   }
-  if (!factor_columns(height, columns, block, task))
+  const bool small = columns <= dense::small_supernode && height <= small_front;
+  if (small ? !dense::factor_small(columns, height, block, update)
+            : !factor_columns(height, columns, block, task))
     throw SolveError("the matrix is not positive definite (near unknown " +
                      std::to_string(E.old_of[E.first[s]]) + ")");
-  subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
+  if (!small)
+    subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
 }
 
 template <class Scalar>
@@ -241,7 +251,7 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
-    if (n_rhs == 1 && columns <= small_supernode) {
+    if (n_rhs == 1 && columns <= dense::small_supernode) {
       dense::forward_small(columns, height, block, &x(E.first[s], 0), y.data());
     } else {
       dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
@@ -270,7 +280,7 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
       y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
     const int* rows = E.rows.data() + E.rows_begin[s];
-    if (n_rhs == 1 && columns <= small_supernode) {
+    if (n_rhs == 1 && columns <= dense::small_supernode) {
       Scalar* v = y.data();
       Scalar* own = &x(E.first[s], 0);
       std::copy(own, own + columns, v);

@@ -38,6 +38,15 @@ void forward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
 template <class Scalar>
 void backward(int n, int k, const Scalar* L, int ldl, Scalar* x, int ldx);
 
+/// Columns of a supernode up to which calls cost more than loops.
+inline constexpr int small_supernode = 24;
+
+/// Factors the first n columns of a small front in place, L on top of A, and C := C - A A^*, lower
+/// half, for what is below (height - n square). Returns false if a pivot is not positive and
+/// finite.
+template <class Scalar>
+bool factor_small(int n, int height, Scalar* block, Scalar* C);
+
 /// One right-hand side on a small supernode, where calls would cost more than their work: L is the
 /// top of `block` (height x n), A what is below. x := L^-1 x, then y := A x; and, of v = (x, y)
 /// (height), x := L^-* (x - A^* y).

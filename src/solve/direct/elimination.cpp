@@ -11,62 +11,58 @@ namespace littoral {
 
 namespace {
 
-/// Strictly lower triangle of a renumbered symmetric matrix: rows of each column, and by rows.
-struct Pattern {
-  std::vector<int> begin, to;            // column -> rows below the diagonal
-  std::vector<int> row_begin, row_from;  // row -> columns left of the diagonal
-};
-
 void sums_to_begins(std::vector<int>& counts) {
   int sum = 0;
   for (int& c : counts) sum += std::exchange(c, sum);
 }
 
-template <class Scalar>
-Pattern renumbered(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of,
-                   const Task& task) {
-  const auto n = new_of.size();
-  Pattern p;
-  p.begin.assign(n + 1, 0);
-  p.row_begin.assign(n + 1, 0);
-  auto for_edges = [&](const auto& put) {
-    for (int j = 0; j < lower.outerSize(); ++j) {
-      stop_now_and_then(j, task);
-      for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it) {
-        const int a = new_of[j], b = new_of[it.row()];
-        if (a != b) put(std::min(a, b), std::max(a, b));
-      }
-    }
-  };
-  for_edges([&](int c, int r) {
-    ++p.begin[c];
-    ++p.row_begin[r];
-  });
-  sums_to_begins(p.begin);
-  sums_to_begins(p.row_begin);
-  p.to.resize(p.begin[n]);
-  p.row_from.resize(p.to.size());
-  std::vector<int> at = p.begin, row_at = p.row_begin;
-  for_edges([&](int c, int r) {
-    p.to[at[c]++] = r;
-    p.row_from[row_at[r]++] = c;
-  });
-  return p;
+/// Calls put(e, a, b) for entry e of a symmetric matrix's lower triangle, whose column and row have
+/// the new numbers a and b.
+template <class Scalar, class Put>
+void for_entries(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of,
+                 const Task& task, const Put& put) {
+  int e = 0;
+  for (int j = 0; j < lower.outerSize(); ++j) {
+    stop_now_and_then(j, task);
+    const int a = new_of[j];
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e)
+      put(e, a, new_of[it.row()]);
+  }
 }
 
-std::vector<int> elimination_tree(const Pattern& p, const Task& task) {
-  const int n = int_size(p.begin) - 1;
-  std::vector<int> parent(n, -1), ancestor(n, -1);
+/// Parents of the unknowns in the elimination tree, and how many entries each column of the
+/// renumbered lower triangle has (Liu 1986).
+struct Tree {
+  std::vector<int> parent, entries;
+};
+
+template <class Scalar>
+Tree elimination_tree(const Eigen::SparseMatrix<Scalar>& lower, const std::vector<int>& new_of,
+                      const Task& task) {
+  const int n = int_size(new_of);
+  Tree tree{std::vector<int>(new_of.size(), -1), std::vector<int>(new_of.size(), 0)};
+  std::vector<int> begin(new_of.size() + 1, 0);  // row -> columns left of the diagonal
+  for_entries(lower, new_of, task, [&](int, int a, int b) {
+    ++tree.entries[std::min(a, b)];
+    if (a != b) ++begin[std::max(a, b)];
+  });
+  sums_to_begins(begin);
+  std::vector<int> left(begin[new_of.size()]), at = begin;
+  for_entries(lower, new_of, task, [&](int, int a, int b) {
+    if (a != b) left[at[std::max(a, b)]++] = std::min(a, b);
+  });
+  std::vector<int>& ancestor = at;
+  std::fill(ancestor.begin(), ancestor.end(), -1);
   for (int i = 0; i < n; ++i) {
     stop_now_and_then(i, task);
-    for (int e = p.row_begin[i]; e < p.row_begin[i + 1]; ++e)
-      for (int j = p.row_from[e]; j != -1 && j != i;) {
+    for (int e = begin[i]; e < begin[i + 1]; ++e)
+      for (int j = left[e]; j != -1 && j != i;) {
         const int next = std::exchange(ancestor[j], i);
-        if (next == -1) parent[j] = i;
+        if (next == -1) tree.parent[j] = i;
         j = next;
       }
   }
-  return parent;
+  return tree;
 }
 
 /// Children before parents, every subtree in one run: post[k] is the k-th node.
@@ -94,8 +90,9 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 
 /// Entries of each column of the factor, the diagonal among them, for postordered unknowns: a row's
 /// entries are the paths of the tree from the columns of its leaves up to the row (Gilbert, Ng,
-/// Peyton 1994).
-std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent, const Task& task) {
+/// Peyton 1994). begin, row: rows of the matrix's entries, column by column.
+std::vector<int> column_counts(const std::vector<int>& begin, const std::vector<int>& row,
+                               const std::vector<int>& parent, const Task& task) {
   const int n = parent.size();
   std::vector<int> first(n, -1), last_leaf(n, -1), reach(n, -1), set(n), count(n, 0);
   std::iota(set.begin(), set.end(), 0);
@@ -106,9 +103,10 @@ std::vector<int> column_counts(const Pattern& p, const std::vector<int>& parent,
   for (int j = 0; j < n; ++j) {
     stop_now_and_then(j, task);
     if (parent[j] >= 0) --count[parent[j]];
-    for (int e = p.begin[j]; e < p.begin[j + 1]; ++e) {
-      const int i = p.to[e];
-      if (first[j] <= reach[i]) continue;  // j lies on a path that is already counted
+    for (int e = begin[j]; e < begin[j + 1]; ++e) {
+      const int i = row[e];
+      // The diagonal, or j lies on a path that is already counted.
+      if (i == j || first[j] <= reach[i]) continue;
       reach[i] = first[j];
       ++count[j];
       const int before = std::exchange(last_leaf[i], j);
@@ -172,55 +170,66 @@ template <class Scalar>
 Elimination::Elimination(const Eigen::SparseMatrix<Scalar>& lower, const Ordering& order,
                          const Task& task)
     : n(lower.cols()), old_of(order), new_of(order.size()) {
-  auto invert = [&] {
+  const auto invert = [&] {
     for (int k = 0; k < n; ++k) new_of[old_of[k]] = k;
   };
   invert();
+  Tree tree = elimination_tree(lower, new_of, task);
+  entry_begin.assign(n + 1, 0);
   {
-    const auto post = postorder(elimination_tree(renumbered(lower, new_of, task), task));
+    // An unknown comes before its ancestors in any postorder, so entries stay in their columns.
+    const auto post = postorder(tree.parent);
     stop_if_cancelled(task);
-    for (int k = 0; k < n; ++k) old_of[k] = order[post[k]];
+    std::vector<int> place(post.size());
+    for (int k = 0; k < n; ++k) place[post[k]] = k;
+    std::vector<int> parent_of(post.size());
+    for (int k = 0; k < n; ++k) {
+      old_of[k] = order[post[k]];
+      entry_begin[k] = tree.entries[post[k]];
+      const int up = tree.parent[post[k]];
+      parent_of[k] = up < 0 ? -1 : place[up];
+    }
+    tree.parent = std::move(parent_of);
     invert();
   }
-  {
-    const Pattern p = renumbered(lower, new_of, task);
-    const auto tree = elimination_tree(p, task);
-    first = supernodes(tree, column_counts(p, tree, task));
-    stop_if_cancelled(task);
-    if (n == 0) first.assign(1, 0);
-    n_super = int_size(first) - 1;
-    super_of.resize(n);
-    for (int s = 0; s < n_super; ++s)
-      std::fill(super_of.begin() + first[s], super_of.begin() + first[s + 1], s);
-    find_rows(p.begin, p.to, task);
-  }
-  entry_begin.assign(n + 1, 0);
-  for (int j = 0; j < n; ++j)
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it)
-      ++entry_begin[std::min(new_of[j], new_of[it.row()])];
   sums_to_begins(entry_begin);
   entry_from.resize(entry_begin[n]);
-  entry_row.resize(entry_from.size());
-  std::vector<int> at = entry_begin;
-  int e = 0;
-  for (int j = 0; j < n; ++j) {
-    stop_now_and_then(j, task);
-    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(lower, j); it; ++it, ++e) {
-      const int a = new_of[j], b = new_of[it.row()], c = std::min(a, b), r = std::max(a, b);
-      const int s = super_of[c];
-      entry_from[at[c]] = b >= a ? e : ~e;
-      const auto begin = rows.begin() + rows_begin[s];
-      const auto end = rows.begin() + rows_begin[s + 1];
-      entry_row[at[c]++] =
-          r < first[s + 1] ? r - first[s] : columns(s) + (std::lower_bound(begin, end, r) - begin);
-    }
+  entry_row.resize(entry_from.size());  // rows of the matrix, for now
+  {
+    std::vector<int> at = entry_begin;
+    for_entries(lower, new_of, task, [&](int e, int a, int b) {
+      const int to = at[std::min(a, b)]++;
+      entry_from[to] = b >= a ? e : ~e;
+      entry_row[to] = std::max(a, b);
+    });
   }
+  first = supernodes(tree.parent, column_counts(entry_begin, entry_row, tree.parent, task));
+  stop_if_cancelled(task);
+  if (n == 0) first.assign(1, 0);
+  n_super = int_size(first) - 1;
+  super_of.resize(n);
+  for (int s = 0; s < n_super; ++s)
+    std::fill(super_of.begin() + first[s], super_of.begin() + first[s + 1], s);
+  find_rows(task);
+  place_entries(task);
   stop_if_cancelled(task);
   cut_into_tasks();
 }
 
-void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int>& to,
-                            const Task& task) {
+void Elimination::place_entries(const Task& task) {
+  std::vector<int> place(n, 0);  // of rows among those of the supernode
+  for (int s = 0; s < n_super; ++s) {
+    stop_now_and_then(s, task);
+    for (int k = 0; k < columns(s); ++k) place[first[s] + k] = k;
+    int below_diagonal = columns(s);
+    for (std::size_t r = rows_begin[s]; r < rows_begin[s + 1]; ++r)
+      place[rows[r]] = below_diagonal++;
+    for (int e = entry_begin[first[s]]; e < entry_begin[first[s + 1]]; ++e)
+      entry_row[e] = place[entry_row[e]];
+  }
+}
+
+void Elimination::find_rows(const Task& task) {
   parent.assign(n_super, -1);
   rows_begin.assign(1, 0);
   values_begin.assign(1, 0);
@@ -234,7 +243,7 @@ void Elimination::find_rows(const std::vector<int>& begin, const std::vector<int
       seen[r] = s;
       rows.push_back(r);
     };
-    for (int e = begin[first[s]]; e < begin[end]; ++e) add(to[e]);
+    for (int e = entry_begin[first[s]]; e < entry_begin[end]; ++e) add(entry_row[e]);
     for (int c = last_child[s]; c >= 0; c = sibling[c])
       for (std::size_t r = rows_begin[c]; r < rows_begin[c + 1]; ++r) add(rows[r]);
     std::sort(rows.begin() + start, rows.end());

@@ -50,7 +50,8 @@ struct Elimination {
   double flops() const;  // multiply-adds of the factorization
 
  private:
-  void find_rows(const std::vector<int>& begin, const std::vector<int>& to, const Task& task);
+  void find_rows(const Task& task);
+  void place_entries(const Task& task);
   void cut_into_tasks();
 };
 

@@ -15,7 +15,7 @@ namespace littoral {
 
 namespace {
 
-constexpr int largest_leaf = 160;        // vertices that are ordered by minimum degree
+constexpr int largest_leaf = 240;        // vertices that are ordered by minimum degree
 constexpr int worth_a_task = 4000;       // vertices of parts that are cut side by side
 constexpr int most_generations = 6;      // of these
 constexpr double least_progress = 0.95;  // of a part that is worth cutting on
@@ -102,32 +102,42 @@ class Dissection {
       halves[s].place = part.place + s * count[0];
     }
     std::vector<int> number(part.vertices.size());
+    std::array<std::size_t, 2> ends = {0, 0};  // of edges, those to the separator among them
     for (int v = 0, place = part.place + count[0] + count[1]; v < n; ++v) {
-      if (side[v] == 2) {
+      const int s = side[v];
+      if (s == 2) {
         put(part.vertices[v], place++);
       } else {
-        number[v] = int_size(halves[side[v]].vertices);
-        halves[side[v]].vertices.push_back(part.vertices[v]);
+        number[v] = int_size(halves[s].vertices);
+        halves[s].vertices.push_back(part.vertices[v]);
+        ends[s] += graph.begin[v + 1] - graph.begin[v];
       }
     }
     for (int s : {0, 1})
-      if (count[s] > largest_leaf) halves[s].graph = subgraph(graph, side, s, number, count[s]);
+      if (count[s] > largest_leaf)
+        halves[s].graph = subgraph(graph, side, s, number, count[s], ends[s]);
     return halves;
   }
 
+  /// Of the n vertices on side s, `ends` edges going out from these.
   Graph subgraph(const Graph& graph, const std::vector<signed char>& side, int s,
-                 const std::vector<int>& number, int n) {
+                 const std::vector<int>& number, int n, std::size_t ends) {
     Graph out;
     out.weight.assign(n, 1);
-    out.begin.reserve(out.weight.size() + 1);
-    out.to.reserve(std::size_t(1.1 * double(n) / graph.size() * graph.begin.back()));
+    out.begin.resize(out.weight.size() + 1);
+    out.to.resize(ends);
+    int k = 0, to = 0;
     for (int v = 0; v < graph.size(); ++v) {
       stop_now_and_then(v, task_);
       if (side[v] != s) continue;
-      for (int e = graph.begin[v]; e < graph.begin[v + 1]; ++e)
-        if (side[graph.to[e]] == s) out.to.push_back(number[graph.to[e]]);
-      out.begin.push_back(int_size(out.to));
+      for (int e = graph.begin[v]; e < graph.begin[v + 1]; ++e) {
+        const int u = graph.to[e];
+        out.to[to] = number[u];  // kept if it counts
+        to += side[u] == s;
+      }
+      out.begin[++k] = to;
     }
+    out.to.resize(to);
     return out;
   }
 

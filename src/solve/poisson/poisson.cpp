@@ -96,24 +96,34 @@ Poisson::Poisson(std::shared_ptr<const SpMat> L, std::vector<int> component, int
       mean_diagonal_(mean_diagonal(*L_)),
       component_(std::move(component)),
       first_(first_of_components(component_, n_components)),
-      free_(unconstrained(solver, order, task)) {}
+      one_solve_(solver == PoissonSolver::automatic_for_one_solve) {
+  const int largest = one_solve_ ? largest_for_one_solve : largest_direct;
+  if (solver == PoissonSolver::multigrid ||
+      (solver != PoissonSolver::direct && L_->rows() > largest))
+    return;
+  structure_ = structure_of(*L_, order, task);
+  if (!one_solve_) system(task);
+}
 
 Poisson::Poisson(const SpMat& L, std::vector<int> component, int n_components, const Task& task,
                  const Ordering& order, PoissonSolver solver)
     : Poisson(std::make_shared<const SpMat>(L), std::move(component), n_components, task, order,
               solver) {}
 
-DefiniteSystem Poisson::unconstrained(PoissonSolver solver, const Ordering& order,
-                                      const Task& task) const {
+const DefiniteSystem& Poisson::system(const Task& task) const {
+  return *made_->free.get([&] { return unconstrained(task); });
+}
+
+double Poisson::nonzeros() const {
+  return structure_ ? static_cast<double>(structure_->values()) : system().nonzeros();
+}
+
+DefiniteSystem Poisson::unconstrained(const Task& task) const {
   const std::vector<int> at = loose(std::vector<char>(first_.size(), 0));
-  const int largest = solver == PoissonSolver::automatic ? largest_direct : largest_for_one_solve;
-  if (solver == PoissonSolver::multigrid ||
-      (solver != PoissonSolver::direct && L_->rows() > largest))
+  if (iterates())
     return DefiniteSystem::by_multigrid(
         [L = L_, at, d = mean_diagonal_] { return lifted(*L, at, d); }, {});
-  SpMat K = pinned(at);
-  auto structure = structure_of(K, order, task);
-  return {std::move(K), std::move(structure), task, true};
+  return {pinned(at), structure_, task, !one_solve_};
 }
 
 std::vector<int> Poisson::loose(const std::vector<char>& fixed) const {
@@ -147,16 +157,38 @@ void Poisson::drop_constants(const std::vector<char>& fixed, VecX& x) const {
 }
 
 VecX Poisson::solve(const VecX& b, Report& report, const Task& task) const {
-  VecX x = free_.solve(b, task, report);
-  report.residuals.emplace_back("poisson", free_.relative_residual(x, b));
+  const DefiniteSystem& free = system(task);
+  VecX x = free.solve(b, task, report);
+  report.residuals.emplace_back("poisson", free.relative_residual(x, b));
   drop_constants(std::vector<char>(first_.size(), 0), x);
   return x;
 }
 
-DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
-                                     const std::vector<char>& fixed, const Task& task) const {
+bool Poisson::Penalty::operator==(const Penalty& other) const {
+  const auto same = [](const auto* a, const auto* b, Eigen::Index n) {
+    return std::equal(a, a + n, b);
+  };
+  return A.rows() == other.A.rows() && A.cols() == other.A.cols() &&
+         A.nonZeros() == other.A.nonZeros() && weight == other.weight &&
+         same(A.outerIndexPtr(), other.A.outerIndexPtr(), A.outerSize() + 1) &&
+         same(A.innerIndexPtr(), other.A.innerIndexPtr(), A.nonZeros()) &&
+         same(A.valuePtr(), other.A.valuePtr(), A.nonZeros());
+}
+
+std::shared_ptr<const DefiniteSystem> Poisson::with_penalty(const SpMat& A, const VecX& weight,
+                                                            const std::vector<char>& fixed,
+                                                            const Task& task) const {
+  const auto make = [&] { return penalized(A, weight, fixed, task); };
+  if (!one_solve_ || iterates()) return std::make_shared<const DefiniteSystem>(make());
+  Penalty penalty{A, weight};  // longer times and pieces at pinches solve with the same again
+  penalty.A.makeCompressed();
+  return made_->penalized.get(penalty, make);
+}
+
+DefiniteSystem Poisson::penalized(const SpMat& A, const VecX& weight,
+                                  const std::vector<char>& fixed, const Task& task) const {
   const std::vector<int> at = loose(fixed);
-  if (free_.iterates())
+  if (iterates())
     return DefiniteSystem::by_multigrid(
         [L = L_, at, d = mean_diagonal_, A, weight] {
           return with_rows(lifted(*L, at, d), A, weight);
@@ -164,22 +196,22 @@ DefiniteSystem Poisson::with_penalty(const SpMat& A, const VecX& weight,
         unknowns_of(A));
   const SpMat K = pinned(at);
   if (auto in_place = with_rows_in_place(K, A, weight)) {
-    if (!free_.can_be_patched()) return {std::move(*in_place), free_.structure(), task};
+    if (one_solve_ || !system().can_be_patched()) return {std::move(*in_place), structure_, task};
     std::vector<int> changed = unknowns_of(A);
     for (std::size_t c = 0; c < first_.size(); ++c)
       if (fixed[c]) changed.push_back(first_[c]);
-    return free_.patched(std::move(*in_place), changed, task);
+    return system().patched(std::move(*in_place), changed, task);
   }
   SpMat wider = with_rows(K, A, weight);
-  const auto structure =
-      std::make_shared<const Elimination>(wider, free_.structure()->old_of, task);
+  const auto structure = std::make_shared<const Elimination>(wider, structure_->old_of, task);
   return {std::move(wider), structure, task};
 }
 
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                          Report& report, const VecX& value) const {
   const auto fixed = components_of(A);
-  const DefiniteSystem system = with_penalty(A, weight, fixed, task);
+  const auto with = with_penalty(A, weight, fixed, task);
+  const DefiniteSystem& system = *with;
   VecX pulled = b;
   if (value.size() > 0) pulled += A.transpose() * weight.cwiseProduct(value);
   VecX x = system.solve(pulled, task, report);
@@ -232,7 +264,8 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   const double w = 1e7 * mean_diagonal_;
   const auto fixed = components_of(rows.A);
   const std::vector<int> sprung = loose(fixed);
-  const DefiniteSystem system = with_penalty(rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
+  const auto with = with_penalty(rows.A, VecX::Constant(rows.A.rows(), w), fixed, task);
+  const DefiniteSystem& system = *with;
   const SpMat At = rows.A.transpose();
   std::optional<SymmetricFactor> rest;
   if (n_free > 0) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/lazy.h"
 #include "base/task.h"
 #include "littoral/report.h"
 #include "littoral/types.h"
@@ -22,7 +23,8 @@ struct LevelRows {
 };
 
 /// How Poisson problems are solved: by a factor, which makes further solves cheap, or by multigrid,
-/// in memory and time that grow like the number of unknowns.
+/// in memory and time that grow like the number of unknowns. Where one solve is expected, the
+/// factor is made by the solve, with its constraints in it.
 enum class PoissonSolver { automatic, automatic_for_one_solve, direct, multigrid };
 
 /// Poisson problem of one operator; immutable. Constraints whose rows hold neighbours of L only (as
@@ -50,24 +52,41 @@ class Poisson {
   VecX solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,
                   Report& report, const VecX& value = {}) const;
 
-  double nonzeros() const { return free_.nonzeros(); }  // of the factor or the multigrid levels
-  bool iterates() const { return free_.iterates(); }
-  const DefiniteSystem& system() const { return free_; }  // without constraints
+  double nonzeros() const;  // of the factor or the multigrid levels
+  bool iterates() const { return structure_ == nullptr; }
+  const DefiniteSystem& system(const Task& task = {}) const;  // without constraints
 
  private:
   std::vector<int> loose(const std::vector<char>& fixed) const;
   SpMat pinned(const std::vector<int>& loose) const;
-  DefiniteSystem unconstrained(PoissonSolver solver, const Ordering& order, const Task& task) const;
+  DefiniteSystem unconstrained(const Task& task) const;
   std::vector<char> components_of(const SpMat& A) const;
   void drop_constants(const std::vector<char>& fixed, VecX& x) const;
-  DefiniteSystem with_penalty(const SpMat& A, const VecX& weight, const std::vector<char>& fixed,
-                              const Task& task) const;
+  std::shared_ptr<const DefiniteSystem> with_penalty(const SpMat& A, const VecX& weight,
+                                                     const std::vector<char>& fixed,
+                                                     const Task& task) const;
+  DefiniteSystem penalized(const SpMat& A, const VecX& weight, const std::vector<char>& fixed,
+                           const Task& task) const;
+
+  /// Rows and weights of a penalty.
+  struct Penalty {
+    SpMat A;
+    VecX weight;
+    bool operator==(const Penalty& other) const;
+  };
+  /// Systems that are made when a solve needs them.
+  struct Made {
+    Kept<DefiniteSystem> free;
+    KeptLast<Penalty, DefiniteSystem> penalized;  // where one solve is expected
+  };
 
   std::shared_ptr<const SpMat> L_;  // with an entry on the whole diagonal
   double mean_diagonal_;
   std::vector<int> component_;
   std::vector<int> first_;  // per component
-  DefiniteSystem free_;
+  bool one_solve_;
+  std::shared_ptr<const Elimination> structure_;  // none with multigrid
+  std::shared_ptr<const Made> made_ = std::make_shared<const Made>();
 };
 
 }  // namespace littoral

@@ -10,7 +10,7 @@
 namespace littoral {
 
 /// The expansion keeps solid harmonics of degree 1 (the vector area) to this one.
-constexpr int dipole_degree = 4;
+constexpr int dipole_degree = 5;
 /// Real numbers of an expansion: 3 of degree 1, 5 of degree 2, ...
 constexpr int dipole_coefficients = (dipole_degree + 1) * (dipole_degree + 1) - 1;
 

@@ -15,12 +15,20 @@ constexpr int winding_lanes = 8;
 struct ClusterLanes {
   using Lanes = std::array<float, winding_lanes>;
   alignas(32) Lanes x, y, z, radius;               // centre, and how far from it the items reach
-  std::array<Lanes, dipole_coefficients> moments;  // DipoleMoments::coefficients(radius)
+  std::array<Lanes, dipole_coefficients> moments;  // DipoleMoments::coefficients(radius) / radius
 };
 
 /// Corners a, b, c of eight triangles; unused lanes hold one point three times.
 struct TriangleLanes {
   alignas(64) std::array<std::array<double, winding_lanes>, 9> corner;  // ax ay az bx ...
+};
+
+/// The same triangles for queries that are not too near, as corners from a centre.
+struct NarrowTriangleLanes {
+  using Lanes = std::array<float, winding_lanes>;
+  alignas(32) std::array<Lanes, 9> corner;
+  std::array<double, 3> centre;
+  float radius;  // how far from the centre the corners reach
 };
 
 /// Eight points with vector areas; unused lanes have area zero.
@@ -34,9 +42,12 @@ struct AngleLanes {
 };
 
 struct WindingKernels {
-  /// Sum of the fields of the clusters farther from q than `accuracy` of their radii; `near` gets a
-  /// bit for each of the others.
-  float (*far)(const ClusterLanes&, const float* q, float accuracy, unsigned& near);
+  /// Sum of the fields of the clusters whose squared radii are below `share` of their squared
+  /// distances from q; `near` gets a bit for each of the others.
+  float (*far)(const ClusterLanes&, const float* q, float share, unsigned& near);
+  /// Sum of the angles arg(den + i num). False where rounding may matter: an angle may be off by
+  /// more than 1e-4, or have the wrong sign.
+  bool (*narrow_angles)(const NarrowTriangleLanes&, const double* q, float& sum);
   void (*angles)(const TriangleLanes&, const double* q, AngleLanes&);
   double (*dipoles)(const DipoleLanes&, const double* q);
 };

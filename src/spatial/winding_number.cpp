@@ -17,8 +17,9 @@ constexpr int leaf_size = winding_lanes;
 constexpr int few_boundary_edges = 1500;    // beyond, the sum over clusters is mostly faster
 constexpr int most_boundary_edges = 20000;  // beyond, surely
 // What was measured on average.
-constexpr double ns_an_edge = 1.2, ns_a_node = 12, ns_a_leaf = 28;
-constexpr double far_away = 1e5;  // in units: what is there sees one vector area
+constexpr double ns_an_edge = 1.2, ns_a_node = 12, ns_a_leaf = 14;
+constexpr double least_radius = 1e-6;  // in units, of a cluster
+constexpr double far_away = 1e5;       // in units: what is there sees one vector area
 
 using Triangle = std::array<Vec3, 3>;
 
@@ -39,14 +40,16 @@ double sum_of_angles(const AngleLanes& angles) {
   return std::atan2(im_so_far, re_so_far) + 2 * M_PI * turns;
 }
 
-/// Adds a triangle about a centre: four points and weights, exact for cubic polynomials, and so for
-/// all moments up to degree four.
+/// Adds a triangle about a centre: six points and weights, exact for polynomials of degree four
+/// (Strang and Fix), and so for all moments up to degree five.
 void add_triangle(DipoleMoments& moments, const Triangle& t, const Vec3& area, const Vec3& centre) {
-  static_assert(dipole_degree == 4);
-  const Vec3 middle = (t[0] + t[1] + t[2]) / 3 - centre;
-  moments.add(middle, -27.0 / 48 * area);
-  for (const Vec3& corner : t)
-    moments.add(0.6 * middle + 0.4 * (corner - centre), 25.0 / 48 * area);
+  static_assert(dipole_degree == 5);
+  constexpr double weight[2] = {0.22338158967801146570, 0.10995174365532186764};
+  constexpr double at[2] = {0.44594849091596488632, 0.09157621350977074346};
+  const Vec3 sum = t[0] + t[1] + t[2] - 3 * centre;
+  for (int k = 0; k < 2; ++k)
+    for (const Vec3& corner : t)
+      moments.add(at[k] * sum + (1 - 3 * at[k]) * (corner - centre), weight[k] * area);
 }
 
 }  // namespace
@@ -97,6 +100,7 @@ WindingNumber::WindingNumber(const MatX3& points, const MatX3i& faces) {
     root_ = none;
     nodes_ = {};
     triangle_leaves_ = {};
+    narrow_leaves_ = {};
     total_.setZero();
   }
   exact_ = true;
@@ -145,7 +149,7 @@ void WindingNumber::build(const Items& items) {
     e.centre = (e.low + e.high) / 2;
     double squared = 0;
     each_point([&](const Vec3& x) { squared = std::max(squared, (x - e.centre).squaredNorm()); });
-    e.radius = std::sqrt(squared);
+    e.radius = std::max(std::sqrt(squared), least_radius);
     if (cluster.child >= 0) {
       for (int child : {cluster.child, cluster.child + 1})
         e.moments.add(expansions[child].moments, expansions[child].centre - e.centre);
@@ -160,7 +164,8 @@ void WindingNumber::build(const Items& items) {
   root_ = add_node(items, expansions, 0);
 }
 
-int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
+int WindingNumber::add_leaf(const Items& items, const Cluster& cluster,
+                            const Expansion& expansion) {
   // Unused lanes repeat one point.
   const std::size_t begin = cluster.begin;
   const std::size_t count = cluster.end - cluster.begin;
@@ -175,12 +180,17 @@ int WindingNumber::add_leaf(const Items& items, const Cluster& cluster) {
     return int_size(dipole_leaves_) - 1;
   }
   TriangleLanes leaf;
+  NarrowTriangleLanes narrow;
+  for (std::size_t k = 0; k < 3; ++k) narrow.centre[k] = expansion.centre[k];
+  narrow.radius = static_cast<float>(expansion.radius);
   for (std::size_t l = 0; l < winding_lanes; ++l)
     for (std::size_t c = 0; c < 9; ++c) {
       const Triangle& t = items.triangles[begin + std::min(l, count - 1)];
       leaf.corner[c][l] = t[l < count ? c / 3 : 0][c % 3];
+      narrow.corner[c][l] = static_cast<float>(leaf.corner[c][l] - narrow.centre[c % 3]);
     }
   triangle_leaves_.push_back(leaf);
+  narrow_leaves_.push_back(narrow);
   return int_size(triangle_leaves_) - 1;
 }
 
@@ -204,18 +214,20 @@ int WindingNumber::add_node(const Items& items, const std::vector<Expansion>& ex
     to.x[l] = f(e.centre[0]), to.y[l] = f(e.centre[1]), to.z[l] = f(e.centre[2]);
     to.radius[l] = f(e.radius);
     const auto moments = e.moments.coefficients(e.radius);
-    for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k][l] = f(moments[k]);
+    for (std::size_t k = 0; k < moments.size(); ++k) to.moments[k][l] = f(moments[k] / e.radius);
     const Cluster& cluster = clusters[members[l]];
-    node.child[l] =
-        cluster.child < 0 ? -1 - add_leaf(items, cluster) : add_node(items, expansions, members[l]);
+    node.child[l] = cluster.child < 0 ? -1 - add_leaf(items, cluster, e)
+                                      : add_node(items, expansions, members[l]);
   }
   nodes_[at] = node;
   return at;
 }
 
-double WindingNumber::leaf_sum(int leaf, const double* q) const {
+double WindingNumber::leaf_sum(int leaf, const double* q, bool exactly) const {
   const WindingKernels& kernels = winding_kernels();
   if (triangle_leaves_.empty()) return kernels.dipoles(dipole_leaves_[leaf], q);
+  float sum = 0;
+  if (!exactly && kernels.narrow_angles(narrow_leaves_[leaf], q, sum)) return 2 * sum;
   AngleLanes angles;
   kernels.angles(triangle_leaves_[leaf], q, angles);
   return 2 * sum_of_angles(angles);
@@ -237,7 +249,8 @@ double WindingNumber::clustered_sum(const Vec3& q, double accuracy, Work* work) 
   const std::array<float, 3> near_q{static_cast<float>(q[0]), static_cast<float>(q[1]),
                                     static_cast<float>(q[2])};
   const WindingKernels& kernels = winding_kernels();
-  const auto reach = static_cast<float>(std::min(accuracy, 1e15));
+  const auto share = static_cast<float>(1 / (accuracy * accuracy));
+  const bool exactly = std::isinf(accuracy);
   std::array<int, 32 * winding_lanes> stack;  // a path is at most 32 nodes deep
   std::size_t top = 0;
   stack[top++] = root_;
@@ -246,14 +259,14 @@ double WindingNumber::clustered_sum(const Vec3& q, double accuracy, Work* work) 
     const Node& node = nodes_[stack[--top]];
     unsigned near = 0;
     if (work) ++work->nodes;
-    sum += kernels.far(node.moments, near_q.data(), reach, near);
+    sum += kernels.far(node.moments, near_q.data(), share, near);
     for (; near != 0; near &= near - 1) {
       const int child = node.child[std::countr_zero(near)];
       if (child == none) continue;
       if (child >= 0) {
         stack[top++] = child;
       } else {
-        sum += leaf_sum(-1 - child, q.data());
+        sum += leaf_sum(-1 - child, q.data(), exactly);
         if (work) ++work->leaves;
       }
     }

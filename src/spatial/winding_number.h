@@ -16,14 +16,14 @@ namespace littoral {
 /// Sum of signed solid angles over 4 pi: 1 inside a closed surface whose normals point outward, 0
 /// outside, in between where it is broken. Exact where the triangles' boundary has no edges or few
 /// (crossing_number.h), or where that is faster. Otherwise far clusters are expanded
-/// (Barill et al., "Fast winding numbers for soups and clouds", 2018; here to the third order of
+/// (Barill et al., "Fast winding numbers for soups and clouds", 2018; here to the fourth order of
 /// the distance from their centres: dipole_moments.h); near triangles count exactly (van Oosterom
 /// and Strackee 1983), near points as dipoles. Immutable, may be evaluated from several threads.
 class WindingNumber {
  public:
   static constexpr double usual_accuracy = 2.6;
   /// For comparisons with 1/2, to which errors of 3e-3 do not matter.
-  static constexpr double sign_accuracy = 2;
+  static constexpr double sign_accuracy = 1.7;
 
   /// points: n x 3; faces: m x 3, rows index points, no order or connection needed. Faces with a
   /// corner that is not finite count as nothing.
@@ -33,7 +33,7 @@ class WindingNumber {
   WindingNumber(const MatX3& points, const MatX3& normals, const VecX& areas);
 
   /// `accuracy` is the distance from which a cluster is expanded, in radii of the cluster: 2.6
-  /// keeps the error below 1e-3, 2 below 3e-3; infinity sums exactly.
+  /// keeps the error near 1e-4, 1.7 below 3e-3; infinity sums exactly.
   double operator()(const Vec3& query, double accuracy = usual_accuracy) const;
 
   /// Whether values are exact whatever the accuracy.
@@ -65,9 +65,9 @@ class WindingNumber {
 
   void set_frame(const MatX3& points);
   void build(const Items& items);
-  int add_leaf(const Items& items, const Cluster& cluster);
+  int add_leaf(const Items& items, const Cluster& cluster, const Expansion& expansion);
   int add_node(const Items& items, const std::vector<Expansion>& expansions, int root);
-  double leaf_sum(int leaf, const double* q) const;
+  double leaf_sum(int leaf, const double* q, bool exactly) const;
   /// What a sum over clusters looks at.
   struct Work {
     int nodes = 0, leaves = 0;
@@ -83,6 +83,7 @@ class WindingNumber {
   int root_ = none;
   std::vector<Node> nodes_;
   std::vector<TriangleLanes> triangle_leaves_;  // one of the two
+  std::vector<NarrowTriangleLanes> narrow_leaves_;
   std::vector<DipoleLanes> dipole_leaves_;
 };
 

@@ -20,7 +20,8 @@ constexpr int blended = blended_tori;
 // does not say the contrary with this margin: patches of flipped normals agree among themselves.
 constexpr double near_surface = 1.5, disagreement_tolerance = 0.02, far_away = 3,
                  winding_margin = 0.25;
-constexpr double side_accuracy = 2;  // of the winding number: errors of 0.01 do not matter
+// Errors of 0.01 do not matter.
+constexpr double side_accuracy = WindingNumber::sign_accuracy;
 // Points in groups: their normals are trusted if the winding number is clear by winding_margin on
 // both sides of the group, this many spacings away, and their mean is at least `agreement` long;
 // then on places that see the nearest point within this cosine of its normal.

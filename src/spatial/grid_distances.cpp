@@ -61,7 +61,7 @@ struct Block {
 
 /// What the kernel needs, relative to the frame of the tree. False for triangles so thin that
 /// their plane is not known to all digits.
-bool set_triangle(const std::array<Vec3, 3>& corners, NearTriangle& t) {
+bool set_triangle(const std::array<Vec3, 3>& corners, NearTriangle<double>& t) {
   double longest = 0;
   std::array<Vec3, 3> edge;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -90,6 +90,34 @@ bool set_triangle(const std::array<Vec3, 3>& corners, NearTriangle& t) {
 }
 
 }  // namespace
+
+/// The same in single precision, with a normal and directions inward of unit length.
+NearTriangle<float> in_single(const NearTriangle<double>& t) {
+  const auto rounded = [](const std::array<double, 3>& v, double scale) {
+    return std::array<float, 3>{static_cast<float>(v[0] * scale), static_cast<float>(v[1] * scale),
+                                static_cast<float>(v[2] * scale)};
+  };
+  NearTriangle<float> out;
+  const double per_normal = std::sqrt(t.per_normal);
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.corner[k] = rounded(t.corner[k], 1);
+    out.edge[k] = rounded(t.edge[k], 1);
+    out.per_length[k] = static_cast<float>(t.per_length[k]);
+    out.inward[k] = rounded(t.inward[k], per_normal * std::sqrt(t.per_length[k]));
+  }
+  out.normal = rounded(t.normal, per_normal);
+  out.per_normal = 1;
+  return out;
+}
+
+/// A triangle as the kernels want it.
+struct Prepared {
+  int triangle = -1;
+  unsigned turn = 0;   // of who uses it
+  bool plane = false;  // set_triangle
+  NearTriangle<double> exact;
+  NearTriangle<float> rough;
+};
 
 /// One thread's way down through blocks of blocks of nodes.
 ///
@@ -212,7 +240,7 @@ class TriangleBvh::BlockSearch {
       y_[c] = centre[1] + (c & 2 ? half[1] : -half[1]);
       z_[c] = centre[2] + (c & 4 ? half[2] : -half[2]);
     }
-    look_at(reference_, 8, start(8));
+    look_at(reference_, start(8));
     for (int c = 0; c < 8; ++c) box.radius[c] = static_cast<float>(std::sqrt(squared_[c]));
   }
 
@@ -223,19 +251,28 @@ class TriangleBvh::BlockSearch {
     std::fill_n(squared_.data(), end, infinity);
     return {x_.data(), y_.data(), z_.data(), end, squared_.data(), nearest_.data()};
   }
-  void look_at(int triangle, int n, const NearNodes& nodes) {
-    const auto at = corners(triangle);
-    NearTriangle lanes;
-    if (set_triangle(at, lanes)) {
-      kernels_.look(lanes, triangle, nodes);
+  Prepared& slot(int triangle) { return prepared_[triangle % n_prepared]; }
+  Prepared& prepared(int triangle) {
+    Prepared& out = slot(triangle);
+    if (out.triangle != triangle) {
+      out.triangle = triangle;
+      out.plane = set_triangle(corners(triangle), out.exact);
+      if (out.plane) out.rough = in_single(out.exact);
+    }
+    return out;
+  }
+  void look_at(int triangle, const NearNodes& nodes) {
+    if (const Prepared& seen = prepared(triangle); seen.plane) {
+      kernels_.look(seen.exact, triangle, nodes);
       return;
     }
-    for (int i = 0; i < n; ++i) {
-      const Vec3 x(x_[i], y_[i], z_[i]);
+    const auto at = corners(triangle);
+    for (int i = 0; i < nodes.n; ++i) {
+      const Vec3 x(nodes.x[i], nodes.y[i], nodes.z[i]);
       const double found = closest_on_triangle(at[0] - x, at[1] - x, at[2] - x).squared;
-      if (!(found < squared_[i])) continue;
-      squared_[i] = found;
-      nearest_[i] = triangle;
+      if (!(found < nodes.squared[i])) continue;
+      nodes.squared[i] = found;
+      nodes.nearest[i] = triangle;
     }
   }
 
@@ -247,7 +284,9 @@ class TriangleBvh::BlockSearch {
       ++n;
     });
     const NearNodes nodes = start(n);
-    for (int c = 0; c < kept.n; ++c) look_at(kept.number[c], n, nodes);
+    for (int from = 0; from < n; from += nearest_lanes)
+      look_at_eight(kept, {nodes.x + from, nodes.y + from, nodes.z + from, nearest_lanes,
+                           nodes.squared + from, nodes.nearest + from});
     n = 0;
     for_nodes(block, [&](int i, int j, int k) {
       const Vec3 x = grid_.point(i, j, k);
@@ -255,6 +294,36 @@ class TriangleBvh::BlockSearch {
       values_[grid_.node(i, j, k)] =
           value_ ? (*value_)(x, tree_.nearest_on(triangle, x)) : tree_.distance_to(triangle, x);
     });
+  }
+
+  /// Single precision leaves few triangles that double precision is needed for.
+  void look_at_eight(const Candidates& kept, const NearNodes& nodes) {
+    PlaceLanes places;
+    double farthest = 0;
+    for (int l = 0; l < nearest_lanes; ++l) {
+      places.x[l] = static_cast<float>(nodes.x[l]);
+      places.y[l] = static_cast<float>(nodes.y[l]);
+      places.z[l] = static_cast<float>(nodes.z[l]);
+      farthest = std::max(farthest,
+                          std::abs(nodes.x[l]) + std::abs(nodes.y[l]) + std::abs(nodes.z[l]));
+    }
+    ++turn_;
+    rough_.clear();
+    may_be_.assign(kept.n, true);
+    for (int c = 0; c < kept.n; ++c) {
+      const int triangle = kept.number[c];
+      if (const Prepared& other = slot(triangle); other.triangle != triangle && other.turn == turn_)
+        continue;
+      Prepared& seen = prepared(triangle);
+      seen.turn = turn_;
+      if (seen.plane) rough_.push_back({&seen.rough, &may_be_[c]});
+    }
+    room_.resize(std::max(room_.size(), rough_.size() * nearest_lanes));
+    // The rounding of coordinates, of the way there, and as much for the nearest one.
+    kernels_.candidates(rough_.data(), int_size(rough_), places,
+                        static_cast<float>(2e-6 * (2 + farthest)), room_.data());
+    for (int c = 0; c < kept.n; ++c)
+      if (may_be_[c]) look_at(kept.number[c], nodes);
   }
 
   void ask_tree(const Block& block) {
@@ -284,6 +353,12 @@ class TriangleBvh::BlockSearch {
   std::vector<std::unique_ptr<Candidates>> levels_;
   std::vector<int> near_;       // groups in reach,
   std::vector<WayLanes> ways_;  // and what they see
+  static constexpr int n_prepared = 1024;
+  std::vector<Prepared> prepared_{n_prepared};  // the latest with each remainder
+  unsigned turn_ = 0;
+  std::vector<RoughTriangle> rough_;
+  std::vector<char> may_be_;
+  std::vector<float> room_;
   int reference_ = 0;
   std::array<double, leaf_nodes> x_{}, y_{}, z_{}, squared_{}, nearest_{};
 };

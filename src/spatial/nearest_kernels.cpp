@@ -185,35 +185,70 @@ using Flags = std::array<std::int32_t, nearest_lanes>;
   out.radius[lane] = std::sqrt(squared) / 2;
 }
 
-/// Eight nodes. The sums are those of a plane and three sides, each node against all of them.
-[[gnu::always_inline]] inline void look_eight(
-    const NearTriangle& t, double number, const double* __restrict X, const double* __restrict Y,
-    const double* __restrict Z, double* __restrict squared, double* __restrict nearest) {
+/// The squared distance of a place, or `best` where that is less: to a plane or to three sides, by
+/// the same sums wherever the place is.
+template <class Real>
+[[gnu::always_inline]] inline Real squared_to(const NearTriangle<Real>& t, Real x, Real y, Real z,
+                                              Real best) {
+  Real side = best, above = 1;
+  const auto add_side = [&](int k) {
+    const Real px = x - t.corner[k][0], py = y - t.corner[k][1], pz = z - t.corner[k][2];
+    const Real ex = t.edge[k][0], ey = t.edge[k][1], ez = t.edge[k][2];
+    const Real s = (px * ex + py * ey + pz * ez) * t.per_length[k];
+    const Real at = smaller(larger(s, Real(0)), Real(1));
+    const Real ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
+    side = smaller(side, ox * ox + oy * oy + oz * oz);
+    above = smaller(above, px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
+  };
+  add_side(0);
+  add_side(1);
+  add_side(2);
+  const Real up = (x - t.corner[0][0]) * t.normal[0] + (y - t.corner[0][1]) * t.normal[1] +
+                  (z - t.corner[0][2]) * t.normal[2];
+  const Real plane = up * up * t.per_normal;
+  return above > 0 ? smaller(plane, best) : side;
+}
+
+[[gnu::always_inline]] inline void candidates_of(const RoughTriangle* triangles, int n,
+                                                 const PlaceLanes& at, float slack,
+                                                 float* __restrict squared) {
+  constexpr float rounding = 4e-6f, most = 3e38f;
+  alignas(32) std::array<float, nearest_lanes> least;
+  least.fill(most);
+  for (int i = 0; i < n; ++i) {
+    const NearTriangle<float>& t = *triangles[i].triangle;
+    float* __restrict out = squared + i * nearest_lanes;
+    for (int l = 0; l < nearest_lanes; ++l) {
+      out[l] = squared_to(t, at.x[l], at.y[l], at.z[l], most);
+      least[l] = smaller(least[l], out[l]);
+    }
+  }
   for (int l = 0; l < nearest_lanes; ++l) {
-    const double x = X[l], y = Y[l], z = Z[l], best = squared[l], before = nearest[l];
-    double side = best, above = 1;
-    const auto add_side = [&](int k) {
-      const double px = x - t.corner[k][0], py = y - t.corner[k][1], pz = z - t.corner[k][2];
-      const double ex = t.edge[k][0], ey = t.edge[k][1], ez = t.edge[k][2];
-      const double s = (px * ex + py * ey + pz * ez) * t.per_length[k];
-      const double at = smaller(larger(s, 0.0), 1.0);
-      const double ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
-      side = smaller(side, ox * ox + oy * oy + oz * oz);
-      above = smaller(above, px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
-    };
-    add_side(0);
-    add_side(1);
-    add_side(2);
-    const double up = (x - t.corner[0][0]) * t.normal[0] + (y - t.corner[0][1]) * t.normal[1] +
-                      (z - t.corner[0][2]) * t.normal[2];
-    const double plane = up * up * t.per_normal;
-    const double found = above > 0 ? smaller(plane, best) : side;
+    const float reach = std::sqrt(least[l]) * (1 + rounding) + slack;
+    least[l] = reach * reach;
+  }
+  for (int i = 0; i < n; ++i) {
+    alignas(32) Flags met;
+    for (int l = 0; l < nearest_lanes; ++l)
+      met[l] = squared[i * nearest_lanes + l] <= least[l] ? 1 : 0;
+    *triangles[i].may_be = bits_of(met) != 0;
+  }
+}
+
+/// Eight nodes.
+[[gnu::always_inline]] inline void look_eight(
+    const NearTriangle<double>& t, double number, const double* __restrict X,
+    const double* __restrict Y, const double* __restrict Z, double* __restrict squared,
+    double* __restrict nearest) {
+  for (int l = 0; l < nearest_lanes; ++l) {
+    const double best = squared[l], before = nearest[l];
+    const double found = squared_to(t, X[l], Y[l], Z[l], best);
     nearest[l] = found < best ? number : before;
     squared[l] = found;
   }
 }
 
-[[gnu::always_inline]] inline void look_of(const NearTriangle& t, double number,
+[[gnu::always_inline]] inline void look_of(const NearTriangle<double>& t, double number,
                                            const NearNodes& nodes) {
   for (int i = 0; i < nodes.n; i += nearest_lanes)
     look_eight(t, number, nodes.x + i, nodes.y + i, nodes.z + i, nodes.squared + i,
@@ -236,7 +271,11 @@ unsigned within_plain(const CornerLanes& t, const WayLanes& w, const BoxWithBall
 unsigned bounds_plain(const CornerLanes& t, const float* from, float& most, float* squared) {
   return bounds_of(t, from, most, squared);
 }
-void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
+void candidates_plain(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
+                     float* room) {
+  candidates_of(triangles, n, at, slack, room);
+}
+void look_plain(const NearTriangle<double>& t, double number, const NearNodes& nodes) {
   look_of(t, number, nodes);
 }
 
@@ -263,7 +302,11 @@ void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
                                              float* squared) {
   return bounds_of(t, from, most, squared);
 }
-[[gnu::target("avx2")]] void look_avx2(const NearTriangle& t, double number,
+[[gnu::target("avx2")]] void candidates_avx2(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
+                     float* room) {
+  candidates_of(triangles, n, at, slack, room);
+}
+[[gnu::target("avx2")]] void look_avx2(const NearTriangle<double>& t, double number,
                                        const NearNodes& nodes) {
   look_of(t, number, nodes);
 }
@@ -274,9 +317,9 @@ void look_plain(const NearTriangle& t, double number, const NearNodes& nodes) {
 const NearestKernels& nearest_kernels() {
   static const NearestKernels best = LITTORAL_FASTEST(
       (NearestKernels{&put_ball_plain, &balls_plain, &ways_plain, &ways_to_middles_plain,
-                      &within_plain, &bounds_plain, &look_plain}),
+                      &within_plain, &bounds_plain, &candidates_plain, &look_plain}),
       (NearestKernels{&put_ball_avx2, &balls_avx2, &ways_avx2, &ways_to_middles_avx2, &within_avx2,
-                      &bounds_avx2, &look_avx2}));
+                      &bounds_avx2, &candidates_avx2, &look_avx2}));
   return best;
 }
 

@@ -32,13 +32,19 @@ struct BoxWithBalls {
 };
 
 /// One triangle seen by many nodes.
+template <class Real>
 struct NearTriangle {
-  std::array<std::array<double, 3>, 3> corner;
-  std::array<std::array<double, 3>, 3> edge;    // from each corner to the next
-  std::array<double, 3> per_length;             // 1 / squared length, 0 without a length
-  std::array<double, 3> normal;                 // not of unit length
-  std::array<std::array<double, 3>, 3> inward;  // across edges, in the plane
-  double per_normal = 0;                        // 1 / squared length of the normal
+  std::array<std::array<Real, 3>, 3> corner;
+  std::array<std::array<Real, 3>, 3> edge;    // from each corner to the next
+  std::array<Real, 3> per_length;             // 1 / squared length, 0 without a length
+  std::array<Real, 3> normal;                 // of any length
+  std::array<std::array<Real, 3>, 3> inward;  // across edges, in the plane, of any length
+  Real per_normal = 0;                        // 1 / squared length of the normal
+};
+
+/// Eight places.
+struct PlaceLanes {
+  alignas(32) std::array<float, nearest_lanes> x, y, z;
 };
 
 /// Places, a multiple of eight, with what is nearest to them so far.
@@ -46,6 +52,12 @@ struct NearNodes {
   const double *x, *y, *z;
   int n;
   double *squared, *nearest;
+};
+
+/// One of several, and where to say that it may be nearest.
+struct RoughTriangle {
+  const NearTriangle<float>* triangle;
+  char* may_be;
 };
 
 struct NearestKernels {
@@ -63,8 +75,11 @@ struct NearestKernels {
   /// distances and of the size of the coordinates; `most` becomes one that one of them does not
   /// exceed, if that is less. Returns a bit for each triangle within it.
   unsigned (*bounds)(const CornerLanes&, const float* from, float& most, float* squared);
+  /// Which of n triangles may be nearest to one of the places: those not farther than the nearest
+  /// by more than `slack` and 4e-6 of the distance. `room` is for eight numbers each.
+  void (*candidates)(const RoughTriangle*, int n, const PlaceLanes&, float slack, float* room);
   /// Where the triangle is nearer than what was, `nearest` becomes `number`.
-  void (*look)(const NearTriangle&, double number, const NearNodes&);
+  void (*look)(const NearTriangle<double>&, double number, const NearNodes&);
 };
 
 /// The fastest ones for the processor that runs the program.

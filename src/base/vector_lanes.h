@@ -24,6 +24,18 @@ struct Wide<8> {
   using Bits = std::int64_t __attribute__((vector_size(64)));
 };
 
+/// The same of single precision.
+template <int width>
+struct WideFloats;
+template <>
+struct WideFloats<4> {
+  using Lanes = float __attribute__((vector_size(16)));
+};
+template <>
+struct WideFloats<8> {
+  using Lanes = float __attribute__((vector_size(32)));
+};
+
 template <class Lanes, class Scalar>
 [[gnu::always_inline]] inline void load(Lanes& to, const Scalar* from) {
   __builtin_memcpy(&to, from, sizeof to);
@@ -41,6 +53,16 @@ template <class S>
 template <class S>
 [[gnu::always_inline]] inline S larger(S a, S b) {
   return a > b ? a : b;
+}
+
+/// The same of lanes, which become the smaller or larger ones.
+template <class Lanes>
+[[gnu::always_inline]] inline void take_smaller(Lanes& a, const Lanes& b) {
+  a = a < b ? a : b;
+}
+template <class Lanes>
+[[gnu::always_inline]] inline void take_larger(Lanes& a, const Lanes& b) {
+  a = a > b ? a : b;
 }
 
 }  // namespace littoral

@@ -31,17 +31,20 @@ struct Candidates {
 
   int n_groups() const { return (n + nearest_lanes - 1) / nearest_lanes; }
   int n_balls() const { return (n_groups() + nearest_lanes - 1) / nearest_lanes; }
-  void add(int triangle, const CornerLanes& from, int lane) {
-    const int at = n, to = at % nearest_lanes;
-    add_number(triangle);
-    if (n_groups() > int_size(groups)) groups.emplace_back();
-    CornerLanes& group = groups[at / nearest_lanes];
-    for (std::size_t c = 0; c < 9; ++c) group.corner[c][to] = from.corner[c][lane];
+  /// Empty, with room.
+  void start(int most) {
+    n = 0;
+    if (most <= int_size(number)) return;
+    number.resize(2 * most);
+    groups.resize(number.size() / nearest_lanes + 1);
   }
-  void add_number(int triangle) {
-    if (n == int_size(number)) number.resize(2 * number.size() + nearest_lanes);
+  void add(int triangle, const CornerLanes& from, int lane) {
+    CornerLanes& group = groups[n / nearest_lanes];
+    const int to = n % nearest_lanes;
+    for (std::size_t c = 0; c < 9; ++c) group.corner[c][to] = from.corner[c][lane];
     number[n++] = triangle;
   }
+  void add_number(int triangle) { number[n++] = triangle; }
   /// Fills the last group by its last triangle, and makes the balls.
   void finish() {
     for (int at = n; at % nearest_lanes != 0; ++at)
@@ -217,7 +220,7 @@ class TriangleBvh::BlockSearch {
       reference_ = from.number[nearest];
       set_radii(centre, half, box);
     }
-    kept.n = 0;
+    kept.start(int_size(near_) * nearest_lanes);
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const int g = near_[i];
       unsigned met = kernels_.within(from.groups[g], ways_[i], box);
@@ -376,6 +379,7 @@ VecX TriangleBvh::by_blocks(const Grid& grid, const NodeValue* value, const Task
   VecX values(grid.n_nodes());
   Candidates all;
   if (corners_.size() <= std::size_t{most_per_node} * root_side * root_side * root_side) {
+    all.start(int_size(corners_));
     CornerLanes one;
     for (int i = 0; i < int_size(corners_); ++i) {
       for (std::size_t c = 0; c < 9; ++c)

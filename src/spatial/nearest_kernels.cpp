@@ -1,5 +1,5 @@
-// Loops over lanes that compilers turn into vector instructions: no calls, no branches. CMakeLists
-// lets the compiler assume for this file that square roots set no error number and comparisons do
+// Loops over lanes that compilers turn into vector instructions, with no calls and no branches, and
+// lanes as vectors where they do not. CMakeLists lets the compiler assume for this file that square roots set no error number and comparisons do
 // not trap, and keeps it from fusing products and sums, which rounds otherwise.
 
 #include "spatial/nearest_kernels.h"
@@ -64,17 +64,20 @@ namespace {
   return least_of(out.squared);
 }
 
+template <int width>
 [[gnu::always_inline]] inline float ways_to_middles_of(const CornerLanes& t, const float* from,
                                                        WayLanes& out) {
-  for (int l = 0; l < nearest_lanes; ++l) {
-    float squared = 0;
+  for (int l = 0; l < nearest_lanes; l += width) {
+    typename WideFloats<width>::Lanes squared{}, a, b, c;
     for (int d = 0; d < 3; ++d) {
-      const float sum = t.corner[d][l] + t.corner[d + 3][l] + t.corner[d + 6][l];
-      const float way = sum * (1.0f / 3) - from[d];
-      out.way[d][l] = way;
-      squared += way * way;
+      load(a, &t.corner[d][l]);
+      load(b, &t.corner[d + 3][l]);
+      load(c, &t.corner[d + 6][l]);
+      a = (a + b + c) * (1.0f / 3) - from[d];
+      squared += a * a;
+      store(&out.way[d][l], a);
     }
-    out.squared[l] = squared;
+    store(&out.squared[l], squared);
   }
   return least_of(out.squared);
 }
@@ -165,19 +168,20 @@ using Flags = std::array<std::int32_t, nearest_lanes>;
 [[gnu::always_inline]] inline void put_ball_of(const CornerLanes& t, BallLanes& out, int lane) {
   float middle[3], squared = 0;
   for (int d = 0; d < 3; ++d) {
-    alignas(32) std::array<float, nearest_lanes> low, high;
-    for (int l = 0; l < nearest_lanes; ++l) {
-      const float a = t.corner[d][l], b = t.corner[d + 3][l], c = t.corner[d + 6][l];
-      low[l] = smaller(a, smaller(b, c));
-      high[l] = larger(a, larger(b, c));
-    }
-    for (int step = nearest_lanes / 2; step > 0; step /= 2)
-      for (int l = 0; l < step; ++l) {
-        low[l] = smaller(low[l], low[l + step]);
-        high[l] = larger(high[l], high[l + step]);
+    constexpr int width = 4;
+    WideFloats<width>::Lanes low, high, more;
+    load(low, &t.corner[d][0]);
+    high = low;
+    for (const int c : {d, d + 3, d + 6})
+      for (int l = 0; l < nearest_lanes; l += width) {
+        load(more, &t.corner[c][l]);
+        take_smaller(low, more);
+        take_larger(high, more);
       }
-    middle[d] = (low[0] + high[0]) / 2;
-    squared += (high[0] - low[0]) * (high[0] - low[0]);
+    const float least = smaller(smaller(low[0], low[1]), smaller(low[2], low[3])),
+                most = larger(larger(high[0], high[1]), larger(high[2], high[3]));
+    middle[d] = (least + most) / 2;
+    squared += (most - least) * (most - least);
   }
   out.x[lane] = middle[0];
   out.y[lane] = middle[1];
@@ -185,74 +189,82 @@ using Flags = std::array<std::int32_t, nearest_lanes>;
   out.radius[lane] = std::sqrt(squared) / 2;
 }
 
-/// The squared distance of a place, or `best` where that is less: to a plane or to three sides, by
+/// The squared distances of places, or `best` where that is less: to a plane or to three sides, by
 /// the same sums wherever the place is.
-template <class Real>
-[[gnu::always_inline]] inline Real squared_to(const NearTriangle<Real>& t, Real x, Real y, Real z,
-                                              Real best) {
-  Real side = best, above = 1;
+template <class Lanes, class Real>
+[[gnu::always_inline]] inline void squared_to(const NearTriangle<Real>& t, const Lanes& x,
+                                              const Lanes& y, const Lanes& z, const Lanes& best,
+                                              Lanes& out) {
+  const Lanes zero{}, one = zero + 1;
+  Lanes side = best, above = one;
   const auto add_side = [&](int k) {
-    const Real px = x - t.corner[k][0], py = y - t.corner[k][1], pz = z - t.corner[k][2];
+    const Lanes px = x - t.corner[k][0], py = y - t.corner[k][1], pz = z - t.corner[k][2];
     const Real ex = t.edge[k][0], ey = t.edge[k][1], ez = t.edge[k][2];
-    const Real s = (px * ex + py * ey + pz * ez) * t.per_length[k];
-    const Real at = smaller(larger(s, Real(0)), Real(1));
-    const Real ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
-    side = smaller(side, ox * ox + oy * oy + oz * oz);
-    above = smaller(above, px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
+    Lanes at = (px * ex + py * ey + pz * ez) * t.per_length[k];
+    take_larger(at, zero);
+    take_smaller(at, one);
+    const Lanes ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
+    take_smaller<Lanes>(side, ox * ox + oy * oy + oz * oz);
+    take_smaller<Lanes>(above,
+                        px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
   };
   add_side(0);
   add_side(1);
   add_side(2);
-  const Real up = (x - t.corner[0][0]) * t.normal[0] + (y - t.corner[0][1]) * t.normal[1] +
-                  (z - t.corner[0][2]) * t.normal[2];
-  const Real plane = up * up * t.per_normal;
-  return above > 0 ? smaller(plane, best) : side;
+  const Lanes up = (x - t.corner[0][0]) * t.normal[0] + (y - t.corner[0][1]) * t.normal[1] +
+                   (z - t.corner[0][2]) * t.normal[2];
+  Lanes plane = up * up * t.per_normal;
+  take_smaller(plane, best);
+  out = above > zero ? plane : side;
 }
 
+template <int width>
 [[gnu::always_inline]] inline void candidates_of(const RoughTriangle* triangles, int n,
-                                                 const PlaceLanes& at, float slack,
-                                                 float* __restrict squared) {
+                                                 const PlaceLanes& at, float slack, float* room) {
+  using Lanes = typename WideFloats<width>::Lanes;
   constexpr float rounding = 4e-6f, most = 3e38f;
-  alignas(32) std::array<float, nearest_lanes> least;
-  least.fill(most);
-  for (int i = 0; i < n; ++i) {
-    const NearTriangle<float>& t = *triangles[i].triangle;
-    float* __restrict out = squared + i * nearest_lanes;
-    for (int l = 0; l < nearest_lanes; ++l) {
-      out[l] = squared_to(t, at.x[l], at.y[l], at.z[l], most);
-      least[l] = smaller(least[l], out[l]);
+  for (int i = 0; i < n; ++i) *triangles[i].may_be = 0;
+  for (int l = 0; l < nearest_lanes; l += width) {
+    Lanes x, y, z, squared, least = Lanes{} + most;
+    const Lanes all = least;
+    load(x, &at.x[l]);
+    load(y, &at.y[l]);
+    load(z, &at.z[l]);
+    for (int i = 0; i < n; ++i) {
+      squared_to(*triangles[i].triangle, x, y, z, all, squared);
+      take_smaller(least, squared);
+      store(room + i * width, squared);
+    }
+    alignas(32) std::array<float, width> reach;
+    store(reach.data(), least);
+    for (int w = 0; w < width; ++w) {
+      reach[w] = std::sqrt(reach[w]) * (1 + rounding) + slack;
+      reach[w] *= reach[w];
+    }
+    for (int i = 0; i < n; ++i) {
+      unsigned met = 0;
+      for (int w = 0; w < width; ++w) met |= room[i * width + w] <= reach[w] ? 1u : 0u;
+      *triangles[i].may_be |= static_cast<char>(met);
     }
   }
-  for (int l = 0; l < nearest_lanes; ++l) {
-    const float reach = std::sqrt(least[l]) * (1 + rounding) + slack;
-    least[l] = reach * reach;
-  }
-  for (int i = 0; i < n; ++i) {
-    alignas(32) Flags met;
-    for (int l = 0; l < nearest_lanes; ++l)
-      met[l] = squared[i * nearest_lanes + l] <= least[l] ? 1 : 0;
-    *triangles[i].may_be = bits_of(met) != 0;
-  }
 }
 
-/// Eight nodes.
-[[gnu::always_inline]] inline void look_eight(
-    const NearTriangle<double>& t, double number, const double* __restrict X,
-    const double* __restrict Y, const double* __restrict Z, double* __restrict squared,
-    double* __restrict nearest) {
-  for (int l = 0; l < nearest_lanes; ++l) {
-    const double best = squared[l], before = nearest[l];
-    const double found = squared_to(t, X[l], Y[l], Z[l], best);
-    nearest[l] = found < best ? number : before;
-    squared[l] = found;
-  }
-}
-
+template <int width>
 [[gnu::always_inline]] inline void look_of(const NearTriangle<double>& t, double number,
                                            const NearNodes& nodes) {
-  for (int i = 0; i < nodes.n; i += nearest_lanes)
-    look_eight(t, number, nodes.x + i, nodes.y + i, nodes.z + i, nodes.squared + i,
-               nodes.nearest + i);
+  using Lanes = typename Wide<width>::Lanes;
+  const Lanes here = Lanes{} + number;
+  Lanes x, y, z, best, found, before;
+  for (int i = 0; i < nodes.n; i += width) {
+    load(x, nodes.x + i);
+    load(y, nodes.y + i);
+    load(z, nodes.z + i);
+    load(best, nodes.squared + i);
+    load(before, nodes.nearest + i);
+    squared_to(t, x, y, z, best, found);
+    store<Lanes>(nodes.nearest + i, found < best ? here : before);
+    store(nodes.squared + i, found);
+  }
 }
 
 void put_ball_plain(const CornerLanes& t, BallLanes& out, int lane) { put_ball_of(t, out, lane); }
@@ -260,7 +272,7 @@ unsigned balls_plain(const BallLanes& t, const BoxWithBalls& b, unsigned& far) {
   return balls_of(t, b, far);
 }
 float ways_to_middles_plain(const CornerLanes& t, const float* from, WayLanes& out) {
-  return ways_to_middles_of(t, from, out);
+  return ways_to_middles_of<4>(t, from, out);
 }
 float ways_plain(const CornerLanes& t, const float* from, WayLanes& out) {
   return ways_of(t, from, out);
@@ -273,10 +285,10 @@ unsigned bounds_plain(const CornerLanes& t, const float* from, float& most, floa
 }
 void candidates_plain(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
                      float* room) {
-  candidates_of(triangles, n, at, slack, room);
+  candidates_of<4>(triangles, n, at, slack, room);
 }
 void look_plain(const NearTriangle<double>& t, double number, const NearNodes& nodes) {
-  look_of(t, number, nodes);
+  look_of<2>(t, number, nodes);
 }
 
 #if defined(__x86_64__)
@@ -289,7 +301,7 @@ void look_plain(const NearTriangle<double>& t, double number, const NearNodes& n
 }
 [[gnu::target("avx2")]] float ways_to_middles_avx2(const CornerLanes& t, const float* from,
                                                    WayLanes& out) {
-  return ways_to_middles_of(t, from, out);
+  return ways_to_middles_of<8>(t, from, out);
 }
 [[gnu::target("avx2")]] float ways_avx2(const CornerLanes& t, const float* from, WayLanes& out) {
   return ways_of(t, from, out);
@@ -304,11 +316,11 @@ void look_plain(const NearTriangle<double>& t, double number, const NearNodes& n
 }
 [[gnu::target("avx2")]] void candidates_avx2(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
                      float* room) {
-  candidates_of(triangles, n, at, slack, room);
+  candidates_of<8>(triangles, n, at, slack, room);
 }
 [[gnu::target("avx2")]] void look_avx2(const NearTriangle<double>& t, double number,
                                        const NearNodes& nodes) {
-  look_of(t, number, nodes);
+  look_of<4>(t, number, nodes);
 }
 #endif
 

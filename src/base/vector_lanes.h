@@ -30,10 +30,12 @@ struct WideFloats;
 template <>
 struct WideFloats<4> {
   using Lanes = float __attribute__((vector_size(16)));
+  using Bits = std::int32_t __attribute__((vector_size(16)));
 };
 template <>
 struct WideFloats<8> {
   using Lanes = float __attribute__((vector_size(32)));
+  using Bits = std::int32_t __attribute__((vector_size(32)));
 };
 
 template <class Lanes, class Scalar>
@@ -43,6 +45,15 @@ template <class Lanes, class Scalar>
 template <class Lanes, class Scalar>
 [[gnu::always_inline]] inline void store(Scalar* to, const Lanes& from) {
   __builtin_memcpy(to, &from, sizeof from);
+}
+
+/// Is a bit set? By whole words, which takes few instructions.
+template <class Bits>
+[[gnu::always_inline]] inline bool any(const Bits& bits) {
+  std::uint64_t word[sizeof(Bits) / 8], all = 0;
+  store(word, bits);
+  for (const std::uint64_t w : word) all |= w;
+  return all != 0;
 }
 
 /// Of two numbers, by value: loops of these become vector instructions.

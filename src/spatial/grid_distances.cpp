@@ -4,6 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "base/index.h"
 #include "base/parallel.h"
@@ -41,7 +45,10 @@ struct Candidates {
   void add(int triangle, const CornerLanes& from, int lane) {
     CornerLanes& group = groups[n / nearest_lanes];
     const int to = n % nearest_lanes;
-    for (std::size_t c = 0; c < 9; ++c) group.corner[c][to] = from.corner[c][lane];
+    const auto copy = [&]<std::size_t... c>(std::index_sequence<c...>) {
+      ((group.corner[c][to] = from.corner[c][lane]), ...);
+    };
+    copy(std::make_index_sequence<9>());  // no loop: compilers leave one
     number[n++] = triangle;
   }
   void add_number(int triangle) { number[n++] = triangle; }
@@ -136,7 +143,10 @@ class TriangleBvh::BlockSearch {
               const NodeValue* value, double* values)
       : tree_(tree), grid_(grid), all_(all), value_(value), values_(values) {}
 
-  void visit(const Block& block) { descend(block, all_, 0); }
+  void visit(const Block& block) {
+    reference_ = 0;  // whatever was before: the same way down on any number of threads
+    descend(block, all_, 0);
+  }
 
  private:
   Vec3 place(int i, int j, int k) const {
@@ -394,6 +404,8 @@ VecX TriangleBvh::by_blocks(const Grid& grid, const NodeValue* value, const Task
   std::array<int, 3> blocks;
   for (std::size_t a = 0; a < 3; ++a) blocks[a] = (grid.n[a] + root_side - 1) / root_side;
   const std::size_t n = std::size_t(blocks[0]) * blocks[1] * blocks[2];
+  std::mutex mutex;
+  std::vector<std::unique_ptr<BlockSearch>> idle;  // with the room they have
   parallel_for(n, 1, [&](std::size_t at, std::size_t) {
     task.checkpoint(static_cast<double>(at) / static_cast<double>(n));
     Block block;
@@ -403,7 +415,18 @@ VecX TriangleBvh::by_blocks(const Grid& grid, const NodeValue* value, const Task
       block.last[a] = std::min(block.first[a] + root_side, grid.n[a]);
       rest /= blocks[a];
     }
-    BlockSearch(*this, grid, all, value, values.data()).visit(block);
+    std::unique_ptr<BlockSearch> search;
+    {
+      const std::lock_guard lock(mutex);
+      if (!idle.empty()) {
+        search = std::move(idle.back());
+        idle.pop_back();
+      }
+    }
+    if (!search) search = std::make_unique<BlockSearch>(*this, grid, all, value, values.data());
+    search->visit(block);
+    const std::lock_guard lock(mutex);
+    idle.push_back(std::move(search));
   });
   return values;
 }

@@ -222,6 +222,7 @@ template <int width>
 [[gnu::always_inline]] inline void candidates_of(const RoughTriangle* triangles, int n,
                                                  const PlaceLanes& at, float slack, float* room) {
   using Lanes = typename WideFloats<width>::Lanes;
+  using Bits = typename WideFloats<width>::Bits;
   constexpr float rounding = 4e-6f, most = 3e38f;
   for (int i = 0; i < n; ++i) *triangles[i].may_be = 0;
   for (int l = 0; l < nearest_lanes; l += width) {
@@ -241,10 +242,11 @@ template <int width>
       reach[w] = std::sqrt(reach[w]) * (1 + rounding) + slack;
       reach[w] *= reach[w];
     }
+    load(least, reach.data());
     for (int i = 0; i < n; ++i) {
-      unsigned met = 0;
-      for (int w = 0; w < width; ++w) met |= room[i * width + w] <= reach[w] ? 1u : 0u;
-      *triangles[i].may_be |= static_cast<char>(met);
+      load(squared, room + i * width);
+      const Bits met = (Bits)(squared <= least);
+      *triangles[i].may_be |= static_cast<char>(any(met));
     }
   }
 }

@@ -161,6 +161,54 @@ TEST(SpatialBvh, BoundsOfEightTrianglesHold) {
     }
 }
 
+TEST(SpatialBvh, CandidatesAreThoseWithinSlackOfTheNearest) {
+  // Triangles (0, 0, h), (1, 0, h), (0, 1, h), seen from above the inside, from beyond a side and
+  // from beyond a corner: distances are known.
+  const std::array<float, 4> height{0, 1, 1.001f, 3};
+  std::array<NearTriangle<float>, 4> triangles;
+  for (std::size_t i = 0; i < 4; ++i) {
+    NearTriangle<float>& t = triangles[i];
+    t.corner = {{{0, 0, height[i]}, {1, 0, height[i]}, {0, 1, height[i]}}};
+    t.edge = {{{1, 0, 0}, {-1, 1, 0}, {0, -1, 0}}};
+    t.per_length = {1, 0.5f, 1};
+    t.normal = {0, 0, 1};
+    t.inward = {{{0, 1, 0}, {-1, -1, 0}, {1, 0, 0}}};
+    t.per_normal = 1;
+  }
+  std::array<char, 4> may_be{};
+  std::array<RoughTriangle, 4> rough;
+  for (std::size_t i = 0; i < 4; ++i) rough[i] = {&triangles[i], &may_be[i]};
+  alignas(32) std::array<float, 4 * nearest_lanes> room;
+  const auto candidates = [&](const std::array<std::array<float, 3>, nearest_lanes>& at,
+                              float slack) {
+    PlaceLanes places;
+    for (std::size_t l = 0; l < nearest_lanes; ++l)
+      places.x[l] = at[l][0], places.y[l] = at[l][1], places.z[l] = at[l][2];
+    may_be.fill(1);
+    nearest_kernels().candidates(rough.data(), 4, places, slack, room.data());
+    return may_be;
+  };
+  using Flags = std::array<char, 4>;
+  for (const std::array<float, 2>& side : {std::array<float, 2>{0.25f, 0.25f}, {2, 3}, {-3, -4}}) {
+    std::array<std::array<float, 3>, nearest_lanes> at;
+    at.fill({side[0], side[1], 0.25f});
+    EXPECT_EQ(candidates(at, 1e-5f), (Flags{1, 0, 0, 0}));
+    at[5][2] = 1.5f;  // one of eight sees others
+    EXPECT_EQ(candidates(at, 1e-5f), (Flags{1, 0, 1, 0}));
+    EXPECT_EQ(candidates(at, 2e-3f), (Flags{1, 1, 1, 0}));
+    at.fill({side[0], side[1], 0.5f});  // equally far
+    EXPECT_EQ(candidates(at, 1e-5f), (Flags{1, 1, 0, 0}));
+  }
+  std::array<std::array<float, 3>, nearest_lanes> at;
+  at.fill({0.25f, 0.25f, 0.5f});
+  candidates(at, 0);
+  EXPECT_EQ(room[0], 0.25f);  // squared distance of the first
+  at.fill({-3, -4, 12});
+  candidates(at, 0);
+  EXPECT_EQ(room[0], 169.0f);
+  EXPECT_EQ(room[3 * nearest_lanes], 106.0f);
+}
+
 /// Nodes about the soup, from three times its size down to a thousandth of it.
 std::vector<Grid> grids_about_soups() {
   Grid wide, flat, close, far;

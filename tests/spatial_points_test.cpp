@@ -39,6 +39,21 @@ void expect_same(const std::vector<Neighbour>& found, const std::vector<Neighbou
   }
 }
 
+TEST(PointTree, TellsOfAllThatItFindsBeforeItReturnsThem) {
+  const MatX3 points = random_points(3000, 11, 0.0);
+  const PointTree tree(points);
+  for (const Vec3& q : {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.9), Vec3(50, -3, 2)}) {
+    std::vector<Neighbour> found(12), plain(12);
+    std::vector<int> told;
+    ASSERT_EQ(tree.nearest(q, 12, found.data(), [&](int point) { told.push_back(point); }), 12);
+    tree.nearest(q, 12, plain.data());
+    expect_same(found, plain, 12);
+    for (const Neighbour& one : found)
+      EXPECT_EQ(std::count(told.begin(), told.end(), one.point), 1) << one.point;
+    EXPECT_LT(told.size(), 300u);
+  }
+}
+
 TEST(PointTree, FindsTheSameAsLookingAtEveryPoint) {
   // Snapped coordinates give coincident points and ties, which the lower number wins.
   for (int n : {1, 2, 7, 8, 9, 64, 65, 500, 3000})

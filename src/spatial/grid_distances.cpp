@@ -317,8 +317,8 @@ class TriangleBvh::BlockSearch {
       places.x[l] = static_cast<float>(nodes.x[l]);
       places.y[l] = static_cast<float>(nodes.y[l]);
       places.z[l] = static_cast<float>(nodes.z[l]);
-      farthest = std::max(farthest,
-                          std::abs(nodes.x[l]) + std::abs(nodes.y[l]) + std::abs(nodes.z[l]));
+      farthest =
+          std::max(farthest, std::abs(nodes.x[l]) + std::abs(nodes.y[l]) + std::abs(nodes.z[l]));
     }
     ++turn_;
     rough_.clear();

@@ -1,6 +1,7 @@
 // Loops over lanes that compilers turn into vector instructions, with no calls and no branches, and
-// lanes as vectors where they do not. CMakeLists lets the compiler assume for this file that square roots set no error number and comparisons do
-// not trap, and keeps it from fusing products and sums, which rounds otherwise.
+// lanes as vectors where they do not. CMakeLists lets the compiler assume for this file that square
+// roots set no error number and comparisons do not trap, and keeps it from fusing products and
+// sums, which rounds otherwise.
 
 #include "spatial/nearest_kernels.h"
 
@@ -205,8 +206,7 @@ template <class Lanes, class Real>
     take_smaller(at, one);
     const Lanes ox = px - at * ex, oy = py - at * ey, oz = pz - at * ez;
     take_smaller<Lanes>(side, ox * ox + oy * oy + oz * oz);
-    take_smaller<Lanes>(above,
-                        px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
+    take_smaller<Lanes>(above, px * t.inward[k][0] + py * t.inward[k][1] + pz * t.inward[k][2]);
   };
   add_side(0);
   add_side(1);
@@ -286,7 +286,7 @@ unsigned bounds_plain(const CornerLanes& t, const float* from, float& most, floa
   return bounds_of(t, from, most, squared);
 }
 void candidates_plain(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
-                     float* room) {
+                      float* room) {
   candidates_of<4>(triangles, n, at, slack, room);
 }
 void look_plain(const NearTriangle<double>& t, double number, const NearNodes& nodes) {
@@ -316,8 +316,8 @@ void look_plain(const NearTriangle<double>& t, double number, const NearNodes& n
                                              float* squared) {
   return bounds_of(t, from, most, squared);
 }
-[[gnu::target("avx2")]] void candidates_avx2(const RoughTriangle* triangles, int n, const PlaceLanes& at, float slack,
-                     float* room) {
+[[gnu::target("avx2")]] void candidates_avx2(const RoughTriangle* triangles, int n,
+                                             const PlaceLanes& at, float slack, float* room) {
   candidates_of<8>(triangles, n, at, slack, room);
 }
 [[gnu::target("avx2")]] void look_avx2(const NearTriangle<double>& t, double number,

@@ -90,50 +90,8 @@ std::vector<int> PointTree::renumber() {
   return old;
 }
 
-template <class Visit>
-void PointTree::search(const Vec3& q, double bound, Visit&& visit) const {
-  // Depth first, nearest child first. A node adds at most eight entries and a path is at most
-  // 11 nodes deep (each divides its points by eight).
-  std::array<BoundEntry, 128> stack;
-  BoundKernel* const bounds = bound_kernel();
-  LeafKernel* const leaves = leaf_kernel();
-  int top = 0;
-  stack[top++] = {0, 0};
-  while (top > 0) {
-    const BoundEntry entry = stack[--top];
-    if (entry.squared > bound) continue;
-    if (entry.child < 0) {
-      const Leaf& leaf = leaves_[-1 - entry.child];
-      alignas(64) double squared[leaf_size];
-      const unsigned near = leaves(leaf, q.data(), bound, squared);
-      if (near != 0) bound = visit(leaf, squared, near);
-      continue;
-    }
-    const Node& node = nodes_[entry.child];
-    alignas(64) double distance[width];
-    bounds(node, q.data(), distance);
-    top = push_children(node, distance, bound, stack.data(), top);
-  }
-}
-
 int PointTree::nearest(const Vec3& q, int k, Neighbour* found) const {
-  k = std::min(k, size());
-  if (k <= 0) return 0;
-  int n = 0;
-  double bound = infinity;
-  search(q, bound, [&](const Leaf& leaf, const double* squared, unsigned near) {
-    for (; near != 0; near &= near - 1) {
-      const int i = std::countr_zero(near);
-      const Neighbour candidate{squared[i], leaf.point[i]};
-      if (n == k && !(candidate < found[n - 1])) continue;
-      int place = n < k ? n++ : n - 1;
-      for (; place > 0 && candidate < found[place - 1]; --place) found[place] = found[place - 1];
-      found[place] = candidate;
-      if (n == k) bound = found[n - 1].squared_distance;
-    }
-    return bound;
-  });
-  return n;
+  return nearest(q, k, found, [](int) {});
 }
 
 std::vector<Neighbour> PointTree::within(const Vec3& q, double radius) const {

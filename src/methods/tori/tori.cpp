@@ -273,7 +273,11 @@ int ToriDistance::side_of(const Vec3& x, bool negative, bool disputed) const {
 template <class S>
 double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
   std::array<Neighbour, littoral::blended> found;
-  const int n = tree_.nearest(x, littoral::blended, found.data());
+  const int n = tree_.nearest(x, littoral::blended, found.data(), [&](int place) {
+    const char* const bytes = reinterpret_cast<const char*>(&records[place]);
+    for (std::size_t line = 0; line < sizeof records[place]; line += 64)
+      __builtin_prefetch(bytes + line);
+  });
   TorusLanes<S> lanes;
   gather(records, found.data(), n, x, lanes);
   BlendedTori<S> out;

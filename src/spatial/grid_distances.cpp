@@ -12,6 +12,7 @@
 #include "base/index.h"
 #include "base/parallel.h"
 #include "spatial/nearest_kernels.h"
+#include "spatial/prepared_triangles.h"
 #include "spatial/triangle_bvh.h"
 
 namespace littoral {
@@ -69,65 +70,7 @@ struct Block {
   int n_nodes() const { return (last[0] - first[0]) * (last[1] - first[1]) * (last[2] - first[2]); }
 };
 
-/// What the kernel needs, relative to the frame of the tree. False for triangles so thin that
-/// their plane is not known to all digits.
-bool set_triangle(const std::array<Vec3, 3>& corners, NearTriangle<double>& t) {
-  double longest = 0;
-  std::array<Vec3, 3> edge;
-  for (std::size_t k = 0; k < 3; ++k) {
-    edge[k] = corners[(k + 1) % 3] - corners[k];
-    const double length2 = edge[k].squaredNorm();
-    t.per_length[k] = length2 > 0 ? 1 / length2 : 0;
-    longest = std::max(longest, length2);
-  }
-  const auto cross = [](const Vec3& a, const Vec3& b) {
-    return Vec3(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  };
-  const Vec3 n = cross(edge[0], edge[1]);
-  const double area2 = n.squaredNorm();
-  t.per_normal = area2 > 0 ? 1 / area2 : 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 inward = cross(n, edge[k]);
-    for (std::size_t d = 0; d < 3; ++d) {
-      t.corner[k][d] = corners[k][index(d)];
-      t.edge[k][d] = edge[k][index(d)];
-      t.inward[k][d] = inward[index(d)];
-      t.normal[d] = n[index(d)];
-    }
-  }
-  // Height over the longest side: a thousandth of it, and of the size of all triangles 1e-9.
-  return area2 >= 1e-6 * longest * longest && area2 >= 1e-18 * longest;
-}
-
 }  // namespace
-
-/// The same in single precision, with a normal and directions inward of unit length.
-NearTriangle<float> in_single(const NearTriangle<double>& t) {
-  const auto rounded = [](const std::array<double, 3>& v, double scale) {
-    return std::array<float, 3>{static_cast<float>(v[0] * scale), static_cast<float>(v[1] * scale),
-                                static_cast<float>(v[2] * scale)};
-  };
-  NearTriangle<float> out;
-  const double per_normal = std::sqrt(t.per_normal);
-  for (std::size_t k = 0; k < 3; ++k) {
-    out.corner[k] = rounded(t.corner[k], 1);
-    out.edge[k] = rounded(t.edge[k], 1);
-    out.per_length[k] = static_cast<float>(t.per_length[k]);
-    out.inward[k] = rounded(t.inward[k], per_normal * std::sqrt(t.per_length[k]));
-  }
-  out.normal = rounded(t.normal, per_normal);
-  out.per_normal = 1;
-  return out;
-}
-
-/// A triangle as the kernels want it.
-struct Prepared {
-  int triangle = -1;
-  unsigned turn = 0;   // of who uses it
-  bool plane = false;  // set_triangle
-  NearTriangle<double> exact;
-  NearTriangle<float> rough;
-};
 
 /// One thread's way down through blocks of blocks of nodes.
 ///
@@ -264,18 +207,11 @@ class TriangleBvh::BlockSearch {
     std::fill_n(squared_.data(), end, infinity);
     return {x_.data(), y_.data(), z_.data(), end, squared_.data(), nearest_.data()};
   }
-  Prepared& slot(int triangle) { return prepared_[triangle % n_prepared]; }
-  Prepared& prepared(int triangle) {
-    Prepared& out = slot(triangle);
-    if (out.triangle != triangle) {
-      out.triangle = triangle;
-      out.plane = set_triangle(corners(triangle), out.exact);
-      if (out.plane) out.rough = in_single(out.exact);
-    }
-    return out;
+  const PreparedTriangle& prepared(int triangle) {
+    return prepared_.get(triangle, [&](int stored) { return corners(stored); });
   }
   void look_at(int triangle, const NearNodes& nodes) {
-    if (const Prepared& seen = prepared(triangle); seen.plane) {
+    if (const PreparedTriangle& seen = prepared(triangle); seen.plane) {
       kernels_.look(seen.exact, triangle, nodes);
       return;
     }
@@ -320,15 +256,13 @@ class TriangleBvh::BlockSearch {
       farthest =
           std::max(farthest, std::abs(nodes.x[l]) + std::abs(nodes.y[l]) + std::abs(nodes.z[l]));
     }
-    ++turn_;
+    prepared_.next_turn();
     rough_.clear();
     may_be_.assign(kept.n, true);
     for (int c = 0; c < kept.n; ++c) {
       const int triangle = kept.number[c];
-      if (const Prepared& other = slot(triangle); other.triangle != triangle && other.turn == turn_)
-        continue;
-      Prepared& seen = prepared(triangle);
-      seen.turn = turn_;
+      if (!prepared_.free(triangle)) continue;  // two want one slot
+      const PreparedTriangle& seen = prepared(triangle);
       if (seen.plane) rough_.push_back({&seen.rough, &may_be_[c]});
     }
     room_.resize(std::max(room_.size(), rough_.size() * nearest_lanes));
@@ -366,9 +300,7 @@ class TriangleBvh::BlockSearch {
   std::vector<std::unique_ptr<Candidates>> levels_;
   std::vector<int> near_;       // groups in reach,
   std::vector<WayLanes> ways_;  // and what they see
-  static constexpr int n_prepared = 1024;
-  std::vector<Prepared> prepared_{n_prepared};  // the latest with each remainder
-  unsigned turn_ = 0;
+  PreparedTriangles prepared_;
   std::vector<RoughTriangle> rough_;
   std::vector<char> may_be_;
   std::vector<float> room_;

@@ -79,7 +79,8 @@ class AutomaticOnTriangles {
         {},
         {}};
     answer.values.array() += 0.0;  // no -0
-    if (options.confidence) answer.confidence = confidence(placed, whole, measuring);
+    if (options.confidence)
+      answer.confidence = confidence(placed, whole, options.tolerance, measuring);
     if (input_.mesh == domain_.mesh) return answer;
     answer.shown = domain_.mesh->soup();  // a cloud is shown with its triangles
     answer.shown->scalars["distance"] = answer.values;
@@ -113,7 +114,8 @@ class AutomaticOnTriangles {
 
   /// How sure the signs are. The curve that is missing in a gap lies beside its completion, at a
   /// distance like a normal variable of deviation `spread` times the gap's length.
-  VecX confidence(const PlacedSources& given, const WholeSources& whole, const Task& task) const {
+  VecX confidence(const PlacedSources& given, const WholeSources& whole, double tolerance,
+                  const Task& task) const {
     PlacedSources completion;
     std::map<int, double> gap;  // curve -> length
     for (std::size_t i = given.pieces.size(); i < whole.sources.pieces.size(); ++i) {
@@ -124,8 +126,8 @@ class AutomaticOnTriangles {
     VecX sure = VecX::Ones(domain_.mesh->n_vertices());
     if (completion.pieces.empty()) return sure;
     Report quiet;
-    const ExactDistance to =
-        exact_polyhedral(*T_, triangle_sources(*domain_.mesh, *T_, completion), task, quiet);
+    const ExactDistance to = exact_polyhedral(*T_, triangle_sources(*domain_.mesh, *T_, completion),
+                                              task, quiet, {0, tolerance});
     for (int v = 0; v < sure.size(); ++v)
       if (to.nearest[v] >= 0) {
         const double width = spread * gap[completion.pieces[to.nearest[v]].curve];

@@ -198,6 +198,35 @@ TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {
     EXPECT_EQ(some[Eigen::Index(i)], x[Eigen::Index(i)]);
 }
 
+TEST(Cholesky, ARightSideCorrectedOnTheWayIsSolvedAsIfItHadBeenKnown) {
+  const SpMat K = sphere_matrix(6);
+  const Cholesky<double> factor(K, {});
+  const MatX b = MatX::Random(K.rows(), 2);
+  const std::vector<int> at{9, 3, 700, 701, static_cast<int>(K.rows()) - 1};
+  for (const int rounds : {0, 1, 3}) {
+    MatX known = b;
+    for (int round = 1; round <= rounds; ++round) {
+      const MatX x = factor.solve(known);
+      for (const int i : at) known.row(i) += round * (x.row(i).array() + 1).matrix();
+    }
+    const MatX expected = factor.solve(known);
+    MatX first;
+    for (const int threads : {1, 2, 3}) {
+      set_thread_count(threads);
+      int round = 0;
+      const MatX x = factor.solve_corrected(b, at, rounds, [&](const MatX& x_at) {
+        return MatX(++round * (x_at.array() + 1).matrix());
+      });
+      EXPECT_EQ(round, rounds);
+      if (threads == 1) first = x;
+      EXPECT_TRUE(x == first) << threads;
+    }
+    set_thread_count(0);
+    EXPECT_LE((first - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
+    if (rounds == 0) EXPECT_TRUE(first == expected);
+  }
+}
+
 TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
   const SurfaceMesh mesh(test::octasphere_soup(5));
   Report report;
@@ -253,6 +282,10 @@ TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
   const VecX x = poisson.solve_levels(
       b, {p.terms.A, std::vector<int>(p.terms.group.size(), 0), {1}}, {}, report);
   EXPECT_LE((p.terms.A * x).cwiseAbs().maxCoeff(), 1e-11);
+  const auto steps = std::find_if(report.iterations.begin(), report.iterations.end(),
+                                  [](const auto& l) { return l.first == "constraint steps"; });
+  ASSERT_NE(steps, report.iterations.end());
+  EXPECT_EQ(steps->second, 1);  // what a second one would add is known before x is
   // Optimal: the force L x - b is a combination of the rows.
   const VecX force = times_symmetric(C.L, x) - b;
   const MatX At = MatX(p.terms.A.transpose());

@@ -283,23 +283,40 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   const VecX value = rows.value.size() > 0 ? rows.value : y;
   VecX miss = -value;  // A x - B c - value
   double violation = 0, residual = 0;
+  const std::vector<int> at = unknowns_of(rows.A);
+  SpMat A_at(rows.A.rows(), index(at.size()));
+  for (std::size_t k = 0; k < at.size(); ++k) A_at.col(index(k)) = rows.A.col(at[k]);
+  // A factor takes two steps in one pass: what the second adds to the right side, and what c does,
+  // follows from x at the rows alone.
+  const bool direct = !system.iterates();
+  const int rounds = (direct ? 1 : 0) + (n_free > 0 ? (direct ? 2 : 1) : 0);
+  VecX r = b - At * (w * miss);
   constexpr int max_steps = 30;
+  constexpr double enough = 1e-14;
   int step = 0;
   for (; step < max_steps; ++step) {
     task.checkpoint();
-    const VecX force = y + w * miss;
-    VecX r = b - At * force;
-    if (step > 0) {
-      r -= times_symmetric(*L_, x);
-      for (const int i : sprung) r[i] -= mean_diagonal_ * x[i];
-    }
-    const VecX u = system.approximate(r, task);
-    VecX dx = u;
-    if (n_free > 0) {
-      const VecX dc = rest->solve(gather(VecX(force + w * (rows.A * u))));
-      dx += system.approximate(VecX(w * (At * spread(dc))), task);
-      c += dc;
-    }
+    VecX force = y + w * miss, moved = VecX::Zero(miss.size());  // A dx so far
+    const VecX miss_before = miss, c_before = c;
+    bool free_next = n_free > 0;
+    const VecX dx = system.approximate(
+        r, at, rounds,
+        [&](const MatX& dx_at) -> MatX {
+          const VecX now = A_at * dx_at;
+          if (free_next) {
+            free_next = false;
+            const VecX dc = rest->solve(gather(VecX(force + w * (now - moved))));
+            c += dc;
+            return A_at.transpose() * VecX(w * spread(dc));
+          }
+          free_next = n_free > 0;
+          moved = now;
+          miss = miss_before + now - spread(c - c_before);
+          y += w * miss;
+          force = y + w * miss;
+          return A_at.transpose() * VecX(-w * miss);
+        },
+        task);
     x += dx;
     miss = rows.A * x - spread(c) - value;
     y += w * miss;
@@ -314,6 +331,11 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     // The next step is as much shorter than this one as this one is than the last.
     const double next = step > 0 ? residual * (residual / residual_before) : residual;
     if ((violation < 1e-12 && std::min(residual, next) < 1e-9) || stalled) break;
+    r = b - At * y - times_symmetric(*L_, x);
+    for (const int i : sprung) r[i] -= mean_diagonal_ * x[i];
+    const double size = mean_diagonal_ * x.norm();
+    if (direct && violation < 1e-12 && r.norm() <= enough * (b.norm() + size)) break;
+    r -= At * (w * miss);
   }
   report.iterations.emplace_back("constraint steps", step + 1);
   report.residuals.emplace_back("constraints", violation);

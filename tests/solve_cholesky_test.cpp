@@ -282,15 +282,32 @@ TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
   const VecX x = poisson.solve_levels(
       b, {p.terms.A, std::vector<int>(p.terms.group.size(), 0), {1}}, {}, report);
   EXPECT_LE((p.terms.A * x).cwiseAbs().maxCoeff(), 1e-11);
-  const auto steps = std::find_if(report.iterations.begin(), report.iterations.end(),
-                                  [](const auto& l) { return l.first == "constraint steps"; });
-  ASSERT_NE(steps, report.iterations.end());
-  EXPECT_EQ(steps->second, 1);  // what a second one would add is known before x is
   // Optimal: the force L x - b is a combination of the rows.
   const VecX force = times_symmetric(C.L, x) - b;
   const MatX At = MatX(p.terms.A.transpose());
   const VecX y = At.completeOrthogonalDecomposition().solve(force);
   EXPECT_LE((At * y - force).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Poisson, RowsOfSingleUnknownsTakeOnePassThroughTheFactor) {
+  const SurfaceMesh mesh(test::octasphere_soup(4));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({3}), report);
+  const Calculus& C = p.ops->scalar;
+  const std::vector<int> held{5, 6, 40};
+  SpMat A(3, C.L.rows());
+  for (int r = 0; r < 3; ++r) A.insert(r, held[r]) = 1;
+  const VecX value = Vec3(0.5, -1, 2), b = VecX::Random(C.L.rows());
+  Report steps;
+  const VecX x = Poisson(C.L, C.component, C.n_components, {})
+                     .solve_levels(b, {A, {0, 0, 0}, {1}, value}, {}, steps);
+  EXPECT_LE((A * x - value).cwiseAbs().maxCoeff(), 1e-12 * (x.maxCoeff() - x.minCoeff()));
+  VecX force = times_symmetric(C.L, x) - b;  // at the rows alone
+  for (const int i : held) force[i] = 0;
+  EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-11);
+  ASSERT_FALSE(steps.iterations.empty());
+  EXPECT_EQ(steps.iterations[0].first, "constraint steps");
+  EXPECT_EQ(steps.iterations[0].second, 1);  // what a second one adds is known before x is
 }
 
 TEST(Parallel, EveryThreadFlushesSubnormalsAsItsCallerDoes) {

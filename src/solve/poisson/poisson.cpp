@@ -286,35 +286,29 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   const std::vector<int> at = unknowns_of(rows.A);
   SpMat A_at(rows.A.rows(), index(at.size()));
   for (std::size_t k = 0; k < at.size(); ++k) A_at.col(index(k)) = rows.A.col(at[k]);
-  // A factor takes two steps in one pass: what the second adds to the right side, and what c does,
-  // follows from x at the rows alone.
-  const bool direct = !system.iterates();
-  const int rounds = (direct ? 1 : 0) + (n_free > 0 ? (direct ? 2 : 1) : 0);
+  // What c adds to the right side, and without c what a second step adds, follows from x at the
+  // rows alone. With c a second step starts from small numbers: c is worth no more digits than w
+  // leaves.
+  const bool twice = n_free == 0 && !system.iterates();
+  const int rounds = n_free > 0 || twice ? 1 : 0;
   VecX r = b - At * (w * miss);
   constexpr int max_steps = 30;
   constexpr double enough = 1e-14;
   int step = 0;
   for (; step < max_steps; ++step) {
     task.checkpoint();
-    VecX force = y + w * miss, moved = VecX::Zero(miss.size());  // A dx so far
-    const VecX miss_before = miss, c_before = c;
-    bool free_next = n_free > 0;
     const VecX dx = system.approximate(
         r, at, rounds,
         [&](const MatX& dx_at) -> MatX {
-          const VecX now = A_at * dx_at;
-          if (free_next) {
-            free_next = false;
-            const VecX dc = rest->solve(gather(VecX(force + w * (now - moved))));
-            c += dc;
-            return A_at.transpose() * VecX(w * spread(dc));
+          const VecX there = A_at * dx_at;
+          if (n_free == 0) {
+            miss += there;
+            y += w * miss;
+            return A_at.transpose() * VecX(-w * miss);
           }
-          free_next = n_free > 0;
-          moved = now;
-          miss = miss_before + now - spread(c - c_before);
-          y += w * miss;
-          force = y + w * miss;
-          return A_at.transpose() * VecX(-w * miss);
+          const VecX dc = rest->solve(gather(VecX(y + w * (miss + there))));
+          c += dc;
+          return A_at.transpose() * VecX(w * spread(dc));
         },
         task);
     x += dx;
@@ -334,9 +328,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
     r = b - At * y - times_symmetric(*L_, x);
     for (const int i : sprung) r[i] -= mean_diagonal_ * x[i];
     const double size = mean_diagonal_ * x.norm();
-    const bool solved = r.norm() <= enough * (b.norm() + size);
-    // c is only as good as w allows in the first step: r does not show by how much.
-    if (direct && n_free == 0 && violation < 1e-12 && solved) break;
+    if (twice && violation < 1e-12 && r.norm() <= enough * (b.norm() + size)) break;
     r -= At * (w * miss);
   }
   report.iterations.emplace_back("constraint steps", step + 1);

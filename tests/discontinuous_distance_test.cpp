@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -139,6 +140,47 @@ TEST(DiscontinuousDistance, GoesOnBeyondAPinch) {
       EXPECT_NEAR(torn.values[v], exact, 0.1) << x.transpose();
     }
   }
+}
+
+TEST(DiscontinuousDistance, JumpsAtAPinchRatherThanAcrossEdges) {
+  // A handle of narrow squares from the first edge of a side of a square to a corner across it. On
+  // it the distance to that side is negative, in the square positive: they meet at the corner.
+  constexpr int n = 8, m = 16;
+  PolygonSoup soup = test::jittered_grid_soup(n, n, 0);
+  const int before = soup.n_vertices();
+  const auto vertex_at = [&](double x, double y) {
+    for (int v = 0; v < before; ++v)
+      if (soup.points(v, 0) == x && soup.points(v, 1) == y) return v;
+    return -1;
+  };
+  std::vector<std::array<int, 2>> rungs{{vertex_at(0, 0), vertex_at(0, 1. / n)}};
+  std::vector<double> along{0};
+  soup.points.conservativeResize(before + 2 * m - 1, 3);
+  Vec3 last = Vec3::Zero();
+  for (int i = 1, v = before; i <= m; ++i) {
+    const double angle = M_PI * i / m;
+    const Vec3 x(0.5 - 0.5 * std::cos(angle), 0, 0.5 * std::sin(angle));
+    along.push_back(along.back() + (x - last).norm());
+    last = x;
+    rungs.push_back({i < m ? v++ : vertex_at(1, 0), v});
+    soup.points.row(rungs[i][0]) = x;
+    soup.points.row(v++) = x + Vec3(0, i < 4 ? 1. / n : 0.5 / n, 0);
+  }
+  soup.points.row(rungs[m][0]) << 1, 0, 0;
+  for (int i = 0; i < m; ++i) {
+    test::add_triangle(soup, rungs[i][0], rungs[i][1], rungs[i + 1][1]);
+    test::add_triangle(soup, rungs[i][0], rungs[i + 1][1], rungs[i + 1][0]);
+  }
+  std::vector<int> line;
+  for (int j = n; j >= 0; --j) line.push_back(vertex_at(0, static_cast<double>(j) / n));
+  const SurfaceMesh mesh(soup);
+  const SurfaceAnswer torn = distance(mesh, vertex_loop(line), {.discontinuous = true});
+  for (int v = 0; v < before; ++v)
+    if (v != rungs[m][0]) {
+      EXPECT_NEAR(torn.values[v], mesh.point(v).x(), 0.1);
+    }
+  for (int i = 1; i < m; ++i)
+    for (const int v : rungs[i]) EXPECT_NEAR(torn.values[v], -along[i], 0.1) << i;
 }
 
 TEST(DiscontinuousDistance, FewerJumpsWhereTheFieldDoesNotIntegrate) {

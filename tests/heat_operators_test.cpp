@@ -122,7 +122,13 @@ TEST_P(HeatOperators, GradientAndItsAdjointIntegrateByParts) {
   const VecX x = random_vector(C.G.cols), Y = random_vector(C.G.rows);
   const VecX gradient = C.G.apply(x);
   EXPECT_NEAR(gradient.dot(Y), x.dot(C.G.adjoint(Y)), 1e-12 * gradient.norm() * Y.norm());
-  EXPECT_LE((C.G.matrix() * x - gradient).norm(), 1e-12 * gradient.norm());
+  const SpRows G = C.G.matrix();
+  EXPECT_LE((G * x - gradient).norm(), 1e-12 * gradient.norm());
+  for (int r = 0; r < G.outerSize(); ++r) {
+    int last = -1;
+    for (SpRows::InnerIterator it(G, r); it; last = static_cast<int>(it.col()), ++it)
+      ASSERT_GT(it.col(), last) << "columns ascend in row " << r;
+  }
 }
 
 TEST_P(HeatOperators, MassesSumToTheArea) {

@@ -237,6 +237,26 @@ TEST(Repair, SheetsBecomeWalls) {
   EXPECT_NEAR(volume_of(out.surface.soup()), steiner, 0.01 * steiner);
 }
 
+TEST(Repair, OnlySheetsBecomeWalls) {
+  const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
+  RepairOptions options;
+  options.grid.resolution = 48;
+  options.thicken = 0.1;
+  const Repaired closed = repair(box, options);
+  EXPECT_EQ(size_named(closed.report, "triangles that became walls"), 0);
+  EXPECT_NEAR(volume_of(closed.surface.soup()), 1, 1e-6);
+  // A fin of half its width outside of the box, which stays as large as it is.
+  PolygonSoup fin = test::grid_soup(2, 2);
+  fin.points.rowwise() += Eigen::RowVector3d(0, -0.5, 0);
+  const Repaired out = repair(test::joined(box, fin), options);
+  expect_watertight(out.surface);
+  EXPECT_EQ(size_named(out.report, "parts"), 1);
+  EXPECT_LT(size_named(out.report, "input missed, share"), 0.005);
+  // Steiner's formula for what sticks out: half a tube along three sides, quarters of a ball.
+  const double r = 0.05, steiner = 2 * r * 0.5 + M_PI * r * r / 2 * 2 + 2 * M_PI / 3 * r * r * r;
+  EXPECT_NEAR(volume_of(out.surface.soup()), 1 + steiner, 0.01);
+}
+
 TEST(Repair, MeasuresSheetsOnce) {
   // On the grid that showed them to have no inside; where it leaves no room for walls, on a wider
   // one.

@@ -193,6 +193,13 @@ TEST(TetValues, HeatOfManyValuesTakesEightSolves) {
   const VecX phi = test::tet_mesh_distance(mesh, sources, SpaceSignedHeat{}, report);
   EXPECT_THAT(report.iterations, testing::Contains(testing::Pair("heat solves", 8)));
   EXPECT_LT(test::tet_errors(mesh, phi, exact).mean, 0.068);
+  // Only their differences count.
+  TetSources later = sources;
+  for (double& value : later.values) value += 1000;
+  Report of_later;
+  const VecX shifted = test::tet_mesh_distance(mesh, later, SpaceSignedHeat{}, of_later);
+  EXPECT_THAT(of_later.iterations, testing::Contains(testing::Pair("heat solves", 8)));
+  EXPECT_LT((shifted.array() - 1000 - phi.array()).abs().maxCoeff(), 1e-6);
   // Values that no range of numbers holds together take a solve of their own.
   sources.values.back() = 1e5;
   sources.values.front() = 1e6;

@@ -16,7 +16,8 @@ struct RepairOptions {
                                       // side, or up to 256 where parts are thinner than a spacing
   double error = 0;          // > 0: grids from 64 to 512 nodes until no point of the result is
                              // farther than that from the input or what closes it [length]
-  double thicken = 0;        // > 0: sheets become walls that thick [length]
+  double thicken = 0;        // > 0: what the surface of the inside leaves out becomes walls that
+                             // thick [length]
   double smallest_part = 0;  // parts whose boxes have shorter diagonals go [length]
   bool cavities = true;      // keep parts that are holes in others
   bool remesh = false;       // also where the input's own triangles will do

@@ -11,6 +11,7 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/kept_surface.h"
+#include "api/space/left_out.h"
 #include "api/space/space_input.h"
 #include "api/space/surface_difference.h"
 #include "api/space/surface_parts.h"
@@ -106,8 +107,8 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   };
   measure(options.thicken);
   double h = made.distance.grid.spacing.minCoeff();
-  const auto is_empty = [&] { return !(answer.at_nodes.array() < 0).any(); };
-  const bool sheets = is_empty() && input.n_faces() > 0 && options.thicken == 0;
+  const bool is_empty = !(answer.at_nodes.array() < 0).any();
+  const bool sheets = is_empty && input.n_faces() > 0 && options.thicken == 0;
   const double thicken = sheets ? usual_wall * h : options.thicken;
   if (sheets) {
     const bool room = (box.low - made.distance.grid.origin).minCoeff() >= thicken / 2 + h;
@@ -124,26 +125,40 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   VecX& values = made.distance.values;
   const JoinedTriangles target = join_triangles(input, answer.completion);
   made.target = soup_of(target.points, target.triangles);
-  if (thicken > 0) {
+  const auto contour = [&] {
+    if (!(values.array() < 0).any())
+      throw InputError(
+          "the input has no inside: no node of the grid lies in it. Thin parts need a larger "
+          "option "
+          "resolution; if all of it is reversed, say option flip",
+          "no-inside");
+    // Nodes that lie on a sheet have the value zero: they are not inside.
+    made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
+                              task.stage(0.1, "contour"));
+  };
+  PolygonSoup walls;
+  if (is_empty && thicken > 0) {
+    walls = triangulate(input);
+  } else {
+    contour();
+    if (thicken > 0)
+      walls = left_out(triangulate(input), made.surface, made.distance, 2 * missed * h,
+                       task.stage(0.1, "walls"));
+  }
+  if (thicken > 0) report.sizes.emplace_back("triangles that became walls", walls.n_faces());
+  if (walls.n_faces() > 0) {
     if (thicken < 2 * h)
       report.warn("wall-thin", "walls of thickness " + rounded_text(thicken) +
                                    " are thinner than two cells of the grid (" +
                                    rounded_text(2 * h) +
                                    "): they may have holes; raise option resolution");
-    const VecX to_input = redistance(made.distance.grid, values, 0, triangulate(input),
-                                     thicken + 2 * h, task.stage(0.1, "walls"));
-    values = values.cwiseMin((to_input.cwiseAbs().array() - thicken / 2).matrix());
+    const VecX to_walls =
+        redistance(made.distance.grid, values, 0, walls, thicken + 2 * h, task.stage(0.1, "walls"));
+    values = values.cwiseMin((to_walls.cwiseAbs().array() - thicken / 2).matrix());
+    contour();
   }
-  if (!(values.array() < 0).any())
-    throw InputError(
-        "the input has no inside: no node of the grid lies in it. Thin parts need a larger option "
-        "resolution; if all of it is reversed, say option flip",
-        "no-inside");
-  // Nodes that lie on a sheet have the value zero: they are not inside.
-  made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
-                            task.stage(0.1, "contour"));
   untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
-  if (!options.fit || thicken > 0 || input.n_faces() == 0) return made;
+  if (!options.fit || walls.n_faces() > 0 || input.n_faces() == 0) return made;
   const FittedSurface fitted =
       fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
                      target.triangles, h, task.stage(0.6, "fitting"));
@@ -216,12 +231,7 @@ Missed missed_parts(const PolygonSoup& input, const Made& made, Task task) {
   Missed out;
   for (Eigen::Index i = 0; i < far.size(); ++i) {
     if (far[i] <= missed * h) continue;
-    // Sheets: the distance about them is positive on both sides; within the result, negative.
-    const Vec3 at =
-        (points.row(i).transpose() - distance.grid.origin).cwiseQuotient(distance.grid.spacing);
-    const Vec3 last =
-        Eigen::Map<const Eigen::Vector3i>(distance.grid.n.data()).cast<double>().array() - 1;
-    (interpolate(distance, at.cwiseMax(0).cwiseMin(last)) < 0 ? out.inside : out.outside) += 1;
+    (is_inside(distance, points.row(i)) ? out.inside : out.outside) += 1;
   }
   out.inside /= static_cast<double>(far.size());
   out.outside /= static_cast<double>(far.size());

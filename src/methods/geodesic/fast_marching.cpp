@@ -40,11 +40,11 @@ struct UnfoldedStencil {
 /// seen at an obtuse angle, from two edges to a vertex in front.
 class Stencils {
  public:
-  explicit Stencils(const IntrinsicTriangulation& T) : T_(T) {
+  Stencils(const IntrinsicTriangulation& T, const Task& task) : T_(T) {
     corners_ = groups_of<int>(std::size_t(T.n_vertices), [&](const auto& put) {
       for (int c = 0; c < 3 * T.n_faces(); ++c) put(T.faces.data()[c], c);
     });
-    unfold_obtuse();
+    unfold_obtuse(task);
   }
 
   /// Corners at a vertex: 3 f + k of triangle f.
@@ -61,10 +61,11 @@ class Stencils {
   int n_unsplit = 0;  // obtuse corners where the mesh ends before a vertex in front is found
 
  private:
-  void unfold_obtuse() {
+  void unfold_obtuse(const Task& task) {
     unfolds_.assign(corners_.members.size(), 0);
     EdgeSides sides;  // found where there is an obtuse corner
-    for (int f = 0; f < T_.n_faces(); ++f)
+    for (int f = 0; f < T_.n_faces(); ++f) {
+      if (f % 0x10000 == 0) task.checkpoint();
       for (int k = 0; k < 3; ++k) {
         const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
         if (law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1)) >= 0) continue;
@@ -81,6 +82,7 @@ class Stencils {
           unfolded_.push_back({v, T_.faces(f, (k + end) % 3), d, std::norm(t.p[end]), std::norm(D),
                                dot(t.p[end], D)});
       }
+    }
     if (unfolded_.empty()) return;
     users_ = groups_of<int>(std::size_t(T_.n_vertices), [&](const auto& put) {
       for (int i = 0; i < int_size(unfolded_); ++i) {
@@ -144,8 +146,11 @@ double arrival(const Products& s, double last, double other) {
 
 class MarchingFront {
  public:
-  MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources)
-      : T_(T), stencils_(T), d_(VecX::Constant(T.n_vertices, infinity)), queue_(T.n_vertices) {
+  MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources, const Task& task)
+      : T_(T),
+        stencils_(T, task),
+        d_(VecX::Constant(T.n_vertices, infinity)),
+        queue_(T.n_vertices) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
@@ -294,7 +299,7 @@ class MarchingFront {
 
 VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sources,
                    const Task& task, Report& report) {
-  MarchingFront front(T, sources);
+  MarchingFront front(T, sources, task);
   front.run(task);
   report.sizes.emplace_back("obtuse_corners_left", front.n_unsplit());
   return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),

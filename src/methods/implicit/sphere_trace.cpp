@@ -9,22 +9,27 @@ namespace littoral {
 
 namespace {
 
-/// Illinois: the root of f between a and b, whose values differ in sign, to `width`.
+/// Illinois: the root of f between a and b, whose values differ in sign, to `tolerance` in place or
+/// in value.
 template <class F>
-double bracketed(const F& f, double a, double fa, double b, double fb, double width) {
-  for (int i = 0; i < 60 && b - a > width; ++i) {
+double bracketed(const F& f, double a, double fa, double b, double fb, double tolerance) {
+  int kept = 0;  // steps that moved a (less than 0) or b alone
+  for (int i = 0; i < 60 && b - a > tolerance; ++i) {
     double t = (a * fb - b * fa) / (fb - fa);
     // Every third step halves: values on both sides of a jump would never narrow the bracket.
     if (i % 3 == 2 || !(t > a && t < b)) t = 0.5 * (a + b);
     const double ft = f(t);
+    if (std::abs(ft) < tolerance) return t;
     if ((ft < 0) == (fa < 0)) {
       a = t;
       fa = ft;
-      fb /= 2;
+      if (kept < 0) fb /= 2;
+      kept = -1;
     } else {
       b = t;
       fb = ft;
-      fa /= 2;
+      if (kept > 0) fa /= 2;
+      kept = 1;
     }
   }
   return 0.5 * (a + b);

@@ -287,9 +287,10 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   SpMat A_at(rows.A.rows(), index(at.size()));
   for (std::size_t k = 0; k < at.size(); ++k) A_at.col(index(k)) = rows.A.col(at[k]);
   // What c adds to the right side, and without c what a second step adds, follows from x at the
-  // rows alone. With c a second step starts from small numbers: c is worth no more digits than w
-  // leaves.
-  const bool twice = n_free == 0 && !system.iterates();
+  // rows alone. Rows of several unknowns, values and c leave the first step fewer digits, so that a
+  // second with the matrix itself is needed and nothing is won.
+  const bool twice =
+      n_free == 0 && !system.iterates() && rows.A.nonZeros() == rows.A.rows() && value.isZero(0);
   const int rounds = n_free > 0 || twice ? 1 : 0;
   VecX r = b - At * (w * miss);
   constexpr int max_steps = 30;
@@ -301,7 +302,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
         r, at, rounds,
         [&](const MatX& dx_at) -> MatX {
           const VecX there = A_at * dx_at;
-          if (n_free == 0) {
+          if (twice) {
             miss += there;
             y += w * miss;
             return A_at.transpose() * VecX(-w * miss);

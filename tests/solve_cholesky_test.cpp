@@ -198,6 +198,35 @@ TEST(Cholesky, SparseRightHandSidesAndWantedUnknownsGiveTheSameBits) {
     EXPECT_EQ(some[Eigen::Index(i)], x[Eigen::Index(i)]);
 }
 
+TEST(Cholesky, ARightSideCorrectedOnTheWayIsSolvedAsIfItHadBeenKnown) {
+  const SpMat K = sphere_matrix(6);
+  const Cholesky<double> factor(K, {});
+  const MatX b = MatX::Random(K.rows(), 2);
+  const std::vector<int> at{9, 3, 700, 701, static_cast<int>(K.rows()) - 1};
+  for (const int rounds : {0, 1, 3}) {
+    MatX known = b;
+    for (int round = 1; round <= rounds; ++round) {
+      const MatX x = factor.solve(known);
+      for (const int i : at) known.row(i) += round * (x.row(i).array() + 1).matrix();
+    }
+    const MatX expected = factor.solve(known);
+    MatX first;
+    for (const int threads : {1, 2, 3}) {
+      set_thread_count(threads);
+      int round = 0;
+      const MatX x = factor.solve_corrected(b, at, rounds, [&](const MatX& x_at) {
+        return MatX(++round * (x_at.array() + 1).matrix());
+      });
+      EXPECT_EQ(round, rounds);
+      if (threads == 1) first = x;
+      EXPECT_TRUE(x == first) << threads;
+    }
+    set_thread_count(0);
+    EXPECT_LE((first - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
+    EXPECT_TRUE(rounds > 0 || first == expected);
+  }
+}
+
 TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
   const SurfaceMesh mesh(test::octasphere_soup(5));
   Report report;
@@ -258,6 +287,27 @@ TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
   const MatX At = MatX(p.terms.A.transpose());
   const VecX y = At.completeOrthogonalDecomposition().solve(force);
   EXPECT_LE((At * y - force).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Poisson, UnknownsHeldAtZeroTakeOnePassThroughTheFactor) {
+  const SurfaceMesh mesh(test::octasphere_soup(4));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({3}), report);
+  const Calculus& C = p.ops->scalar;
+  const std::vector<int> held{5, 6, 40};
+  SpMat A(3, C.L.rows());
+  for (int r = 0; r < 3; ++r) A.insert(r, held[r]) = 1;
+  const VecX b = VecX::Random(C.L.rows());
+  Report steps;
+  const VecX x =
+      Poisson(C.L, C.component, C.n_components, {}).solve_levels(b, {A, {0, 0, 0}, {1}}, {}, steps);
+  EXPECT_LE((A * x).cwiseAbs().maxCoeff(), 1e-12 * (x.maxCoeff() - x.minCoeff()));
+  VecX force = times_symmetric(C.L, x) - b;  // at the rows alone
+  for (const int i : held) force[i] = 0;
+  EXPECT_LE(force.cwiseAbs().maxCoeff(), 1e-11);
+  ASSERT_FALSE(steps.iterations.empty());
+  EXPECT_EQ(steps.iterations[0].first, "constraint steps");
+  EXPECT_EQ(steps.iterations[0].second, 1);  // what a second one adds is known before x is
 }
 
 TEST(Parallel, EveryThreadFlushesSubnormalsAsItsCallerDoes) {

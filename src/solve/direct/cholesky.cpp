@@ -158,17 +158,16 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
 }
 
 template <class Scalar>
-typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
-                                                         const std::vector<char>& wanted) const {
-  const FlushSubnormals flush;
+void Cholesky<Scalar>::mark_up(int s, std::vector<char>& marked) const {
+  for (; s >= 0 && !marked[s]; s = structure_->parent[s]) marked[s] = 1;
+}
+
+/// x: b in the order of elimination. Returns the supernodes that its nonzeros pass through.
+template <class Scalar>
+std::vector<char> Cholesky<Scalar>::in_order(const Dense& b, Dense& x) const {
   const Elimination& E = *structure_;
-  // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
-  std::vector<char> nonzero(E.n_super, 0), needed = nonzero;
-  auto mark_up = [&](std::vector<char>& marked, int s) {
-    for (; s >= 0 && !marked[s]; s = E.parent[s]) marked[s] = 1;
-  };
-  Dense x(b.rows(), b.cols());
-  std::vector<char> given(E.n_super, 0);
+  std::vector<char> given(E.n_super, 0), nonzero = given;
+  x.resize(b.rows(), b.cols());
   parallel_for(given.size(), super_grain, [&](std::size_t first, std::size_t end) {
     for (Eigen::Index k = 0; k < b.cols(); ++k)
       for (std::size_t s = first; s < end; ++s)
@@ -178,24 +177,81 @@ typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
         }
   });
   for (int s = 0; s < E.n_super; ++s)
-    if (given[s]) mark_up(nonzero, s);
-  if (wanted.empty()) {
-    needed.assign(needed.size(), 1);
-  } else {
-    for (int s = 0; s < E.n_super; ++s)
-      for (int i = E.first[s]; i < E.first[s + 1] && !needed[s]; ++i)
-        if (wanted[E.old_of[i]]) mark_up(needed, s);
-  }
-  std::vector<Dense> passed_on(E.n_tasks());
-  parallel_forest(E.task_parent, Walk::from_leaves,
-                  [&](int t) { forward(t, nonzero, x, passed_on); });
-  parallel_forest(E.task_parent, Walk::from_roots, [&](int t) { backward(t, needed, x); });
-  Dense out(b.rows(), b.cols());
-  parallel_for(given.size(), super_grain, [&](std::size_t first, std::size_t end) {
-    for (Eigen::Index k = 0; k < b.cols(); ++k)
+    if (given[s]) mark_up(s, nonzero);
+  return nonzero;
+}
+
+template <class Scalar>
+typename Cholesky<Scalar>::Dense Cholesky<Scalar>::out_of_order(const Dense& x) const {
+  const Elimination& E = *structure_;
+  Dense out(x.rows(), x.cols());
+  parallel_for(E.n_super, super_grain, [&](std::size_t first, std::size_t end) {
+    for (Eigen::Index k = 0; k < x.cols(); ++k)
       for (int i = E.first[first]; i < E.first[end]; ++i) out(E.old_of[i], k) = x(i, k);
   });
   return out;
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::forward(const std::vector<char>& active, Dense& x) const {
+  std::vector<Dense> passed_on(structure_->n_tasks());
+  parallel_forest(structure_->task_parent, Walk::from_leaves,
+                  [&](int t) { forward(t, active, x, passed_on); });
+}
+
+template <class Scalar>
+void Cholesky<Scalar>::backward(const std::vector<char>& active, Dense& x) const {
+  parallel_forest(structure_->task_parent, Walk::from_roots,
+                  [&](int t) { backward(t, active, x); });
+}
+
+template <class Scalar>
+typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve(const Dense& b,
+                                                         const std::vector<char>& wanted) const {
+  const FlushSubnormals flush;
+  const Elimination& E = *structure_;
+  // What is not zero flows up the tree from where b is not; what is wanted needs all above it.
+  Dense x;
+  const std::vector<char> nonzero = in_order(b, x);
+  std::vector<char> needed(E.n_super, wanted.empty() ? 1 : 0);
+  if (!wanted.empty())
+    for (int s = 0; s < E.n_super; ++s)
+      for (int i = E.first[s]; i < E.first[s + 1] && !needed[s]; ++i)
+        if (wanted[E.old_of[i]]) mark_up(s, needed);
+  forward(nonzero, x);
+  backward(needed, x);
+  return out_of_order(x);
+}
+
+template <class Scalar>
+typename Cholesky<Scalar>::Dense Cholesky<Scalar>::solve_corrected(
+    const Dense& b, const std::vector<int>& at, int rounds, const Correction& correct) const {
+  const FlushSubnormals flush;
+  const Elimination& E = *structure_;
+  // L z = b. What is added to b adds to z above `at` only, and x there depends on z there only.
+  Dense z;
+  forward(in_order(b, z), z);
+  std::vector<char> above(E.n_super, 0);
+  for (const int i : at) mark_up(E.super_of[E.new_of[i]], above);
+  std::vector<int> parts;
+  for (int s = 0; s < E.n_super; ++s)
+    if (above[s]) parts.push_back(s);
+  const auto each_above = [&](const auto& change) {
+    for (const int s : parts) change(E.first[s], E.columns(s));
+  };
+  Dense y(z.rows(), z.cols()), x_at(index(at.size()), z.cols());
+  for (int round = 0; round < rounds; ++round) {
+    each_above([&](int i, int n) { y.middleRows(i, n) = z.middleRows(i, n); });
+    backward(above, y);
+    for (std::size_t k = 0; k < at.size(); ++k) x_at.row(index(k)) = y.row(E.new_of[at[k]]);
+    const Dense more = correct(x_at);
+    each_above([&](int i, int n) { y.middleRows(i, n).setZero(); });
+    for (std::size_t k = 0; k < at.size(); ++k) y.row(E.new_of[at[k]]) += more.row(index(k));
+    forward(above, y);
+    each_above([&](int i, int n) { z.middleRows(i, n) += y.middleRows(i, n); });
+  }
+  backward(std::vector<char>(E.n_super, 1), z);
+  return out_of_order(z);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 // Sparse Cholesky factorization of symmetric (Hermitian) positive definite matrices.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,6 +42,13 @@ class Cholesky {
   /// empty: all), whose values are of no meaning.
   Dense solve(const Dense& b, const std::vector<char>& wanted = {}) const;
 
+  /// The same where b has yet to be corrected at the unknowns `at`: in each round `correct` is
+  /// given x there and returns what to add to b there. A round goes through what these depend on,
+  /// twice; the rest of the factor is gone through once each way.
+  using Correction = std::function<Dense(const Dense& x_at)>;
+  Dense solve_corrected(const Dense& b, const std::vector<int>& at, int rounds,
+                        const Correction& correct) const;
+
   double nonzeros() const { return static_cast<double>(structure_->values()); }  // of the factor
   const std::shared_ptr<const Elimination>& structure() const { return structure_; }
   /// Rows and columns of a supernode (height x columns), lower.
@@ -54,6 +62,11 @@ class Cholesky {
 
   void factor(const Matrix& lower, const std::vector<char>& stale, const Task& task);
   void factor_supernode(const Matrix& lower, int s, const Task& task);
+  void mark_up(int supernode, std::vector<char>& marked) const;
+  std::vector<char> in_order(const Dense& b, Dense& x) const;
+  Dense out_of_order(const Dense& x) const;
+  void forward(const std::vector<char>& active, Dense& x) const;
+  void backward(const std::vector<char>& active, Dense& x) const;
   void forward(int task, const std::vector<char>& active, Dense& x,
                std::vector<Dense>& passed_on) const;
   void backward(int task, const std::vector<char>& active, Dense& x) const;

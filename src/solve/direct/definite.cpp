@@ -135,6 +135,18 @@ MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
   return x;
 }
 
+VecX DefiniteSystem::approximate(const VecX& b, const std::vector<int>& at, int rounds,
+                                 const Cholesky<double>::Correction& correct,
+                                 const Task& task) const {
+  if (factor_) return factor_->solve_corrected(b, at, rounds, correct);
+  VecX x = approximate(b, task), more = VecX::Zero(b.size());
+  for (int round = 0; round < rounds; ++round) {
+    more(at) = correct(x(at));
+    x += approximate(more, task);
+  }
+  return x;
+}
+
 VecX DefiniteSystem::improved(const VecX& x, const VecX& b, const Task& task) const {
   constexpr double left = 0.03;  // in the energy norm
   Report unread;

@@ -8,6 +8,7 @@
 #include "heat_helpers.h"
 #include "littoral/error.h"
 #include "solve/multigrid/banded_multigrid.h"
+#include "solve/multigrid/multigrid.h"
 #include "solve/poisson/poisson.h"
 #include "test_meshes.h"
 
@@ -98,6 +99,25 @@ TEST(Multigrid, NeedsNoMoreIterationsOnLargerMeshes) {
     }
     before = iterations;
   }
+}
+
+TEST(Multigrid, WeaklyCoupledUnknownsGoWithANeighbour) {
+  // A chain of which every fifth unknown hangs on by a thread.
+  constexpr int n = 40;
+  Triplets entries;
+  const auto couple = [&](int i, int j, double by) {
+    entries.emplace_back(i, j, -by);
+    entries.emplace_back(j, i, -by);
+    entries.emplace_back(i, i, by);
+    entries.emplace_back(j, j, by);
+  };
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1);
+  for (int i = 0; i + 1 < n; ++i) couple(i, i + 1, i % 5 == 0 || i % 5 == 4 ? 1e-4 : 1);
+  SpRows A(n + 1, n + 1);  // the last is coupled to nothing
+  A.setFromTriplets(entries.begin(), entries.end());
+  const SpRows P = smoothed_aggregation(A, 0.1, {});
+  for (int i = 0; i < n; ++i) EXPECT_GT(SpRows(P.row(i)).nonZeros(), 0) << i;
+  EXPECT_EQ(SpRows(P.row(n)).nonZeros(), 0);
 }
 
 TEST(Multigrid, MeetsConstraintsAsTheFactorDoes) {

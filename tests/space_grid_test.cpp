@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 
 #include "base/index.h"
 #include "base/parallel.h"
 #include "littoral/error.h"
 #include "methods/heat/convolve.h"
 #include "methods/heat/signed_heat_grid.h"
+#include "methods/heat/yukawa_tree.h"
 #include "space_helpers.h"
 
 namespace littoral {
@@ -67,6 +69,41 @@ TEST(Convolution, MomentsOfClustersTurnItLittle) {
   }
   EXPECT_LT(total / 6, 3e-4);
   EXPECT_LT(most, 3e-3);
+}
+
+TEST(YukawaTree, MomentsAreThoseOfTheSamples) {
+  OrientedPoints source;
+  source.points = test::random_points(100, 0.5);
+  source.normals = test::random_points(100, 1).rowwise().normalized();
+  source.areas = VecX::LinSpaced(100, 0.1, 2);
+  const YukawaTree tree = yukawa_tree(source, 8);
+  ASSERT_GT(tree.boxes.size(), 20u);
+  for (std::size_t i = 0; i < tree.boxes.size(); ++i) {
+    double area = 0;
+    Vec3 centre = Vec3::Zero(), normal = Vec3::Zero(), along = Vec3::Zero();
+    const auto samples = std::span(tree.samples)
+                             .subspan(tree.boxes[i].begin, tree.boxes[i].end - tree.boxes[i].begin);
+    for (const YukawaSample& s : samples) {
+      area += s.area;
+      centre += s.area * Vec3(s.x, s.y, s.z);
+      normal += Vec3(s.nx, s.ny, s.nz);
+    }
+    centre /= area;
+    double spread = 0;
+    for (const YukawaSample& s : samples) {
+      const Vec3 d = Vec3(s.x, s.y, s.z) - centre;
+      spread += s.area / area * d.x() * d.y();
+      along += s.nz * d;
+    }
+    const YukawaMoments& m = tree.moments[i];
+    EXPECT_NEAR(m.area, area, 1e-4 * area);
+    EXPECT_NEAR(m.spread[3], spread, 1e-5);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(m.centre[k], centre[k], 1e-5);
+      EXPECT_NEAR(m.normal[k], normal[k], 1e-4);
+      EXPECT_NEAR(m.first[2][k], along[k], 1e-4);
+    }
+  }
 }
 
 TEST(SampleDirections, InterpolationStaysCloseToEvaluationEverywhere) {

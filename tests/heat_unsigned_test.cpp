@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include "heat_helpers.h"
 #include "test_meshes.h"
 

@@ -242,9 +242,16 @@ TEST(Repair, OnlySheetsBecomeWalls) {
   RepairOptions options;
   options.grid.resolution = 48;
   options.thicken = 0.1;
-  const Repaired closed = repair(box, options);
-  EXPECT_EQ(size_named(closed.report, "triangles that became walls"), 0);
-  EXPECT_NEAR(volume_of(closed.surface.soup()), 1, 1e-6);
+  for (const bool remesh : {false, true}) {
+    options.remesh = remesh;
+    const Repaired closed = repair(box, options);
+    EXPECT_EQ(closed.report.status, "converged");
+    EXPECT_NEAR(volume_of(closed.surface.soup()), 1, 1e-6);
+    if (remesh) {
+      EXPECT_EQ(size_named(closed.report, "triangles that became walls"), 0);
+    }
+  }
+  options.remesh = false;
   // A fin of half its width outside of the box, which stays as large as it is.
   PolygonSoup fin = test::grid_soup(2, 2);
   fin.points.rowwise() += Eigen::RowVector3d(0, -0.5, 0);

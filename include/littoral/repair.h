@@ -34,7 +34,8 @@ struct Repaired {
 /// space (none: SpaceAutomatic).
 ///
 /// Where orientation, doubled faces and parts within others are all that is wrong, the input's
-/// triangles are kept where they are; not with a method, `flip`, `thicken` or `remesh`. Otherwise
+/// triangles are kept where they are; not with a method, `flip` or `remesh`, nor where `thicken`
+/// makes walls. Otherwise
 /// the surface is contoured on a grid and fitted to the input where that does not make it cross
 /// itself. The result is checked without rounding; where it is not closed, manifold
 /// and free of crossings, or misses more than a hundredth of the input's area, the report's status

@@ -136,36 +136,40 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                               task.stage(0.1, "contour"));
   };
+  const auto fit = [&] {
+    untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
+    if (!options.fit || input.n_faces() == 0) return;
+    const FittedSurface fitted =
+        fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
+                       target.triangles, h, task.stage(0.6, "fitting"));
+    made.surface = soup_of(fitted.points, fitted.faces);
+    made.fitted = true;
+    made.moved = fitted.n_moved;
+    made.kept = fitted.n_kept;
+  };
   PolygonSoup walls;
   if (is_empty && thicken > 0) {
     walls = triangulate(input);
   } else {
     contour();
-    if (thicken > 0)
-      walls = left_out(triangulate(input), made.surface, made.distance, 2 * missed * h,
-                       task.stage(0.1, "walls"));
+    fit();
+    if (!(thicken > 0)) return made;
+    walls = left_out(triangulate(input), made.surface, made.distance,
+                     missed * (made.fitted ? 1 : 2) * h, task.stage(0.1, "walls"));
   }
-  if (thicken > 0) report.sizes.emplace_back("triangles that became walls", walls.n_faces());
-  if (walls.n_faces() > 0) {
-    if (thicken < 2 * h)
-      report.warn("wall-thin", "walls of thickness " + rounded_text(thicken) +
-                                   " are thinner than two cells of the grid (" +
-                                   rounded_text(2 * h) +
-                                   "): they may have holes; raise option resolution");
-    const VecX to_walls =
-        redistance(made.distance.grid, values, 0, walls, thicken + 2 * h, task.stage(0.1, "walls"));
-    values = values.cwiseMin((to_walls.cwiseAbs().array() - thicken / 2).matrix());
-    contour();
-  }
+  report.sizes.emplace_back("triangles that became walls", walls.n_faces());
+  if (walls.n_faces() == 0) return made;
+  if (thicken < 2 * h)
+    report.warn("wall-thin", "walls of thickness " + rounded_text(thicken) +
+                                 " are thinner than two cells of the grid (" + rounded_text(2 * h) +
+                                 "): they may have holes; raise option resolution");
+  const VecX to_walls =
+      redistance(made.distance.grid, values, 0, walls, thicken + 2 * h, task.stage(0.1, "walls"));
+  values = values.cwiseMin((to_walls.cwiseAbs().array() - thicken / 2).matrix());
+  contour();
   untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
-  if (!options.fit || walls.n_faces() > 0 || input.n_faces() == 0) return made;
-  const FittedSurface fitted =
-      fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
-                     target.triangles, h, task.stage(0.6, "fitting"));
-  made.surface = soup_of(fitted.points, fitted.faces);
-  made.fitted = true;
-  made.moved = fitted.n_moved;
-  made.kept = fitted.n_kept;
+  made.fitted = false;
+  made.moved = made.kept = 0;
   return made;
 }
 
@@ -301,10 +305,14 @@ double largest_error(const Report& report) {
 PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& options,
                            const SpaceRequest& request, Task task, Report& report) {
   check(options, input.n_faces() == 0);
-  const bool as_it_is =
-      !options.remesh && options.thicken == 0 && !request.flip && request.method.name().empty();
-  if (auto kept =
-          as_it_is ? kept_surface(input, task.stage(0.3, "looking"), report) : std::nullopt) {
+  const bool as_it_is = !options.remesh && !request.flip && request.method.name().empty();
+  const Report before = report;
+  auto kept = as_it_is ? kept_surface(input, task.stage(0.3, "looking"), report) : std::nullopt;
+  if (kept && options.thicken > 0 && kept->dropped > 0) {  // which becomes walls
+    kept.reset();
+    report = before;
+  }
+  if (kept) {
     report.method = SpaceAutomatic::method;
     report.domain = "surface";
     report.sizes.emplace_back("triangles of the input turned, share", kept->turned);
@@ -316,7 +324,6 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
     compare(input, made, report, task.stage(1, "comparing"));
     return std::move(made.surface);
   }
-  const Report before = report;
   const auto once = [&](const GridOptions& grid, Task part) {
     report = before;
     Made made = contoured(input, options, request, grid, part.stage(0.7, "surface"), report);

@@ -37,10 +37,15 @@ TEST(WindingNumber, ExactSumsAgreeWithBruteForceAlsoOnBrokenSurfaces) {
   }
 }
 
-TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
-  const PolygonSoup soup = test::torus_soup(60, 40);
+MatX3i one_in_seven_reversed(const PolygonSoup& soup) {
   MatX3i faces = triangles_of(soup);
   for (Eigen::Index f = 0; f < faces.rows(); f += 7) std::swap(faces(f, 0), faces(f, 1));
+  return faces;
+}
+
+TEST(WindingNumber, ExpansionStaysWithinItsAccuracy) {
+  const PolygonSoup soup = test::torus_soup(60, 40);
+  const MatX3i faces = one_in_seven_reversed(soup);
   const WindingNumber winding(soup.points, faces);
   EXPECT_FALSE(winding.exact());
   const MatX3 queries = test::random_points(150, 1.6);
@@ -206,8 +211,7 @@ TEST(WindingKernels, NarrowAnglesAreThoseInDoublePrecisionOrSaySo) {
 TEST(WindingNumber, WithinATriangleOfASoupHasTheValueOfTheSum) {
   // In single precision queries next to a triangle would be on either side of it.
   const PolygonSoup soup = test::torus_soup(60, 40);
-  MatX3i faces = triangles_of(soup);
-  for (Eigen::Index f = 0; f < faces.rows(); f += 7) std::swap(faces(f, 0), faces(f, 1));
+  const MatX3i faces = one_in_seven_reversed(soup);
   const WindingNumber winding(soup.points, faces);
   ASSERT_FALSE(winding.exact());
   for (int f = 0; f < faces.rows(); f += 37)

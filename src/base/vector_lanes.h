@@ -2,40 +2,16 @@
 // Lanes as the compiler's own vectors, of as many as a register holds.
 
 #include <cstdint>
+#include <type_traits>
 
 namespace littoral {
 
 /// Comparisons of `Lanes` give masks of all bits, as `Bits`.
-template <int width>
-struct Wide;
-template <>
-struct Wide<2> {
-  using Lanes = double __attribute__((vector_size(16)));
-  using Bits = std::int64_t __attribute__((vector_size(16)));
-};
-template <>
-struct Wide<4> {
-  using Lanes = double __attribute__((vector_size(32)));
-  using Bits = std::int64_t __attribute__((vector_size(32)));
-};
-template <>
-struct Wide<8> {
-  using Lanes = double __attribute__((vector_size(64)));
-  using Bits = std::int64_t __attribute__((vector_size(64)));
-};
-
-/// The same of single precision.
-template <int width>
-struct WideFloats;
-template <>
-struct WideFloats<4> {
-  using Lanes = float __attribute__((vector_size(16)));
-  using Bits = std::int32_t __attribute__((vector_size(16)));
-};
-template <>
-struct WideFloats<8> {
-  using Lanes = float __attribute__((vector_size(32)));
-  using Bits = std::int32_t __attribute__((vector_size(32)));
+template <int width, class Real = double>
+struct Wide {
+  using Word = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
+  using Lanes [[gnu::vector_size(width * sizeof(Real))]] = Real;
+  using Bits [[gnu::vector_size(width * sizeof(Real))]] = Word;
 };
 
 template <class Lanes, class Scalar>

@@ -69,7 +69,7 @@ template <int width>
 [[gnu::always_inline]] inline float ways_to_middles_of(const CornerLanes& t, const float* from,
                                                        WayLanes& out) {
   for (int l = 0; l < nearest_lanes; l += width) {
-    typename WideFloats<width>::Lanes squared{}, a, b, c;
+    typename Wide<width, float>::Lanes squared{}, a, b, c;
     for (int d = 0; d < 3; ++d) {
       load(a, &t.corner[d][l]);
       load(b, &t.corner[d + 3][l]);
@@ -170,7 +170,7 @@ using Flags = std::array<std::int32_t, nearest_lanes>;
   float middle[3], squared = 0;
   for (int d = 0; d < 3; ++d) {
     constexpr int width = 4;
-    WideFloats<width>::Lanes low, high, more;
+    Wide<width, float>::Lanes low, high, more;
     load(low, &t.corner[d][0]);
     high = low;
     for (const int c : {d, d + 3, d + 6})
@@ -221,8 +221,8 @@ template <class Lanes, class Real>
 template <int width>
 [[gnu::always_inline]] inline void candidates_of(const RoughTriangle* triangles, int n,
                                                  const PlaceLanes& at, float slack, float* room) {
-  using Lanes = typename WideFloats<width>::Lanes;
-  using Bits = typename WideFloats<width>::Bits;
+  using Lanes = typename Wide<width, float>::Lanes;
+  using Bits = typename Wide<width, float>::Bits;
   constexpr float rounding = 4e-6f, most = 3e38f;
   for (int i = 0; i < n; ++i) *triangles[i].may_be = 0;
   for (int l = 0; l < nearest_lanes; l += width) {

@@ -1,6 +1,7 @@
 #include "api/space/left_out.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,20 +11,22 @@ namespace littoral {
 
 namespace {
 
-/// The middles of parts of a triangle that are no longer than `side`, 256 of them at most.
-MatX3 spread_in(const Vec3& a, const Vec3& b, const Vec3& c, double side) {
-  const double longest =
-      std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-  const int n = static_cast<int>(std::clamp(std::ceil(longest / side), 1.0, 16.0));
-  MatX3 out(n * n, 3);
+/// Parts of a side so that none is longer than `length`, 16 at most.
+int parts_of_side(const std::array<Vec3, 3>& t, double length) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, (t[(k + 1) % 3] - t[k]).norm());
+  return static_cast<int>(std::clamp(std::ceil(longest / length), 1.0, 16.0));
+}
+
+/// The middles of the n^2 parts of a triangle whose sides are divided in n.
+void set_middles(const std::array<Vec3, 3>& t, int n, Eigen::Ref<MatX3> out) {
   Eigen::Index at = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j)
       for (int turned = 0; turned < (i + j + 1 < n ? 2 : 1); ++turned) {
         const double u = (i + (1 + turned) / 3.0) / n, v = (j + (1 + turned) / 3.0) / n;
-        out.row(at++) = (a + u * (b - a) + v * (c - a)).transpose();
+        out.row(at++) = (t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0])).transpose();
       }
-  return out;
 }
 
 }  // namespace
@@ -38,27 +41,28 @@ bool is_inside(const Volume& distance, const Vec3& x) {
 PolygonSoup left_out(const PolygonSoup& triangles, const PolygonSoup& surface,
                      const Volume& distance, double far, Task task) {
   const double side = 2 * distance.grid.spacing.maxCoeff();
-  std::vector<MatX3> spread;
-  Eigen::Index n = 0;
+  const auto corners = [&](int f) {
+    const auto c = triangles.face(f);
+    return std::array<Vec3, 3>{triangles.points.row(c[0]), triangles.points.row(c[1]),
+                               triangles.points.row(c[2])};
+  };
+  std::vector<Eigen::Index> begin{0};  // the places of each triangle
   for (int f = 0; f < triangles.n_faces(); ++f) {
-    const auto corner = [&](int k) { return Vec3(triangles.points.row(triangles.face(f)[k])); };
-    n += spread.emplace_back(spread_in(corner(0), corner(1), corner(2), side)).rows();
+    const int n = parts_of_side(corners(f), side);
+    begin.push_back(begin.back() + n * n);
   }
-  MatX3 points(n, 3);
-  Eigen::Index at = 0;
-  for (const MatX3& each : spread) {
-    points.middleRows(at, each.rows()) = each;
-    at += each.rows();
+  MatX3 points(begin.back(), 3);
+  for (int f = 0; f < triangles.n_faces(); ++f) {
+    const std::array<Vec3, 3> t = corners(f);
+    set_middles(t, parts_of_side(t, side), points.middleRows(begin[f], begin[f + 1] - begin[f]));
   }
   const VecX to_surface = NearestOnInput(surface).at(points, task).distances;
   PolygonSoup out;
   out.points = triangles.points;
-  at = 0;
   for (int f = 0; f < triangles.n_faces(); ++f) {
-    const Eigen::Index end = at + spread[f].rows();
     bool is_out = false;
-    for (; at < end; ++at)
-      is_out = is_out || (to_surface[at] > far && !is_inside(distance, points.row(at)));
+    for (Eigen::Index at = begin[f]; at < begin[f + 1] && !is_out; ++at)
+      is_out = to_surface[at] > far && !is_inside(distance, points.row(at));
     if (is_out) out.add_face(triangles.face(f));
   }
   return out;

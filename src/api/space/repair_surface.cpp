@@ -129,15 +129,14 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     if (!(values.array() < 0).any())
       throw InputError(
           "the input has no inside: no node of the grid lies in it. Thin parts need a larger "
-          "option "
-          "resolution; if all of it is reversed, say option flip",
+          "option resolution; if all of it is reversed, say option flip",
           "no-inside");
     // Nodes that lie on a sheet have the value zero: they are not inside.
     made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
                               task.stage(0.1, "contour"));
+    untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   };
   const auto fit = [&] {
-    untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
     if (!options.fit || input.n_faces() == 0) return;
     const FittedSurface fitted =
         fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
@@ -148,6 +147,7 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     made.kept = fitted.n_kept;
   };
   PolygonSoup walls;
+  const Report before_contour = report;
   if (is_empty && thicken > 0) {
     walls = triangulate(input);
   } else {
@@ -157,6 +157,7 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
     walls = left_out(triangulate(input), made.surface, made.distance,
                      missed * (made.fitted ? 1 : 2) * h, task.stage(0.1, "walls"));
   }
+  if (walls.n_faces() > 0) report = before_contour;  // another surface takes its place
   report.sizes.emplace_back("triangles that became walls", walls.n_faces());
   if (walls.n_faces() == 0) return made;
   if (thicken < 2 * h)
@@ -167,7 +168,6 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
       redistance(made.distance.grid, values, 0, walls, thicken + 2 * h, task.stage(0.1, "walls"));
   values = values.cwiseMin((to_walls.cwiseAbs().array() - thicken / 2).matrix());
   contour();
-  untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   made.fitted = false;
   made.moved = made.kept = 0;
   return made;

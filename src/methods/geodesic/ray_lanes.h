@@ -15,6 +15,7 @@ LITTORAL_INLINE void take_root(V& v) {
   for (int l = 0; l < int(sizeof v / sizeof(double)); ++l) v[l] = std::sqrt(v[l]);
 }
 
+/// Lane by lane: by words, as in vector_lanes.h, exact search takes some 3 % longer.
 template <int width, class B>
 LITTORAL_INLINE bool any(const B& b) {
   std::int64_t bits = 0;

@@ -16,20 +16,10 @@ namespace littoral {
 namespace {
 
 constexpr int lanes = YukawaGroup::lanes;
-using Floats [[gnu::vector_size(4 * lanes)]] = float;
-using Whole [[gnu::vector_size(4 * lanes)]] = std::int32_t;
-using Pairs [[gnu::vector_size(4 * lanes)]] = std::int64_t;
+using Floats = Wide<lanes, float>::Lanes;
+using Whole = Wide<lanes, float>::Bits;
 
-[[gnu::always_inline]] inline bool any(const Whole& mask) {
-  Pairs p;
-  __builtin_memcpy(&p, &mask, sizeof p);
-  return ((p[0] | p[1]) | (p[2] | p[3])) != 0;
-}
-[[gnu::always_inline]] inline bool all(const Whole& mask) {
-  Pairs p;
-  __builtin_memcpy(&p, &mask, sizeof p);
-  return ((p[0] & p[1]) & (p[2] & p[3])) == -1;
-}
+[[gnu::always_inline]] inline bool all(const Whole& mask) { return !any<Whole>(~mask); }
 
 [[gnu::always_inline]] inline void root(const Floats& x, Floats& out) {
   alignas(sizeof x) float from[lanes], to[lanes];

@@ -181,6 +181,15 @@ void gather(const std::vector<TorusRecord<S>>& records, const Neighbour* found, 
   }
 }
 
+/// The place from the points of neighbours.
+template <class S>
+void gather_away(const std::vector<TorusRecord<S>>& records, const Neighbour* found, int n,
+                 const Vec3& x, TorusAway<S>& away) {
+  for (int l = 0; l < torus_lanes; ++l)
+    for (int d = 0; d < 3; ++d)
+      away.x[d][l] = static_cast<S>(x[d] - records[found[l < n ? l : 0].point].p[d]);
+}
+
 ToriDistance fitted(const OrientedPoints& cloud, const TorusFit& fit, const Task& task,
                     Report& report, ToriOutliers outliers, auto make) {
   OrientedPoints used = distinct_points(cloud, report);
@@ -270,8 +279,9 @@ int ToriDistance::side_of(const Vec3& x, bool negative, bool disputed) const {
   return negative ? -1 : 1;
 }
 
-template <class S>
-double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
+template <class T, class S>
+T ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const {
+  constexpr bool sloped = !std::is_same_v<T, double>;
   std::array<Neighbour, littoral::blended> found;
   const int n = tree_.nearest(x, littoral::blended, found.data(), [&](int place) {
     const char* const bytes = reinterpret_cast<const char*>(&records[place]);
@@ -280,17 +290,29 @@ double ToriDistance::blended(const std::vector<TorusRecord<S>>& records, const V
   });
   TorusLanes<S> lanes;
   gather(records, found.data(), n, x, lanes);
-  BlendedTori<S> out;
-  BlendKernel<S>* const kernel = blend_kernel<S>();
-  kernel(lanes, n, 0, out);
-  const SideCheck check(out.nearest, out.rho, out.negative);
-  const bool negative = out.phi < 0;
+  BlendedTori<S, std::conditional_t<sloped, Slope<S>, S>> out;
+  TorusAway<S> away;
+  T nearest = std::sqrt(found[0].squared_distance);
+  if constexpr (sloped) {
+    gather_away(records, found.data(), n, x, away);
+    const double* const p = records[found[0].point].p;
+    const double over = 1 / std::max(nearest.value, torus_tiny<double>);
+    nearest = {nearest.value, over * (x[0] - p[0]), over * (x[1] - p[1]), over * (x[2] - p[2])};
+  }
+  const auto ask = [&](int known) {
+    if constexpr (sloped)
+      slope_kernel<S>()(lanes, away, n, known, out);
+    else
+      blend_kernel<S>()(lanes, n, known, out);
+  };
+  ask(0);
+  const SideCheck check(out.nearest, value_of(out.rho), out.negative);
+  const bool negative = value_of(out.phi) < 0;
   if (check.disputed || (check.far && orientation_ != 0 && !trusted(found[0], x, negative))) {
     const int side = side_of(x, negative, check.disputed);
-    if (check.disputed || (side < 0) != negative) kernel(lanes, n, side, out);
+    if (check.disputed || (side < 0) != negative) ask(side);
   }
-  const double nearest = std::sqrt(found[0].squared_distance);
-  return clamp_to_nearest<double>(out.phi, nearest, out.rho);
+  return clamp_to_nearest<T>(T(out.phi), nearest, T(out.rho));
 }
 
 template <class T>
@@ -317,7 +339,7 @@ T ToriDistance::plain(const Vec3& x, const std::array<T, 3>& at) const {
 }
 
 double ToriDistance::value(const Vec3& x) const {
-  return records_.empty() ? blended<float>(single_, x) : blended<double>(records_, x);
+  return records_.empty() ? blended<double>(single_, x) : blended<double>(records_, x);
 }
 
 double ToriDistance::value_by_plain_sums(const Vec3& x) const {
@@ -329,8 +351,10 @@ Jet ToriDistance::jet(const Vec3& x) const {
 }
 
 DistanceSample ToriDistance::at(const Vec3& x) const {
-  const Jet phi = jet(x);
-  return {phi.value, phi.gradient};
+  using Number = Slope<double>;
+  const Number phi =
+      records_.empty() ? blended<Number>(single_, x) : blended<Number>(records_, x);
+  return {phi.value, phi.gradient()};
 }
 
 }  // namespace littoral

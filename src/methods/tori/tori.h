@@ -63,8 +63,8 @@ class ToriDistance final : public PointwiseDistance {
   void find_trusted();
   bool trusted(const Neighbour& nearest, const Vec3& x, bool negative) const;
   int side_of(const Vec3& x, bool negative, bool disputed) const;
-  template <class S>
-  double blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const;
+  template <class T, class S>
+  T blended(const std::vector<TorusRecord<S>>& records, const Vec3& x) const;
   template <class T>
   T plain(const Vec3& x, const std::array<T, 3>& at) const;
 

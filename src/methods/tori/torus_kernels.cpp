@@ -55,61 +55,142 @@ constexpr int lanes = torus_lanes;
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(p) + (n << 23));
 }
 
+template <class S>
+[[gnu::always_inline]] inline Slope<S> exponential(const Slope<S>& x) {
+  const S e = exponential(x.value);
+  return x.chain(e, e);
+}
+
+/// Numbers by lanes, the parts of each in arrays of their own.
+template <class T>
+struct Lanes {
+  alignas(64) T of[lanes];
+  [[gnu::always_inline]] T operator[](int l) const { return of[l]; }
+  [[gnu::always_inline]] void put(int l, T a) { of[l] = a; }
+};
+template <class S>
+struct Lanes<Slope<S>> {
+  Lanes<S> value, x, y, z;
+  [[gnu::always_inline]] Slope<S> operator[](int l) const { return {value[l], x[l], y[l], z[l]}; }
+  [[gnu::always_inline]] void put(int l, const Slope<S>& a) {
+    value.put(l, a.value);
+    x.put(l, a.x);
+    y.put(l, a.y);
+    z.put(l, a.z);
+  }
+};
+
 /// In a fixed order, whatever the instructions.
 template <class S>
-[[gnu::always_inline]] inline S sum_of(S* a) {
+[[gnu::always_inline]] inline S sum_of(Lanes<S>& a) {
   static_assert(lanes == 12);
-  for (int l = 0; l < 4; ++l) a[l] += a[l + 4] + a[l + 8];
-  return (a[0] + a[2]) + (a[1] + a[3]);
+  for (int l = 0; l < 4; ++l) a.of[l] += a.of[l + 4] + a.of[l + 8];
+  return (a.of[0] + a.of[2]) + (a.of[1] + a.of[3]);
+}
+template <class S>
+[[gnu::always_inline]] inline Slope<S> sum_of(Lanes<Slope<S>>& a) {
+  return {sum_of(a.value), sum_of(a.x), sum_of(a.y), sum_of(a.z)};
 }
 
+/// What depends on the place, lane by lane: without its derivatives.
 template <class S>
-[[gnu::always_inline]] inline void blend_lanes(const TorusLanes<S>& t, int n, int known,
-                                               BlendedTori<S>& out) {
-  alignas(64) S d[lanes], decay[lanes], a[lanes], b[lanes], c[lanes];
-  for (int l = 0; l < lanes; ++l) d[l] = std::sqrt(t.squared[l] + torus_tiny<S>);
-  const S nearest = d[0], farthest = d[n - 1];
-  for (int l = 0; l < lanes; ++l) {
-    const S closeness = 1 - d[l] / farthest;
-    const S w = t.used[l] * (closeness * closeness + S(1e-9));
-    a[l] = w * t.rho[l];
-    b[l] = w;
+struct Plain {
+  using Number = S;
+  const TorusLanes<S>& t;
+
+  [[gnu::always_inline]] S squared(int l) const { return t.squared[l]; }
+  [[gnu::always_inline]] S excess(int l) const { return t.excess[l]; }
+  [[gnu::always_inline]] S along(const S (&axis)[3][lanes], int l) const {
+    return t.x[0][l] * axis[0][l] + t.x[1][l] * axis[1][l] + t.x[2][l] * axis[2][l];
   }
-  const S rho = sum_of(a) / sum_of(b);
-  const S rate = -S(blend_sharpness) / rho;
-  for (int l = 0; l < lanes; ++l) decay[l] = exponential(rate * (t.excess[l] / (d[l] + nearest)));
-  const S last = decay[n - 1];
-  const S side = static_cast<S>(known);
+};
+
+/// With them.
+template <class S>
+struct Sloped {
+  using Number = Slope<S>;
+  const TorusLanes<S>& t;
+  const TorusAway<S>& away;
+
+  [[gnu::always_inline]] Slope<S> squared(int l) const {
+    return {t.squared[l], 2 * away.x[0][l], 2 * away.x[1][l], 2 * away.x[2][l]};
+  }
+  [[gnu::always_inline]] Slope<S> excess(int l) const {
+    return {t.excess[l], 2 * (away.x[0][l] - away.x[0][0]), 2 * (away.x[1][l] - away.x[1][0]),
+            2 * (away.x[2][l] - away.x[2][0])};
+  }
+  [[gnu::always_inline]] Slope<S> along(const S (&axis)[3][lanes], int l) const {
+    return {Plain<S>{t}.along(axis, l), axis[0][l], axis[1][l], axis[2][l]};
+  }
+};
+
+template <class Place, class S>
+[[gnu::always_inline]] inline void blend_lanes(const Place& place, int n, int known,
+                                               BlendedTori<S, typename Place::Number>& out) {
+  using std::sqrt;
+  using T = typename Place::Number;
+  const TorusLanes<S>& t = place.t;
+  Lanes<T> d, decay, a, b;
+  Lanes<S> c;
+  for (int l = 0; l < lanes; ++l) d.put(l, sqrt(T(place.squared(l) + T(torus_tiny<S>))));
+  const T nearest = d[0], farthest = d[n - 1];
   for (int l = 0; l < lanes; ++l) {
-    const S w = t.used[l] * (t.weight[l] * (decay[l] - last) + S(blend_floor));
-    const S x = t.x[0][l], y = t.x[1][l], z = t.x[2][l];
+    const T closeness = T(S(1)) - d[l] / farthest;
+    const T w = t.used[l] * (closeness * closeness + T(S(1e-9)));
+    a.put(l, w * t.rho[l]);
+    b.put(l, w);
+  }
+  const T rho = sum_of(a) / sum_of(b);
+  const T rate = T(-S(blend_sharpness)) / rho;
+  for (int l = 0; l < lanes; ++l)
+    decay.put(l, exponential(T(rate * (place.excess(l) / (d[l] + nearest)))));
+  const T last = decay[n - 1];
+  const S side = static_cast<S>(known);
+  alignas(64) S across[3][lanes];
+  for (int l = 0; l < lanes; ++l) {
     const S nx = t.n[0][l], ny = t.n[1][l], nz = t.n[2][l];
     const S ex = t.e1[0][l], ey = t.e1[1][l], ez = t.e1[2][l];
-    const S fx = ny * ez - nz * ey, fy = nz * ex - nx * ez, fz = nx * ey - ny * ex;
-    const S u = x * ex + y * ey + z * ez, v = x * fx + y * fy + z * fz;
-    const S g = patch_distance<S, S>(t.k1[l], t.k2[l], t.rho[l], u, v, x * nx + y * ny + z * nz);
-    const S size = g < 0 ? -g : g;
-    a[l] = w * (side > 0 ? size : side < 0 ? -size : g);
-    b[l] = w;
-    c[l] = g < 0 ? w : S(0);
+    across[0][l] = ny * ez - nz * ey;
+    across[1][l] = nz * ex - nx * ez;
+    across[2][l] = nx * ey - ny * ex;
   }
-  const S total = sum_of(b);
+  for (int l = 0; l < lanes; ++l) {
+    const T w = t.used[l] * (t.weight[l] * (decay[l] - last) + T(S(blend_floor)));
+    const T g = patch_distance<S, T>(t.k1[l], t.k2[l], t.rho[l], place.along(t.e1, l),
+                                     place.along(across, l), place.along(t.n, l));
+    const bool inside = g < T(S(0));
+    const S sign = inside ? S(-1) : S(1);
+    a.put(l, w * ((side > 0 ? sign : side < 0 ? -sign : S(1)) * g));
+    b.put(l, w);
+    c.put(l, inside ? value_of(w) : S(0));
+  }
+  const T total = sum_of(b);
   out.phi = sum_of(a) / total;
   out.rho = rho;
-  out.nearest = nearest;
-  out.negative = sum_of(c) / total;
+  out.nearest = value_of(nearest);
+  out.negative = sum_of(c) / value_of(total);
 }
 
 template <class S>
-void blend_plain(const TorusLanes<S>& t, int n, int known, BlendedTori<S>& out) {
-  blend_lanes(t, n, known, out);
+void blend_plain(const TorusLanes<S>& t, int n, int known, BlendedTori<S, S>& out) {
+  blend_lanes(Plain<S>{t}, n, known, out);
+}
+template <class S>
+void slope_plain(const TorusLanes<S>& t, const TorusAway<S>& away, int n, int known,
+                 BlendedTori<S, Slope<S>>& out) {
+  blend_lanes(Sloped<S>{t, away}, n, known, out);
 }
 
 #if defined(__x86_64__)
 template <class S>
 [[gnu::target("avx2")]] void blend_avx2(const TorusLanes<S>& t, int n, int known,
-                                        BlendedTori<S>& out) {
-  blend_lanes(t, n, known, out);
+                                        BlendedTori<S, S>& out) {
+  blend_lanes(Plain<S>{t}, n, known, out);
+}
+template <class S>
+[[gnu::target("avx2")]] void slope_avx2(const TorusLanes<S>& t, const TorusAway<S>& away, int n,
+                                        int known, BlendedTori<S, Slope<S>>& out) {
+  blend_lanes(Sloped<S>{t, away}, n, known, out);
 }
 #endif
 
@@ -121,7 +202,15 @@ BlendKernel<S>* blend_kernel() {
   return best;
 }
 
+template <class S>
+SlopeKernel<S>* slope_kernel() {
+  static SlopeKernel<S>* const best = LITTORAL_FASTEST(&slope_plain<S>, &slope_avx2<S>);
+  return best;
+}
+
 template BlendKernel<float>* blend_kernel<float>();
 template BlendKernel<double>* blend_kernel<double>();
+template SlopeKernel<float>* slope_kernel<float>();
+template SlopeKernel<double>* slope_kernel<double>();
 
 }  // namespace littoral

@@ -2,6 +2,8 @@
 // The blend of tori.h over all tori near a place at once, by the widest instructions the processor
 // has. Which ones changes nothing in the results.
 
+#include "methods/tori/slope.h"
+
 namespace littoral {
 
 constexpr int blended_tori = 12;  // that have a say at a place
@@ -28,20 +30,33 @@ struct TorusLanes {
   S used[torus_lanes];     // 1 or 0
 };
 
+/// The place from the torus' points, by lanes: half the derivative of `squared`.
 template <class S>
+struct TorusAway {
+  alignas(64) S x[3][torus_lanes];
+};
+
+/// T: S, or with its gradient.
+template <class S, class T>
 struct BlendedTori {
-  S phi = 0, rho = 0;  // the blend, not yet kept near the distance to the points; local spacing
-  S nearest = 0;       // distance to the nearest point
-  S negative = 0;      // share of the weight that sees the place inside
+  T phi = S(0), rho = S(0);  // the blend, not yet kept near the distance to the points; spacing
+  S nearest = 0;             // distance to the nearest point
+  S negative = 0;            // share of the weight that sees the place inside
 };
 
 /// Eq. 5.1 over the first n lanes; known: which side the place is on, 1 outside, -1 inside, 0 as
 /// the tori see it.
 template <class S>
-using BlendKernel = void(const TorusLanes<S>&, int n, int known, BlendedTori<S>&);
+using BlendKernel = void(const TorusLanes<S>&, int n, int known, BlendedTori<S, S>&);
+/// The same with its gradient.
+template <class S>
+using SlopeKernel = void(const TorusLanes<S>&, const TorusAway<S>&, int n, int known,
+                         BlendedTori<S, Slope<S>>&);
 
-/// The fastest one for the processor that runs the program.
+/// The fastest ones for the processor that runs the program.
 template <class S>
 BlendKernel<S>* blend_kernel();
+template <class S>
+SlopeKernel<S>* slope_kernel();
 
 }  // namespace littoral

@@ -121,6 +121,51 @@ TEST(ToriFast, GradientAndLaplacianAreDerivatives) {
   EXPECT_GT(agree, 0.98 * asked);
 }
 
+TEST(ToriFast, GradientsByLanesAreThoseOfPlainSums) {
+  for (const bool damaged : {false, true}) {
+    const OrientedPoints cloud = damaged ? damaged_cloud() : torus_cloud(3000, 1);
+    const ToriDistance full = fitted(cloud), single = fitted(cloud, {}, ToriPrecision::single);
+    int asked = 0, agree = 0, agree_in_single = 0;
+    for (const double reach : {1.5, 1e3})
+      for (const Vec3& x : places(2000, 12, reach)) {
+        const DistanceSample found = full.at(x), rough = single.at(x);
+        const Jet plain = full.jet(x);
+        EXPECT_EQ(found.value, full.value(x));
+        EXPECT_EQ(rough.value, single.value(x));
+        ++asked;  // all but those where the side turns on a last digit, or x is on a torus' axis
+        agree += (found.gradient - plain.gradient).norm() < 1e-9 * (1 + plain.gradient.norm());
+        agree_in_single += (rough.gradient - plain.gradient).norm() < 1e-2;
+      }
+    EXPECT_GT(agree, 0.998 * asked);
+    EXPECT_GT(agree_in_single, (damaged ? 0.95 : 0.998) * asked);
+  }
+}
+
+TEST(ToriFast, SlopesOfPatchesAreThoseOfJets) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int beyond = 0, within = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Torus torus;  // q, n and e1 are the axes'
+    torus.k1 = round % 5 == 0 ? 0 : uniform(random);
+    torus.k2 = round % 7 == 0 ? 0 : 2 * uniform(random);
+    torus.rho = 0.3;
+    const Vec3 x(uniform(random), uniform(random), uniform(random));
+    const std::array<Jet, 3> at{Jet::coordinate(x, 0), Jet::coordinate(x, 1),
+                                Jet::coordinate(x, 2)};
+    const Jet expected = patch_distance<Jet>(torus, at);
+    const PatchSlope<double> found =
+        patch_slope<double>(torus.k1, torus.k2, torus.rho, x[0], x[1], x[2]);
+    EXPECT_NEAR(found.g, expected.value, 1e-14);
+    EXPECT_LT((Vec3(found.along, found.across, found.normal) - expected.gradient).norm(),
+              1e-10 * (1 + expected.gradient.norm()))
+        << torus.k1 << " " << torus.k2 << " at " << x.transpose();
+    (std::abs(expected.gradient.norm() - 1) < 1e-12 ? within : beyond) += 1;
+  }
+  EXPECT_GT(beyond, 100);
+  EXPECT_GT(within, 100);
+}
+
 TEST(ToriFast, LaplacianOfASphereIsTwiceItsCurvature) {
   Torus sphere;
   sphere.q = Vec3(0, 0, 1);

@@ -48,7 +48,7 @@ struct Slope {
   }
   [[gnu::always_inline]] friend Slope operator*(const Slope& a, S b) { return b * a; }
   [[gnu::always_inline]] friend Slope operator/(const Slope& a, const Slope& b) {
-    const S i = S(1) / b.value, f = a.value * i;
+    const S f = a.value / b.value, i = S(1) / b.value;
     return {f, i * (a.x - f * b.x), i * (a.y - f * b.y), i * (a.z - f * b.z)};
   }
 

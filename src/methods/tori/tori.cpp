@@ -352,8 +352,7 @@ Jet ToriDistance::jet(const Vec3& x) const {
 
 DistanceSample ToriDistance::at(const Vec3& x) const {
   using Number = Slope<double>;
-  const Number phi =
-      records_.empty() ? blended<Number>(single_, x) : blended<Number>(records_, x);
+  const Number phi = records_.empty() ? blended<Number>(single_, x) : blended<Number>(records_, x);
   return {phi.value, phi.gradient()};
 }
 

@@ -33,10 +33,13 @@ template <class S, class T>
   return S(2) * a / (S(1) + (s > S(0) ? T(sqrt(s > S(0) ? s : T(S(1)))) : T(S(0))));
 }
 
-/// Distance to a torus and its derivatives along e1, across it and along n.
+/// Distance g to a torus and its derivatives along e1, across it and along n; of what these are
+/// made: a = 1 - k1 c and b = 1 - k2 g of the distance c to the circle, dg / dc, and the
+/// derivatives of c.
 template <class T>
 struct TorusDistance {
   T g, along, across, normal;
+  T a, b, through, circle_along, circle_normal;
 };
 
 /// Eq. 5.3 and 5.4 without centre and radii, at a point with coordinates u along e1, v across it
@@ -53,7 +56,50 @@ template <class S, class T>
   a = a < least ? (a > -least ? T(least) : a) : a;
   b = b < least ? (b > -least ? T(least) : b) : b;
   const T through = (S(1) - k2 * c) / b;
-  return {g, through * (-k1 * u) / a, -k2 * v / b, through * (S(1) - k1 * w) / a};
+  return {g,       through * (-k1 * u) / a, -k2 * v / b,        through * (S(1) - k1 * w) / a, a, b,
+          through, (-k1 * u) / a,           (S(1) - k1 * w) / a};
+}
+
+/// A place beside a torus' patch, the part of the torus within 1.5 rho of q: the place's foot on
+/// the torus, where that is drawn to if it lies beyond the patch, and the way from there.
+template <class T>
+struct PatchFoot {
+  TorusDistance<T> torus;
+  bool beyond;
+  T u, v, length;  // the foot along e1 and across, and its distance from the normal through q
+  T shrink;        // what draws it in
+  T drawn_u, drawn_v, du, dv, dw, distance;
+
+  /// With the torus' sign.
+  [[gnu::always_inline]] T signed_distance() const {
+    const T size = torus.g < T(0) ? T(-distance) : distance;
+    return beyond ? size : torus.g;
+  }
+};
+
+template <class S, class T>
+[[gnu::always_inline]] inline PatchFoot<T> patch_foot(S k1, S k2, S rho, const T& u, const T& v,
+                                                      const T& w) {
+  using std::sqrt;
+  PatchFoot<T> f;
+  f.torus = torus_distance<S, T>(k1, k2, u, v, w);
+  const TorusDistance<T>& d = f.torus;
+  f.u = u - d.g * d.along;
+  f.v = v - d.g * d.across;
+  const T fw = w - d.g * d.normal;
+  const S limit = S(1.5) * rho;
+  const T inside = f.u * f.u + f.v * f.v;
+  f.beyond = inside + fw * fw > T(limit * limit);
+  f.length = T(sqrt(T(inside + torus_tiny<S>)));
+  f.shrink = limit / f.length;
+  f.drawn_u = f.u * f.shrink;
+  f.drawn_v = f.v * f.shrink;
+  const T lift = S(0.5) * (k1 * (f.drawn_u * f.drawn_u) + k2 * (f.drawn_v * f.drawn_v));
+  f.du = u - f.drawn_u;
+  f.dv = v - f.drawn_v;
+  f.dw = w - lift;
+  f.distance = sqrt(T(f.du * f.du + f.dv * f.dv + f.dw * f.dw + torus_tiny<S>));
+  return f;
 }
 
 /// The same distance, but beyond 1.5 rho from q that to the torus' patch of that size rather than
@@ -63,21 +109,41 @@ template <class S, class T>
 template <class S, class T>
 [[gnu::always_inline]] inline T patch_distance(S k1, S k2, S rho, const T& u, const T& v,
                                                const T& w) {
-  using std::sqrt;
-  const TorusDistance<T> d = torus_distance<S, T>(k1, k2, u, v, w);
-  T fu = u - d.g * d.along, fv = v - d.g * d.across;  // the foot of x on the torus
-  const T fw = w - d.g * d.normal;
-  const S limit = S(1.5) * rho;
-  const T inside = fu * fu + fv * fv;
-  const bool beyond = inside + fw * fw > T(limit * limit);
-  const T shrink = limit / T(sqrt(T(inside + torus_tiny<S>)));
-  fu = fu * shrink;
-  fv = fv * shrink;
-  const T lift = S(0.5) * (k1 * (fu * fu) + k2 * (fv * fv));
-  const T du = u - fu, dv = v - fv, dw = w - lift;
-  const T distance = sqrt(T(du * du + dv * dv + dw * dw + torus_tiny<S>));
-  const T size = d.g < S(0) ? T(-distance) : distance;
-  return beyond ? size : d.g;
+  return patch_foot<S, T>(k1, k2, rho, u, v, w).signed_distance();
+}
+
+template <class S>
+struct PatchSlope {
+  S g, along, across, normal;
+};
+
+/// That distance with its derivatives along e1, across it and along n.
+template <class S>
+[[gnu::always_inline]] inline PatchSlope<S> patch_slope(S k1, S k2, S rho, S u, S v, S w) {
+  const PatchFoot<S> f = patch_foot<S, S>(k1, k2, rho, u, v, w);
+  const TorusDistance<S>& d = f.torus;
+  // Beyond the patch D = |(u, v, w) - drawn foot|. The foot turns about the normal through q and
+  // comes no nearer, so that of its motion only the part along (-v, u) / length counts: A and B are
+  // the derivatives of D by the foot's coordinates.
+  const S over = 1 / f.distance, tu = -f.v / f.length, tv = f.u / f.length;
+  const S by_u = -over * (f.du + f.dw * k1 * f.drawn_u);
+  const S by_v = -over * (f.dv + f.dw * k2 * f.drawn_v);
+  const S turn = f.shrink * (tu * by_u + tv * by_v);
+  const S A = turn * tu, B = turn * tv;
+  // The foot is (u - g g_u, v - g g_v), g_v = -k2 v / b and g_u = c_u (1 - k2 c) / b of the
+  // circle's distance c, c_u = -k1 u / a, a = 1 - k1 c, b = 1 - k2 g. Hence
+  //   grad(v - g g_v) = (e_v - g_v grad g) / b,
+  //   grad(u - g g_u) = (1 + m) e_u - g_u grad g / b - c_u (m - g k2 / b) grad c, m = g k1 / a *
+  // (1 - k2 c) / b.
+  const S over_b = 1 / d.b, m = d.g * d.through * k1 / d.a;
+  const S by_g = (A * d.along + B * d.across) * over_b;
+  const S by_c = A * d.circle_along * (m - d.g * k2 * over_b);
+  const S sign = d.g < S(0) ? S(-1) : S(1);
+  const S along = over * f.du + A * (1 + m) - by_g * d.along - by_c * d.circle_along;
+  const S across = over * f.dv + B * over_b - by_g * d.across;
+  const S normal = over * f.dw - by_g * d.normal - by_c * d.circle_normal;
+  return {f.signed_distance(), f.beyond ? sign * along : d.along,
+          f.beyond ? sign * across : d.across, f.beyond ? sign * normal : d.normal};
 }
 
 /// At a place: three numbers T, double or Jet.

@@ -103,6 +103,10 @@ struct Plain {
   [[gnu::always_inline]] S along(const S (&axis)[3][lanes], int l) const {
     return t.x[0][l] * axis[0][l] + t.x[1][l] * axis[1][l] + t.x[2][l] * axis[2][l];
   }
+  [[gnu::always_inline]] S patch(const S (&across)[3][lanes], int l) const {
+    return patch_distance<S, S>(t.k1[l], t.k2[l], t.rho[l], along(t.e1, l), along(across, l),
+                                along(t.n, l));
+  }
 };
 
 /// With them.
@@ -119,8 +123,14 @@ struct Sloped {
     return {t.excess[l], 2 * (away.x[0][l] - away.x[0][0]), 2 * (away.x[1][l] - away.x[1][0]),
             2 * (away.x[2][l] - away.x[2][0])};
   }
-  [[gnu::always_inline]] Slope<S> along(const S (&axis)[3][lanes], int l) const {
-    return {Plain<S>{t}.along(axis, l), axis[0][l], axis[1][l], axis[2][l]};
+  [[gnu::always_inline]] Slope<S> patch(const S (&across)[3][lanes], int l) const {
+    const Plain<S> at{t};
+    const PatchSlope<S> g = patch_slope<S>(t.k1[l], t.k2[l], t.rho[l], at.along(t.e1, l),
+                                           at.along(across, l), at.along(t.n, l));
+    const auto part = [&](int d) {
+      return g.along * t.e1[d][l] + g.across * across[d][l] + g.normal * t.n[d][l];
+    };
+    return {g.g, part(0), part(1), part(2)};
   }
 };
 
@@ -156,8 +166,7 @@ template <class Place, class S>
   }
   for (int l = 0; l < lanes; ++l) {
     const T w = t.used[l] * (t.weight[l] * (decay[l] - last) + T(S(blend_floor)));
-    const T g = patch_distance<S, T>(t.k1[l], t.k2[l], t.rho[l], place.along(t.e1, l),
-                                     place.along(across, l), place.along(t.n, l));
+    const T g = place.patch(across, l);
     const bool inside = g < T(S(0));
     const S sign = inside ? S(-1) : S(1);
     a.put(l, w * ((side > 0 ? sign : side < 0 ? -sign : S(1)) * g));

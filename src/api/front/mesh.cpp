@@ -19,10 +19,11 @@ namespace {
 
 /// Soups from files have been checked; those made in code have not.
 PolygonSoup with_indices_checked(PolygonSoup soup) {
-  const auto check = [&](const std::string& what, int v) {
+  const auto check = [&](const char* what, auto number, int v) {
     if (v < 0 || v >= soup.n_vertices())
-      throw InputError(what + " refers to vertex " + std::to_string(v) + "; there are " +
-                           counted(soup.n_vertices(), "vertex", "vertices") + ", counted from 0",
+      throw InputError(what + std::to_string(number) + " refers to vertex " + std::to_string(v) +
+                           "; there are " + counted(soup.n_vertices(), "vertex", "vertices") +
+                           ", counted from 0",
                        "no-such-element");
   };
   const auto& offsets = soup.face_offsets;
@@ -32,10 +33,10 @@ PolygonSoup with_indices_checked(PolygonSoup soup) {
   for (int f = 0; f < soup.n_faces(); ++f) {
     if (offsets[std::size_t(f) + 1] < offsets[f])
       throw InputError("the face offsets fall at face " + std::to_string(f), "sizes-differ");
-    for (const int v : soup.face(f)) check("face " + std::to_string(f), v);
+    for (const int v : soup.face(f)) check("face ", f, v);
   }
   for (std::size_t l = 0; l < soup.lines.size(); ++l)
-    for (const int v : soup.lines[l]) check("line " + std::to_string(l), v);
+    for (const int v : soup.lines[l]) check("line ", l, v);
   if (soup.normals.rows() != 0 && soup.normals.rows() != soup.points.rows())
     throw InputError("there are " + std::to_string(soup.normals.rows()) + " normals for " +
                          std::to_string(soup.points.rows()) + " points",

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/index.h"
@@ -15,6 +14,7 @@ namespace {
 constexpr double coverage_share = 1e-9;  // of a side: rays this near a window's end reach a vertex
 
 constexpr double bend_slack = 1e-6;  // of a bend of half a turn; costs 1e-12 of a path
+const Complex half_turn(-1, bend_slack);
 
 Complex apex_of(double a, double b, double c) {
   return {law_of_cosines(a, c, b) / (2 * a), 2 * area_of_lengths(a, b, c) / a};
@@ -78,12 +78,12 @@ void RayCrossing::leave_vertex(int v) {
   const PolyhedralSearch::Arrival& arrival = s_.arrival[v];
   if (s_.pages.bends[v] == PolyhedralPages::behind && arrival.side >= 0)
     return leave_behind(v, arrival);
-  for (const int side : s_.pages.around(v)) leave_corner(v, side, 0, T_.length(side / 3, side % 3));
+  for (const int side : s_.pages.around(v))
+    leave_corner(v, side, apex_over(T_, side), 0, T_.length(side / 3, side % 3));
 }
 
 /// Paths straight from a vertex through a stretch of the side across from it.
-void RayCrossing::leave_corner(int v, int side, double b0, double b1) {
-  const Complex apex = apex_over(T_, side);
+void RayCrossing::leave_corner(int v, int side, Complex apex, double b0, double b1) {
   Window w;
   w.b0 = b0;
   w.b1 = b1;
@@ -97,13 +97,7 @@ void RayCrossing::leave_corner(int v, int side, double b0, double b1) {
 /// Only where it turns by at least half a turn on both sides can a path that bends be shortest.
 void RayCrossing::leave_behind(int v, const PolyhedralSearch::Arrival& arrival) {
   corners_.clear();
-  const Complex first = apex_over(T_, arrival.side);
-  const double length = T_.length(arrival.side / 3, arrival.side % 3);
-  const auto down = [&](double p) { return std::atan2(p - first.real(), first.imag()); };
-  const double start = down(length) - down(arrival.share * length);
-  double turn = down(length) - down(0);
-  int side = 3 * (arrival.side / 3) + (arrival.side % 3 + 1) % 3;
-  while (true) {
+  for (int side = 3 * (arrival.side / 3) + (arrival.side % 3 + 1) % 3;;) {
     const auto at = s_.pages.at(T_.side_edge(side / 3, side % 3));
     const int entered = at[0] == side ? at[1] : at[0], f = entered / 3, k = entered % 3;
     if (f == arrival.side / 3) break;
@@ -111,24 +105,41 @@ void RayCrossing::leave_behind(int v, const PolyhedralSearch::Arrival& arrival) 
     c.from_start = T_.faces(f, k) == v;
     c.side = 3 * f + (c.from_start ? k + 1 : k + 2) % 3;
     c.length = T_.length(f, c.side % 3);
-    const Complex apex = apex_over(T_, c.side);
-    c.x = c.from_start ? apex.real() : c.length - apex.real();
-    c.y = apex.imag();
-    c.angle = std::atan2(c.x, c.y) + std::atan2(c.length - c.x, c.y);
-    turn += c.angle;
+    c.apex = apex_over(T_, c.side);
     corners_.push_back(c);
     side = 3 * f + (c.from_start ? k + 2 : k + 1) % 3;
   }
-  const double low = std::numbers::pi - bend_slack, high = turn - low;
-  double angle = start;
-  for (const Corner& c : corners_) {
-    const double from = low - angle, to = high - angle;
-    angle += c.angle;
-    if (from >= c.angle || to <= 0) continue;
-    double b0 = from > 0 ? c.crossing(from) : 0, b1 = to < c.angle ? c.crossing(to) : c.length;
+  const Complex apex = apex_over(T_, arrival.side);
+  const double length = T_.length(arrival.side / 3, arrival.side % 3);
+  const double p = arrival.share * length, x = apex.real(), y = apex.imag();
+  const std::size_t n = corners_.size();
+  const HalfTurn ahead = turn({y * y + (p - x) * (length - x), y * (length - p)}, false);
+  const HalfTurn back = turn({y * y + (x - p) * x, y * p}, true);
+  for (std::size_t i = ahead.corner; i < n && i + back.corner < n; ++i) {
+    const Corner& c = corners_[i];
+    double b0 = i == ahead.corner ? ahead.crossing : 0;
+    double b1 = i + back.corner == n - 1 ? c.length - back.crossing : c.length;
     if (!c.from_start) b0 = c.length - std::exchange(b1, c.length - b0);
-    leave_corner(v, c.side, b0, b1);
+    leave_corner(v, c.side, c.apex, b0, b1);
   }
+}
+
+/// Goes around a vertex, corner by corner, from a direction against the first leg (some multiple of
+/// that rotation) until the path that arrived has turned by half a turn.
+RayCrossing::HalfTurn RayCrossing::turn(Complex direction, bool backwards) const {
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Corner& c = corners_[backwards ? corners_.size() - 1 - i : i];
+    const bool from_start = c.from_start != backwards;
+    const double x = from_start ? c.apex.real() : c.length - c.apex.real(), y = c.apex.imag();
+    const Complex leg(-x, -y), next = direction * (Complex(c.length - x, -y) * std::conj(leg));
+    if ((next * std::conj(half_turn)).imag() >= 0) {
+      const Complex ray = leg * (half_turn * std::conj(direction));
+      const double crossing = ray.imag() < 0 ? x - y * ray.real() / ray.imag() : x;
+      return {i, std::clamp(crossing, 0.0, c.length)};
+    }
+    direction = next / std::max(std::abs(next.real()), std::abs(next.imag()));
+  }
+  return {corners_.size(), 0};
 }
 
 /// Rays that leave a triangle through a side, in that side's coordinates with the triangle (and the

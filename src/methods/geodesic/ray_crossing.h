@@ -83,8 +83,13 @@ class RayCrossing {
   void look(const Window& w, const TriangleAbove& above, int side);
   void leave_together(int side, int edge, const TriangleAbove& above, const RayExit& exit,
                       const EdgeEnds& ends, int first, int last);
-  void leave_corner(int v, int side, double b0, double b1);
+  void leave_corner(int v, int side, Complex apex, double b0, double b1);
   void leave_behind(int v, const PolyhedralSearch::Arrival& arrival);
+  struct HalfTurn {
+    std::size_t corner;  // corners passed before it
+    double crossing;     // of the side across, from the end that comes first
+  };
+  HalfTurn turn(Complex direction, bool backwards) const;
   void leave(int side, Window w);
   Batch& next_batch(int edge, std::size_t n);
 
@@ -94,13 +99,10 @@ class RayCrossing {
   std::vector<Batch> batches_;  // the first n_batches_ are in use
   std::size_t n_batches_ = 0;
   struct Corner {
-    int side;             // across from the vertex
-    bool from_start;      // the corner is entered at the leg to the start of that side
-    double x, y, length;  // the vertex above the side; its length
-    double angle;
-    /// Where a ray crosses the side, from the end where the corner is entered, that turned away
-    /// from the leg there.
-    double crossing(double turned) const { return x + y * std::tan(turned - std::atan2(x, y)); }
+    int side;         // across from the vertex
+    bool from_start;  // the corner is entered at the leg to the start of that side
+    double length;
+    Complex apex;  // the vertex above that side
   };
   std::vector<Corner> corners_;
   std::vector<Window> open_;

@@ -235,6 +235,27 @@ TEST(FrontSpace, DistanceToACube) {
   EXPECT_NEAR(winding_number(cube(), MatX3(X.topRows(1)))[0], 1, 1e-3);
 }
 
+TEST(FrontSpace, FromAsFarAsNumbersGoEveryInputIsAPoint) {
+  const Vec3 direction(0.6, 0.48, 0.64);
+  PolygonSoup inward = cube();
+  for (int f = 0; f < inward.n_faces(); ++f)
+    std::reverse(inward.corners.begin() + inward.face_offsets[static_cast<std::size_t>(f)],
+                 inward.corners.begin() + inward.face_offsets[static_cast<std::size_t>(f) + 1]);
+  for (const AnyMethod& method :
+       std::vector<AnyMethod>{{}, HopfCole{}, Planar{}, LogSumExp{}, Tori{}}) {
+    const Sdf f = signed_distance(cube(), method);
+    for (const double distance : {1e12, 1e14, 1e20, 1e100, 1e155, 1e300}) {
+      const Vec3 x = distance * direction;
+      // The mean of distances to planes is none to a point.
+      const double tolerance = method.name() == "planar" && distance < 1e13 ? 0.5 : 1e-6;
+      EXPECT_NEAR(f(x) / distance, 1, tolerance) << method.name() << " " << distance;
+      EXPECT_NEAR(f.gradient(x).dot(direction), 1, tolerance) << method.name();
+      EXPECT_EQ(f.at(MatX3(x.transpose()))[0], f(x));
+    }
+  }
+  EXPECT_NEAR(signed_distance(inward, HopfCole{})(1e155 * direction), -1e155, 1e149);
+}
+
 TEST(FrontSpace, MethodsThatNeedAGridSayAndAreSampled) {
   const Sdf heat = signed_distance(cube(), SpaceSignedHeat{});
   EXPECT_THAT([&] { heat(Vec3::Zero()); }, ThrowsMessage<UnsupportedError>(HasSubstr("grid")));

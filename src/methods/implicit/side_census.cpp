@@ -65,11 +65,9 @@ SideCensus::Shares SideCensus::shares(const SideRule& rule) const {
     if (rule.sense < 0) std::swap(behind, before);
     if (behind > certain && before < -certain)
       out.bounds += one;
-    else if (before > certain && behind < -certain)
-      out.bounds_turned += one;
     else if (behind > certain && before > certain)
       out.within += one;
-    else
+    else if (!(before > certain && behind < -certain))  // not bounding the other way
       out.without += one;
   }
   return out;

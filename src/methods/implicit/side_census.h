@@ -21,10 +21,10 @@ struct SideCensus {
   std::vector<int> face;
   std::vector<double> back, front;
 
-  /// Shares of the area, by a rule: where the inside ends, as its normals say or the other way;
-  /// within the inside or without it, on both sides.
+  /// Shares of the area, by a rule: where the inside ends as its normals say, within the inside or
+  /// without it on both sides. What is left ends the inside the other way.
   struct Shares {
-    double bounds = 0, bounds_turned = 0, within = 0, without = 0;
+    double bounds = 0, within = 0, without = 0;
   };
   Shares shares(const SideRule& rule) const;
 };

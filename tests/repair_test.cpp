@@ -11,6 +11,7 @@
 #include "contour/fit_to_surface.h"
 #include "contour/isosurface.h"
 #include "littoral/error.h"
+#include "repair_helpers.h"
 #include "space_helpers.h"
 #include "spatial/self_intersections.h"
 #include "spatial/triangulate.h"
@@ -18,37 +19,6 @@
 
 namespace littoral {
 namespace {
-
-double fact(const PolygonSoup& soup, const std::string& key) {
-  for (const InfoEntry& each : surface_info(soup))
-    if (each.key == key)
-      return std::holds_alternative<bool>(each.value) ? double(std::get<bool>(each.value))
-                                                      : std::get<double>(each.value);
-  ADD_FAILURE() << key;
-  return NAN;
-}
-
-double size_named(const Report& report, const std::string& name) {
-  for (const auto& [each, value] : report.sizes)
-    if (each == name) return value;
-  ADD_FAILURE() << name;
-  return NAN;
-}
-
-double volume_of(const PolygonSoup& soup) {
-  double volume = 0;
-  for (int f = 0; f < soup.n_faces(); ++f) {
-    const Vec3 a = soup.points.row(soup.face(f)[0]), b = soup.points.row(soup.face(f)[1]),
-               c = soup.points.row(soup.face(f)[2]);
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
-}
-
-void expect_watertight(const Mesh& mesh) {
-  EXPECT_EQ(fact(mesh.soup(), "watertight"), 1);
-  EXPECT_EQ(fact(mesh.soup(), "nonmanifold_vertices"), 0);
-}
 
 TEST(Repair, BoxWithItsEdgesAndCorners) {
   // A box that does not follow the grid: the fit gives its edges and corners back.
@@ -61,15 +31,15 @@ TEST(Repair, BoxWithItsEdgesAndCorners) {
   const Repaired with = repair(box, options);
   options.fit = false;
   const Repaired without = repair(box, options);
-  expect_watertight(with.surface);
-  expect_watertight(without.surface);
+  test::expect_watertight(with.surface);
+  test::expect_watertight(without.surface);
   EXPECT_EQ(with.report.status, "converged");
   const double h = 1.0 / 25;  // about a spacing
-  EXPECT_GT(size_named(without.report, "input to result: largest"), 0.1 * h);
-  EXPECT_LT(size_named(with.report, "input to result: largest"), 0.02 * h);
-  EXPECT_LT(size_named(with.report, "result to input: largest"), 1e-9);
-  EXPECT_NEAR(volume_of(with.surface.soup()), 8 * 0.5 * 0.4 * 0.3, 1e-4);
-  EXPECT_EQ(size_named(with.report, "result: handles"), 0);
+  EXPECT_GT(test::size_named(without.report, "input to result: largest"), 0.1 * h);
+  EXPECT_LT(test::size_named(with.report, "input to result: largest"), 0.02 * h);
+  EXPECT_LT(test::size_named(with.report, "result to input: largest"), 1e-9);
+  EXPECT_NEAR(test::volume_of(with.surface.soup()), 8 * 0.5 * 0.4 * 0.3, 1e-4);
+  EXPECT_EQ(test::size_named(with.report, "result: handles"), 0);
 }
 
 TEST(Repair, CreasesDoNotFlattenFaces) {
@@ -111,11 +81,11 @@ TEST(Repair, HoleTurnedFacesAndADuplicate) {
   RepairOptions options;
   options.grid.resolution = 48;
   const Repaired out = repair(broken, options);
-  expect_watertight(out.surface);
-  EXPECT_GT(size_named(out.report, "input: boundary edges"), 0);
-  EXPECT_GT(size_named(out.report, "input: self intersecting triangles"), 0);
-  EXPECT_LT(size_named(out.report, "result to input and closure: largest"), 0.05);
-  EXPECT_NEAR(volume_of(out.surface.soup()), 4 * M_PI / 3, 0.08);
+  test::expect_watertight(out.surface);
+  EXPECT_GT(test::size_named(out.report, "input: boundary edges"), 0);
+  EXPECT_GT(test::size_named(out.report, "input: self intersecting triangles"), 0);
+  EXPECT_LT(test::size_named(out.report, "result to input and closure: largest"), 0.05);
+  EXPECT_NEAR(test::volume_of(out.surface.soup()), 4 * M_PI / 3, 0.08);
 }
 
 TEST(Repair, OverlappingPartsBecomeOne) {
@@ -124,11 +94,11 @@ TEST(Repair, OverlappingPartsBecomeOne) {
   RepairOptions options;
   options.grid.resolution = 40;
   const Repaired out = repair(test::joined(a, b), options);
-  expect_watertight(out.surface);
-  EXPECT_EQ(size_named(out.report, "parts"), 1);
-  EXPECT_NEAR(volume_of(out.surface.soup()), 2 - 0.59 * 0.63 * 0.67, 2e-3);
-  EXPECT_GT(size_named(out.report, "input within the result, share"), 0.1);
-  EXPECT_EQ(size_named(out.report, "input missed, share"), 0);
+  test::expect_watertight(out.surface);
+  EXPECT_EQ(test::size_named(out.report, "parts"), 1);
+  EXPECT_NEAR(test::volume_of(out.surface.soup()), 2 - 0.59 * 0.63 * 0.67, 2e-3);
+  EXPECT_GT(test::size_named(out.report, "input within the result, share"), 0.1);
+  EXPECT_EQ(test::size_named(out.report, "input missed, share"), 0);
 }
 
 TEST(Repair, PartsAndCavities) {
@@ -140,15 +110,15 @@ TEST(Repair, PartsAndCavities) {
   const PolygonSoup all = test::joined(test::joined(outer, inner), small);
   RepairOptions options;
   options.grid.resolution = 48;
-  EXPECT_EQ(size_named(repair(all, options).report, "parts"), 3);
+  EXPECT_EQ(test::size_named(repair(all, options).report, "parts"), 3);
   options.smallest_part = 1;
   const Repaired large = repair(all, options);
-  EXPECT_EQ(size_named(large.report, "parts"), 2);
-  EXPECT_EQ(size_named(large.report, "small parts dropped"), 1);
+  EXPECT_EQ(test::size_named(large.report, "parts"), 2);
+  EXPECT_EQ(test::size_named(large.report, "small parts dropped"), 1);
   options.cavities = false;
   const Repaired solid = repair(all, options);
-  EXPECT_EQ(size_named(solid.report, "cavities filled"), 1);
-  EXPECT_NEAR(volume_of(solid.surface.soup()), volume_of(outer), 0.03);
+  EXPECT_EQ(test::size_named(solid.report, "cavities filled"), 1);
+  EXPECT_NEAR(test::volume_of(solid.surface.soup()), test::volume_of(outer), 0.03);
   options.smallest_part = 100;
   EXPECT_THROW(repair(all, options), InputError);
 }
@@ -175,12 +145,12 @@ TEST(Repair, KeepsTrianglesThatNeedOnlyTurning) {
     }
   broken.points.conservativeResize(n, 3);
   const Repaired out = repair(broken);
-  expect_watertight(out.surface);
-  EXPECT_EQ(size_named(out.report, "parts"), 3);
+  test::expect_watertight(out.surface);
+  EXPECT_EQ(test::size_named(out.report, "parts"), 3);
   EXPECT_EQ(out.surface.soup().n_faces(), 3 * ball.n_faces());
-  EXPECT_NEAR(volume_of(out.surface.soup()), (1 - 0.125 + 1) * volume_of(ball), 1e-12);
-  EXPECT_LT(size_named(out.report, "result to input: largest"), 1e-14);
-  EXPECT_GT(size_named(out.report, "triangles of the input turned, share"), 0.1);
+  EXPECT_NEAR(test::volume_of(out.surface.soup()), (1 - 0.125 + 1) * test::volume_of(ball), 1e-12);
+  EXPECT_LT(test::size_named(out.report, "result to input: largest"), 1e-14);
+  EXPECT_GT(test::size_named(out.report, "triangles of the input turned, share"), 0.1);
 }
 
 TEST(Repair, LeavesOutAWholePartWithinAnother) {
@@ -189,8 +159,8 @@ TEST(Repair, LeavesOutAWholePartWithinAnother) {
   within.points *= 0.5;
   const Repaired out = repair(test::joined(within, ball));
   EXPECT_EQ(out.surface.soup().points, ball.points);
-  EXPECT_EQ(size_named(out.report, "parts"), 1);
-  EXPECT_NEAR(size_named(out.report, "input within the result, share"), 0.2, 1e-12);
+  EXPECT_EQ(test::size_named(out.report, "parts"), 1);
+  EXPECT_NEAR(test::size_named(out.report, "input within the result, share"), 0.2, 1e-12);
 }
 
 TEST(Repair, KeepsABoxInsideOutToTheBit) {
@@ -199,7 +169,7 @@ TEST(Repair, KeepsABoxInsideOutToTheBit) {
     const PolygonSoup kept = repair(given).surface.soup();
     EXPECT_EQ(kept.points, box.points);
     EXPECT_EQ(kept.n_faces(), 12);
-    EXPECT_GT(volume_of(kept), 0);
+    EXPECT_GT(test::volume_of(kept), 0);
   }
   RepairOptions options;
   options.remesh = true;
@@ -214,54 +184,10 @@ TEST(Repair, GridsAreFinerWherePartsAreThin) {
   ruler.points = box.points;
   for (int f = 0; f < box.n_faces() - 1; ++f) ruler.add_face(box.face(f));
   const Repaired out = repair(ruler);
-  expect_watertight(out.surface);
-  EXPECT_GT(size_named(out.report, "nodes"), 128);
-  EXPECT_NEAR(volume_of(out.surface.soup()), 0.06 * 0.008, 0.02 * 0.06 * 0.008);
-  EXPECT_LT(size_named(out.report, "input missed, share"), 0.01);
-}
-
-TEST(Repair, SheetsBecomeWalls) {
-  const PolygonSoup sheet = test::grid_soup(4, 4);
-  RepairOptions options;
-  options.grid.resolution = 64;
-  const Repaired usual = repair(sheet, options);  // three spacings thick
-  expect_watertight(usual.surface);
-  ASSERT_FALSE(usual.report.warnings.empty());
-  EXPECT_EQ(usual.report.warnings.back().code, "sheets-thickened");
-  options.thicken = 0.1;
-  const Repaired out = repair(sheet, options);
-  expect_watertight(out.surface);
-  EXPECT_EQ(size_named(out.report, "parts"), 1);
-  // Steiner's formula: the sheet's area, half a tube along its sides, quarters of a ball.
-  const double r = 0.05, steiner = 2 * r + M_PI * r * r * 2 + 4 * M_PI / 3 * r * r * r;
-  EXPECT_NEAR(volume_of(out.surface.soup()), steiner, 0.01 * steiner);
-}
-
-TEST(Repair, OnlySheetsBecomeWalls) {
-  const PolygonSoup box = test::box_soup(Vec3(0.5, 0.5, 0.5));
-  RepairOptions options;
-  options.grid.resolution = 48;
-  options.thicken = 0.1;
-  for (const bool remesh : {false, true}) {
-    options.remesh = remesh;
-    const Repaired closed = repair(box, options);
-    EXPECT_EQ(closed.report.status, "converged");
-    EXPECT_NEAR(volume_of(closed.surface.soup()), 1, 1e-6);
-    if (remesh) {
-      EXPECT_EQ(size_named(closed.report, "triangles that became walls"), 0);
-    }
-  }
-  options.remesh = false;
-  // A fin of half its width outside of the box, which stays as large as it is.
-  PolygonSoup fin = test::grid_soup(2, 2);
-  fin.points.rowwise() += Eigen::RowVector3d(0, -0.5, 0);
-  const Repaired out = repair(test::joined(box, fin), options);
-  expect_watertight(out.surface);
-  EXPECT_EQ(size_named(out.report, "parts"), 1);
-  EXPECT_LT(size_named(out.report, "input missed, share"), 0.005);
-  // Steiner's formula for what sticks out: half a tube along three sides, quarters of a ball.
-  const double r = 0.05, steiner = 2 * r * 0.5 + M_PI * r * r / 2 * 2 + 2 * M_PI / 3 * r * r * r;
-  EXPECT_NEAR(volume_of(out.surface.soup()), 1 + steiner, 0.01);
+  test::expect_watertight(out.surface);
+  EXPECT_GT(test::size_named(out.report, "nodes"), 128);
+  EXPECT_NEAR(test::volume_of(out.surface.soup()), 0.06 * 0.008, 0.02 * 0.06 * 0.008);
+  EXPECT_LT(test::size_named(out.report, "input missed, share"), 0.01);
 }
 
 TEST(Repair, MeasuresSheetsOnce) {
@@ -281,8 +207,8 @@ TEST(Repair, MeasuresSheetsOnce) {
     };
     const Repaired out = repair(sheet, options, {}, {}, context);
     EXPECT_EQ(measured, padding > 0 ? 1 : 2);
-    expect_watertight(out.surface);
-    EXPECT_EQ(size_named(out.report, "parts"), 1);
+    test::expect_watertight(out.surface);
+    EXPECT_EQ(test::size_named(out.report, "parts"), 1);
   }
 }
 
@@ -294,9 +220,9 @@ TEST(Repair, WarnsOfWhatItMisses) {
   RepairOptions options;
   options.grid.resolution = 40;
   const Repaired out = repair(test::joined(box, fin), options);
-  expect_watertight(out.surface);
+  test::expect_watertight(out.surface);
   EXPECT_EQ(out.report.status, "uncertain");
-  EXPECT_GT(size_named(out.report, "input missed, share"), 0.03);
+  EXPECT_GT(test::size_named(out.report, "input missed, share"), 0.03);
 }
 
 TEST(Repair, RefinesUntilTheErrorIsMet) {
@@ -307,7 +233,7 @@ TEST(Repair, RefinesUntilTheErrorIsMet) {
   options.error = 0.004;
   const Repaired out = repair(sphere, options);
   EXPECT_EQ(out.report.status, "converged");
-  EXPECT_LE(size_named(out.report, "result to input and closure: largest"), 0.004);
+  EXPECT_LE(test::size_named(out.report, "result to input and closure: largest"), 0.004);
 }
 
 TEST(Repair, StopsWhereRefiningDoesNotLowerTheError) {
@@ -322,8 +248,8 @@ TEST(Repair, StopsWhereRefiningDoesNotLowerTheError) {
   ASSERT_FALSE(out.report.warnings.empty());
   EXPECT_EQ(out.report.warnings.back().code, "accuracy-missed");
   EXPECT_NE(out.report.warnings.back().text.find("finer grids do not lower it"), std::string::npos);
-  EXPECT_NEAR(size_named(out.report, "result to input and closure: largest"), 0.1, 0.01);
-  EXPECT_LT(size_named(out.report, "nodes"), 1e6);  // 6.6 million on the finest grid
+  EXPECT_NEAR(test::size_named(out.report, "result to input and closure: largest"), 0.1, 0.01);
+  EXPECT_LT(test::size_named(out.report, "nodes"), 1e6);  // 6.6 million on the finest grid
 }
 
 TEST(Repair, RefusesWhatMakesNoSense) {
@@ -356,7 +282,7 @@ TEST(FitToSurface, UntanglesAPointThatWasPushedThrough) {
   EXPECT_GT(crossing(), 0);
   untangle(sphere.points, faces, {});
   EXPECT_EQ(crossing(), 0);
-  EXPECT_NEAR(volume_of(sphere), 4 * M_PI / 3, 0.3);
+  EXPECT_NEAR(test::volume_of(sphere), 4 * M_PI / 3, 0.3);
 }
 
 TEST(FitToSurface, TakesBackWhatWouldCross) {

@@ -16,8 +16,8 @@ struct RepairOptions {
                                       // side, or up to 256 where parts are thinner than a spacing
   double error = 0;          // > 0: grids from 64 to 512 nodes until no point of the result is
                              // farther than that from the input or what closes it [length]
-  double thicken = 0;        // > 0: what the surface of the inside leaves out becomes walls that
-                             // thick [length]
+  double thicken = 0;        // > 0: sheets and thin parts that the surface of the inside leaves
+                             // out or tears become walls that thick [length]
   double smallest_part = 0;  // parts whose boxes have shorter diagonals go [length]
   bool cavities = true;      // keep parts that are holes in others
   bool remesh = false;       // also where the input's own triangles will do
@@ -35,13 +35,13 @@ struct Repaired {
 ///
 /// Where orientation, doubled faces and parts within others are all that is wrong, the input's
 /// triangles are kept where they are; not with a method, `flip` or `remesh`, nor where `thicken`
-/// makes walls. Otherwise the surface is contoured on a grid and, without walls, fitted to the
-/// input where that does not make it cross itself. The result is checked without rounding; where it
-/// is not closed, manifold and free of crossings, or misses more than a hundredth of the input's
-/// area, the report's status is "uncertain" and says why. A surface without an inside becomes
-/// walls, three spacings thick unless `thicken` is given, with a warning. Throws InputError for bad
-/// input, for options out of range and for a cloud without an inside; UnsupportedError for
-/// `thicken` and `error` of a cloud.
+/// makes walls. Otherwise the surface is contoured on a grid and fitted to the input, walls to
+/// half their thickness from it, where that does not make it cross itself. The result is checked
+/// without rounding; where it is not closed, manifold and free of crossings, or misses more than a
+/// hundredth of the input's area, the report's status is "uncertain" and says why. A surface
+/// without an inside becomes walls, three spacings thick unless `thicken` is given, with a warning.
+/// Throws InputError for bad input, for options out of range and for a cloud without an inside;
+/// UnsupportedError for `thicken` and `error` of a cloud.
 Repaired repair(const PolygonSoup& input, const RepairOptions& options = {},
                 const AnyMethod& method = {}, const Orientation& orientation = {},
                 const Context& context = {});

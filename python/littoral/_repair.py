@@ -56,10 +56,10 @@ def repair(
     to 256 where parts are thin; or spacing [length]) and fitted to the input with its creases,
     unless fit is False.
     error: refine the grid, up to 512 nodes, until no point of the result is farther than that from
-    the input or what closes it. thicken: what that leaves out becomes walls that thick, and nothing
-    is fitted; without it, where all is sheets, three spacings. smallest_part: parts whose boxes
-    have shorter diagonals go [all lengths]. cavities: keep holes inside of parts. The report's
-    status is "uncertain" where the result is not sound or misses some of the input.
+    the input or what closes it. thicken: sheets and thin parts that the surface leaves out or tears
+    become walls that thick; without it, where all is sheets, three spacings. smallest_part:
+    parts whose boxes have shorter diagonals go [all lengths]. cavities: keep holes inside of parts.
+    The report's status is "uncertain" where the result is not sound or misses some of the input.
     InputError for a cloud without an inside and for bad values, UnsupportedError for thicken and
     error of a cloud.
 

@@ -11,10 +11,10 @@
 
 #include "api/space/input_queries.h"
 #include "api/space/kept_surface.h"
-#include "api/space/left_out.h"
 #include "api/space/space_input.h"
 #include "api/space/surface_difference.h"
 #include "api/space/surface_parts.h"
+#include "api/space/walls.h"
 #include "api/surface/mesh_info.h"
 #include "base/counted.h"
 #include "base/index.h"
@@ -91,6 +91,15 @@ SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceReq
   return grid_answer(input, grid, request, task.stage(1, "distance"), report);
 }
 
+/// The triangles without the first ones that are marked.
+PolygonSoup without(const PolygonSoup& triangles, const std::vector<char>& marked) {
+  PolygonSoup out;
+  out.points = triangles.points;
+  for (int f = 0; f < triangles.n_faces(); ++f)
+    if (f >= static_cast<int>(marked.size()) || !marked[f]) out.add_face(triangles.face(f));
+  return out;
+}
+
 Made contoured(const PolygonSoup& input, const RepairOptions& options, const SpaceRequest& request,
                const GridOptions& grid, Task task, Report& report) {
   const Report before = report;
@@ -136,40 +145,39 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
                               task.stage(0.1, "contour"));
     untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   };
-  const auto fit = [&] {
+  const auto fit = [&](const JoinedTriangles& to) {
     if (!options.fit || input.n_faces() == 0) return;
     const FittedSurface fitted =
-        fit_to_surface(made.surface.points, triangles_of(made.surface), target.points,
-                       target.triangles, h, task.stage(0.6, "fitting"));
+        fit_to_surface(made.surface.points, triangles_of(made.surface), to.points, to.triangles, h,
+                       task.stage(0.6, "fitting"));
     made.surface = soup_of(fitted.points, fitted.faces);
     made.fitted = true;
     made.moved = fitted.n_moved;
     made.kept = fitted.n_kept;
   };
-  PolygonSoup walls;
+  Walls walls;
   const Report before_contour = report;
   if (is_empty && thicken > 0) {
-    walls = triangulate(input);
+    walls = walls_of_all(triangulate(input), made.distance.grid, thicken, task);
   } else {
     contour();
-    fit();
+    fit(target);
     if (!(thicken > 0)) return made;
-    walls = left_out(triangulate(input), made.surface, made.distance,
-                     missed * (made.fitted ? 1 : 2) * h, task.stage(0.1, "walls"));
+    walls = walls_of(triangulate(input), made.surface, made.distance,
+                     missed * (made.fitted ? 1 : 2) * h, thicken, task.stage(0.1, "walls"));
   }
-  if (walls.n_faces() > 0) report = before_contour;  // another surface takes its place
-  report.sizes.emplace_back("triangles that became walls", walls.n_faces());
-  if (walls.n_faces() == 0) return made;
+  if (walls.triangles > 0) report = before_contour;  // another surface takes its place
+  report.sizes.emplace_back("triangles that became walls", walls.triangles);
+  report.sizes.emplace_back("share of the area that became walls", walls.share);
+  if (walls.triangles == 0) return made;
   if (thicken < 2 * h)
     report.warn("wall-thin", "walls of thickness " + rounded_text(thicken) +
                                  " are thinner than two cells of the grid (" + rounded_text(2 * h) +
                                  "): they may have holes; raise option resolution");
-  const VecX to_walls =
-      redistance(made.distance.grid, values, 0, walls, thicken + 2 * h, task.stage(0.1, "walls"));
-  values = values.cwiseMin((to_walls.cwiseAbs().array() - thicken / 2).matrix());
+  const WallDistance to_walls = wall_distance(walls, made.distance.grid, task.stage(0.1, "walls"));
+  values = values.cwiseMin(to_walls.at_nodes);
   contour();
-  made.fitted = false;
-  made.moved = made.kept = 0;
+  fit(join_triangles(without(made.target, walls.wholly), to_walls.surface));
   return made;
 }
 
@@ -243,7 +251,7 @@ Missed missed_parts(const PolygonSoup& input, const Made& made, Task task) {
 }
 
 /// Counts before and after, distances both ways; warns of what is not as it should be.
-void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
+void compare(const PolygonSoup& input, Made& made, bool thickened, Report& report, Task task) {
   PolygonSoup& result = made.surface;
   const auto after = surface_info(result);
   if (input.n_faces() > 0) add_counts("input", surface_info(input), report);
@@ -291,8 +299,10 @@ void compare(const PolygonSoup& input, Made& made, Report& report, Task task) {
     report.warn(
         "parts-lost",
         number_text(std::round(1000 * share.outside) / 10) +
-            " % of the input's area is not part of the result: sheets without an inside, or "
-            "parts thinner than the grid; use option thicken, or raise option resolution");
+            " % of the input's area is not part of the result: " +
+            (thickened ? "dents at holes, and small parts; raise option resolution"
+                       : "sheets without an inside, or parts thinner than the grid; use option "
+                         "thicken, or raise option resolution"));
   }
 }
 
@@ -321,14 +331,14 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
     made.target = triangulate(input);
     made.within = kept->dropped;
     drop_parts(made.surface, options, report);
-    compare(input, made, report, task.stage(1, "comparing"));
+    compare(input, made, options.thicken > 0, report, task.stage(1, "comparing"));
     return std::move(made.surface);
   }
   const auto once = [&](const GridOptions& grid, Task part) {
     report = before;
     Made made = contoured(input, options, request, grid, part.stage(0.7, "surface"), report);
     drop_parts(made.surface, options, report);
-    compare(input, made, report, part.stage(0.3, "comparing"));
+    compare(input, made, options.thicken > 0, report, part.stage(0.3, "comparing"));
     return std::move(made.surface);
   };
   if (options.error == 0) return once(options.grid, task);

@@ -62,8 +62,9 @@ void add_options(CLI::App& verb, RepairArguments& arguments, Session& session) {
                   "that from the input or what closes it" +
                       unit)
       ->type_name("D");
-  verb.add_option("--thicken", arguments.thicken,
-                  "sheets without an inside become walls of this thickness" + unit)
+  verb.add_option(
+          "--thicken", arguments.thicken,
+          "sheets, and thin parts that the grid tears, become walls of this thickness" + unit)
       ->type_name("T");
   verb.add_option("--smallest-part", arguments.smallest_part,
                   "drop parts whose boxes have shorter diagonals" + unit)

@@ -9,7 +9,9 @@
 #include "api/space/input_queries.h"
 #include "base/disjoint_sets.h"
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
+#include "base/platform/memory.h"
 #include "contour/isosurface.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/triangle_bvh.h"
@@ -42,6 +44,17 @@ struct Piece {
 
 /// The triangles with area in pieces with no side longer than `longest`, by halving the longest.
 std::vector<Piece> pieces_of(const PolygonSoup& triangles, double longest, const Task& task) {
+  double area = 0;
+  for (int f = 0; f < triangles.n_faces(); ++f) {
+    const auto v = triangles.face(f);
+    const Vec3 a = triangles.points.row(v[0]), b = triangles.points.row(v[1]),
+               c = triangles.points.row(v[2]);
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  constexpr double most_pieces = 8;  // in a square of that length
+  check_memory(sizeof(Piece) * (triangles.n_faces() + most_pieces * area / (longest * longest)),
+               "walls of pieces no longer than " + rounded_text(longest),
+               "lower option resolution, or leave out option thicken");
   std::vector<Piece> out;
   std::vector<Triangle> left;
   for (int f = 0; f < triangles.n_faces(); ++f) {

@@ -235,7 +235,7 @@ TEST(FrontSpace, DistanceToACube) {
   EXPECT_NEAR(winding_number(cube(), MatX3(X.topRows(1)))[0], 1, 1e-3);
 }
 
-TEST(FrontSpace, FromAsFarAsNumbersGoEveryInputIsAPoint) {
+TEST(FrontSpaceSlow, FromAsFarAsNumbersGoEveryInputIsAPoint) {
   const Vec3 direction(0.6, 0.48, 0.64);
   PolygonSoup inward = cube();
   for (int f = 0; f < inward.n_faces(); ++f)

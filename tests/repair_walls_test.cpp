@@ -67,7 +67,7 @@ double steiner_of(const Vec3& side, double r) {
   return side.prod() + r * area + M_PI * r * r * side.sum() + 4 * M_PI / 3 * r * r * r;
 }
 
-TEST(RepairWalls, ThinPartsBecomeWallsAsAWhole) {
+TEST(RepairWallsSlow, ThinPartsBecomeWallsAsAWhole) {
   // Plates and sticks so thin that the grid hits them in places, beside a box that it holds: they
   // become as thick as is asked for, all over, and the box stays as it is.
   const PolygonSoup box = test::box_soup(Vec3(0.5, 0.4, 0.3));
@@ -142,7 +142,7 @@ TEST(RepairWalls, WhatLiesOnThePartIsNoWall) {
   EXPECT_LT(test::volume_of(soup), 1 + whole + above + 0.002);
 }
 
-TEST(RepairWalls, DentsAreNoWalls) {
+TEST(RepairWallsSlow, DentsAreNoWalls) {
   // Small pieces between the holes of a sphere: its surface may not reach them, but they are no
   // sheets.
   const PolygonSoup whole = test::octasphere_soup(4);

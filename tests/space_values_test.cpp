@@ -103,7 +103,7 @@ TEST(ValuedNearest, IsTheLeastAndTheGreatestOverAllSources) {
   }
 }
 
-TEST(SpaceValues, OneValueOfAllIsAddedByEveryMethod) {
+TEST(SpaceValuesSlow, OneValueOfAllIsAddedByEveryMethod) {
   const PolygonSoup sphere = test::octasphere_soup(1);
   const Grid grid = test::cube_grid(5, 1.6);
   const MatX3 at = test::random_points(20, 1.5);

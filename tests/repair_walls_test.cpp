@@ -67,6 +67,15 @@ double steiner_of(const Vec3& side, double r) {
   return side.prod() + r * area + M_PI * r * r * side.sum() + 4 * M_PI / 3 * r * r * r;
 }
 
+/// A box askew above the origin.
+PolygonSoup thin_part(const Vec3& half, double angle) {
+  PolygonSoup thin = test::box_soup(half);
+  const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(angle, Vec3(1, 2, 3).normalized()));
+  thin.points = thin.points * turn.transpose();
+  thin.points.rowwise() += Eigen::RowVector3d(0.1, 0, 0.7);
+  return thin;
+}
+
 TEST(RepairWallsSlow, ThinPartsBecomeWallsAsAWhole) {
   // Plates and sticks so thin that the grid hits them in places, beside a box that it holds: they
   // become as thick as is asked for, all over, and the box stays as it is.
@@ -79,11 +88,7 @@ TEST(RepairWallsSlow, ThinPartsBecomeWallsAsAWhole) {
        {std::pair(Vec3(0.4, 0.3, 0.01), 0.02),
         {Vec3(0.4, 0.3, 0.0005), 0.02},
         {Vec3(0.4, 0.008, 0.006), 0.08}}) {
-    PolygonSoup thin = test::box_soup(half);
-    const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(0.2, Vec3(1, 2, 3).normalized()));
-    thin.points = thin.points * turn.transpose();
-    thin.points.rowwise() += Eigen::RowVector3d(0.1, 0, 0.7);
-    const Repaired out = repair(test::joined(box, thin), options);
+    const Repaired out = repair(test::joined(box, thin_part(half, 0.2)), options);
     test::expect_watertight(out.surface);
     EXPECT_EQ(test::size_named(out.report, "parts"), 2);
     EXPECT_EQ(test::size_named(out.report, "input missed, share"), 0);
@@ -107,11 +112,7 @@ TEST(RepairWalls, ThinPartsBecomeWallsWhereTheyAreTornAlone) {
   options.thicken = 0.08;
   for (const auto& [thickness, walls] : {std::pair(0.0186, true), std::pair(0.03, false)}) {
     const Vec3 half(0.4, 0.3, thickness / 2);
-    PolygonSoup thin = test::box_soup(half);
-    const Eigen::Matrix3d turn(Eigen::AngleAxis<double>(0.6, Vec3(1, 2, 3).normalized()));
-    thin.points = thin.points * turn.transpose();
-    thin.points.rowwise() += Eigen::RowVector3d(0.1, 0, 0.7);
-    const Repaired out = repair(test::joined(box, thin), options);
+    const Repaired out = repair(test::joined(box, thin_part(half, 0.6)), options);
     test::expect_watertight(out.surface);
     EXPECT_EQ(test::size_named(out.report, "parts"), 2);
     const double volume = walls ? steiner_of(2 * half, 0.04 - thickness / 2) : 8 * half.prod();

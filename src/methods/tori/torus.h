@@ -133,8 +133,8 @@ template <class S>
   // The foot is (u - g g_u, v - g g_v), g_v = -k2 v / b and g_u = c_u (1 - k2 c) / b of the
   // circle's distance c, c_u = -k1 u / a, a = 1 - k1 c, b = 1 - k2 g. Hence
   //   grad(v - g g_v) = (e_v - g_v grad g) / b,
-  //   grad(u - g g_u) = (1 + m) e_u - g_u grad g / b - c_u (m - g k2 / b) grad c, m = g k1 / a *
-  // (1 - k2 c) / b.
+  //   grad(u - g g_u) = (1 + m) e_u - g_u grad g / b - c_u (m - g k2 / b) grad c,
+  // m = (g k1 / a) (1 - k2 c) / b.
   const S over_b = 1 / d.b, m = d.g * d.through * k1 / d.a;
   const S by_g = (A * d.along + B * d.across) * over_b;
   const S by_c = A * d.circle_along * (m - d.g * k2 * over_b);

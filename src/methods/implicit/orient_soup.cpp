@@ -15,6 +15,7 @@
 #include "spatial/boundary_edges.h"
 #include "spatial/covered_triangles.h"
 #include "spatial/finite_box.h"
+#include "spatial/morton_order.h"
 
 namespace littoral {
 
@@ -139,21 +140,31 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
   const std::vector<int> part = agreeing_parts(all, turned);
   // Faces without area but for rounding join others, and lines do not tell their sides.
   VecX areas(all.rows());
-  MatX3i solid(all.rows(), 3);
-  std::vector<int> solid_of(all.rows(), -1);
-  int n_solid = 0;
+  std::vector<int> with_area;
   const double size = points_size(points);
-  for (int f = 0; f < int_size(solid_of); ++f) {
+  for (int f = 0; f < int(all.rows()); ++f) {
     const Vec3 a = points.row(all(f, 0)), b = points.row(all(f, 1)), c = points.row(all(f, 2));
     areas[f] = is_flat(a, b, c, size) ? 0 : (b - a).cross(c - a).norm() / 2;
-    if (!(areas[f] > 0)) continue;
-    solid.row(n_solid) = all.row(f);
-    solid_of[f] = n_solid++;
+    if (areas[f] > 0) with_area.push_back(f);
   }
-  solid.conservativeResize(n_solid, 3);
   const double total = areas.sum();
   if (!(total > 0)) return out;
   const std::vector<Place> places = places_on(points, all, areas, part);
+
+  // Triangles one after the other lie beside each other: a few go down the tree together.
+  MatX3 middles(with_area.size(), 3);
+  for (Eigen::Index i = 0; i < middles.rows(); ++i) {
+    const auto corners = all.row(with_area[i]);
+    middles.row(i) = (points.row(corners[0]) + points.row(corners[1]) + points.row(corners[2])) / 3;
+  }
+  MatX3i solid(middles.rows(), 3);
+  std::vector<int> solid_of(all.rows(), -1);
+  int n_solid = 0;
+  for (const int i : morton_order(middles)) {
+    const int f = with_area[i];
+    solid.row(n_solid) = all.row(f);
+    solid_of[f] = n_solid++;
+  }
 
   std::vector<Place> on_solid = places;
   for (Place& place : on_solid) place.face = solid_of[place.face];

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "base/index.h"
 #include "base/kernel_choice.h"
@@ -27,7 +29,16 @@ struct LeafView {
 struct TurnedTriangle {
   std::array<double, 3> x, y, z;
   double number;
+
+  /// What side of the edge from one corner to another a line counts as that meets it: the one where
+  /// it would be if it were moved by e along the first axis and by e^2 along the second.
+  [[gnu::always_inline]] std::int64_t side_on_edge(std::size_t from, std::size_t to) const {
+    return y[from] > y[to] || (y[from] == y[to] && x[to] > x[from]) ? -1 : 0;
+  }
 };
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// Beside every box.
+constexpr TurnedTriangle nowhere{{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, -2};
 
 /// Turns the bits of places that are before or behind the triangle. The side of an edge is the same
 /// number, but for the sign, whichever end comes first.
@@ -45,12 +56,20 @@ template <int width>
     const Lanes ax = t.x[0] - qx, ay = t.y[0] - qy, bx = t.x[1] - qx, by = t.y[1] - qy,
                 cx = t.x[2] - qx, cy = t.y[2] - qy;
     const Lanes a = bx * cy - by * cx, b = cx * ay - cy * ax, c = ax * by - ay * bx;
-    const Bits of_a = (Bits)(a >= 0), of_b = (Bits)(b >= 0), of_c = (Bits)(c >= 0);
+    Lanes least = a, most = a;
+    take_smaller(least, b);
+    take_smaller(least, c);
+    take_larger(most, b);
+    take_larger(most, c);
+    Bits met = ((Bits)(least >= 0) | (Bits)(most <= 0)) & (Bits)(own != t.number);
+    if (!any(met)) continue;
+    const Bits on_a = Bits{} + t.side_on_edge(1, 2), on_b = Bits{} + t.side_on_edge(2, 0),
+               on_c = Bits{} + t.side_on_edge(0, 1);
+    const Bits of_a = (Bits)(a > 0) | ((Bits)(a == 0) & on_a),
+               of_b = (Bits)(b > 0) | ((Bits)(b == 0) & on_b),
+               of_c = (Bits)(c > 0) | ((Bits)(c == 0) & on_c);
     const Lanes area = a + b + c;
-    const Bits met = ~(of_a ^ of_b) & ~(of_b ^ of_c) & (Bits)(own != t.number) & (Bits)(area != 0);
-    std::int64_t any = 0;
-    for (int l = 0; l < width; ++l) any |= met[l];
-    if (any == 0) continue;
+    met &= ~(of_a ^ of_b) & ~(of_b ^ of_c) & (Bits)(area != 0);
     const Lanes height = a * (t.z[0] - qz) + b * (t.z[1] - qz) + c * (t.z[2] - qz);
     const Bits after =
         ((Bits)(height > 0) & (Bits)(area > 0)) | ((Bits)(height < 0) & (Bits)(area < 0));
@@ -58,16 +77,6 @@ template <int width>
     for (int l = 0; l < width; ++l) bits[first + l] ^= static_cast<unsigned char>(turn[l]);
   }
 }
-
-void pass_plain(const LeafView& leaf, const TurnedTriangle& t, unsigned char* bits) {
-  pass_lanes<2>(leaf, t, bits);
-}
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void pass_avx2(const LeafView& leaf, const TurnedTriangle& t,
-                                       unsigned char* bits) {
-  pass_lanes<4>(leaf, t, bits);
-}
-#endif
 
 struct PlaneBox {
   std::array<double, 2> low, high;
@@ -127,37 +136,80 @@ struct PlaneTree {
     }
     return box;
   }
+};
 
-  /// Calls visit(leaf) for leaves that lines through the triangle may be in.
-  template <class Visit>
-  void for_leaves(const TurnedTriangle& t, const Visit& visit) const {
-    const auto [low_x, high_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
-    const auto [low_y, high_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
-    const double extent = high_x - low_x + high_y - low_y;
-    struct Entry {
-      int node, first, end;
-    };
-    std::array<Entry, 64> stack;
-    std::size_t size = 0;
-    stack[size++] = {0, 0, n_leaves};
-    while (size > 0) {
-      const auto [node, first, end] = stack[--size];
-      const PlaneBox& box = boxes[node];
-      if (box.low[0] > high_x || box.high[0] < low_x || box.low[1] > high_y || box.high[1] < low_y)
-        continue;
-      // Small triangles in large boxes are told apart by their own boxes alone.
-      if (extent > box.high[0] - box.low[0] + box.high[1] - box.low[1] && !may_meet(t, box))
-        continue;
-      if (end - first == 1) {
-        visit(first);
-        continue;
-      }
-      const int middle_leaf = middle(first, end);
-      stack[size++] = {right_of(node, first, end), middle_leaf, end};
-      stack[size++] = {node + 1, first, middle_leaf};
-    }
+[[gnu::always_inline]] inline std::pair<double, double> ends_of(const std::array<double, 3>& a) {
+  return {std::min({a[0], a[1], a[2]}), std::max({a[0], a[1], a[2]})};
+}
+
+/// Places as the direction sees them, and their boxes.
+struct PlaceView {
+  const PlaneTree& tree;
+  LeafView first;  // leaf
+
+  LeafView leaf(int number) const {
+    const std::size_t at = std::size_t(number) * leaf_size;
+    return {first.x + at, first.y + at, first.z + at, first.own + at};
   }
 };
+
+/// Turns the bits of places for as many triangles as there are lanes, which go down the tree
+/// together: neighbours in the list mostly lie beside each other.
+template <int width>
+[[gnu::always_inline]] inline void pass_group(const PlaceView& places, const TurnedTriangle* t,
+                                              unsigned char* bits) {
+  using Lanes = typename Wide<width>::Lanes;
+  using Bits = typename Wide<width>::Bits;
+  Lanes low_x, high_x, low_y, high_y;
+  for (int l = 0; l < width; ++l) {
+    const auto [x0, x1] = ends_of(t[l].x);
+    const auto [y0, y1] = ends_of(t[l].y);
+    low_x[l] = x0, high_x[l] = x1, low_y[l] = y0, high_y[l] = y1;
+  }
+  const Lanes extent = high_x - low_x + high_y - low_y;
+  struct Entry {
+    int node, first, end;
+  };
+  std::array<Entry, 64> stack;
+  std::size_t size = 0;
+  stack[size++] = {0, 0, places.tree.n_leaves};
+  while (size > 0) {
+    const auto [node, first, end] = stack[--size];
+    const PlaneBox& box = places.tree.boxes[node];
+    Bits over = (Bits)(low_x <= box.high[0]) & (Bits)(high_x >= box.low[0]) &
+                (Bits)(low_y <= box.high[1]) & (Bits)(high_y >= box.low[1]);
+    if (!any(over)) continue;
+    // Small triangles in large boxes are told apart by their own boxes alone.
+    const Bits large = over & (Bits)(extent > box.high[0] - box.low[0] + box.high[1] - box.low[1]);
+    if (any(large)) {
+      for (int l = 0; l < width; ++l)
+        if (large[l] != 0 && !may_meet(t[l], box)) over[l] = 0;
+      if (!any(over)) continue;
+    }
+    if (end - first == 1) {
+      const LeafView leaf = places.leaf(first);
+      for (int l = 0; l < width; ++l)
+        if (over[l] != 0) pass_lanes<width>(leaf, t[l], bits + std::size_t(first) * leaf_size);
+      continue;
+    }
+    const int middle_leaf = PlaneTree::middle(first, end);
+    stack[size++] = {PlaneTree::right_of(node, first, end), middle_leaf, end};
+    stack[size++] = {node + 1, first, middle_leaf};
+  }
+}
+
+constexpr int most_lanes = 4;
+
+/// Four triangles.
+void pass_plain(const PlaceView& places, const TurnedTriangle* t, unsigned char* bits) {
+  for (int l = 0; l < most_lanes; l += 2) pass_group<2>(places, t + l, bits);
+}
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void pass_avx2(const PlaceView& places, const TurnedTriangle* t,
+                                       unsigned char* bits) {
+  pass_group<4>(places, t, bits);
+}
+#endif
 
 }  // namespace
 
@@ -213,6 +265,7 @@ std::vector<unsigned char> PlaceTree::parities(const MatX3& points, const MatX3i
       order_.empty() ? 0 : 1 + *std::max_element(order_.begin(), order_.end()));
   if (out.empty()) return out;
   const PlaneTree tree(n_leaves_, x.data(), y.data());
+  const PlaceView places{tree, {x.data(), y.data(), z.data(), own_.data()}};
 #if defined(__x86_64__)
   const auto pass = LITTORAL_FASTEST(pass_plain, pass_avx2);
 #else
@@ -224,20 +277,24 @@ std::vector<unsigned char> PlaceTree::parities(const MatX3& points, const MatX3i
   const std::size_t piece = std::max(least_piece, (n + most_pieces - 1) / most_pieces);
   parallel_for(n, piece, [&](std::size_t begin, std::size_t end) {
     std::vector<unsigned char> bits(order_.size());
-    for (std::size_t f = begin; f < end; ++f) {
+    std::array<TurnedTriangle, most_lanes> group;
+    for (std::size_t f = begin; f < end; f += most_lanes) {
       if ((f - begin) % 1024 == 0) task.checkpoint();
-      TurnedTriangle t;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto p = points.row(faces(index(f), int(k)));
-        t.x[k] = along(u, p[0], p[1], p[2]);
-        t.y[k] = along(v, p[0], p[1], p[2]);
-        t.z[k] = along(direction, p[0], p[1], p[2]);
+      for (std::size_t l = 0; l < most_lanes; ++l) {
+        TurnedTriangle& t = group[l];
+        if (f + l >= end) {
+          t = nowhere;
+          continue;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto p = points.row(faces(index(f + l), int(k)));
+          t.x[k] = along(u, p[0], p[1], p[2]);
+          t.y[k] = along(v, p[0], p[1], p[2]);
+          t.z[k] = along(direction, p[0], p[1], p[2]);
+        }
+        t.number = static_cast<double>(f + l);
       }
-      t.number = static_cast<double>(f);
-      tree.for_leaves(t, [&](int leaf) {
-        const std::size_t at = std::size_t(leaf) * leaf_size;
-        pass({x.data() + at, y.data() + at, z.data() + at, own_.data() + at}, t, bits.data() + at);
-      });
+      pass(places, group.data(), bits.data());
     }
     const std::lock_guard lock(adding);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] ^= bits[i];

@@ -26,7 +26,7 @@ class PlaceTree {
 
   /// For each place, bits for an odd number of triangles but its own that the line through it
   /// meets. points: n x 3, finite; faces: m x 3; direction: of length 1. A line through the side
-  /// of two triangles meets one of them.
+  /// or the corner of triangles that close up there meets one of them.
   std::vector<unsigned char> parities(const MatX3& points, const MatX3i& faces,
                                       const Vec3& direction, const Task& task) const;
 

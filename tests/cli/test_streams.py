@@ -202,3 +202,15 @@ def test_ctrl_c_ends_a_write_that_nobody_reads(tmp_path: Path) -> None:
         assert program.wait(timeout=5) == 130
         assert program.stderr and b"interrupted" in program.stderr.read()
     assert left_in(tmp_path) == ["a.ply", "fine.obj"]
+
+
+def test_no_thread_waits_beside_the_program(tmp_path: Path) -> None:
+    """OpenBLAS starts one a core as it is loaded, which all look for work for a while."""
+    os.mkfifo(tmp_path / "slow.obj")  # reading waits until somebody writes
+    words = [PROGRAM, "info", "slow.obj"]
+    with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE) as program:
+        wait_for_handler(program.pid, signal.SIGINT)
+        threads = len(list(Path(f"/proc/{program.pid}/task").iterdir()))
+        (tmp_path / "slow.obj").write_text(square(2))
+        assert program.wait(timeout=30) == 0
+    assert threads == 2  # its own, and the one that waits for Ctrl-C

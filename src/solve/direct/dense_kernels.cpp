@@ -125,6 +125,14 @@ void use_one_thread() {
 #endif
 }
 
+void end_blas_threads() {
+  use_one_thread();  // first: it would start them again
+#if LITTORAL_BLAS
+  using Ending = int (*)();
+  if (void* symbol = loaded_symbol("blas_thread_shutdown_")) reinterpret_cast<Ending>(symbol)();
+#endif
+}
+
 double bytes_of_a_thread() {
   double bytes = 8 << 20;
 #if LITTORAL_BLAS

@@ -11,6 +11,10 @@ namespace littoral::dense {
 /// it keeps OpenBLAS from starting its threads again in the child.
 void use_one_thread();
 
+/// For a program of our own: ends the threads that OpenBLAS starts as it is loaded. They wait for
+/// work actively, on cores that the program has other use for (80 ms were seen).
+void end_blas_threads();
+
 /// What a thread that calls these reserves [bytes]: its stack and OpenBLAS's buffer, little of
 /// which is touched. OpenBLAS waits for ever where it cannot have it.
 double bytes_of_a_thread();

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <random>
 #include <vector>
 
 #include "base/parallel.h"
 #include "geodesic_helpers.h"
+#include "methods/geodesic/window_kernels.h"
 
 namespace littoral {
 namespace {
@@ -99,6 +102,51 @@ TEST(MergeWindows, ChangeNoDistanceByMoreThanTheySayAndCoverWhatTheyReplace) {
     after += int(made.size());
   }
   EXPECT_LT(after, before / 2);
+}
+
+TEST(MergeWindows, PairsAreFoundAtOnceAsOneByOne) {
+  std::mt19937 random(4);
+  std::uniform_int_distribution<int> die(0, 11);
+  int joined = 0, all = 0;
+  for (int k = 0; k < 300; ++k) {
+    std::vector<Window> windows = chain(random, 2 + k % 150, k % 2 ? 1e-3 : 1e-2);
+    for (Window& w : windows) switch (die(random)) {
+        case 0:
+          w.source = 4;
+          break;
+        case 1:
+          w.page = 1;
+          break;
+        case 2:
+          w.open = false;
+          break;
+        case 3:
+          w.b1 -= 1e-2 * (w.b1 - w.b0);
+          break;
+        case 4:
+          w.depth = 7;
+          break;
+        case 5:
+          w.parallel = true;
+          break;
+        default:
+          break;
+      }
+    const WindowBlock block = block_of(windows);
+    for (const Joining& how : {Joining{1e-12, 1e-4, 0}, {1e-12, 1e-4, 1e-4}, {1e-2, 1e-5, 0}})
+      for (std::size_t first = 0; first + 1 < windows.size(); first += 64) {
+        const std::uint64_t pairs = window_kernels().pairs(block, first, how);
+        EXPECT_EQ(plain_window_kernels.pairs(block, first, how), pairs);
+        for (std::size_t i = first; i < std::min(first + 64, windows.size() - 1); ++i, ++all) {
+          double changed = 0;
+          const bool one = one_of(block, i, i + 2, how, changed).has_value();
+          EXPECT_EQ(pairs >> (i - first) & 1, one ? 1u : 0u) << k << " " << i;
+          joined += one;
+        }
+      }
+  }
+  EXPECT_GT(joined, all / 10);
+  EXPECT_LT(joined, all / 2);
 }
 
 TEST(MergeWindows, LeaveAloneWhatIsNotOfOneKind) {

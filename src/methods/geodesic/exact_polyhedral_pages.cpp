@@ -1,16 +1,20 @@
 #include "methods/geodesic/exact_polyhedral_pages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "base/same_rows.h"
 
 namespace littoral {
 
 namespace {
+
+constexpr std::size_t vertex_grain = 4096;
 
 /// Triangles but for those with the same three edges as one before.
 std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
@@ -24,10 +28,9 @@ std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
   return is_first;
 }
 
-/// Whether the triangles around a vertex, from side `enter` of triangle f on, close up to a cone.
-bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v, int first_side,
-               int n_corners) {
-  // `first_side` starts at v.
+/// Whether the triangles around a vertex close up to a cone. `first_side` starts at v.
+bool walk_closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
+                    int first_side, int n_corners) {
   int side = first_side, n = 0;
   do {
     const int f = side / 3, k = side % 3;
@@ -37,6 +40,38 @@ bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v,
     side = at[0] == 3 * f + leave ? at[1] : at[0];
   } while (++n < n_corners && side / 3 != first_side / 3);
   return n == n_corners && side / 3 == first_side / 3;
+}
+
+/// The same from the two edges at v of each of the corners, read all at once: a walk would wait for
+/// one triangle after the other.
+bool closes_up(const IntrinsicTriangulation& T, const PolyhedralPages& P, int v) {
+  constexpr std::size_t most = 16;
+  const auto corners = P.around(v);
+  const std::size_t n = corners.size();
+  const auto walk = [&] {
+    const int side = corners.front();
+    return walk_closes_up(T, P, v, side - side % 3 + (side + 2) % 3, static_cast<int>(n));
+  };
+  if (n > most) return walk();
+  std::array<std::array<int, 2>, most> ends;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int f = corners[i] / 3, across = corners[i] % 3;
+    ends[i] = {T.side_edge(f, (across + 1) % 3), T.side_edge(f, (across + 2) % 3)};
+  }
+  std::size_t at = 0, passed = 0;
+  int through = ends[0][1];
+  do {
+    std::size_t next = n;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == at || (ends[i][0] != through && ends[i][1] != through)) continue;
+      if (next < n) return walk();  // an edge with both ends at v
+      next = i;
+    }
+    if (next == n) return walk();  // a triangle glued to itself
+    through = ends[next][ends[next][0] == through ? 1 : 0];
+    at = next;
+  } while (++passed < n && at != 0);
+  return passed == n && at == 0;
 }
 
 /// Angles added up as a product of rotations: arc tangents would take longer than all the rest.
@@ -98,16 +133,13 @@ PolyhedralPages::PolyhedralPages(const IntrinsicTriangulation& T)
     for (int k = 0; k < 3; ++k)
       if (T.length(f, k) > edges[T.side_edge(f, k)].length)
         for (int c = 0; c < 3; ++c) bends[T.faces(f, c)] = anywhere;
-  for (int v = 0; v < T.n_vertices; ++v) {
-    const auto corners = around(v);
-    if (bends[v] || corners.empty()) continue;
-    const int side = corners.front(), f = side / 3;
-    const bool more = turn[v].more_than_full();
-    if (!closes_up(T, *this, v, 3 * f + (side + 2) % 3, static_cast<int>(corners.size())))
-      bends[v] = anywhere;
-    else if (more)
-      bends[v] = behind;
-  }
+  parallel_for(bends.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      if (bends[v] == never && !around(int(v)).empty())
+        bends[v] = !closes_up(T, *this, int(v)) ? anywhere
+                   : turn[v].more_than_full()   ? behind
+                                                : never;
+  });
 }
 
 }  // namespace littoral

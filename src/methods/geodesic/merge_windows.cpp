@@ -5,15 +5,17 @@
 #include <limits>
 #include <optional>
 
+#include "methods/geodesic/window_kernels.h"
+
 namespace littoral {
 
 namespace {
 
 constexpr std::size_t fewest = 4;  // windows of an edge that it pays for
 
-bool can_join(const Window& w, const Window& next, double length) {
+bool can_join(const Window& w, const Window& next, double widest_gap) {
   return w.open && next.open && !w.parallel && !next.parallel && w.source == next.source &&
-         w.page == next.page && next.b0 - w.b1 <= narrow_share * length;
+         w.page == next.page && next.b0 - w.b1 <= widest_gap;
 }
 
 /// The rays of one point with the distances of both ends of a chain whose outermost rays enclose
@@ -53,58 +55,57 @@ double largest_difference(const Window& w, const Window& other) {
   return std::max(std::abs(w.d0 - o0), std::abs(w.d1 - o1)) + 0.25 * width * width * bends;
 }
 
-class Merging {
- public:
-  Merging(const WindowBlock& all, double tolerance, double error)
-      : all_(all), tolerance_(tolerance), error_(error) {}
-
-  /// One window in place of windows begin, ..., end - 1.
-  std::optional<Window> joined(std::size_t begin, std::size_t end) {
-    const auto one = enclosing(all_[begin], all_[end - 1]);
-    if (!one) return one;
-    double apart = 0, least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Window w = all_[i];
-      apart = std::max(apart, largest_difference(w, *one));
-      least = std::min(least, w.least());
-      if (!(apart <= tolerance_ * least - error_)) return std::nullopt;
-    }
-    changed_ = std::max(changed_, apart);
-    return one;
-  }
-  double changed() const { return changed_; }
-
- private:
-  const WindowBlock& all_;
-  double tolerance_, error_, changed_ = 0;
-};
-
 }  // namespace
+
+std::optional<Window> one_of(const WindowBlock& windows, std::size_t begin, std::size_t end,
+                             const Joining& how, double& changed) {
+  for (std::size_t i = begin + 1; i < end; ++i)
+    if (!can_join(windows[i - 1], windows[i], how.widest_gap)) return std::nullopt;
+  const auto one = enclosing(windows[begin], windows[end - 1]);
+  if (!one) return one;
+  double apart = 0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = begin; i < end; ++i) {
+    const Window w = windows[i];
+    apart = std::max(apart, largest_difference(w, *one));
+    least = std::min(least, w.least());
+    if (!(apart <= how.tolerance * least - how.error)) return std::nullopt;
+  }
+  changed = std::max(changed, apart);
+  return one;
+}
 
 double merge_windows(WindowBlock& all, double length, double tolerance, double error) {
   const std::size_t n = all.size();
   if (n < fewest) return 0;
-  Merging merging(all, tolerance, error);
-  std::size_t kept = 0;
+  const Joining how{narrow_share * length, tolerance, error};
+  double changed = 0;
+  std::size_t kept = 0, seen = 0;
+  std::uint64_t pairs = 0;  // bits of the 64 windows before `seen`
   for (std::size_t begin = 0; begin < n;) {
-    std::size_t run = begin + 1;
-    while (run < n && can_join(all[run - 1], all[run], length)) ++run;
-    while (begin < run) {
-      Window best = all[begin];
-      std::size_t count = 1;
+    while (seen <= begin && seen + 1 < n) {
+      pairs = window_kernels().pairs(all, seen, how);
+      seen += 64;
+    }
+    const bool joins = begin + 1 < n && (pairs >> (begin % 64) & 1) != 0;
+    Window best = all[begin];
+    std::size_t count = 1;
+    if (joins) {
+      std::size_t run = begin + 2;
+      while (run < n && can_join(all[run - 1], all[run], how.widest_gap)) ++run;
       for (std::size_t more = 1; begin + count < run; more *= 2) {
         const std::size_t tried = std::min(count + more, run - begin);
-        const auto one = merging.joined(begin, begin + tried);
+        const auto one = one_of(all, begin, begin + tried, how, changed);
         if (!one) break;
         best = *one;
         count = tried;
       }
-      all.set(kept++, best);
-      begin += count;
     }
+    if (count > 1 || kept < begin) all.set(kept, best);
+    ++kept;
+    begin += count;
   }
   all.resize(kept);
-  return merging.changed();
+  return changed;
 }
 
 }  // namespace littoral

@@ -45,6 +45,16 @@ PairsAnswer by_method(const SurfaceMesh& mesh, const std::string& method,
 /// round-off, but where an interior point method meets its tolerance from other sides.
 double rows_within(const std::string& method) { return method == "quadratic" ? 1e-4 : 1e-9; }
 
+TEST(AllPairs, GoOnWhereTenTimesAsManyIterationsWouldDo) {
+  // From 1,000 iterations to 2,000 the residual falls by e: by e^20 in 20,000 more.
+  EXPECT_TRUE(worth_going_on(std::exp(20.9), std::exp(19.9), 2));
+  EXPECT_FALSE(worth_going_on(std::exp(21.1), std::exp(20.1), 2));
+  // From 1,000 to 1,500 by e: by e^30 in 15,000 more.
+  EXPECT_TRUE(worth_going_on(std::exp(30.9), std::exp(29.9), 1.5));
+  EXPECT_FALSE(worth_going_on(std::exp(31.1), std::exp(30.1), 1.5));
+  EXPECT_FALSE(worth_going_on(7, 7, 2));  // it stands still
+}
+
 TEST(AllPairs, CircleWithDirichletEnergy) {
   // On the circle U(x, y) = u(x - y), so the two terms of the energy are alike and the product
   // problem is min over u of integral alpha |u'|^2 - u: eq. 5 with 2 alpha for alpha.

@@ -90,6 +90,19 @@ TEST(FaceTriangulation, ToleranceIsALengthInFacesOfAnySize) {
   }
 }
 
+TEST(FaceTriangulation, ToleranceIsTheSameFarFromTheOrigin) {
+  for (const Vec2& at : {Vec2(10, 10), Vec2(-0.5, 0), Vec2(-0.5, -0.5), Vec2(0, -30)}) {
+    const auto face = [&] { return FaceTriangulation(at, at + Vec2(1, 0), at + Vec2(0, 1)); };
+    const Vec2 along[] = {{0.6, 0}, {0.4, 0.6}, {0, 0.4}}, inward[] = {{0, 1}, {-1, -1}, {1, 0}};
+    for (int side = 0; side < 3; ++side)
+      for (const double height : {0.9e-3, 1.1e-3}) {
+        FaceTriangulation cut = face();
+        cut.insert(at + along[side] + height * inward[side].normalized(), 1e-3);
+        EXPECT_EQ(cut.triangles().size(), height < 1e-3 ? 2u : 3u) << at << " " << side;
+      }
+  }
+}
+
 TEST(FaceTriangulation, APointOnAnInnerEdgeMakesFourTrianglesOfTwo) {
   FaceTriangulation face = right_triangle();
   face.split_side(0, 1, {0.5, 0});

@@ -88,6 +88,41 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
   }
 }
 
+TEST(HeatWindows, PairsOfRealsAreComplexNumbers) {
+  PolygonSoup strip = test::grid_soup(300, 4);
+  strip.points.col(0) *= 300 / 4;  // square cells
+  const SurfaceMesh mesh(strip);
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({0, 150}), report);
+  const VectorDiffusion& V = p.ops->vector;
+  const double t = V.h * V.h;
+  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  Triplets entries;  // a + i b as a, -b / b, a
+  for (int j = 0; j < V.n; ++j)
+    for (SpMatC::InnerIterator it(*A, j); it; ++it) {
+      const int i = static_cast<int>(it.row());
+      entries.emplace_back(2 * i, 2 * j, it.value().real());
+      entries.emplace_back(2 * i + 1, 2 * j + 1, it.value().real());
+      entries.emplace_back(2 * i + 1, 2 * j, it.value().imag());
+      if (i != j) entries.emplace_back(2 * i, 2 * j + 1, -it.value().imag());
+    }
+  const auto R = std::make_shared<SpMat>(2 * V.n, 2 * V.n);
+  R->setFromTriplets(entries.begin(), entries.end());
+  const VecX size = decay_lengths(V.M, t), X0 = p.terms.vectors(V.n);
+  const Ordering order = dissection(*A, {});
+  const auto pairs = HeatWindows<double>(R, 2, size, order).solve(X0, V.piece, {}, report);
+  ASSERT_TRUE(pairs.has_value());
+  EXPECT_GE(pairs->scale.size(), 2u);
+  const auto field =
+      HeatWindows<Complex>(A, 1, size, order).solve(as_complex(X0), V.piece, {}, report);
+  ASSERT_TRUE(field.has_value());
+  ASSERT_EQ(pairs->layer, field->layer);
+  const VecXc x = as_complex(pairs->x);
+  for (int i = 0; i < V.n; ++i)
+    EXPECT_LE(std::abs(x[i] / pairs->scale[0] - field->x[i] / field->scale[0]),
+              1e-9 * std::abs(field->x[i] / field->scale[0]));
+}
+
 TEST(HeatWindows, NoticeMisjudgedDistances) {
   // Triangles 175 times as high as wide: heat decays over many more of them than their areas say.
   const SurfaceMesh mesh(test::grid_soup(700, 4));

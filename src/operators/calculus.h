@@ -55,7 +55,8 @@ struct VectorDiffusion {
   Rows<int, 2> ends;       // dofs x 2: the nodes a dof lies between; no rows where dofs are
                            //   not edges between nodes
   bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
-  LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame
+  LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame; `apply`
+                           //   alone
   double h = 0;            // mean distance between neighbouring dofs [length]
   std::vector<int> piece;  // dofs; connected pieces of the diffusion, -1 for unused dofs
   int n_pieces = 0;

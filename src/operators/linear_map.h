@@ -8,12 +8,13 @@
 
 namespace littoral {
 
-/// x -> A x and y -> A^T y, for operators applied from their mesh (or grid) without assembly.
+/// x -> A x and y -> A^T y, for operators applied from their mesh (or grid) without assembly. What
+/// nobody asks for may be empty.
 struct LinearMap {
   Eigen::Index rows = 0, cols = 0;
   std::function<VecX(const VecX&)> apply;    // cols -> rows
   std::function<VecX(const VecX&)> adjoint;  // rows -> cols
-  std::function<SpRows()> matrix;            // rows x cols, for who multiplies often; may be empty
+  std::function<SpRows()> matrix;            // rows x cols, for who multiplies often
 };
 
 }  // namespace littoral

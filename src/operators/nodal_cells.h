@@ -24,7 +24,8 @@ class NodalCells {
   /// Gradient in each cell's frame of the linear function through the values at its corners (2
   /// cells x nodes).
   static LinearMap gradient(std::shared_ptr<const NodalCells> cells);
-  /// Mean of the vectors at the corners of each cell, in its frame (2 cells x 2 nodes).
+  /// Mean of the vectors at the corners of each cell, in its frame (2 cells x 2 nodes);
+  /// `apply` alone.
   static LinearMap mean(std::shared_ptr<const NodalCells> cells);
 
   int n_cells() const { return corner_.rows(); }
@@ -32,7 +33,6 @@ class NodalCells {
 
  private:
   void mean_in_patch(int p, const VecXc& X, std::vector<Complex>& in_patch, VecXc& Y) const;
-  void adjoint_of_mean_in_patch(int p, const VecXc& Y, VecXc& X) const;
   Eigen::Index n_nodes() const { return P_.cols(); }
 
   Interpolation P_;                // vertices x nodes; the first rows are those of the identity

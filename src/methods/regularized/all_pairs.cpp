@@ -15,6 +15,11 @@
 
 namespace littoral {
 
+bool worth_going_on(double before, double now, double further) {
+  // The residual fell by a factor of before / now in k - k / further iterations.
+  return 10 / (1 - 1 / further) * std::log(before / now) >= std::log(now);
+}
+
 const OptionTable<Symmetric>& all_pairs_options() {
   using O = Symmetric;
   static const OptionTable<O> table =
@@ -94,8 +99,7 @@ class AllPairs {
   MatX run(Report& report) {
     double worst = infinity;
     // Needles leave round-off above the tolerance, which no number of iterations gets below, or a
-    // residual that falls ever more slowly. So at each mark it must have fallen so much since the
-    // one before that, at this pace, ten times as many iterations would do.
+    // residual that falls ever more slowly: that is looked for at marks.
     constexpr double further = 1.5;  // from mark to mark
     double mark = 10'000 / further, least = worst, least_at_mark = worst;
     bool hopeful = true;
@@ -109,7 +113,7 @@ class AllPairs {
       worst = check_convergence(norms, k);
       least = std::min(least, worst);
       if (k < mark) continue;
-      hopeful = 10 / (1 - 1 / further) * std::log(least_at_mark / least) >= std::log(least);
+      hopeful = worth_going_on(least_at_mark, least, further);
       least_at_mark = least;
       mark *= further;
     }

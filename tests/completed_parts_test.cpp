@@ -15,6 +15,7 @@
 #include "methods/implicit/level_patch.h"
 #include "methods/implicit/orient_soup.h"
 #include "spatial/winding_number.h"
+#include "test_meshes.h"
 
 namespace littoral {
 namespace {
@@ -185,6 +186,30 @@ TEST(OrientSoup, CrowdsAndFacesWithoutAreaChangeNothing) {
     const OrientedSoup oriented = orient_soup(soup.points, triangles_of(soup), Task());
     EXPECT_NEAR(oriented.turned, 64.0 / 512, 0.01);
     EXPECT_NEAR(WindingNumber(soup.points, oriented.faces)(Vec3(0.1, 0, 0)), 1, 1e-4);
+  }
+}
+
+TEST(OrientSoup, PlacesLieAllOverAPart) {
+  // In place of one face of a sphere there is a tongue, through which lines pass nothing else:
+  // first or last, it is one face of many.
+  const PolygonSoup sphere = test::octasphere_soup(3);
+  const int removed = 100;
+  for (const bool last : {true, false}) {
+    PolygonSoup soup;
+    soup.points.resize(sphere.n_vertices() + 1, 3);
+    soup.points << sphere.points, 3 * sphere.points.row(sphere.face(removed)[2]);
+    const auto tongue = [&] {
+      test::add_triangle(soup, sphere.face(removed)[0], sphere.face(removed)[1],
+                         sphere.n_vertices());
+    };
+    if (!last) tongue();
+    for (int f = 0; f < sphere.n_faces(); ++f)
+      if (f != removed) soup.add_face(sphere.face(f));
+    if (last) tongue();
+    const OrientedSoup oriented = orient_soup(soup.points, triangles_of(soup), Task());
+    EXPECT_EQ(oriented.faces.rows(), sphere.n_faces());
+    EXPECT_EQ(oriented.turned, 0);
+    EXPECT_GT(oriented.certainty, 0.95);
   }
 }
 

@@ -208,6 +208,8 @@ TEST(GridCalculus, FitsTogetherAndIsExactForLinearFunctions) {
     u[i] = std::sin(7.1 * i);
     v[i] = std::cos(3.3 * i);
     linear[i] = Vec3(2, -1, 0.5).dot(grid.point(i % 5, i / 5 % 4, i / 20));
+    const bool inside = i % 5 % 4 != 0 && i / 5 % 4 % 3 != 0 && i / 20 == 1;
+    EXPECT_EQ(C.boundary[i], inside ? 0 : 1) << i;
   }
   const VecX Gu = C.G.apply(u);
   EXPECT_LT((C.G.matrix() * u - Gu).norm(), 1e-12);

@@ -47,8 +47,8 @@ Both solve_both(const VectorDiffusion& V, const VecX& X0, double time_scale) {
   const Ordering order = dissection(*A, {});
   Report report;
   Both both;
-  const auto field =
-      HeatWindows<Complex>(A, 1, size, order).solve(as_complex(X0), V.piece, {}, report);
+  const auto field = HeatWindows<Complex>(A, 1, size, order)
+                         .solve(nonzero_blocks(as_complex(X0), 1), V.piece, {}, report);
   EXPECT_TRUE(field.has_value());
   if (!field) return both;
   both.n_windows = report.iterations.back().second;
@@ -110,11 +110,12 @@ TEST(HeatWindows, PairsOfRealsAreComplexNumbers) {
   R->setFromTriplets(entries.begin(), entries.end());
   const VecX size = decay_lengths(V.M, t), X0 = p.terms.vectors(V.n);
   const Ordering order = dissection(*A, {});
-  const auto pairs = HeatWindows<double>(R, 2, size, order).solve(X0, V.piece, {}, report);
+  const auto pairs =
+      HeatWindows<double>(R, 2, size, order).solve(nonzero_blocks(X0, 2), V.piece, {}, report);
   ASSERT_TRUE(pairs.has_value());
   EXPECT_GE(pairs->scale.size(), 2u);
-  const auto field =
-      HeatWindows<Complex>(A, 1, size, order).solve(as_complex(X0), V.piece, {}, report);
+  const auto field = HeatWindows<Complex>(A, 1, size, order)
+                         .solve(nonzero_blocks(as_complex(X0), 1), V.piece, {}, report);
   ASSERT_TRUE(field.has_value());
   ASSERT_EQ(pairs->layer, field->layer);
   const VecXc x = as_complex(pairs->x);
@@ -133,7 +134,7 @@ TEST(HeatWindows, NoticeMisjudgedDistances) {
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
   const HeatWindows<Complex> windows(A, 1, decay_lengths(V.M, t), dissection(*A, {}));
   const VecXc b = as_complex(p.terms.vectors(p.ops->vector.n));
-  EXPECT_FALSE(windows.solve(b, V.piece, {}, report).has_value());
+  EXPECT_FALSE(windows.solve(nonzero_blocks(b, 1), V.piece, {}, report).has_value());
 }
 
 TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {

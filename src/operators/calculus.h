@@ -9,6 +9,7 @@
 // the domain.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,8 +53,8 @@ struct VectorDiffusion {
                                              //   semidefinite; none if frames cannot be chosen so
                                              //   that it is complex-linear
   std::function<SpMat(const Task&)> L_real;  // then: 2 dofs x 2 dofs, lower triangle, symmetric
-  Rows<int, 2> ends;       // dofs x 2: the nodes a dof lies between; no rows where dofs are
-                           //   not edges between nodes
+  std::shared_ptr<const Rows<int, 2>> ends;  // dofs x 2: the nodes a dof lies between; null where
+                                             //   dofs are not edges between nodes
   bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
   LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame; `apply`
                            //   alone

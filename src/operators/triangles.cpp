@@ -321,7 +321,7 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   ops.scalar = triangle_calculus(T, task);
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
-  V.ends = T->edges;
+  V.ends = {T, &T->edges};
   V.M = VecX::Zero(V.n);
   for (int f = 0; f < T->n_faces(); ++f)
     for (int k = 0; k < 3; ++k) V.M[T->side_edge(f, k)] += ops.scalar.A[f] / 3;  // eq. 7

@@ -169,12 +169,12 @@ class PlyReader {
     }
   }
 
-  int vertex(double value, const char* what) const {
+  int vertex(double value, const char* element, std::uint64_t row) const {
     if (!(value >= 0 && value < static_cast<double>(n_vertices_)) || value != std::floor(value)) {
       std::string text = std::to_string(value);
       if (value == std::floor(value)) text.erase(text.find('.'));
-      body_.fail(std::string(what) + " refers to vertex " + text + ", the file has " +
-                 std::to_string(n_vertices_) + " (counted from 0)");
+      body_.fail(std::string(element) + " " + std::to_string(row) + " refers to vertex " + text +
+                 ", the file has " + std::to_string(n_vertices_) + " (counted from 0)");
     }
     return static_cast<int>(value);
   }
@@ -224,13 +224,16 @@ class PlyReader {
     int list = find_property(element, "vertex_indices", true);
     if (list == unused) list = find_property(element, "vertex_index", true);
     if (list == unused) body_.fail("element 'face' has no list 'vertex_indices'");
+    // Of triangles, as most are; a row takes four bytes or more.
+    const std::uint64_t expected = std::min<std::uint64_t>(element.count, body_.bytes_left() / 4);
+    soup_.corners.reserve(3 * expected);
+    soup_.face_offsets.reserve(expected + 1);
     rows(element, list, [&](std::uint64_t r) {
-      const std::string face = "face " + std::to_string(r);
       if (list_.size() < 3) {
-        body_.fail(face + " has " + counted(list_.size(), "corner", "corners") +
-                   ", at least 3 are needed");
+        body_.fail("face " + std::to_string(r) + " has " +
+                   counted(list_.size(), "corner", "corners") + ", at least 3 are needed");
       }
-      for (double v : list_) soup_.corners.push_back(vertex(v, face.c_str()));
+      for (double v : list_) soup_.corners.push_back(vertex(v, "face", r));
       if (soup_.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
         body_.fail("more than 2147483647 corners");
       }
@@ -243,9 +246,8 @@ class PlyReader {
     const int line = find_property(element, "line", false);
     double last_line = 0;
     rows(element, unused, [&](std::uint64_t r) {
-      const std::string edge = "edge " + std::to_string(r);
-      const int a = vertex(row_[tail], edge.c_str());
-      const int b = vertex(row_[head], edge.c_str());
+      const int a = vertex(row_[tail], "edge", r);
+      const int b = vertex(row_[head], "edge", r);
       const double number = line == unused ? 0 : row_[line];
       if (soup_.lines.empty() || soup_.lines.back().back() != a || number != last_line) {
         soup_.lines.push_back({a});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/index.h"
 #include "base/stopwatch.h"
@@ -234,7 +235,7 @@ bool SignedHeatSolver::add_across_pinches(const VecX& phi, std::vector<char>& re
   }
   for (int p = 0; p < V.n_pieces; ++p)
     if (hangs(nearest[p])) reached[p] = 1;
-  const CellField beyond = heat_->diffuse(V, X0, task, report);
+  const CellField beyond = heat_->diffuse(V, std::move(X0), task, report);
   for (Eigen::Index c = 0; c < beyond.log_length.size(); ++c)
     if (std::isfinite(beyond.log_length[c])) Y.segment<2>(2 * c) = beyond.Y.segment<2>(2 * c);
   return true;

@@ -53,9 +53,7 @@ VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint hint,
 }
 
 VectorHeat::System VectorHeat::system(const VectorDiffusion& V, const Task& task) const {
-  Ordering order = V.at_nodes          ? *nodes_
-                   : V.ends.rows() > 0 ? between_nodes(*nodes_, V.ends)
-                                       : Ordering();
+  Ordering order = V.at_nodes ? *nodes_ : V.ends ? between_nodes(*nodes_, *V.ends) : Ordering();
   task.checkpoint();
   if (V.complex_linear())
     return {std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t_, task), 1,
@@ -67,16 +65,21 @@ VectorHeat::System VectorHeat::system(const VectorDiffusion& V, const Task& task
                                                               task, std::move(order))};
 }
 
-ScaledField<double> VectorHeat::solve(const VectorDiffusion& V, const VecX& X0, const Task& task,
+ScaledField<double> VectorHeat::solve(const VectorDiffusion& V, VecX X0, const Task& task,
                                       Report& report) const {
+  const auto sources = nonzero_blocks(as_complex(X0), 1);
+  X0.resize(0);  // beside the largest matrix there is
   const System S = kept_ ? *kept_ : system(V, task);
-  return S.complex ? as_pairs(S.complex->solve(as_complex(X0), V.piece, task, report))
-                   : S.real->solve(X0, V.piece, task, report);
+  if (S.complex) return as_pairs(S.complex->solve(sources, V.piece, task, report));
+  const auto* pairs = reinterpret_cast<const double*>(sources.value.data());
+  return S.real->solve(
+      HeatSource<double>{sources.blocks, Eigen::Map<const VecX>(pairs, 2 * sources.value.size())},
+      V.piece, task, report);
 }
 
-CellField VectorHeat::diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
+CellField VectorHeat::diffuse(const VectorDiffusion& V, VecX X0, const Task& task,
                               Report& report) const {
-  return cell_field(V.to_cells, solve(V, X0, task, report));
+  return cell_field(V.to_cells, solve(V, std::move(X0), task, report));
 }
 
 CellField VectorHeat::diffuse_prescribed(const VectorDiffusion& V, const VecX& values,

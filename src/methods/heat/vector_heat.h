@@ -21,8 +21,7 @@ class VectorHeat {
              std::shared_ptr<const Ordering> nodes, const Task& task);
 
   /// Diffused vectors averaged to cells. Cells on pieces without a source are 0.
-  CellField diffuse(const VectorDiffusion& V, const VecX& X0, const Task& task,
-                    Report& report) const;
+  CellField diffuse(const VectorDiffusion& V, VecX X0, const Task& task, Report& report) const;
 
   /// The same with X prescribed as `values` (2 dofs) wherever that is not zero.
   CellField diffuse_prescribed(const VectorDiffusion& V, const VecX& values, const Task& task,
@@ -36,7 +35,7 @@ class VectorHeat {
     std::shared_ptr<const HeatSystem<double>> real;
   };
   System system(const VectorDiffusion& V, const Task& task) const;
-  ScaledField<double> solve(const VectorDiffusion& V, const VecX& X0, const Task& task,
+  ScaledField<double> solve(const VectorDiffusion& V, VecX X0, const Task& task,
                             Report& report) const;
 
   double t_;

@@ -43,48 +43,57 @@ HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, V
                                SolveHint hint, const Task& task, Ordering order)
     : A_(std::move(lower)),
       block_(block),
-      order_(order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)),
-      windows_(A_, block, std::move(size), order_) {
+      windows_(A_, block, std::move(size),
+               order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)) {
   if (A_->rows() > largest_to_factor(hint)) return;
-  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
+  const auto structure = eliminated(task);
   const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar))
     factor_.emplace(raised_cholesky(*A_, structure, task).factor);
 }
 
 template <class Scalar>
-Cholesky<Scalar> HeatSystem<Scalar>::factored(const Task& task) const {
-  const auto structure = std::make_shared<const Elimination>(*A_, in_blocks(order_, block_), task);
-  return raised_cholesky(*A_, structure, task).factor;
+std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Task& task) const {
+  return std::make_shared<const Elimination>(*A_, in_blocks(windows_.order(), block_), task);
 }
 
 template <class Scalar>
-ScaledField<Scalar> HeatSystem<Scalar>::solve(const Eigen::Ref<const Vector>& b,
-                                              const std::vector<int>& piece, const Task& task,
-                                              Report& report) const {
-  const std::vector<double> largest = largest_of_pieces(b, piece);
-  Vector r(b.size());
+ScaledField<Scalar> HeatSystem<Scalar>::solve(HeatSource<Scalar> b, const std::vector<int>& piece,
+                                              const Task& task, Report& report) const {
+  const int n_pieces = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
+  std::vector<double> largest(n_pieces, 0.0);
+  for (std::size_t s = 0; s < b.blocks.size(); ++s)
+    if (const int p = piece[b.blocks[s]]; p >= 0)
+      largest[p] = std::max(largest[p], block_magnitude(b.value, index(s), block_));
   std::vector<int> reached(piece.size(), -1);
   parallel_for(piece.size(), block_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const bool any = piece[i] >= 0 && largest[piece[i]] > 0;
-      if (any) reached[i] = piece[i];
-      for (Eigen::Index k = index(i) * block_; k < index(i + 1) * block_; ++k)
-        r[k] = any ? Scalar(b[k] / largest[piece[i]]) : Scalar(0);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (piece[i] >= 0 && largest[piece[i]] > 0) reached[i] = piece[i];
   });
-  if (factor_) return solve_in_passes(*factor_, std::move(r), reached, task, report);
-  auto field = windows_.solve(r, reached, task, report);
+  for (std::size_t s = 0; s < b.blocks.size(); ++s)
+    for (Eigen::Index k = index(s) * block_; k < index(s + 1) * block_; ++k)
+      b.value[k] = reached[b.blocks[s]] >= 0 ? Scalar(b.value[k] / largest[reached[b.blocks[s]]])
+                                             : Scalar(0);
+  const auto in_passes = [&](const Cholesky<Scalar>& factor) {
+    Vector r = Vector::Zero(A_->rows());
+    for (std::size_t s = 0; s < b.blocks.size(); ++s)
+      r.segment(Eigen::Index{b.blocks[s]} * block_, block_) =
+          b.value.segment(index(s) * block_, block_);
+    return solve_in_passes(factor, std::move(r), reached, task, report);
+  };
+  if (factor_) return in_passes(*factor_);
+  auto field = windows_.solve(b, reached, task, report);
   return_freed_memory();
   if (field) return std::move(*field);
-  return solve_in_passes(factored(task), std::move(r), reached, task, report);
+  return in_passes(raised_cholesky(*A_, eliminated(task), task).factor);
 }
 
 template <class Scalar>
 ScaledField<Scalar> HeatSystem<Scalar>::solve_prescribed(const Vector& values,
                                                          const std::vector<int>& piece,
                                                          const Task& task, Report& report) const {
-  return solve(windows_.source_prescribing(values, task), piece, task, report);
+  return solve(nonzero_blocks(windows_.source_prescribing(values, task), block_), piece, task,
+               report);
 }
 
 template <class Scalar>

@@ -47,8 +47,12 @@ class HeatSystem {
   /// truncating there leaves, which lives next to the front, scaled to 1; and so on. `piece` names
   /// the block's connected piece; each piece of b is scaled to largest entry 1 first, as pieces do
   /// not interact.
+  ScaledField<Scalar> solve(HeatSource<Scalar> b, const std::vector<int>& piece, const Task& task,
+                            Report& report) const;
   ScaledField<Scalar> solve(const Eigen::Ref<const Vector>& b, const std::vector<int>& piece,
-                            const Task& task, Report& report) const;
+                            const Task& task, Report& report) const {
+    return solve(nonzero_blocks(b, block_), piece, task, report);
+  }
 
   /// The same with x prescribed as `values` on the blocks where that is not zero, and b = 0
   /// elsewhere.
@@ -61,14 +65,13 @@ class HeatSystem {
   const Matrix& lower() const { return *A_; }
 
  private:
-  Cholesky<Scalar> factored(const Task& task) const;
+  std::shared_ptr<const Elimination> eliminated(const Task& task) const;
   ScaledField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
                                       const std::vector<int>& piece, const Task& task,
                                       Report& report) const;
 
   std::shared_ptr<const Matrix> A_;
   int block_;
-  Ordering order_;
   HeatWindows<Scalar> windows_;
   std::optional<Cholesky<Scalar>> factor_;
 };

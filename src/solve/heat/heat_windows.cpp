@@ -92,6 +92,13 @@ HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block,
 }
 
 template <class Scalar>
+Ordering HeatWindows<Scalar>::order() const {
+  Ordering order(position_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[position_[i]] = static_cast<int>(i);
+  return order;
+}
+
+template <class Scalar>
 std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from, double limit,
                                                    const Task& task) const {
   // Dijkstra's algorithm with buckets one decay length wide, settled in any order inside of one.
@@ -203,16 +210,15 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
 }
 
 template <class Scalar>
-std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<Scalar>& b,
                                                               const std::vector<int>& piece,
                                                               const Task& task,
                                                               Report& report) const {
   const FlushSubnormals flush;
   const KeepLargePages keep;
-  const int n = position_.size();
   std::vector<int> from;
-  for (int i = 0; i < n; ++i)
-    if (piece[i] >= 0 && block_magnitude(b, i, block_) > 0) from.push_back(i);
+  for (const int i : b.blocks)
+    if (piece[i] >= 0) from.push_back(i);
   const Outward outward = in_steps(distances(from, infinity, task));
 
   std::optional<ScaledField<Scalar>> best;
@@ -236,11 +242,11 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 }
 
 template <class Scalar>
-std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
+std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<Scalar>& b,
                                                               const Outward& outward, int overlap,
                                                               const Task& task) const {
   const std::vector<int>& order = outward.blocks;
-  ScaledField<Scalar> field{Vector::Zero(b.size()), std::vector<int>(position_.size(), -1), {}};
+  ScaledField<Scalar> field{Vector::Zero(A_->rows()), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
   int windows = 0;
@@ -256,8 +262,8 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
       Vector r = Vector::Zero(index(blocks.size()) * block_);
       if (windows == 0)
         for (std::size_t k = 0; k < blocks.size(); ++k)
-          r.segment(index(k) * block_, block_) =
-              b.segment(Eigen::Index(blocks[k]) * block_, block_);
+          if (const Scalar* value = b.at(blocks[k]))
+            for (int c = 0; c < block_; ++c) r[index(k) * block_ + c] = value[c];
       const Vector z = solve_region(blocks, known, field.x, std::move(r), local, task);
       for (Eigen::Index k = 0; k < Eigen::Index(blocks.size()); ++k) {
         if (!inside[blocks[k]]) continue;
@@ -281,7 +287,7 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const Vector& b,
 }
 
 template <class Scalar>
-double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vector& b,
+double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatSource<Scalar>& b,
                                    const Task& task) const {
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
@@ -314,12 +320,15 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const Vecto
     }
   }
   double worst = 0;
-  for (std::size_t i = 0; i < front.size(); ++i)
-    for (int k = 0; k < block_ && front[i] >= 0; ++k) {
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    if (front[i] < 0) continue;
+    const Scalar* value = b.at(static_cast<int>(i));
+    for (int k = 0; k < block_; ++k) {
       const Eigen::Index at = Eigen::Index{front[i]} * block_ + k;
-      if (size[at] > 0 && b[index(i) * block_ + k] == Scalar(0))
+      if (size[at] > 0 && (!value || value[k] == Scalar(0)))
         worst = std::max(worst, magnitude(sum[at]) / size[at]);
     }
+  }
   return worst;
 }
 

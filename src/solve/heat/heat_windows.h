@@ -45,12 +45,15 @@ class HeatWindows {
   /// memory grow like the number of unknowns. Each connected piece of b should have largest entry
   /// 1. Where neighbouring windows do not fit together to round-off, as `size` misjudges how heat
   /// decays, they overlap by more; nothing if that does not help.
-  std::optional<ScaledField<Scalar>> solve(const Vector& b, const std::vector<int>& piece,
-                                           const Task& task, Report& report) const;
+  std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b,
+                                           const std::vector<int>& piece, const Task& task,
+                                           Report& report) const;
 
   /// The b, zero where nothing is prescribed, for which A x = b has x = values on the blocks where
   /// that is not zero: found next to these, as x decays away from them.
   Vector source_prescribing(const Vector& values, const Task& task) const;
+
+  Ordering order() const;  // of elimination, of the blocks
 
  private:
   std::vector<double> distances(const std::vector<int>& from, double limit, const Task& task) const;
@@ -59,9 +62,10 @@ class HeatWindows {
   std::vector<std::vector<int>> parts(std::span<const int> blocks) const;
   Vector solve_region(const std::vector<int>& blocks, const std::vector<char>& known,
                       const Vector& x, Vector r, std::vector<int>& local, const Task& task) const;
-  std::optional<ScaledField<Scalar>> solve(const Vector& b, const Outward& outward, int overlap,
-                                           const Task& task) const;
-  double misfit(const ScaledField<Scalar>& field, const Vector& b, const Task& task) const;
+  std::optional<ScaledField<Scalar>> solve(const HeatSource<Scalar>& b, const Outward& outward,
+                                           int overlap, const Task& task) const;
+  double misfit(const ScaledField<Scalar>& field, const HeatSource<Scalar>& b,
+                const Task& task) const;
 
   std::shared_ptr<const Matrix> A_;
   int block_;

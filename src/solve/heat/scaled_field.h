@@ -45,6 +45,33 @@ double block_magnitude(const Vector& x, Eigen::Index i, int block) {
   return m;
 }
 
+/// A right-hand side that is zero but for some blocks, as those of sources are.
+template <class Scalar>
+struct HeatSource {
+  std::vector<int> blocks;                         // ascending
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> value;  // of these
+
+  /// Of one block; null where it is zero.
+  const Scalar* at(int i) const {
+    const auto found = std::lower_bound(blocks.begin(), blocks.end(), i);
+    if (found == blocks.end() || *found != i) return nullptr;
+    return value.data() + (found - blocks.begin()) * (value.size() / index(blocks.size()));
+  }
+};
+
+/// The blocks of b that are not zero.
+template <class Vector>
+HeatSource<typename Vector::Scalar> nonzero_blocks(const Vector& b, int block) {
+  HeatSource<typename Vector::Scalar> out;
+  for (Eigen::Index i = 0; i < b.size() / block; ++i)
+    if (block_magnitude(b, i, block) > 0) out.blocks.push_back(static_cast<int>(i));
+  out.value.resize(index(out.blocks.size()) * block);
+  for (std::size_t s = 0; s < out.blocks.size(); ++s)
+    out.value.segment(index(s) * block, block) =
+        b.segment(Eigen::Index{out.blocks[s]} * block, block);
+  return out;
+}
+
 constexpr std::size_t block_grain = 1 << 15;  // blocks, for loops over all of a field
 
 /// Largest entry of b in each piece; `piece` names the piece of every block, -1: none.

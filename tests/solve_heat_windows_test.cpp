@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 
 #include "heat_helpers.h"
 #include "solve/heat/heat_system.h"
@@ -85,6 +89,85 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
       EXPECT_LE(largest, 1e-9) << scale;
       EXPECT_GE(both.n_windows, scale < 2 ? 5 : 1);
     }
+  }
+}
+
+/// Places along a line, numbered at random, with two unknowns each that are turned against those
+/// of the next: 2 + s on the diagonal and -1 between neighbours but for the turns, so that the
+/// answer to 1 at one end is known (a hyperbolic sine).
+struct TurnedChain {
+  explicit TurnedChain(int n, double s) : decay(2 * std::asinh(std::sqrt(s) / 2)), number(n) {
+    std::mt19937 random(7);
+    std::iota(number.begin(), number.end(), 0);
+    std::shuffle(number.begin(), number.end(), random);
+    std::uniform_real_distribution<double> angle(0, 6);
+    for (int k = 0; k < n; ++k) turn.emplace_back(Eigen::Rotation2Dd(angle(random)).matrix());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < n; ++k) {
+      for (int i = 0; i < 2; ++i) entries.emplace_back(2 * number[k] + i, 2 * number[k] + i, 2 + s);
+      if (k + 1 == n) continue;
+      const Eigen::Matrix2d between = -turn[k] * turn[k + 1].transpose();
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) {
+          const int row = 2 * number[k] + i, column = 2 * number[k + 1] + j;
+          entries.emplace_back(std::max(row, column), std::min(row, column), between(i, j));
+        }
+    }
+    A.resize(2 * n, 2 * n);
+    A.setFromTriplets(entries.begin(), entries.end());
+  }
+  /// At place k, for a source of (1, 0) in the own frame of place 0.
+  Vec2 exact(int k) const {
+    const double n = double(number.size());
+    return turn[k] * Vec2(std::sinh((n - k) * decay) / std::sinh((n + 1) * decay), 0);
+  }
+
+  double decay;
+  std::vector<int> number;
+  std::vector<Eigen::Matrix2d> turn;
+  SpMat A;
+};
+
+TEST(HeatWindows, BlocksOfTwoUnknownsAreSolvedAcrossWindows) {
+  const int n = 250;
+  for (const double s : {0.5, 1.0}) {
+    const TurnedChain chain(n, s);
+    Ordering order(n);
+    std::iota(order.begin(), order.end(), 0);
+    const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2,
+                                      VecX::Constant(n, std::sqrt(s)), order);
+    VecX b = VecX::Zero(2 * n);
+    b.segment<2>(2 * chain.number[0]) = chain.turn[0].col(0);
+    Report report;
+    const auto field = windows.solve(b, std::vector<int>(n, 0), {}, report);
+    ASSERT_TRUE(field.has_value());
+    EXPECT_GE(report.iterations.back().second, 4);  // windows
+    for (int k = 0; k < n; ++k) {
+      const int i = chain.number[k];
+      double scale = 1;
+      for (int p = 0; p <= field->layer[i]; ++p) scale *= field->scale[p];
+      const Vec2 expected = chain.exact(k), found = scale * field->x.segment<2>(2 * i);
+      EXPECT_LE((found - expected).norm(), 1e-10 * expected.norm()) << k;
+    }
+  }
+}
+
+TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
+  // Held in the middle: on both sides the answer decays as towards an end far away.
+  const int n = 201, middle = 100;
+  const TurnedChain chain(n, 1);
+  Ordering order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2, VecX::Constant(n, 1),
+                                    order);
+  VecX held = VecX::Zero(2 * n);
+  held.segment<2>(2 * chain.number[middle]) = chain.turn[middle].col(0);
+  const VecX b = windows.source_prescribing(held, {});
+  // (2 + s) x_0 - x_1 - x_-1 with x_1 = exp(-decay): 2 sinh(decay).
+  for (int k = 0; k < n; ++k) {
+    const Vec2 expected =
+        k == middle ? Vec2(2 * std::sinh(chain.decay) * chain.turn[k].col(0)) : Vec2(0, 0);
+    EXPECT_LE((b.segment<2>(2 * chain.number[k]) - expected).norm(), 1e-12) << k;
   }
 }
 

@@ -123,19 +123,6 @@ void NodalCells::mean_in_patch(int p, const VecXc& X, std::vector<Complex>& in_p
   }
 }
 
-void NodalCells::adjoint_of_mean_in_patch(int p, const VecXc& Y, VecXc& X) const {
-  for (int c = cell_offsets_[p]; c < cell_offsets_[p + 1]; ++c) {
-    const Complex y = std::conj(to_frame_[c]) * Y[c] / 3.0;
-    for (int k = 0; k < 3; ++k) {
-      int i = node_offsets_[p];
-      for (Interpolation::InnerIterator it(P_, corner_(c, k)); it; ++it) {
-        while (node_[i] < it.col()) ++i;
-        X[it.col()] += it.value() * std::conj(turn_[i]) * y;
-      }
-    }
-  }
-}
-
 LinearMap NodalCells::mean(std::shared_ptr<const NodalCells> cells) {
   LinearMap Q{2 * cells->n_cells(), 2 * cells->n_nodes(), {}, {}, {}};
   Q.apply = [cells](const VecX& x) {
@@ -146,12 +133,6 @@ LinearMap NodalCells::mean(std::shared_ptr<const NodalCells> cells) {
       for (std::size_t p = begin; p < end; ++p) cells->mean_in_patch(p, X, in_patch, Y);
     });
     return as_pairs(Y);
-  };
-  Q.adjoint = [cells](const VecX& y) {
-    const VecXc Y = as_complex(y);
-    VecXc X = VecXc::Zero(cells->n_nodes());
-    for (int p = 0; p < cells->n_patches(); ++p) cells->adjoint_of_mean_in_patch(p, Y, X);
-    return as_pairs(X);
   };
   return Q;
 }

@@ -32,7 +32,6 @@ class NodalCells {
 
  private:
   void mean_in_patch(int p, const VecXc& X, std::vector<Complex>& in_patch, VecXc& Y) const;
-  void adjoint_of_mean_in_patch(int p, const VecXc& Y, VecXc& X) const;
   Eigen::Index n_nodes() const { return P_.cols(); }
 
   Interpolation P_;                // vertices x nodes; the first rows are those of the identity

@@ -156,18 +156,6 @@ LinearMap edges_to_faces(Triangulation T) {
     });
     return Y;
   };
-  P.adjoint = [T](const VecX& Y) {
-    VecX X = VecX::Zero(2 * T->n_edges());
-    for (int f = 0; f < T->n_faces(); ++f) {
-      const TriangleShape t = T->shape(f);
-      for (int k = 0; k < 3; ++k) {
-        const Complex z = T->face_to_edge(t, f, k, {Y[2 * f] / 3, Y[2 * f + 1] / 3});
-        X[2 * T->side_edge(f, k)] += z.real();
-        X[2 * T->side_edge(f, k) + 1] += z.imag();
-      }
-    }
-    return X;
-  };
   return P;
 }
 

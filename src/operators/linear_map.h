@@ -12,7 +12,7 @@ namespace littoral {
 struct LinearMap {
   Eigen::Index rows = 0, cols = 0;
   std::function<VecX(const VecX&)> apply;    // cols -> rows
-  std::function<VecX(const VecX&)> adjoint;  // rows -> cols
+  std::function<VecX(const VecX&)> adjoint;  // rows -> cols; may be empty
   std::function<SpRows()> matrix;            // rows x cols, for who multiplies often; may be empty
 };
 

@@ -26,8 +26,8 @@ PolygonSoup book() {
   for (int p = 0; p < 3; ++p)
     for (int r = 0; r < 2; ++r) {
       const int outer = 3 + 3 * p + r;
-      test::add_triangle(soup, r, r + 1, outer + 1);
       test::add_triangle(soup, r, outer + 1, outer);
+      test::add_triangle(soup, r, r + 1, outer + 1);
     }
   return soup;
 }
@@ -54,14 +54,14 @@ struct Book {
 TEST(ShortestCompletion, ACurveThatCutsOffACornerOfAPageBounds) {
   Book book;
   VecX curve = VecX::Zero(book.J.n_edges);
-  const int e = book.edge(0, 4);  // cuts off face 1
-  const bool left = book.J.sides[std::size_t(e)][0].face == 1;
+  const int e = book.edge(0, 4);  // cuts off face 0
+  const bool left = book.J.sides[std::size_t(e)][0].face == 0;
   for (const int sense : {1, -1}) {
     curve[e] = left ? sense : -sense;
     const ShortestCompletion out = book.completed(curve, Complete::none, 1);
     EXPECT_TRUE(out.parts[0].bounds());
     EXPECT_EQ(out.parts[0].largest, 1);
-    for (int f = 0; f < 12; ++f) EXPECT_EQ(out.region[f], (f == 1) == (sense == 1) ? 1 : 0) << f;
+    for (int f = 0; f < 12; ++f) EXPECT_EQ(out.region[f], (f == 0) == (sense == 1) ? 1 : 0) << f;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -183,6 +184,25 @@ TEST(AllPairs, StopsWhereTheResidualFallsEverMoreSlowly) {
   EXPECT_EQ(report.status, "not converged");
   ASSERT_FALSE(report.iterations.empty());
   EXPECT_LT(report.iterations[0].second, 50000);
+}
+
+TEST(AllPairs, WhatSinglePrecisionCannotHoldTakesFullPrecision) {
+  PolygonSoup soup;  // beside a triangle so small that gradients in it are beyond single precision
+  soup.points.resize(5, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, -1e-60, 0, 0, 0, -1e-60, 0;
+  for (const auto& f : {std::array{0, 1, 2}, {0, 3, 4}, {0, 2, 3}}) soup.add_face(f);
+  Symmetric options;
+  options.max_iterations = 60;
+  Report full, single;
+  const MatX U = pairs_on(SurfaceMesh(soup), options, full);
+  options.storage = Storage::single;
+  EXPECT_EQ(pairs_on(SurfaceMesh(soup), options, single), U);
+  const auto told = [](const Report& report) {
+    return std::count_if(report.warnings.begin(), report.warnings.end(),
+                         [](const Warning& w) { return w.code == "option-without-effect"; });
+  };
+  EXPECT_EQ(told(single), 1);
+  EXPECT_EQ(told(full), 0);
 }
 
 TEST(AllPairs, AgreesWithTheAuthors) {

@@ -89,6 +89,30 @@ TEST(Automatic, ClosedCurvesGiveExactDistanceAndSidesEverywhere) {
   EXPECT_EQ(size(report, "shortest_completion_length"), 0);
 }
 
+TEST(Automatic, ACurveOnOnePageOfABookHasItsSidesOnAll) {
+  // Along the diagonal of a square page; the spine and two more pages are on one side of it.
+  PolygonSoup soup;
+  soup.points.resize(8, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, -0.6, 0.8, 1, -0.6, 0.8, 0, -0.6, -0.8, 1,
+      -0.6, -0.8;
+  for (const int outer : {2, 4, 6}) {
+    test::add_triangle(soup, 0, outer + 1, outer);
+    test::add_triangle(soup, 0, 1, outer + 1);
+  }
+  const SurfaceMesh mesh(soup);
+  const double exact[8] = {0,  -std::sqrt(0.5), std::sqrt(0.5), 0, -1, -std::sqrt(2),
+                           -1, -std::sqrt(2)};
+  for (const bool forward : {true, false}) {
+    Sources sources;
+    sources.add(Curve::along_vertices(forward ? std::vector{0, 3} : std::vector{3, 0}));
+    Report report;
+    const VecX phi = answer(mesh, sources, report);
+    for (int v = 0; v < 8; ++v) EXPECT_NEAR(phi[v], forward ? exact[v] : -exact[v], 1e-12) << v;
+    EXPECT_EQ(size(report, "shortest_completion_length"), 0);
+    EXPECT_EQ(option(report, "completion"), "none");
+  }
+}
+
 TEST(Automatic, ReversedCurvesReverseTheSign) {
   const SurfaceMesh mesh(test::octasphere_soup(4));
   const Sources circle = test::space_curve(test::circle(0, 0, 0.3, std::sqrt(1 - 0.09), 60));

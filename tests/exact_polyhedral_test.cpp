@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "base/parallel.h"
 #include "geodesic_helpers.h"
@@ -247,6 +249,23 @@ TEST(ExactPolyhedral, StopsWhenAsked) {
   EXPECT_THROW(
       test::geodesic(test::exact_once, mesh, from({SurfacePoint::at_vertex(0)}), report, task),
       Cancelled);
+}
+
+TEST(ExactPolyhedral, ProgressIsTheShareOfVerticesThatAreReached) {
+  const SurfaceMesh mesh(test::octasphere_soup(6));
+  std::vector<double> told;
+  const Task task({}, [&](double fraction, const std::string&) { told.push_back(fraction); });
+  Report report;
+  test::geodesic(test::exact_once, mesh, from({SurfacePoint::at_vertex(0)}), report, task);
+  ASSERT_GT(told.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  // The front runs over the sphere from pole to pole and has the most windows halfway.
+  EXPECT_LT(told.front(), 0.3);
+  EXPECT_GT(told.back(), 0.9);
+  EXPECT_LE(told.back(), 1);
+  double widest = 0;
+  for (std::size_t i = 1; i < told.size(); ++i) widest = std::max(widest, told[i] - told[i - 1]);
+  EXPECT_LT(widest, 0.3);
 }
 
 TEST(ExactPolyhedral, ReferenceDistances) {

@@ -90,16 +90,44 @@ TEST(FaceTriangulation, ToleranceIsALengthInFacesOfAnySize) {
   }
 }
 
-TEST(FaceTriangulation, ToleranceIsTheSameFarFromTheOrigin) {
-  for (const Vec2& at : {Vec2(10, 10), Vec2(-0.5, 0), Vec2(-0.5, -0.5), Vec2(0, -30)}) {
-    const auto face = [&] { return FaceTriangulation(at, at + Vec2(1, 0), at + Vec2(0, 1)); };
-    const Vec2 along[] = {{0.6, 0}, {0.4, 0.6}, {0, 0.4}}, inward[] = {{0, 1}, {-1, -1}, {1, 0}};
-    for (int side = 0; side < 3; ++side)
-      for (const double height : {0.9e-3, 1.1e-3}) {
-        FaceTriangulation cut = face();
-        cut.insert(at + along[side] + height * inward[side].normalized(), 1e-3);
-        EXPECT_EQ(cut.triangles().size(), height < 1e-3 ? 2u : 3u) << at << " " << side;
-      }
+TEST(FaceTriangulation, ToleranceIsALengthWhereverTheFaceLies) {
+  for (const Vec2& at : {Vec2(0, 0), Vec2(40, 0), Vec2(-30, 50), Vec2(-0.5, -0.01)}) {
+    const Vec2 a = at + Vec2(0, 0), b = at + Vec2(1, 0), c = at + Vec2(0, 1);
+    FaceTriangulation above(a, b, c);
+    above.insert(at + Vec2(0.5, 0.03), 0.02);
+    EXPECT_EQ(above.triangles().size(), 3u) << at.transpose();
+    FaceTriangulation on(a, b, c);
+    on.insert(at + Vec2(0.5, 0.01), 0.02);
+    EXPECT_EQ(on.triangles().size(), 2u) << at.transpose();
+  }
+}
+
+TEST(FaceTriangulation, APointNearTwoSidesIsPutOnTheNearerOne) {
+  // Far from the origin, and with sides of very different length.
+  const Vec2 at(7, -9);
+  FaceTriangulation face(at, at + Vec2(10, 0), at + Vec2(0, 1));
+  const int added = face.insert(at + Vec2(0.02, 0.5), 0.03);
+  ASSERT_EQ(face.triangles().size(), 2u);
+  const auto sides = directed_sides(face);
+  EXPECT_TRUE(sides.count({2, added}) && sides.count({added, 0}));
+  FaceTriangulation other(at, at + Vec2(10, 0), at + Vec2(0, 1));
+  const int below = other.insert(at + Vec2(0.04, 0.02), 0.03);
+  ASSERT_EQ(other.triangles().size(), 2u);
+  const auto split = directed_sides(other);
+  EXPECT_TRUE(split.count({0, below}) && split.count({below, 1}));
+}
+
+TEST(FaceTriangulation, APointInsideMakesThreeTrianglesOfOneInAnyPlace) {
+  // The triangle that holds a point is the one in which it lies, not the one beside it.
+  for (const Vec2& at : {Vec2(0, 0), Vec2(25, -3)}) {
+    FaceTriangulation face(at, at + Vec2(1, 0), at + Vec2(0, 1));
+    ASSERT_EQ(face.insert(at + Vec2(0.1, 0.1), 1e-9), 3);
+    face.insert(at + Vec2(0.5, 0.1), 1e-9);
+    face.insert(at + Vec2(0.1, 0.5), 1e-9);
+    face.insert(at + Vec2(0.4, 0.4), 1e-9);
+    EXPECT_EQ(face.triangles().size(), 9u);
+    EXPECT_GT(least_area(face), 1e-3);
+    EXPECT_NEAR(area(face), 0.5, 1e-14);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "api/surface/mesh_info.h"
 #include "broken_shapes.h"
@@ -283,6 +285,54 @@ TEST(FitToSurface, UntanglesAPointThatWasPushedThrough) {
   untangle(sphere.points, faces, {});
   EXPECT_EQ(crossing(), 0);
   EXPECT_NEAR(test::volume_of(sphere), 4 * M_PI / 3, 0.3);
+}
+
+/// The same with every face looked at in every round.
+MatX3 untangled_plainly(MatX3 points, const MatX3i& faces) {
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<char> crossing = self_intersecting_faces(points, faces);
+    if (std::count(crossing.begin(), crossing.end(), 1) == 0) return points;
+    const MatX3 before = points;
+    for (int v = 0; v < points.rows(); ++v) {
+      bool bad = false;
+      std::set<int> neighbours;
+      for (Eigen::Index f = 0; f < faces.rows(); ++f)
+        for (int k = 0; k < 3; ++k) {
+          if (faces(f, k) != v) continue;
+          bad = bad || crossing[std::size_t(f)] != 0;
+          neighbours.insert({faces(f, (k + 1) % 3), faces(f, (k + 2) % 3)});
+        }
+      if (!bad) continue;
+      Vec3 sum = Vec3::Zero();
+      for (const int w : neighbours) sum += before.row(w);
+      points.row(v) = 0.5 * before.row(v) + 0.5 * (sum / double(neighbours.size())).transpose();
+    }
+  }
+  return points;
+}
+
+TEST(FitToSurface, UntanglingMovesVerticesToTheMiddleOfTheirNeighbours) {
+  for (const double far : {-1.3, -1.02}) {
+    PolygonSoup sphere = test::octasphere_soup(2);
+    const MatX3i faces = triangles_of(sphere);
+    sphere.points.row(20) *= far;
+    sphere.points.row(30) = 1.2 * sphere.points.row(31);
+    const MatX3 expected = untangled_plainly(sphere.points, faces);
+    EXPECT_GT((sphere.points - expected).norm(), 0.1) << far;
+    untangle(sphere.points, faces, {});
+    EXPECT_LE((sphere.points - expected).cwiseAbs().maxCoeff(), 1e-12) << far;
+  }
+}
+
+TEST(FitToSurface, UntanglingEndsWhereNothingHelps) {
+  // Two spheres in one place stay so.
+  const PolygonSoup one = test::octasphere_soup(1);
+  const PolygonSoup two = test::joined(one, one);
+  const MatX3i faces = triangles_of(two);
+  MatX3 points = two.points;
+  untangle(points, faces, {});
+  EXPECT_LE((points - untangled_plainly(two.points, faces)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(points.topRows(one.points.rows()), points.bottomRows(one.points.rows()));
 }
 
 TEST(FitToSurface, TakesBackWhatWouldCross) {

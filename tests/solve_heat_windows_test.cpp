@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 
 #include "heat_helpers.h"
 #include "solve/heat/heat_system.h"
@@ -88,40 +92,83 @@ TEST(HeatWindows, AgreeWithPassesAcrossManyWindows) {
   }
 }
 
-TEST(HeatWindows, PairsOfRealsAreComplexNumbers) {
-  PolygonSoup strip = test::grid_soup(300, 4);
-  strip.points.col(0) *= 300 / 4;  // square cells
-  const SurfaceMesh mesh(strip);
-  Report report;
-  const auto p = test::problem(mesh, test::vertex_points({0, 150}), report);
-  const VectorDiffusion& V = p.ops->vector;
-  const double t = V.h * V.h;
-  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
-  Triplets entries;  // a + i b as a, -b / b, a
-  for (int j = 0; j < V.n; ++j)
-    for (SpMatC::InnerIterator it(*A, j); it; ++it) {
-      const int i = static_cast<int>(it.row());
-      entries.emplace_back(2 * i, 2 * j, it.value().real());
-      entries.emplace_back(2 * i + 1, 2 * j + 1, it.value().real());
-      entries.emplace_back(2 * i + 1, 2 * j, it.value().imag());
-      if (i != j) entries.emplace_back(2 * i, 2 * j + 1, -it.value().imag());
+/// Places along a line, numbered at random, with two unknowns each that are turned against those
+/// of the next: 2 + s on the diagonal and -1 between neighbours but for the turns, so that the
+/// answer to 1 at one end is known (a hyperbolic sine).
+struct TurnedChain {
+  explicit TurnedChain(int n, double s) : decay(2 * std::asinh(std::sqrt(s) / 2)), number(n) {
+    std::mt19937 random(7);
+    std::iota(number.begin(), number.end(), 0);
+    std::shuffle(number.begin(), number.end(), random);
+    std::uniform_real_distribution<double> angle(0, 6);
+    for (int k = 0; k < n; ++k) turn.emplace_back(Eigen::Rotation2Dd(angle(random)).matrix());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < n; ++k) {
+      for (int i = 0; i < 2; ++i) entries.emplace_back(2 * number[k] + i, 2 * number[k] + i, 2 + s);
+      if (k + 1 == n) continue;
+      const Eigen::Matrix2d between = -turn[k] * turn[k + 1].transpose();
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) {
+          const int row = 2 * number[k] + i, column = 2 * number[k + 1] + j;
+          entries.emplace_back(std::max(row, column), std::min(row, column), between(i, j));
+        }
     }
-  const auto R = std::make_shared<SpMat>(2 * V.n, 2 * V.n);
-  R->setFromTriplets(entries.begin(), entries.end());
-  const VecX size = decay_lengths(V.M, t), X0 = p.terms.vectors(V.n);
-  const Ordering order = dissection(*A, {});
-  const auto pairs =
-      HeatWindows<double>(R, 2, size, order).solve(nonzero_blocks(X0, 2), V.piece, {}, report);
-  ASSERT_TRUE(pairs.has_value());
-  EXPECT_GE(pairs->scale.size(), 2u);
-  const auto field = HeatWindows<Complex>(A, 1, size, order)
-                         .solve(nonzero_blocks(as_complex(X0), 1), V.piece, {}, report);
-  ASSERT_TRUE(field.has_value());
-  ASSERT_EQ(pairs->layer, field->layer);
-  const VecXc x = as_complex(pairs->x);
-  for (int i = 0; i < V.n; ++i)
-    EXPECT_LE(std::abs(x[i] / pairs->scale[0] - field->x[i] / field->scale[0]),
-              1e-9 * std::abs(field->x[i] / field->scale[0]));
+    A.resize(2 * n, 2 * n);
+    A.setFromTriplets(entries.begin(), entries.end());
+  }
+  /// At place k, for a source of (1, 0) in the own frame of place 0.
+  Vec2 exact(int k) const {
+    const double n = double(number.size());
+    return turn[k] * Vec2(std::sinh((n - k) * decay) / std::sinh((n + 1) * decay), 0);
+  }
+
+  double decay;
+  std::vector<int> number;
+  std::vector<Eigen::Matrix2d> turn;
+  SpMat A;
+};
+
+TEST(HeatWindows, BlocksOfTwoUnknownsAreSolvedAcrossWindows) {
+  const int n = 250;
+  for (const double s : {0.5, 1.0}) {
+    const TurnedChain chain(n, s);
+    Ordering order(n);
+    std::iota(order.begin(), order.end(), 0);
+    const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2,
+                                      VecX::Constant(n, std::sqrt(s)), order);
+    VecX b = VecX::Zero(2 * n);
+    b.segment<2>(2 * chain.number[0]) = chain.turn[0].col(0);
+    Report report;
+    const auto field = windows.solve(nonzero_blocks(b, 2), std::vector<int>(n, 0), {}, report);
+    ASSERT_TRUE(field.has_value());
+    EXPECT_GE(report.iterations.back().second, 4);  // windows
+    for (int k = 0; k < n; ++k) {
+      const int i = chain.number[k];
+      double scale = 1;
+      for (int p = 0; p <= field->layer[i]; ++p) scale *= field->scale[p];
+      const Vec2 expected = chain.exact(k), found = scale * field->x.segment<2>(2 * i);
+      EXPECT_LE((found - expected).norm(), 1e-10 * expected.norm()) << k;
+    }
+  }
+}
+
+TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
+  // Held in the middle: on both sides the answer decays as towards an end far away.
+  const int n = 201, middle = 100;
+  const TurnedChain chain(n, 1);
+  Ordering order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2, VecX::Constant(n, 1),
+                                    order);
+  VecX held = VecX::Zero(2 * n);
+  held.segment<2>(2 * chain.number[middle]) = chain.turn[middle].col(0);
+  const VecX b = windows.source_prescribing(held, {});
+  // (2 + s) x_0 - x_1 - x_-1 with x_1 = exp(-decay): 2 sinh(decay).
+  for (int k = 0; k < n; ++k) {
+    const Vec2 expected =
+        k == middle ? Vec2(2 * std::sinh(chain.decay) * chain.turn[k].col(0)) : Vec2(0, 0);
+    EXPECT_LE((b.segment<2>(2 * chain.number[k]) - expected).norm(), 1e-12) << k;
+  }
 }
 
 TEST(HeatWindows, NoticeMisjudgedDistances) {

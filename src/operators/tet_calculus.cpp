@@ -24,13 +24,6 @@ LinearMap gradient(const Tets& T) {
     }
     return g;
   };
-  G.adjoint = [T, n](const VecX& g) {
-    VecX u = VecX::Zero(T->L.rows());
-    for (Eigen::Index t = 0; t < n; ++t)
-      for (int k = 0; k < 4; ++k)
-        u[T->tets()(t, k)] += T->gradients[t].row(k).dot(g.segment<3>(3 * t));
-    return u;
-  };
   G.matrix = [T, n] {
     Triplets entries;
     entries.reserve(12 * n);

@@ -172,7 +172,7 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   report_lengths(given, ends, added, overruled, report);
   std::vector<char> completed(found.labels.parts.size(), 0);
   for (int t = 0; t < found.on->J->n_faces; ++t) {
-    const int part = found.on->J->component[t];
+    const int part = found.labels.part[t];
     const ShortestCompletion::Part& p = found.labels.parts[part];
     if (p.given > 0 && (p.largest != 1 || !p.solved) && found.component[t] >= 0)
       settled[found.component[t]] = 0;
@@ -180,7 +180,7 @@ std::vector<char> WholeCurves::settle(const PlacedSources& placed, Completion ho
   }
   bool any = false;
   for (int t = 0; t < found.on->J->n_faces; ++t)
-    any = any || (completed[found.on->J->component[t]] && found.component[t] >= 0 &&
+    any = any || (completed[found.labels.part[t]] && found.component[t] >= 0 &&
                   settled[found.component[t]]);
   whole.by = any ? Completion::shortest : Completion::none;
   if (any && straighten_completion(found, settled, whole, task.stage(1, "straightening")))
@@ -216,7 +216,7 @@ bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vecto
   for (CurvePiece& piece : boundary.pieces) piece.is_signed = true;
   const Labelled straight = labelled(boundary.pieces, Complete::none, task);
   for (int t = 0; t < straight.on->J->n_faces; ++t) {
-    const ShortestCompletion::Part& part = straight.labels.parts[straight.on->J->component[t]];
+    const ShortestCompletion::Part& part = straight.labels.parts[straight.labels.part[t]];
     const int c = straight.component[t];
     if (c >= 0 && settled[c] && part.given > 0 && !(part.bounds() && part.largest == 1))
       return false;
@@ -237,7 +237,7 @@ void WholeCurves::add_sides(const Labelled& on, const std::vector<char>& settled
   const JumpCalculus& J = *on.on->J;
   for (int t = 0; t < J.n_faces; ++t) {
     const int c = on.component[t];
-    if (c < 0 || !settled[c] || on.labels.parts[J.component[t]].largest == 0) continue;
+    if (c < 0 || !settled[c] || on.labels.parts[on.labels.part[t]].largest == 0) continue;
     if (on.labels.region[t] > 0) continue;
     for (int k = 0; k < 3; ++k)  // vertices of the input come first
       if (const int v = on.on->T.faces(t, k); v < domain_.mesh->n_vertices()) whole.sign[v] = -1;

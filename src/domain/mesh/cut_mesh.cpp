@@ -53,9 +53,6 @@ class Cutter {
  private:
   /// Where on side k a point of face f lies, measured along the side; none if it does not.
   static bool on_side(const std::array<double, 3>& b, int k) { return b[(k + 2) % 3] == 0; }
-  static bool is_corner(const std::array<double, 3>& b, int k) {
-    return b[(k + 1) % 3] == 0 && b[(k + 2) % 3] == 0;
-  }
   static int common_side(const CutSegment& s) {
     for (int k = 0; k < 3; ++k)
       if (on_side(s.a, k) && on_side(s.b, k)) return k;
@@ -73,13 +70,13 @@ class Cutter {
     for (const CutSegment& s : segments_)
       for (const auto& b : {s.a, s.b})
         for (int k = 0; k < 3; ++k)
-          if (on_side(b, k) && !is_corner(b, k) && !is_corner(b, (k + 1) % 3))
+          if (on_side(b, k))
             found[mesh_.side_edge(s.face, k)].push_back(edge_parameter(s.face, k, b));
     for (auto& [e, ts] : found) {
       std::sort(ts.begin(), ts.end());
       std::vector<std::pair<double, int>> list;
       for (double t : ts) {
-        if (t < same || t > 1 - same) continue;
+        if (t < same || t > 1 - same) continue;  // at a vertex
         if (!list.empty() && t - list.back().first < same) continue;
         point_.push_back(SurfacePoint::on_edge(e, t));
         list.emplace_back(t, next_vertex_++);

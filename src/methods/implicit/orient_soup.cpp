@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
 #include "base/same_rows.h"
-#include "methods/implicit/place_tree.h"
+#include "methods/implicit/places_on_parts.h"
 #include "spatial/boundary_edges.h"
 #include "spatial/covered_triangles.h"
 #include "spatial/finite_box.h"
@@ -22,7 +21,6 @@ namespace littoral {
 namespace {
 
 constexpr int directions = 13;
-constexpr int places_in_all = 4096, places_at_least = 4;  // on parts
 constexpr double least_valid = 0.1;     // share of lines that pass an odd number on one side alone
 constexpr double least_agreeing = 0.4;  // of these, for less against
 constexpr double sure_valid = 0.3, sure_agreeing = 0.8;
@@ -96,34 +94,6 @@ std::vector<int> agreeing_parts(MatX3i& faces, std::vector<char>& turned) {
   return part;
 }
 
-/// Places spread evenly over each part, more on large ones.
-std::vector<Place> places_on(const MatX3& points, const MatX3i& faces, const VecX& areas,
-                             const std::vector<int>& part) {
-  std::map<int, std::vector<int>> members;
-  for (int f = 0; f < faces.rows(); ++f) members[part[f]].push_back(f);
-  std::vector<Place> out;
-  const double total = areas.sum();
-  for (const auto& [number, all] : members) {
-    double area = 0;
-    for (const int f : all) area += areas[f];
-    if (!(area > 0)) continue;
-    const int n =
-        std::max(places_at_least, static_cast<int>(std::lround(places_in_all * area / total)));
-    std::size_t at = 0;
-    double sum = areas[all[0]];
-    for (int i = 0; i < n; ++i) {
-      while (sum < (i + 0.5) / n * area && at + 1 < all.size()) sum += areas[all[++at]];
-      double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0),
-             v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      const auto face = faces.row(all[at]);
-      out.push_back({all[at], (1 - u - v) * points.row(face[0]) + u * points.row(face[1]) +
-                                  v * points.row(face[2])});
-    }
-  }
-  return out;
-}
-
 /// Even over the half sphere and along no axis (a spiral of golden angles).
 Vec3 direction_number(int d) {
   const double z = (d + 0.5) / directions, turn = 2.399963229728653 * d + 0.7;
@@ -149,7 +119,7 @@ OrientedSoup orient_soup(const MatX3& points, const MatX3i& faces, const Task& t
   }
   const double total = areas.sum();
   if (!(total > 0)) return out;
-  const std::vector<Place> places = places_on(points, all, areas, part);
+  const std::vector<Place> places = places_on_parts(points, all, areas, part);
 
   // Triangles one after the other lie beside each other: a few go down the tree together.
   MatX3 middles(with_area.size(), 3);

@@ -11,14 +11,10 @@
 #include "base/parallel.h"
 #include "base/platform/memory.h"
 #include "littoral/error.h"
+#include "methods/regularized/pace.h"
 #include "solve/direct/strip_solve.h"
 
 namespace littoral {
-
-bool worth_going_on(double before, double now, double further) {
-  // The residual fell by a factor of before / now in k - k / further iterations.
-  return 10 / (1 - 1 / further) * std::log(before / now) >= std::log(now);
-}
 
 const OptionTable<Symmetric>& all_pairs_options() {
   using O = Symmetric;
@@ -98,10 +94,7 @@ class AllPairs {
 
   MatX run(Report& report) {
     double worst = infinity;
-    // Needles leave round-off above the tolerance, which no number of iterations gets below, or a
-    // residual that falls ever more slowly: that is looked for at marks.
-    constexpr double further = 1.5;  // from mark to mark
-    double mark = 10'000 / further, least = worst, least_at_mark = worst;
+    Pace pace;
     bool hopeful = true;
     int k = 0;
     const int last = o_.max_iterations;
@@ -111,11 +104,7 @@ class AllPairs {
       const Norms norms = iterate(check);
       if (!check) continue;
       worst = check_convergence(norms, k);
-      least = std::min(least, worst);
-      if (k < mark) continue;
-      hopeful = worth_going_on(least_at_mark, least, further);
-      least_at_mark = least;
-      mark *= further;
+      hopeful = pace.hopeful(k, worst);
     }
     report.iterations.emplace_back("all pairs", k);
     report.residuals.emplace_back("all pairs, over what is compared", worst * o_.tolerance);

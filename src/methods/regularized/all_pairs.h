@@ -24,10 +24,6 @@ double all_pairs_memory(double nodes, double cells, double bytes_per_number);
 /// estimate if memory does not suffice.
 MatX all_pairs(const Operators& ops, const Symmetric& options, const Task& task, Report& report);
 
-/// Whether a residual of `now` tolerances, `before` when there were `further` times fewer
-/// iterations, would be down to the tolerance after ten times as many at this pace.
-bool worth_going_on(double before, double now, double further);
-
 /// Section 7.3's measures of a matrix of distances.
 struct PairStatistics {
   double largest_asymmetry = 0, mean_asymmetry = 0;  // |D - D^T| over sqrt(area)

@@ -173,7 +173,6 @@ LinearMap as_map(SpRows matrix) {
   G.cols = matrix.cols();
   const auto A = std::make_shared<const SpRows>(std::move(matrix));
   G.apply = [A](const VecX& u) { return VecX(*A * u); };
-  G.adjoint = [A](const VecX& X) { return VecX(A->transpose() * X); };
   G.matrix = [A] { return *A; };
   return G;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/disjoint_sets.h"
 #include "littoral/error.h"
 #include "methods/winding/surface_winding.h"
 
@@ -11,13 +12,23 @@ namespace littoral {
 
 namespace {
 
-/// Labels by walking from face to face; `bounds` (components) says where that went without
+/// The components, with those that pairs connect as one: winding numbers hold across these.
+std::vector<int> parts_of_faces(const JumpCalculus& J, const std::vector<FacePair>& pairs,
+                                int& n_parts) {
+  DisjointSets components(J.n_components);
+  for (const FacePair& p : pairs) components.join(J.component[p.left], J.component[p.right]);
+  const std::vector<int> number = components.numbered(n_parts);
+  std::vector<int> part(J.component.size());
+  for (std::size_t f = 0; f < part.size(); ++f) part[f] = number[J.component[f]];
+  return part;
+}
+
+/// Labels by walking from face to face; `bounds` (parts) says where that went without
 /// contradiction.
 VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<FacePair>& pairs,
-                    std::vector<char>& bounds) {
+                    const std::vector<int>& part, std::vector<char>& bounds) {
   constexpr int unknown = std::numeric_limits<int>::min();
   VecXi label = VecXi::Constant(J.n_faces, unknown);
-  bounds.assign(std::size_t(J.n_components), 1);
   std::vector<std::vector<int>> sheets(std::size_t(J.n_faces));
   for (const FacePair& p : pairs) {
     sheets[p.left].push_back(p.right);
@@ -29,7 +40,7 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
       label[f] = value;
       open.push_back(f);
     } else if (label[f] != value) {
-      bounds[J.component[f]] = 0;
+      bounds[part[f]] = 0;
     }
   };
   for (int seed = 0; seed < J.n_faces; ++seed) {
@@ -44,7 +55,7 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
         const auto& [left, right] = J.sides[e];
         const int jump = static_cast<int>(std::lround(curve[e]));
         if (left.face == right.face) {
-          if (jump != 0) bounds[J.component[f]] = 0;
+          if (jump != 0) bounds[part[f]] = 0;
         } else if (left.face == f) {
           meet(right.face, label[f] - jump);
         } else {
@@ -57,9 +68,8 @@ VecXi walked_labels(const JumpCalculus& J, const VecX& curve, const std::vector<
   return label;
 }
 
-/// How many nodes inside a component are met by the curve an odd number of times.
-void count_ends(const JumpCalculus& J, const VecX& curve,
-                std::vector<ShortestCompletion::Part>& parts) {
+/// How many nodes inside a part are met by the curve an odd number of times.
+void count_ends(const JumpCalculus& J, const VecX& curve, ShortestCompletion& out) {
   std::vector<long> met(std::size_t(J.n_nodes), 0);
   std::vector<char> on_boundary(met.size(), 0);
   for (int e = 0; e < J.n_edges; ++e)
@@ -76,7 +86,7 @@ void count_ends(const JumpCalculus& J, const VecX& curve,
     for (int k = 0; k < 3; ++k) {
       const int node = J.node(f, k);
       if (counted[node]++ || on_boundary[node]) continue;
-      if (met[node] / 2 % 2 != 0) ++parts[J.component[f]].ends;  // both sides of an edge count
+      if (met[node] / 2 % 2 != 0) ++out.parts[out.part[f]].ends;  // both sides of an edge count
     }
 }
 
@@ -88,13 +98,15 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
     if (curve[e] != 0 && !J.manifold[e])
       throw UnsupportedError("a curve runs along an edge where more than two faces meet");
   const std::vector<FacePair> pairs = pairs_at_nonmanifold_edges(J);
-  std::vector<char> bounds;
   ShortestCompletion out;
-  out.region = walked_labels(J, curve, pairs, bounds);
-  out.parts.resize(std::size_t(J.n_components));
-  count_ends(J, curve, out.parts);
+  int n_parts = 0;
+  out.part = parts_of_faces(J, pairs, n_parts);
+  std::vector<char> bounds(std::size_t(n_parts), 1);
+  out.region = walked_labels(J, curve, pairs, out.part, bounds);
+  out.parts.resize(std::size_t(n_parts));
+  count_ends(J, curve, out);
   bool any = false;
-  for (int c = 0; c < J.n_components; ++c) {
+  for (int c = 0; c < n_parts; ++c) {
     auto& part = out.parts[c];
     part.solved =
         bounds[c] || which == Complete::all || (which == Complete::without_ends && part.ends == 0);
@@ -105,13 +117,13 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
         (curve.array() != 0).select(curve_weight * J.length.array(), J.length.array());
     const VecXi cut = cut_labels(J, curve, pairs, weight, task, report);
     for (int f = 0; f < J.n_faces; ++f)
-      if (!bounds[J.component[f]] && out.parts[J.component[f]].solved) out.region[f] = cut[f];
+      if (!bounds[out.part[f]] && out.parts[out.part[f]].solved) out.region[f] = cut[f];
   }
-  std::vector<int> least(std::size_t(J.n_components), std::numeric_limits<int>::max());
+  std::vector<int> least(std::size_t(n_parts), std::numeric_limits<int>::max());
   for (int f = 0; f < J.n_faces; ++f)
-    least[J.component[f]] = std::min(least[J.component[f]], out.region[f]);
+    least[out.part[f]] = std::min(least[out.part[f]], out.region[f]);
   for (int f = 0; f < J.n_faces; ++f) {
-    const int c = J.component[f];
+    const int c = out.part[f];
     out.region[f] -= least[c];
     out.parts[c].largest = std::max(out.parts[c].largest, out.region[f]);
   }
@@ -120,7 +132,7 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
     const auto& [left, right] = J.sides[e];
     const int known = left.face >= 0 ? left.face : right.face;
     if (known < 0) continue;
-    auto& part = out.parts[J.component[known]];
+    auto& part = out.parts[out.part[known]];
     const double given = std::round(curve[e]);
     part.given += std::abs(given) * J.length[e];
     if (!J.interior(e)) continue;
@@ -134,7 +146,7 @@ ShortestCompletion shortest_completion(const JumpCalculus& J, const VecX& curve,
     }
   }
   for (const FacePair& p : pairs)
-    out.parts[J.component[p.left]].added +=
+    out.parts[out.part[p.left]].added +=
         std::abs(out.region[p.left] - out.region[p.right]) * J.length[p.edge];
   return out;
 }

@@ -12,10 +12,11 @@ namespace littoral {
 
 /// Winding numbers that change by what the curve says, but for jumps of least total length.
 struct ShortestCompletion {
-  VecXi region;  // faces, from 0 on each component
+  VecXi region;  // faces, from 0 on each part
   VecX jump;     // edges, of the winding number: left minus right
 
-  /// Of one component, lengths in units of the triangulation.
+  /// Of the faces that edges connect, those of three or more faces among them; lengths in units of
+  /// the triangulation.
   struct Part {
     double given = 0;      // curve, as often as it runs along each edge
     double added = 0;      // jumps off the curve
@@ -26,13 +27,14 @@ struct ShortestCompletion {
 
     bool bounds() const { return solved && added == 0 && overruled == 0; }
   };
-  std::vector<Part> parts;  // components
+  std::vector<Part> parts;
+  std::vector<int> part;  // faces
 };
 
-/// Which components that do not bound get a completion.
+/// Which parts that do not bound get a completion.
 enum class Complete { none, without_ends, all };
 
-/// `curve` (edges): how often it runs along each edge, against counted negative. Components whose
+/// `curve` (edges): how often it runs along each edge, against counted negative. Parts whose
 /// curve bounds are labelled by walking over the faces; others by a minimum-cost flow, in which a
 /// jump that differs from the curve's costs `curve_weight` times its length on the curve, and its
 /// length elsewhere. Throws UnsupportedError where the curve runs along an edge of three or more

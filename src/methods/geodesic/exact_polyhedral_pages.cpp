@@ -87,7 +87,9 @@ struct Turn {
     y = next_y / size;
     full += low && y >= 0;
   }
-  bool more_than_full() const { return full > 1 || (full == 1 && !(x > 0 && y <= 1e-12 * x)); }
+  bool more_than_full() const {
+    return full > 1 || (full == 1 && !(x > 0 && y >= 0 && y <= 1e-12 * x));
+  }
 };
 
 }  // namespace

@@ -61,13 +61,13 @@ TEST(HeatPoints, PartsOfAFieldGetTheirUnitsBack) {
   x << 0.5, -1, 0, 1, 0, 0, 2. / 6, 1. / 6, 1, 1;
   expected << 3, -6, 0, 24, 0, 0, 2, 1, 24e-20, 24e-20;  // the last has no source: as good as 0
   ScaledField<double> field{x, {0, 0, -1, 0, 0}, {1}};
-  restore_units(field, b, part);
+  restore_units(field, nonzero_blocks(b, 2), part);
   EXPECT_EQ(field.scale[0], 24);
   EXPECT_LT((24 * field.x - expected).cwiseAbs().maxCoeff(), 1e-15);
   // Of parts alike only the unit changes.
   b << 3, -6, 0, 6, 0, 0, 2, 1, 6, 6;
   field = {x, {0, 0, -1, 0, 0}, {0.5}};
-  restore_units(field, b, part);
+  restore_units(field, nonzero_blocks(b, 2), part);
   EXPECT_EQ(field.scale[0], 3);
   EXPECT_EQ(field.x, x);
 }

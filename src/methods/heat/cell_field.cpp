@@ -45,8 +45,9 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field) {
   return out;
 }
 
-void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece) {
-  const Eigen::Index block = b.size() / index(piece.size());
+void restore_units(ScaledField<double>& field, const HeatSource<double>& b,
+                   const std::vector<int>& piece) {
+  const Eigen::Index block = b.block();
   const std::vector<double> largest = largest_of_pieces(b, piece);
   const double top = largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
   if (!(top > 0)) return;

@@ -24,7 +24,8 @@ CellField cell_field(const LinearMap& map, const ScaledField<double>& field);
 
 /// HeatSystem::solve scales every piece of its right-hand side b to largest entry 1; this undoes
 /// it. `piece` as given to solve, for blocks of b.
-void restore_units(ScaledField<double>& field, const VecX& b, const std::vector<int>& piece);
+void restore_units(ScaledField<double>& field, const HeatSource<double>& b,
+                   const std::vector<int>& piece);
 
 /// Replaces the vectors of `field` wherever those of `other`, times exp(log_factor), are longer.
 void take_longer(CellField& field, const CellField& other, double log_factor = 0);

@@ -43,16 +43,18 @@ CellField ScalarHeat::flow(const Calculus& C, const VecX& u0, const Task& task,
   VecX b = u0;
   for (Eigen::Index i = 0; i < b.size(); ++i)
     if (!(C.M[i] > 0)) b[i] = 0;
-  ScaledField<double> u = neumann_->solve(b, C.component, task, report);
-  restore_units(u, b, C.component);
+  const HeatSource<double> source = nonzero_blocks(b, 1);
+  ScaledField<double> u = neumann_->solve(source, C.component, task, report);
+  restore_units(u, source, C.component);
   if (dirichlet_) {
     // Mean of both where they are on the same scale: within the first layer. Beyond, hundreds of
     // spacings away, the Neumann solution alone; its bias is a boundary layer one spacing wide.
     for (Eigen::Index i = 0; i < b.size(); ++i)
       if (C.boundary[i]) b[i] = 0;
     Report inner;
-    ScaledField<double> d = dirichlet_->solve(b, C.component, task, inner);
-    restore_units(d, b, C.component);
+    const HeatSource<double> inside = nonzero_blocks(b, 1);
+    ScaledField<double> d = dirichlet_->solve(inside, C.component, task, inner);
+    restore_units(d, inside, C.component);
     const double unit = d.scale[0] / u.scale[0];  // differ where a source reaches the boundary
     for (Eigen::Index i = 0; i < b.size(); ++i)
       if (u.layer[i] == 0) u.x[i] = 0.5 * (u.x[i] + (d.layer[i] == 0 ? unit * d.x[i] : 0));

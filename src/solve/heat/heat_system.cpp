@@ -60,11 +60,7 @@ std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Task& ta
 template <class Scalar>
 ScaledField<Scalar> HeatSystem<Scalar>::solve(HeatSource<Scalar> b, const std::vector<int>& piece,
                                               const Task& task, Report& report) const {
-  const int n_pieces = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
-  std::vector<double> largest(n_pieces, 0.0);
-  for (std::size_t s = 0; s < b.blocks.size(); ++s)
-    if (const int p = piece[b.blocks[s]]; p >= 0)
-      largest[p] = std::max(largest[p], block_magnitude(b.value, index(s), block_));
+  const std::vector<double> largest = largest_of_pieces(b, piece);
   std::vector<int> reached(piece.size(), -1);
   parallel_for(piece.size(), block_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

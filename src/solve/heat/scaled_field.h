@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/index.h"
-#include "base/parallel.h"
 #include "littoral/types.h"
 
 namespace littoral {
@@ -51,11 +50,14 @@ struct HeatSource {
   std::vector<int> blocks;                         // ascending
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> value;  // of these
 
+  int block() const {  // unknowns of one
+    return static_cast<int>(value.size() / std::max<Eigen::Index>(1, index(blocks.size())));
+  }
   /// Of one block; null where it is zero.
   const Scalar* at(int i) const {
     const auto found = std::lower_bound(blocks.begin(), blocks.end(), i);
     if (found == blocks.end() || *found != i) return nullptr;
-    return value.data() + (found - blocks.begin()) * (value.size() / index(blocks.size()));
+    return value.data() + (found - blocks.begin()) * block();
   }
 };
 
@@ -75,24 +77,14 @@ HeatSource<typename Vector::Scalar> nonzero_blocks(const Vector& b, int block) {
 constexpr std::size_t block_grain = 1 << 15;  // blocks, for loops over all of a field
 
 /// Largest entry of b in each piece; `piece` names the piece of every block, -1: none.
-template <class Vector>
-std::vector<double> largest_of_pieces(const Vector& b, const std::vector<int>& piece) {
+template <class Scalar>
+std::vector<double> largest_of_pieces(const HeatSource<Scalar>& b, const std::vector<int>& piece) {
   if (piece.empty()) return {};
-  const std::size_t n_pieces = *std::max_element(piece.begin(), piece.end()) + 1;
-  const int block = b.size() / index(piece.size());
-  const std::size_t grain =
-      std::max(block_grain, n_pieces);  // so that the parts take little memory
-  std::vector<std::vector<double>> parts((piece.size() + grain - 1) / grain);
-  parallel_for(piece.size(), grain, [&](std::size_t begin, std::size_t end) {
-    std::vector<double>& largest = parts[begin / grain];
-    largest.assign(n_pieces, 0.0);
-    for (std::size_t i = begin; i < end; ++i)
-      if (piece[i] >= 0)
-        largest[piece[i]] = std::max(largest[piece[i]], block_magnitude(b, index(i), block));
-  });
-  for (std::size_t k = 1; k < parts.size(); ++k)
-    for (std::size_t p = 0; p < n_pieces; ++p) parts[0][p] = std::max(parts[0][p], parts[k][p]);
-  return std::move(parts[0]);
+  std::vector<double> largest(*std::max_element(piece.begin(), piece.end()) + 1, 0.0);
+  for (std::size_t s = 0; s < b.blocks.size(); ++s)
+    if (const int p = piece[b.blocks[s]]; p >= 0)
+      largest[p] = std::max(largest[p], block_magnitude(b.value, index(s), b.block()));
+  return largest;
 }
 
 }  // namespace littoral

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <numbers>
@@ -120,6 +121,35 @@ TEST(RayCrossing, KernelsOfAnyWidthGiveTheSameBits) {
           << round << ": number " << i << " of " << found[0].size();
     }
   }
+}
+
+TEST(RayCrossing, WindowsThatLeaveSayWhichEndsReachThemSooner) {
+  std::mt19937 random(6);
+  std::array<int, 8> seen{};
+  for (int round = 0; round < 2000; ++round) {
+    const CrossedTriangle t = crossed_triangle(random);
+    const WindowBlock windows = crossing_windows(random, t.length, 20);
+    for (const RayKernels* kernels : {&plain_ray_kernels, &ray_kernels()}) {
+      RayBundle rays(*kernels);
+      rays.use(windows);
+      rays.look_at(t.above, 1e-9 * t.length);
+      rays.see_where_to({t.above.apex.real(), t.above.apex.imag(), t.exit.right ? -1 : 2 * t.length,
+                         infinity, infinity, 0, Window::deep + 1});
+      rays.leave(t.above, t.exit, t.ends, 0, rays.size());
+      const RayColumns& c = rays.columns();
+      for (int i = 0; i < rays.size(); ++i) {
+        if (!(c.goes[i] & (t.exit.right ? 2 : 1))) continue;
+        const Window w = rays.left_as(i, 0);
+        const EdgeEnds& e = t.ends;
+        const std::int64_t sooner = (w.d0 > e.tail + w.b0 + e.tail_slack ? 1 : 0) |
+                                    (w.d1 > e.head + (e.length - w.b1) + e.head_slack ? 2 : 0) |
+                                    (w.b1 - w.b0 > e.narrow() ? 0 : 4);
+        ASSERT_EQ(c.ends[i], sooner) << round << " " << i;
+        ++seen[std::size_t(sooner)];
+      }
+    }
+  }
+  for (const int sooner : {0, 1, 2}) EXPECT_GT(seen[std::size_t(sooner)], 100) << sooner;
 }
 
 /// What the kernels say of two neighbours is what comparing the two finds.

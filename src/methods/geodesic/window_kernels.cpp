@@ -36,42 +36,17 @@ LITTORAL_INLINE bool whole_lanes(const WindowBlock& w, const EdgeEnds& ends) {
   return true;
 }
 
-template <int width>
-LITTORAL_INLINE double least_lanes(const WindowBlock& w, std::size_t first, std::size_t last) {
-  using V = typename Wide<width>::Lanes;
-  using B = typename Wide<width>::Bits;
-  V least = V{} + infinity;
-  for (std::size_t i = first; i < last; i += width) {
-    V b0, b1, d0, d1, x, y, behind;
-    B tag;
-    load(b0, w.column(WindowBlock::b0) + i);
-    load(b1, w.column(WindowBlock::b1) + i);
-    load(d0, w.column(WindowBlock::d0) + i);
-    load(d1, w.column(WindowBlock::d1) + i);
-    load(x, w.column(WindowBlock::x) + i);
-    load(y, w.column(WindowBlock::y) + i);
-    load(behind, w.column(WindowBlock::behind) + i);
-    load(tag, w.tags() + i);
-    const B at_end = ((tag & WindowTag::parallel) != 0) | (x <= b0) | (x >= b1);
-    const V ends = d1 < d0 ? d1 : d0, here = at_end ? ends : behind - y;
-    B nearer = here < least;
-    if (last - i < width) keep_first(nearer, std::int64_t(last - i));
-    least = nearer ? here : least;
-  }
-  double found = infinity;
-  for (int l = 0; l < width; ++l) found = std::min(found, least[l]);
-  return found;
-}
-
 template <class V>
 LITTORAL_INLINE void take_size(V& v) {
   v = v < 0 ? -v : v;
 }
 
-/// Rays of points through as many stretches of edges as there are lanes.
+/// As many windows of an edge as there are lanes; slopes, distances and bends are of rays of
+/// points.
 template <int width>
-struct PointRays {
+struct WindowLanes {
   using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
   V b0, b1, d0, d1, x, y, behind;
 
   LITTORAL_INLINE void load_from(const WindowBlock& w, std::size_t i) {
@@ -99,12 +74,14 @@ struct PointRays {
     const V r = d - behind, slope = (p - x) / r;
     out = (1 - slope * slope) / r;
   }
-  LITTORAL_INLINE void least(V& out) const {
-    const V nearer = d1 < d0 ? d1 : d0;
-    out = ((x <= b0) | (x >= b1)) ? nearer : V(behind - y);
+  /// `Window::least`.
+  LITTORAL_INLINE void least(const B& parallel, V& out) const {
+    const B at_end = parallel | (x <= b0) | (x >= b1);
+    const V ends = d1 < d0 ? d1 : d0;
+    out = at_end ? ends : V(behind - y);
   }
   /// `largest_difference` of merge_windows.cpp.
-  LITTORAL_INLINE void difference(const PointRays& other, V& out) const {
+  LITTORAL_INLINE void difference(const WindowLanes& other, V& out) const {
     V o0, o1, own, bends0, bends1;
     other.distance(b0, o0);
     other.distance(b1, o1);
@@ -121,6 +98,27 @@ struct PointRays {
   }
 };
 
+template <int width>
+LITTORAL_INLINE double least_lanes(const WindowBlock& w, std::size_t first, std::size_t last) {
+  using V = typename Wide<width>::Lanes;
+  using B = typename Wide<width>::Bits;
+  V least = V{} + infinity;
+  for (std::size_t i = first; i < last; i += width) {
+    WindowLanes<width> windows;
+    windows.load_from(w, i);
+    B tag;
+    load(tag, w.tags() + i);
+    V here;
+    windows.least((tag & WindowTag::parallel) != 0, here);
+    B nearer = here < least;
+    if (last - i < width) keep_first(nearer, std::int64_t(last - i));
+    least = nearer ? here : least;
+  }
+  double found = infinity;
+  for (int l = 0; l < width; ++l) found = std::min(found, least[l]);
+  return found;
+}
+
 /// What `one_of` finds of two windows, for several pairs at once.
 template <int width>
 LITTORAL_INLINE std::uint64_t pairs_lanes(const WindowBlock& w, std::size_t first,
@@ -136,14 +134,14 @@ LITTORAL_INLINE std::uint64_t pairs_lanes(const WindowBlock& w, std::size_t firs
     B tag, next_tag;
     load(tag, w.tags() + i);
     load(next_tag, w.tags() + i + 1);
-    PointRays<width> a, b;
+    WindowLanes<width> a, b;
     a.load_from(w, i);
     b.load_from(w, i + 1);
     B joins = ((tag & state) == WindowTag::open) & ((next_tag & state) == WindowTag::open) &
               (((tag ^ next_tag) & kind) == 0) & (b.b0 - a.b1 <= how.widest_gap);
     if (n - k < width) keep_first(joins, std::int64_t(n - k));
     if (!any<width>(joins)) continue;
-    PointRays<width> one;
+    WindowLanes<width> one;
     one.b0 = a.b0;
     one.b1 = b.b1;
     const V l = b.b1 - a.b0, rise = b.d1 - a.d0, squares = (l - rise) * (l + rise);
@@ -163,11 +161,11 @@ LITTORAL_INLINE std::uint64_t pairs_lanes(const WindowBlock& w, std::size_t firs
     one.y = -r * height;
     V apart, apart_b, least, least_b;
     a.difference(one, apart);
-    a.least(least);
+    a.least(B{}, least);
     joins &= apart <= how.tolerance * least - how.error;
     if (!any<width>(joins)) continue;
     b.difference(one, apart_b);
-    b.least(least_b);
+    b.least(B{}, least_b);
     apart = apart < apart_b ? apart_b : apart;
     least = least_b < least ? least_b : least;
     joins &= apart <= how.tolerance * least - how.error;

@@ -42,7 +42,8 @@ TEST(DiscontinuousDistance, LeavesIntegrableFieldsAlone) {
     Y[2 * f + 1] = -d.y();
   }
   EXPECT_LT(edge_curl(J, Y).cwiseAbs().maxCoeff(), 1e-9);
-  const DiscontinuousField field = integrate_discontinuous(J, T.faces, Y, {}, 1, 0, {}, report);
+  const DiscontinuousField field =
+      integrate_discontinuous(J, T.faces.matrix(), Y, {}, 1, 0, {}, report);
   EXPECT_LT(field.objective, 1e-9);
   const double shift = field.phi(0, 0) * T.unit - mesh.point(T.faces(0, 0)).x();
   for (int f = 0; f < J.n_faces; ++f)
@@ -201,7 +202,8 @@ TEST(DiscontinuousDistance, FewerJumpsWhereTheFieldDoesNotIntegrate) {
     Y[2 * f + 1] = y * d.x();
   }
   const VecX curl = edge_curl(J, Y);
-  const DiscontinuousField field = integrate_discontinuous(J, T.faces, Y, {}, 1, 0, {}, report);
+  const DiscontinuousField field =
+      integrate_discontinuous(J, T.faces.matrix(), Y, {}, 1, 0, {}, report);
   double total = 0;
   for (int e = 0; e < J.n_edges; ++e) {
     const double x0 = mesh.point(T.edges(e, 0)).x(), x1 = mesh.point(T.edges(e, 1)).x();

@@ -130,15 +130,15 @@ class GeodesicOracle {
               int depth) {
     if (depth > 20) return;
     for (const TriangleSide& s : sides_.at(T_.side_edge(f, k))) {
-      if (s.face == f && s.k == k) continue;
-      const bool at_P = starts_at_P == (T_.along(s.face, s.k) == T_.along(f, k));
-      const double L = T_.length(s.face, s.k);
-      const auto t = triangle_shape(L, T_.length(s.face, (s.k + 1) % 3),
-                                    T_.length(s.face, (s.k + 2) % 3), false);
+      if (s == TriangleSide(f, k)) continue;
+      const bool at_P = starts_at_P == (T_.along(s.face(), s.k()) == T_.along(f, k));
+      const double L = T_.length(s.face(), s.k());
+      const auto t = triangle_shape(L, T_.length(s.face(), (s.k() + 1) % 3),
+                                    T_.length(s.face(), (s.k() + 2) % 3), false);
       const double along = at_P ? t.p[2].real() : L - t.p[2].real();
       const Complex R = P + (Q - P) / std::abs(Q - P) * Complex(along, -t.p[2].imag());
       if (cross(r, R) >= -1e-12 && cross(R, l) >= -1e-12) {
-        const int v = T_.faces(s.face, (s.k + 2) % 3);
+        const int v = T_.faces(s.face(), (s.k() + 2) % 3);
         d_(from_, v) = d_(v, from_) = std::min(d_(v, from_), std::abs(R));
       }
       // Nearest point of an edge beyond the limit: no shortest path leads there.
@@ -146,13 +146,13 @@ class GeodesicOracle {
         const double x = std::clamp(-(std::conj(b - a) * a).real() / std::norm(b - a), 0.0, 1.0);
         return std::abs(a + x * (b - a)) < limit_;
       };
-      const int k1 = (s.k + 1) % 3, k2 = (s.k + 2) % 3;
+      const int k1 = (s.k() + 1) % 3, k2 = (s.k() + 2) % 3;
       const Complex left = cross(R, l) > 0 ? R : l;  // bounds the rays through P R
       if (cross(r, left) > 1e-12 && near(P, R))
-        unfold(s.face, at_P ? k2 : k1, !at_P, P, R, r, left, depth + 1);
+        unfold(s.face(), at_P ? k2 : k1, !at_P, P, R, r, left, depth + 1);
       const Complex right = cross(r, R) > 0 ? R : r;
       if (cross(right, l) > 1e-12 && near(R, Q))
-        unfold(s.face, at_P ? k1 : k2, !at_P, R, Q, right, l, depth + 1);
+        unfold(s.face(), at_P ? k1 : k2, !at_P, R, Q, right, l, depth + 1);
     }
   }
   void close() {

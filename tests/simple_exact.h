@@ -40,17 +40,18 @@ inline std::vector<char> bending_vertices(const IntrinsicTriangulation& T, const
     if (turn[v] > 2 * std::numbers::pi + 1e-12) bends[v] = 1;
     if (bends[v] || corners[v] == 0) continue;
     // Walk around: a cone comes back to its first triangle after all its corners.
-    int f = corner_of[v].face, enter = corner_of[v].k, n = 0;  // side `enter` starts or ends at v
+    int f = corner_of[v].face(), enter = corner_of[v].k(),
+        n = 0;  // side `enter` starts or ends at v
     do {
       int k = 0;
       while (T.faces(f, k) != v) ++k;
       const int leave = enter == k ? (k + 2) % 3 : k;
       const auto at = sides.at(T.side_edge(f, leave));
-      const TriangleSide next = at[0].face == f && at[0].k == leave ? at[1] : at[0];
-      f = next.face;
-      enter = next.k;
-    } while (++n < corners[v] && f != corner_of[v].face);
-    if (n != corners[v] || f != corner_of[v].face) bends[v] = 1;
+      const TriangleSide next = at[0] == TriangleSide(f, leave) ? at[1] : at[0];
+      f = next.face();
+      enter = next.k();
+    } while (++n < corners[v] && f != corner_of[v].face());
+    if (n != corners[v] || f != corner_of[v].face()) bends[v] = 1;
   }
   return bends;
 }
@@ -209,9 +210,9 @@ class SimpleFront {
   void cross_side(const SimpleWindow& w, int f, int k) {
     const double L = T_.length(f, k);
     for (const TriangleSide& s : sides_.at(T_.side_edge(f, k))) {
-      if (s.face == f && s.k == k) continue;
-      SimpleWindow v = from_other_side(w, L, T_.along(s.face, s.k) != T_.along(f, k));
-      v.side = 3 * s.face + s.k;
+      if (s == TriangleSide(f, k)) continue;
+      SimpleWindow v = from_other_side(w, L, T_.along(s.face(), s.k()) != T_.along(f, k));
+      v.side = 3 * s.face() + s.k();
       if (!trim(v)) continue;
       ++n_windows_;
       int id = pool_.size();

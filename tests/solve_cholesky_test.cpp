@@ -232,7 +232,7 @@ TEST(Cholesky, UnknownsBetweenNodesFollowTheirNodes) {
   Report report;
   const auto p = test::problem(mesh, test::vertex_points({3}), report);
   const Ordering nodes = dissection(p.ops->scalar.L, {});
-  const Ordering order = between_nodes(nodes, *p.ops->vector.ends);
+  const Ordering order = between_nodes(nodes, p.ops->vector.ends.matrix());
   std::vector<char> seen(order.size(), 0);
   for (int i : order) seen[i] = 1;
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), p.ops->vector.n);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "heat_helpers.h"
+#include "solve/direct/hermitian_rows.h"
 #include "solve/heat/heat_system.h"
 #include "test_meshes.h"
 
@@ -51,7 +52,7 @@ Both solve_both(const VectorDiffusion& V, const VecX& X0, double time_scale) {
   const Ordering order = dissection(*A, {});
   Report report;
   Both both;
-  const auto field = HeatWindows<Complex>(A, 1, size, order)
+  const auto field = HeatWindows<Complex>(rows_of<Complex>(A, 1), size, order)
                          .solve(nonzero_blocks(as_complex(X0), 1), V.piece, {}, report);
   EXPECT_TRUE(field.has_value());
   if (!field) return both;
@@ -134,7 +135,7 @@ TEST(HeatWindows, BlocksOfTwoUnknownsAreSolvedAcrossWindows) {
     const TurnedChain chain(n, s);
     Ordering order(n);
     std::iota(order.begin(), order.end(), 0);
-    const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2,
+    const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2),
                                       VecX::Constant(n, std::sqrt(s)), order);
     VecX b = VecX::Zero(2 * n);
     b.segment<2>(2 * chain.number[0]) = chain.turn[0].col(0);
@@ -158,8 +159,8 @@ TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
   const TurnedChain chain(n, 1);
   Ordering order(n);
   std::iota(order.begin(), order.end(), 0);
-  const HeatWindows<double> windows(std::make_shared<const SpMat>(chain.A), 2, VecX::Constant(n, 1),
-                                    order);
+  const HeatWindows<double> windows(rows_of(std::make_shared<const SpMat>(chain.A), 2),
+                                    VecX::Constant(n, 1), order);
   VecX held = VecX::Zero(2 * n);
   held.segment<2>(2 * chain.number[middle]) = chain.turn[middle].col(0);
   const VecX b = windows.source_prescribing(held, {});
@@ -179,9 +180,29 @@ TEST(HeatWindows, NoticeMisjudgedDistances) {
   const VectorDiffusion& V = p.ops->vector;
   const double t = V.h * V.h;
   const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
-  const HeatWindows<Complex> windows(A, 1, decay_lengths(V.M, t), dissection(*A, {}));
+  const HeatWindows<Complex> windows(rows_of<Complex>(A, 1), decay_lengths(V.M, t),
+                                     dissection(*A, {}));
   const VecXc b = as_complex(p.terms.vectors(p.ops->vector.n));
   EXPECT_FALSE(windows.solve(nonzero_blocks(b, 1), V.piece, {}, report).has_value());
+}
+
+TEST(HeatWindows, MatricesGivenByRowsAreFactoredWhereDistancesAreMisjudged) {
+  const SurfaceMesh mesh(test::grid_soup(700, 4));
+  Report report;
+  const auto p = test::problem(mesh, test::vertex_points({0}), report);
+  const VectorDiffusion& V = p.ops->vector;
+  const double t = V.h * V.h;
+  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  const VecX size = decay_lengths(V.M, t);
+  const Ordering order = dissection(*A, {});
+  const VecXc b = as_complex(p.terms.vectors(V.n));
+  const HeatSystem<Complex> factored(A, 1, size, SolveHint::many_rhs, {}, order);
+  const HeatSystem<Complex> by_rows(rows_of<Complex>(A, 1), size, order);
+  ASSERT_EQ(by_rows.factor(), nullptr);
+  const auto expected = factored.solve(b, V.piece, {}, report);
+  const auto found = by_rows.solve(b, V.piece, {}, report);
+  EXPECT_EQ(report.iterations.back().first, "heat passes");
+  EXPECT_LE(difference(directions(V, found), directions(V, expected)).first, 1e-12);
 }
 
 TEST(HeatWindows, AgreeOnLoopsPointsAndFrontsThatMeet) {

@@ -174,15 +174,15 @@ TEST(Multigrid, StopsWhenAsked) {
   stop.cancel();
   Report report;
   EXPECT_THROW(P.solve(b, report, task), Cancelled);
-  EXPECT_THROW(Multigrid(S.ops.scalar.L, task), Cancelled);
+  EXPECT_THROW(Multigrid(SpMat(S.ops.scalar.L), task), Cancelled);
 }
 
 TEST(Multigrid, TakesMemoryLikeTheNumberOfUnknowns) {
   double before = 0;
   for (const int n : {200, 400}) {
     const Surface S = surface(grid_soup(n, n));
-    const double per_unknown =
-        Multigrid(S.ops.scalar.L, {}).nonzeros() / static_cast<double>(S.ops.scalar.M.size());
+    const double per_unknown = Multigrid(SpMat(S.ops.scalar.L), {}).nonzeros() /
+                               static_cast<double>(S.ops.scalar.M.size());
     if (before > 0) {
       EXPECT_LT(per_unknown, 1.2 * before);
     }

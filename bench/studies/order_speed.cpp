@@ -48,7 +48,7 @@ Eigen::SparseMatrix<Scalar> raised(Eigen::SparseMatrix<Scalar> lower) {
 Systems systems_of(const SurfaceMesh& mesh) {
   Report report;
   const Operators ops = triangle_operators(intrinsic_triangulation(mesh, report));
-  return {raised(ops.scalar.L), raised(ops.vector.L({})), *ops.vector.ends};
+  return {raised(ops.scalar.L), raised(ops.vector.L({})), ops.vector.ends.matrix()};
 }
 
 Systems systems_of(const std::string& name) {

@@ -38,7 +38,8 @@ std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys) {
   return out;
 }
 
-std::vector<RepeatedRow> repeated_rows(const MatX3i& rows, const std::vector<int>& some) {
+std::vector<RepeatedRow> repeated_rows(const Eigen::Ref<const MatX3i>& rows,
+                                       const std::vector<int>& some) {
   std::vector<std::array<int, 3>> keys;
   keys.reserve(some.size());
   for (const int r : some) {

@@ -16,6 +16,7 @@ std::vector<int> first_of_each(const std::vector<std::array<int, 3>>& keys);
 struct RepeatedRow {
   int row, first;
 };
-std::vector<RepeatedRow> repeated_rows(const MatX3i& rows, const std::vector<int>& some);
+std::vector<RepeatedRow> repeated_rows(const Eigen::Ref<const MatX3i>& rows,
+                                       const std::vector<int>& some);
 
 }  // namespace littoral

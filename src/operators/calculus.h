@@ -14,9 +14,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/shared_rows.h"
 #include "base/task.h"
 #include "littoral/types.h"
 #include "operators/linear_map.h"
+#include "solve/direct/hermitian_rows.h"
 
 namespace littoral {
 
@@ -53,8 +55,12 @@ struct VectorDiffusion {
                                              //   semidefinite; none if frames cannot be chosen so
                                              //   that it is complex-linear
   std::function<SpMat(const Task&)> L_real;  // then: 2 dofs x 2 dofs, lower triangle, symmetric
-  std::shared_ptr<const Rows<int, 2>> ends;  // dofs x 2: the nodes a dof lies between; null where
-                                             //   dofs are not edges between nodes
+  std::function<std::shared_ptr<const HermitianRows<Complex>>()>
+      L_rows;  // the rows of L, where
+               //   they need not be kept; else empty
+  SharedRows<int, 2>
+      ends;                // dofs x 2: the nodes a dof lies between; empty where dofs are not edges
+                           //   between nodes
   bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
   LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame; `apply`
                            //   alone

@@ -114,7 +114,7 @@ JumpCalculus jump_calculus(const IntrinsicTriangulation& T) {
   JumpCalculus J;
   J.n_faces = T.n_faces();
   J.n_edges = T.n_edges();
-  J.edge = T.side_edge;
+  J.edge = T.side_edge.matrix();
   J.along = T.along;
   glue(T, J);
   find_nodes(J);

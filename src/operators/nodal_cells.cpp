@@ -23,7 +23,7 @@ VecX as_pairs(const VecXc& z) {
 
 NodalCells::NodalCells(const NodalSurface& S)
     : P_(S.P),
-      corner_(S.cells->faces),
+      corner_(S.cells->faces.matrix()),
       slope_(corner_.rows(), 3),
       to_frame_(corner_.rows()),
       cell_offsets_(S.patch_offsets),

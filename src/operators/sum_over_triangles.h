@@ -25,15 +25,15 @@ struct TriangleTerms {
 /// triangles; beyond the matrix this takes the memory of its entries off the diagonal, once. Throws
 /// Cancelled.
 template <class Scalar, class Terms>
-Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const MatX3i& unknowns, const Terms& terms,
-                                               const Task& task = {}) {
+Eigen::SparseMatrix<Scalar> sum_over_triangles(int n, const Eigen::Ref<const MatX3i>& unknowns,
+                                               const Terms& terms, const Task& task = {}) {
   constexpr Eigen::Index at_once = 1 << 16;
   constexpr std::size_t triangle_grain = 4096, column_grain = 1 << 15;
   Eigen::SparseMatrix<Scalar> A(n, n);
   int* begin = A.outerIndexPtr();
   std::fill(begin, begin + n + 1, 0);
-  const auto pair = [&](Eigen::Index f, int k) {
-    return std::minmax(unknowns(f, k), unknowns(f, (k + 1) % 3));
+  const auto pair = [&](Eigen::Index f, int k) {  // of numbers: Eigen does not refer to any here
+    return std::minmax({unknowns(f, k), unknowns(f, (k + 1) % 3)});
   };
   std::vector<char> used(n, 0);
   for (Eigen::Index f = 0; f < unknowns.rows(); ++f)

@@ -8,6 +8,7 @@
 #include "base/disjoint_sets.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "operators/connection_laplacian.h"
 #include "operators/sum_over_triangles.h"
 
 namespace littoral {
@@ -20,7 +21,7 @@ constexpr std::size_t face_grain = 8192;
 /// Cotan Laplacian (eq. 10), lower triangle.
 SpMat cotan_laplacian(const IntrinsicTriangulation& T, const Task& task) {
   return sum_over_triangles<double>(
-      T.n_vertices, T.faces,
+      T.n_vertices, T.faces.matrix(),
       [&](int f) {
         const auto cot = T.shape(f).cot;
         TriangleTerms<double> terms;
@@ -159,63 +160,6 @@ LinearMap edges_to_faces(Triangulation T) {
   return P;
 }
 
-/// Calls put(row, col, r, seam_row, seam_col) for every entry of the lower triangle: the coupling
-/// of two edges of a face is r = -2 cot(angle between) conj(d_row) d_col, where d is the direction
-/// of the edge in the face's frame (eq. 9 with the rotations of eq. 8 written as their product),
-/// taken through the conjugations of the frames where there are seams; diagonals add up to eq. 6.
-template <class Put>
-void connection_entries(const IntrinsicTriangulation& T, int f, const Put& put) {
-  const TriangleShape t = T.shape(f);
-  for (int k = 0; k < 3; ++k) {
-    const int l = (k + 1) % 3;  // sides k and l meet at corner l
-    const double w = 2 * t.cot[l];
-    int a = k, b = l;
-    put(T.side_edge(f, a), T.side_edge(f, a), Complex(w), false, false);
-    put(T.side_edge(f, b), T.side_edge(f, b), Complex(w), false, false);
-    if (T.side_edge(f, a) < T.side_edge(f, b)) std::swap(a, b);
-    const Complex r = -w * std::conj(T.edge_in_face(t, f, a)) * T.edge_in_face(t, f, b);
-    put(T.side_edge(f, a), T.side_edge(f, b), r, bool(T.seam(f, a)), bool(T.seam(f, b)));
-  }
-}
-
-SpMatC connection_laplacian(const IntrinsicTriangulation& T, const Task& task) {
-  return sum_over_triangles<Complex>(
-      T.n_edges(), T.side_edge,
-      [&](int f) {
-        TriangleTerms<Complex> terms{};
-        int n = 0;  // entries come in threes: both diagonals and what is beside them
-        connection_entries(T, f, [&](int, int, Complex r, bool, bool) {
-          const int k = n / 3;
-          const int part = n++ % 3;
-          if (part < 2)
-            terms.diagonal[(k + part) % 3] += r;
-          else
-            terms.beside[k] = r;
-        });
-        return terms;
-      },
-      task);
-}
-
-/// The same as 2 x 2 real blocks S_row R S_col with R the rotation-scaling of r and S = diag(1, -1)
-/// at a seam: conjugation is linear over the reals only.
-SpMat connection_laplacian_real(const IntrinsicTriangulation& T) {
-  Triplets entries;
-  entries.reserve(std::size_t(T.n_faces()) * 27);
-  for (int f = 0; f < T.n_faces(); ++f) {
-    connection_entries(T, f, [&](int row, int col, Complex r, bool seam_row, bool seam_col) {
-      const double s = seam_row ? -1 : 1, c = seam_col ? -1 : 1;
-      const double block[2][2] = {{r.real(), -r.imag() * c}, {s * r.imag(), s * r.real() * c}};
-      for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 2; ++j)
-          if (row != col || i == j) entries.emplace_back(2 * row + i, 2 * col + j, block[i][j]);
-    });
-  }
-  SpMat L(2 * T.n_edges(), 2 * T.n_edges());
-  L.setFromTriplets(entries.begin(), entries.end());
-  return L;
-}
-
 /// Pieces of edges connected through faces, and the vertices where several of them touch.
 void find_pieces(const IntrinsicTriangulation& T, VectorDiffusion& V) {
   DisjointSets edges(T.n_edges());
@@ -321,14 +265,16 @@ Operators triangle_operators(const std::shared_ptr<const IntrinsicTriangulation>
   ops.scalar = triangle_calculus(T, task);
   VectorDiffusion& V = ops.vector;
   V.n = T->n_edges();
-  V.ends = {T, &T->edges};
+  V.ends = T->edges;
   V.M = VecX::Zero(V.n);
   for (int f = 0; f < T->n_faces(); ++f)
     for (int k = 0; k < 3; ++k) V.M[T->side_edge(f, k)] += ops.scalar.A[f] / 3;  // eq. 7
-  if (T->has_seams)
+  if (T->has_seams) {
     V.L_real = [T](const Task&) { return connection_laplacian_real(*T); };
-  else
+  } else {
     V.L = [T](const Task& making) { return connection_laplacian(*T, making); };
+    V.L_rows = [T] { return connection_rows(T); };
+  }
   V.to_cells = edges_to_faces(T);
   V.h = T->mean_edge_length / 2;
   task.checkpoint();

@@ -101,7 +101,7 @@ SurfaceOperators surface_operators(const Mesh& mesh, const Context& context) {
     }
     if (ops.vector.complex_linear()) out.connection = whole(ops.vector.L({}));
     out.connection_mass = ops.vector.M * unit2;
-    if (ops.vector.ends) out.vector_at = *ops.vector.ends;
+    out.vector_at = ops.vector.ends.matrix();
     return out;
   });
 }

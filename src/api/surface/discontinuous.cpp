@@ -88,8 +88,8 @@ SurfaceAnswer discontinuous_distance(const SurfaceMesh& mesh, const IntrinsicTri
   std::vector<char> reached = method.reached_pieces(terms, options);
   do {
     Report r;
-    field = integrate_discontinuous(J, T.faces, Y, held, jump_threshold, options.smoothing * h * h,
-                                    integrating, r);
+    field = integrate_discontinuous(J, T.faces.matrix(), Y, held, jump_threshold,
+                                    options.smoothing * h * h, integrating, r);
     mean = vertex_means(T, field.phi);
     if (!method.add_across_pinches(mean, reached, Y, integrating, report)) {
       report.merge(r);

@@ -191,7 +191,7 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
     std::vector<int> kept;
     for (int t = 0; t < place.n_faces(); ++t)
       if (counts[t] >= m) kept.push_back(t);
-    TuftedCover cover(points, place.faces(kept, Eigen::all));
+    TuftedCover cover(points, place.faces.matrix()(kept, Eigen::all));
     flips += cover.flip_to_delaunay(task);
     for (const TuftedCover::Face& f : cover.faces()) cells[cell_of(f, S)] += 1.0 / 6;
   }
@@ -204,7 +204,7 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
   T->n_components = place.n_components;
   T->mean_edge_length = place.mean_edge_length;
   const Eigen::Index n = cells.size();
-  T->faces.resize(n, 3);
+  MatX3i corners(n, 3);
   T->length.resize(n, 3);
   T->orientation.assign(cells.size(), 1);
   S.weight.resize(n);
@@ -213,7 +213,7 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
   for (const auto& [cell, weight] : cells) {
     Vec3 normal = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
-      T->faces(t, k) = cell.v[k];
+      corners(t, k) = cell.v[k];
       T->length(t, k) = cell.length[k];
       normal += S.normals.row(cell.v[k]).transpose();
     }
@@ -222,6 +222,7 @@ void add_cells(NodalSurface& S, const std::vector<int>& counts, Report& report, 
     S.patch_offsets.push_back(t++);
   }
   S.patch_offsets.push_back(t);
+  T->faces = SharedRows<int, 3>(std::move(corners));
   S.cells = T;
 }
 

@@ -64,10 +64,10 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
   IntrinsicTriangulation& T = out.T;
   T.unit = before.unit;
   T.n_vertices = n_vertices();
-  T.edges = out.mesh.edges();
+  T.edges = out.mesh.shared_edges();
+  T.faces = out.mesh.shared_faces();
+  T.side_edge = out.mesh.shared_side_edges();
   const Eigen::Index n = faces.size();
-  T.faces.resize(n, 3);
-  T.side_edge.resize(n, 3);
   T.along.resize(n, 3);
   T.length.resize(n, 3);
   T.seam = Rows<std::uint8_t, 3>::Zero(n, 3);
@@ -81,8 +81,6 @@ Retriangulation IntrinsicMeshEditor::finish(const IntrinsicTriangulation& before
     for (int k = 0; k < 3; ++k) {
       const int e = faces[f].e[k], E = out.mesh.side_edge(f, k);
       new_edge[e] = E;
-      T.faces(f, k) = faces[f].v[k];
-      T.side_edge(f, k) = E;
       T.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
       T.length(f, k) = edges[e].length;
       T.edge_use[E] = static_cast<std::uint8_t>(std::min(255, T.edge_use[E] + 1));

@@ -31,15 +31,15 @@ void take_faces(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& repo
     report.warn("degenerate-faces", counted(mesh.n_faces() - n, "face that repeats a vertex was",
                                             "faces that repeat a vertex were") +
                                         " left out");
-  T.faces.resize(n, 3);
-  T.side_edge.resize(n, 3);
+  T.faces = mesh.shared_faces();
+  T.side_edge = mesh.shared_side_edges();
+  if (n < mesh.n_faces()) {
+    T.faces = SharedRows<int, 3>(T.faces.matrix()(kept, Eigen::all));
+    T.side_edge = SharedRows<int, 3>(T.side_edge.matrix()(kept, Eigen::all));
+  }
   T.along.resize(n, 3);
   for (int t = 0; t < n; ++t)
-    for (int k = 0; k < 3; ++k) {
-      T.faces(t, k) = mesh.face(kept[t])[k];
-      T.side_edge(t, k) = mesh.side_edge(kept[t], k);
-      T.along(t, k) = mesh.side_along(kept[t], k) ? 1 : -1;
-    }
+    for (int k = 0; k < 3; ++k) T.along(t, k) = mesh.side_along(kept[t], k) ? 1 : -1;
 }
 
 void measure(const SurfaceMesh& mesh, IntrinsicTriangulation& T, Report& report) {
@@ -108,18 +108,20 @@ Vec3 into_face(const SurfaceMesh& mesh, const IntrinsicTriangulation& T, int f, 
 /// edge in the direction of the first (to 90 degrees) lie on its side.
 void mark_seams(const SurfaceMesh& mesh, IntrinsicTriangulation& T, const EdgeSides& sides) {
   T.seam = Rows<std::uint8_t, 3>::Zero(T.n_faces(), 3);
-  auto left = [&](const TriangleSide& s) { return T.orientation[s.face] * T.along(s.face, s.k); };
+  auto left = [&](const TriangleSide& s) {
+    return T.orientation[s.face()] * T.along(s.face(), s.k());
+  };
   for (int e = 0; e < T.n_edges(); ++e) {
     const auto at = sides.at(e);
     for (std::size_t i = 1; i < at.size(); ++i) {
       bool same_side = false;
       if (at.size() > 2) {
-        const Vec3 first = into_face(mesh, T, at[0].face, at[0].k);
-        same_side = first.dot(into_face(mesh, T, at[i].face, at[i].k)) > 1e-9;
+        const Vec3 first = into_face(mesh, T, at[0].face(), at[0].k());
+        same_side = first.dot(into_face(mesh, T, at[i].face(), at[i].k())) > 1e-9;
       }
       const int wanted = same_side ? left(at[0]) : -left(at[0]);
       if (left(at[i]) == wanted) continue;
-      T.seam(at[i].face, at[i].k) = 1;
+      T.seam(at[i].face(), at[i].k()) = 1;
       T.has_seams = true;
     }
   }
@@ -144,7 +146,7 @@ IntrinsicTriangulation intrinsic_triangulation(const SurfaceMesh& mesh, Report& 
         "the mesh has polygons with more than three corners; cut them into triangles first");
   IntrinsicTriangulation T;
   T.n_vertices = mesh.n_vertices();
-  T.edges = mesh.edges();
+  T.edges = mesh.shared_edges();
   take_faces(mesh, T, report);
   EdgeSides sides;
   parallel_for(2, 1, [&](std::size_t half, std::size_t) {  // neither needs anything of the other

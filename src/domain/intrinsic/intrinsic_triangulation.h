@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/shared_rows.h"
 #include "base/triangle.h"
 #include "domain/mesh/surface_mesh.h"
 #include "littoral/report.h"
@@ -23,22 +24,22 @@ namespace littoral {
 struct IntrinsicTriangulation {
   double unit = 1;  // [length] of one unit in the input's coordinates
   int n_vertices = 0;
-  MatX3i faces{0, 3};                    // triangles x 3, vertices
-  MatX3i side_edge{0, 3};                // triangles x 3, edge of side k
+  SharedRows<int, 3> faces;              // triangles x 3, vertices
+  SharedRows<int, 3> side_edge;          // triangles x 3, edge of side k
   Rows<std::int8_t, 3> along{0, 3};      // triangles x 3, +1 if side k runs along its edge, else -1
   MatX3 length{0, 3};                    // triangles x 3, side lengths, strictly a triangle
   std::vector<std::int8_t> orientation;  // triangles, +1 or -1
   Rows<std::uint8_t, 3> seam{0, 3};      // triangles x 3, frames differ by a reflection
   bool has_seams = false;
-  Rows<int, 2> edges{0, 2};            // edges x 2, tail and head
+  SharedRows<int, 2> edges;            // edges x 2, tail and head
   std::vector<std::uint8_t> edge_use;  // edges: number of triangles (255 = that many or more)
   double mean_edge_length = 0;         // over edges with a triangle, units
   std::vector<int> component;          // per vertex; -1 without a triangle
   int n_components = 0;
   std::vector<int> triangle_of_face;  // mesh face -> triangle, -1 where a vertex is repeated
 
-  int n_faces() const { return faces.rows(); }
-  int n_edges() const { return edges.rows(); }
+  int n_faces() const { return static_cast<int>(faces.rows()); }
+  int n_edges() const { return static_cast<int>(edges.rows()); }
 
   /// Layout of a face in its own frame.
   TriangleShape shape(int f) const {

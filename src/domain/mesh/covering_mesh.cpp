@@ -8,7 +8,7 @@
 namespace littoral {
 
 CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation& T) {
-  const TuftedCover cover(MatX3(mesh.points() / T.unit), T.faces);
+  const TuftedCover cover(MatX3(mesh.points() / T.unit), T.faces.matrix());
   const int n = cover.faces().size();
   PolygonSoup soup;
   soup.points = mesh.points();
@@ -20,8 +20,9 @@ CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation
   }
   CoveringMesh out{SurfaceMesh(std::move(soup), edge_of_side), T};
   IntrinsicTriangulation& C = out.T;
-  C.edges = out.mesh.edges();
-  for (auto* table : {&C.faces, &C.side_edge}) table->resize(n, 3);
+  C.edges = out.mesh.shared_edges();
+  C.faces = out.mesh.shared_faces();
+  C.side_edge = out.mesh.shared_side_edges();
   C.along.resize(n, 3);
   C.length.resize(n, 3);
   C.orientation.assign(n, 1);
@@ -32,8 +33,6 @@ CoveringMesh covering_mesh(const SurfaceMesh& mesh, const IntrinsicTriangulation
   std::iota(C.triangle_of_face.begin(), C.triangle_of_face.end(), 0);
   for (int f = 0; f < n; ++f)
     for (int k = 0; k < 3; ++k) {
-      C.faces(f, k) = cover.faces()[f].v[k];
-      C.side_edge(f, k) = out.mesh.side_edge(f, k);
       C.along(f, k) = out.mesh.side_along(f, k) ? 1 : -1;
       C.length(f, k) = T.length(f / 2, f % 2 ? 2 - k : k);
     }

@@ -6,9 +6,17 @@
 
 namespace littoral {
 
-/// Side k of a triangle.
-struct TriangleSide {
-  int face, k;
+/// Side k of a triangle, in one number.
+class TriangleSide {
+ public:
+  TriangleSide() = default;
+  TriangleSide(int face, int k) : side_(3 * face + k) {}
+  int face() const { return side_ / 3; }
+  int k() const { return side_ % 3; }
+  bool operator==(const TriangleSide&) const = default;
+
+ private:
+  int side_ = 0;
 };
 
 /// Triangle sides at each edge, by triangle; any number of them.

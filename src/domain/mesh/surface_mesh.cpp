@@ -85,25 +85,23 @@ std::vector<int> first_sides_by_ends(const PolygonSoup& soup) {
 
 }  // namespace
 
-void SurfaceMesh::check() {
-  if (soup_.corners.size() > std::numeric_limits<int>::max() / 2)
+SurfaceMesh::Parts::Parts(PolygonSoup of) : soup(std::move(of)) {
+  if (soup.corners.size() > std::numeric_limits<int>::max() / 2)
     throw InputError(
         "the mesh has more than 2147483647 face corners; simplify it or take a part of it",
         "too-large");
-  const double largest = check_faces(soup_);
-  if (largest > 0) scale_ = std::ldexp(1.0, std::ilogb(largest));
-  orientation_ = std::make_shared<const Kept<FaceOrientation>>();
+  const double largest = check_faces(soup);
+  if (largest > 0) scale = std::ldexp(1.0, std::ilogb(largest));
 }
 
-SurfaceMesh::SurfaceMesh(PolygonSoup soup) : soup_(std::move(soup)) {
-  check();
-  connect(first_sides_by_ends(soup_));
-  find_components();
+SurfaceMesh::SurfaceMesh(PolygonSoup soup) {
+  const auto parts = std::make_shared<Parts>(std::move(soup));
+  parts->connect(first_sides_by_ends(parts->soup));
+  parts_ = parts;
 }
 
-SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
-    : soup_(std::move(soup)) {
-  check();
+SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side) {
+  const auto parts = std::make_shared<Parts>(std::move(soup));
   // Numbers of edges that no side has are left out, so there may be more edges than sides.
   const int most = edge_of_side.empty() ? -1 : *std::ranges::max_element(edge_of_side);
   std::vector<int> first_of(std::size_t(most + 1), -1), first_side(edge_of_side.size());
@@ -112,47 +110,60 @@ SurfaceMesh::SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side)
     if (first < 0) first = c;
     first_side[c] = first;
   }
-  connect(first_side);
-  find_components();
+  parts->connect(first_side);
+  parts_ = parts;
 }
 
-void SurfaceMesh::connect(const std::vector<int>& first_side) {
-  const std::size_t n_corners = soup_.corners.size();
+void SurfaceMesh::Parts::connect(const std::vector<int>& first_side) {
+  const std::size_t n_corners = soup.corners.size();
   const Eigen::Index n_edges_found = std::count_if(
       first_side.begin(), first_side.end(), [c = 0](int first) mutable { return first == c++; });
   std::vector<int> face_of(n_corners);
-  edges_.resize(n_edges_found, 2);
+  edges.resize(n_edges_found, 2);
   int next = 0;
-  side_edge_.resize(n_corners);
-  for (int f = 0; f < n_faces(); ++f) {
-    const auto corners = face(f);
-    triangles_ = triangles_ && corners.size() == 3;
+  side_edge.resize(n_corners);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
+    triangles = triangles && corners.size() == 3;
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::size_t c = soup_.face_offsets[f] + k;
+      const std::size_t c = soup.face_offsets[f] + k;
       face_of[c] = f;
       if (first_side[c] != static_cast<int>(c)) {
-        side_edge_[c] = side_edge_[first_side[c]];
+        side_edge[c] = side_edge[first_side[c]];
         continue;
       }
-      side_edge_[c] = next;
-      edges_.row(next++) << corners[k], corners[(k + 1) % corners.size()];
+      side_edge[c] = next;
+      edges.row(next++) << corners[k], corners[(k + 1) % corners.size()];
     }
   }
-  bucket(side_edge_, face_of, n_edges(), edge_offsets_, edge_faces_);
-  bucket(soup_.corners, face_of, n_vertices(), vertex_offsets_, vertex_faces_);
+  bucket(side_edge, face_of, static_cast<int>(edges.rows()), edge_offsets, edge_faces);
+  bucket(soup.corners, face_of, soup.n_vertices(), vertex_offsets, vertex_faces);
+  find_components();
 }
 
-void SurfaceMesh::find_components() {
-  DisjointSets sets(n_vertices());
-  std::vector<char> used(n_vertices(), 0);
-  for (int f = 0; f < n_faces(); ++f) {
-    const auto corners = face(f);
+void SurfaceMesh::Parts::find_components() {
+  DisjointSets sets(soup.n_vertices());
+  std::vector<char> used(soup.n_vertices(), 0);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    const auto corners = soup.face(f);
     for (const int v : corners) {
       used[v] = 1;
       sets.join(corners[0], v);
     }
   }
-  vertex_component_ = sets.numbered(n_components_, used);
+  vertex_component = sets.numbered(n_components, used);
+}
+
+SharedRows<int, 2> SurfaceMesh::shared_edges() const {
+  return {{parts_, parts_->edges.data()}, parts_->edges.rows()};
+}
+
+SharedRows<int, 3> SurfaceMesh::shared_faces() const {
+  return {{parts_, soup().corners.data()}, n_faces()};
+}
+
+SharedRows<int, 3> SurfaceMesh::shared_side_edges() const {
+  return {{parts_, parts_->side_edge.data()}, n_faces()};
 }
 
 Vec3 SurfaceMesh::position(const SurfacePoint& p) const {
@@ -160,7 +171,7 @@ Vec3 SurfaceMesh::position(const SurfacePoint& p) const {
     case SurfacePoint::On::vertex:
       return point(p.element);
     case SurfacePoint::On::edge:
-      return p.b[0] * point(edges_(p.element, 0)) + p.b[1] * point(edges_(p.element, 1));
+      return p.b[0] * point(edges()(p.element, 0)) + p.b[1] * point(edges()(p.element, 1));
     case SurfacePoint::On::face:
       break;
   }

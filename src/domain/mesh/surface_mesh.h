@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/lazy.h"
+#include "base/shared_rows.h"
 #include "littoral/polygon_soup.h"
 #include "littoral/surface_point.h"
 #include "littoral/types.h"
@@ -16,7 +17,8 @@ namespace littoral {
 struct FaceOrientation;  // face_orientation.h
 
 /// Faces, edges and their incidences. Nonmanifold edges and vertices, boundary, several components,
-/// inconsistent orientation, isolated vertices and degenerate faces are all allowed.
+/// inconsistent orientation, isolated vertices and degenerate faces are all allowed. Copies share
+/// everything.
 ///
 /// Side k of face f runs from its corner k to corner k+1. Edges are numbered in the order in which
 /// the sides of face 0, face 1, ... first meet them, and directed as that first side.
@@ -30,59 +32,68 @@ class SurfaceMesh {
   /// may have two sides with the same ends.
   SurfaceMesh(PolygonSoup soup, const std::vector<int>& edge_of_side);
 
-  int n_vertices() const { return soup_.n_vertices(); }
-  int n_faces() const { return soup_.n_faces(); }
-  int n_edges() const { return edges_.rows(); }
-  bool is_triangle_mesh() const { return triangles_; }
+  int n_vertices() const { return soup().n_vertices(); }
+  int n_faces() const { return soup().n_faces(); }
+  int n_edges() const { return parts_->edges.rows(); }
+  bool is_triangle_mesh() const { return parts_->triangles; }
 
-  const PolygonSoup& soup() const { return soup_; }
-  const MatX3& points() const { return soup_.points; }
-  std::span<const int> face(int f) const { return soup_.face(f); }
+  const PolygonSoup& soup() const { return parts_->soup; }
+  const MatX3& points() const { return soup().points; }
+  std::span<const int> face(int f) const { return soup().face(f); }
   bool has_distinct_corners(int f) const {  // of a triangle
     const auto c = face(f);
     return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
   }
-  Vec3 point(int v) const { return soup_.points.row(v); }
+  Vec3 point(int v) const { return soup().points.row(v); }
   Vec3 position(const SurfacePoint& p) const;
 
-  const Rows<int, 2>& edges() const { return edges_; }  // edges x 2, tail and head
-  int side_edge(int f, int k) const { return side_edge_[soup_.face_offsets[f] + k]; }
+  const Rows<int, 2>& edges() const { return parts_->edges; }  // edges x 2, tail and head
+  int side_edge(int f, int k) const { return parts_->side_edge[soup().face_offsets[f] + k]; }
   bool side_along(int f, int k) const {  // does side k run along its edge's direction?
-    return edges_(side_edge(f, k), 0) == face(f)[k];
+    return edges()(side_edge(f, k), 0) == face(f)[k];
   }
+  SharedRows<int, 2> shared_edges() const;
+  /// Of a triangle mesh: corners of its faces and edges of their sides.
+  SharedRows<int, 3> shared_faces() const;
+  SharedRows<int, 3> shared_side_edges() const;
   /// Faces at an edge, ascending; a face appears once for each of its sides on the edge.
   std::span<const int> edge_faces(int e) const {
-    return {edge_faces_.data() + edge_offsets_[e], edge_faces_.data() + edge_offsets_[e + 1]};
+    const int* const faces = parts_->edge_faces.data();
+    return {faces + parts_->edge_offsets[e], faces + parts_->edge_offsets[e + 1]};
   }
   std::span<const int> vertex_faces(int v) const {
-    return {vertex_faces_.data() + vertex_offsets_[v],
-            vertex_faces_.data() + vertex_offsets_[v + 1]};
+    const int* const faces = parts_->vertex_faces.data();
+    return {faces + parts_->vertex_offsets[v], faces + parts_->vertex_offsets[v + 1]};
   }
   /// An edge between two vertices, or -1.
   int find_edge(int a, int b) const;
   /// Component of each vertex, by shared faces; -1 for vertices without a face.
-  const std::vector<int>& vertex_component() const { return vertex_component_; }
-  int n_components() const { return n_components_; }
+  const std::vector<int>& vertex_component() const { return parts_->vertex_component; }
+  int n_components() const { return parts_->n_components; }
   /// A power of two near the largest coordinate of a face; 1 without one.
-  double scale() const { return scale_; }
-  /// Kept by `face_orientation`; copies share it.
-  const Kept<FaceOrientation>& kept_orientation() const { return *orientation_; }
+  double scale() const { return parts_->scale; }
+  /// Kept by `face_orientation`.
+  const Kept<FaceOrientation>& kept_orientation() const { return parts_->orientation; }
 
  private:
-  void check();
-  void connect(const std::vector<int>& first_side);
-  void find_components();
+  struct Parts {
+    explicit Parts(PolygonSoup of);
+    void connect(const std::vector<int>& first_side);
+    void find_components();
 
-  PolygonSoup soup_;
-  bool triangles_ = true;
-  Rows<int, 2> edges_;
-  std::vector<int> side_edge_;                  // per corner
-  std::vector<int> edge_offsets_, edge_faces_;  // edge -> faces
-  std::vector<int> vertex_offsets_, vertex_faces_;
-  std::vector<int> vertex_component_;
-  int n_components_ = 0;
-  double scale_ = 1;
-  std::shared_ptr<const Kept<FaceOrientation>> orientation_;
+    PolygonSoup soup;
+    bool triangles = true;
+    Rows<int, 2> edges;
+    std::vector<int> side_edge;                 // per corner
+    std::vector<int> edge_offsets, edge_faces;  // edge -> faces
+    std::vector<int> vertex_offsets, vertex_faces;
+    std::vector<int> vertex_component;
+    int n_components = 0;
+    double scale = 1;
+    Kept<FaceOrientation> orientation;
+  };
+
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace littoral

@@ -24,7 +24,8 @@ std::vector<char> first_of_its_edges(const IntrinsicTriangulation& T) {
         T.edge_use[T.side_edge(f, 2)] > 1)
       shared.push_back(f);
   std::vector<char> is_first(std::size_t(T.n_faces()), 1);
-  for (const RepeatedRow& copy : repeated_rows(T.side_edge, shared)) is_first[copy.row] = 0;
+  for (const RepeatedRow& copy : repeated_rows(T.side_edge.matrix(), shared))
+    is_first[copy.row] = 0;
   return is_first;
 }
 

@@ -42,7 +42,7 @@ class Stencils {
  public:
   Stencils(const IntrinsicTriangulation& T, const Task& task) : T_(T) {
     corners_ = groups_of<int>(std::size_t(T.n_vertices), [&](const auto& put) {
-      for (int c = 0; c < 3 * T.n_faces(); ++c) put(T.faces.data()[c], c);
+      for (int c = 0; c < 3 * T.n_faces(); ++c) put(T.faces(c / 3, c % 3), c);
     });
     unfold_obtuse(task);
   }
@@ -102,10 +102,10 @@ class Stencils {
     for (int step = 0; step < 64; ++step) {
       const auto at = sides.at(T_.side_edge(f, k));
       if (at.size() != 2) break;
-      const TriangleSide next = at[0].face == f && at[0].k == k ? at[1] : at[0];
-      if (T_.along(next.face, next.k) != T_.along(f, k)) starts_at_P = !starts_at_P;
-      f = next.face;
-      k = next.k;
+      const TriangleSide next = at[0] == TriangleSide(f, k) ? at[1] : at[0];
+      if (T_.along(next.face(), next.k()) != T_.along(f, k)) starts_at_P = !starts_at_P;
+      f = next.face();
+      k = next.k();
       const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
       const Complex apex =
           triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false).p[2];

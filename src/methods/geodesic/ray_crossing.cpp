@@ -170,8 +170,8 @@ void RayCrossing::fetch(int id, int step) const {
     s_.lists[id].windows.fetch();
     for (const int side : s_.pages.at(edge)) {
       __builtin_prefetch(&T_.length(side / 3, 0));
-      __builtin_prefetch(&T_.faces(side / 3, 0));
-      __builtin_prefetch(&T_.side_edge(side / 3, 0));
+      __builtin_prefetch(T_.faces.row(side / 3).data());
+      __builtin_prefetch(T_.side_edge.row(side / 3).data());
       __builtin_prefetch(&T_.along(side / 3, 0));
       __builtin_prefetch(&s_.winner[side]);
     }

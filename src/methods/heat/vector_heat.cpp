@@ -1,37 +1,12 @@
 #include "methods/heat/vector_heat.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <utility>
+
+#include "methods/heat/heat_matrix.h"
 
 namespace littoral {
 
 namespace {
-
-/// M + t L, lower triangle, in the place of L, as Eigen would copy it; dofs without mass get a unit
-/// diagonal.
-template <class Scalar>
-std::shared_ptr<const Eigen::SparseMatrix<Scalar>> heat_matrix(
-    const std::function<Eigen::SparseMatrix<Scalar>(const Task&)>& L, const VecX& M, double t,
-    const Task& task) {
-  const std::shared_ptr<Eigen::SparseMatrix<Scalar>> made(new Eigen::SparseMatrix<Scalar>(L(task)));
-  Eigen::SparseMatrix<Scalar>& A = *made;
-  const Eigen::Index block = A.rows() / M.size();
-  A.makeCompressed();
-  A.coeffs() *= t;
-  std::vector<int> missing;
-  for (Eigen::Index i = 0; i < A.cols(); ++i) {
-    const int first = A.outerIndexPtr()[i];  // the diagonal, in a lower triangle, if there is one
-    if (first < A.outerIndexPtr()[i + 1] && A.innerIndexPtr()[first] == i)
-      A.valuePtr()[first] += M[i / block] > 0 ? M[i / block] : 1.0;
-    else
-      missing.push_back(i);
-  }
-  for (int i : missing) A.coeffRef(i, i) = M[i / block] > 0 ? M[i / block] : 1.0;
-  A.makeCompressed();
-  return made;
-}
 
 Eigen::Map<const VecXc> as_complex(const VecX& X) {
   return {reinterpret_cast<const Complex*>(X.data()), X.size() / 2};
@@ -53,8 +28,14 @@ VectorHeat::VectorHeat(const VectorDiffusion& V, double t, SolveHint hint,
 }
 
 VectorHeat::System VectorHeat::system(const VectorDiffusion& V, const Task& task) const {
-  Ordering order = V.at_nodes ? *nodes_ : V.ends ? between_nodes(*nodes_, *V.ends) : Ordering();
+  Ordering order = V.at_nodes          ? *nodes_
+                   : V.ends.rows() > 0 ? between_nodes(*nodes_, V.ends.matrix())
+                                       : Ordering();
   task.checkpoint();
+  if (V.L_rows && V.n > largest_to_factor(hint_))
+    return {std::make_shared<const HeatSystem<Complex>>(heat_rows(V.L_rows(), V.M, t_),
+                                                        decay_lengths(V.M, t_), order),
+            nullptr};
   if (V.complex_linear())
     return {std::make_shared<const HeatSystem<Complex>>(heat_matrix(V.L, V.M, t_, task), 1,
                                                         decay_lengths(V.M, t_), hint_, task,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/index.h"
+#include "base/taken.h"
 #include "littoral/error.h"
 #include "methods/regularized/marched_start.h"
 #include "methods/regularized/weighted_laplacian.h"
@@ -167,11 +168,11 @@ void start_from(const VecX& flux, double alpha, bool quadratic_apart, const VecX
     problem.near_gradient[flux.size() + 2 * k] = bound[k];
 }
 
-LinearMap as_map(SpRows matrix) {
+LinearMap as_map(SpRows&& matrix) {
   LinearMap G;
   G.rows = matrix.rows();
   G.cols = matrix.cols();
-  const auto A = std::make_shared<const SpRows>(std::move(matrix));
+  const auto A = shared_taken(matrix);
   G.apply = [A](const VecX& u) { return VecX(*A * u); };
   G.matrix = [A] { return *A; };
   return G;
@@ -333,14 +334,14 @@ std::vector<RegularizedPart> regularized_parts(const std::shared_ptr<const Calcu
   const std::vector<std::vector<int>> cells = cells_of(*C, G, dim);
   for (std::size_t c = 0; c < sizes.size(); ++c) {
     Calculus part;
-    part.L = std::move(L[c]);
+    part.L.swap(L[c]);
     part.M = C->M(nodes[c]);
     part.A = C->A(cells[c]);
     part.h = C->h;
     part.component.assign(nodes[c].size(), 0);
     part.n_components = 1;
     RegularizerData of_part;
-    of_part.W = std::move(W[c]);
+    of_part.W.swap(W[c]);
     if (data.V.size() > 0) of_part.V.resize(dim * part.A.size());
     if (data.frames.rows() > 0) of_part.frames.resize(dim * part.A.size(), 3);
     Triplets entries;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/taken.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -14,7 +15,8 @@ VecX times_symmetric(const SpMat& lower, const VecX& x) {
 }
 
 std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W) {
-  SpMat K = lower;
+  std::optional<SpMat> made(lower);
+  SpMat& K = *made;
   const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = R;
   for (int r = 0; r < rows.outerSize(); ++r) {
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator a(rows, r); a; ++a) {
@@ -29,14 +31,13 @@ std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, cons
       }
     }
   }
-  return K;
+  return made;
 }
 
-SpMat with_rows(SpMat lower, const SpMat& R, const VecX& W) {
+SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {
   const SpMat WR = W.asDiagonal() * R;
   const SpMat P = SpMat(R.transpose()) * WR;
   SpMat K = lower + SpMat(P.triangularView<Eigen::Lower>());
-  SpMat().swap(lower);
   K.makeCompressed();
   return K;
 }
@@ -65,12 +66,13 @@ std::vector<int> unknowns_of(const SpMat& R) {
 }
 
 DefiniteSystem::DefiniteSystem(const SpMat& lower, const Task& task)
-    : DefiniteSystem(
-          lower, std::make_shared<const Elimination>(lower, dissection(lower, task), task), task) {}
+    : DefiniteSystem(SpMat(lower),
+                     std::make_shared<const Elimination>(lower, dissection(lower, task), task),
+                     task) {}
 
-DefiniteSystem::DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure,
+DefiniteSystem::DefiniteSystem(SpMat&& lower, std::shared_ptr<const Elimination> structure,
                                const Task& task, bool to_be_patched)
-    : A_(std::make_shared<const SpMat>(std::move(lower))) {
+    : A_(shared_taken(lower)) {
   factor(task, structure, to_be_patched);
 }
 
@@ -82,10 +84,10 @@ void DefiniteSystem::factor(const Task& task, const std::shared_ptr<const Elimin
   patchable_ = to_be_patched && lift_ == 0;
 }
 
-DefiniteSystem DefiniteSystem::patched(SpMat lower, const std::vector<int>& changed,
+DefiniteSystem DefiniteSystem::patched(SpMat&& lower, const std::vector<int>& changed,
                                        const Task& task) const {
   DefiniteSystem out;
-  out.A_ = std::make_shared<const SpMat>(std::move(lower));
+  out.A_ = shared_taken(lower);
   try {
     out.factor_ =
         std::make_shared<const Cholesky<double>>(factor_->patched(*out.A_, changed, task));

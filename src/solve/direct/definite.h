@@ -22,7 +22,7 @@ VecX times_symmetric(const SpMat& lower, const VecX& x);
 std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W);
 
 /// The same whatever the pattern.
-SpMat with_rows(SpMat lower, const SpMat& R, const VecX& W);
+SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W);
 
 /// K with the rows and columns of the marked unknowns those of the identity. Lower triangles.
 SpMat eliminated(const SpMat& K, const std::vector<char>& gone);
@@ -36,12 +36,12 @@ std::vector<int> unknowns_of(const SpMat& R);
 class DefiniteSystem {
  public:
   DefiniteSystem(const SpMat& lower, const Task& task);
-  DefiniteSystem(SpMat lower, std::shared_ptr<const Elimination> structure, const Task& task,
+  DefiniteSystem(SpMat&& lower, std::shared_ptr<const Elimination> structure, const Task& task,
                  bool to_be_patched = false);
 
   /// The system of a matrix that differs in some rows and columns only, on what the factor of this
   /// one has in common with its. This system must be one `to_be_patched`.
-  DefiniteSystem patched(SpMat lower, const std::vector<int>& changed, const Task& task) const;
+  DefiniteSystem patched(SpMat&& lower, const std::vector<int>& changed, const Task& task) const;
 
   /// No factor: a Laplacian with penalties on few unknowns, `stiff`, by BandedMultigrid, which the
   /// first solve sets up: systems that others are made from are often not solved themselves. lower:

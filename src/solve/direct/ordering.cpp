@@ -52,7 +52,7 @@ Ordering dissection(const Eigen::SparseMatrix<Scalar>& lower, const Task& task) 
   }
 }
 
-Ordering between_nodes(const Ordering& nodes_order, const Rows<int, 2>& nodes) {
+Ordering between_nodes(const Ordering& nodes_order, const Eigen::Ref<const Rows<int, 2>>& nodes) {
   const int n_nodes = nodes_order.size();
   std::vector<int> position(nodes_order.size());
   for (int k = 0; k < n_nodes; ++k) position[nodes_order[k]] = k;

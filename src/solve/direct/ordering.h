@@ -20,7 +20,7 @@ Ordering dissection(const Eigen::SparseMatrix<Scalar>& lower, const Task& task);
 /// The order of unknowns that lie between nodes, from an order of the nodes: each goes when the
 /// first of its nodes goes. A separator of the nodes makes one of the unknowns: those with both
 /// nodes in it. nodes: unknowns x 2.
-Ordering between_nodes(const Ordering& nodes_order, const Rows<int, 2>& nodes);
+Ordering between_nodes(const Ordering& nodes_order, const Eigen::Ref<const Rows<int, 2>>& nodes);
 
 /// Every unknown of `order` as `block` unknowns in a row.
 Ordering in_blocks(const Ordering& order, int block);

@@ -42,19 +42,26 @@ template <class Scalar>
 HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size,
                                SolveHint hint, const Task& task, Ordering order)
     : A_(std::move(lower)),
+      rows_(rows_of(A_, block)),
       block_(block),
-      windows_(A_, block, std::move(size),
+      windows_(rows_, std::move(size),
                order.empty() ? order_of_blocks(*A_, block, task) : std::move(order)) {
   if (A_->rows() > largest_to_factor(hint)) return;
-  const auto structure = eliminated(task);
+  const auto structure = eliminated(*A_, task);
   const std::size_t limit = hint == SolveHint::single_rhs ? largest_for_one_solve : largest_factor;
   if (structure->values() <= limit / sizeof(Scalar))
     factor_.emplace(raised_cholesky(*A_, structure, task).factor);
 }
 
 template <class Scalar>
-std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Task& task) const {
-  return std::make_shared<const Elimination>(*A_, in_blocks(windows_.order(), block_), task);
+HeatSystem<Scalar>::HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, VecX size,
+                               const Ordering& order)
+    : rows_(std::move(rows)), block_(rows_->block()), windows_(rows_, std::move(size), order) {}
+
+template <class Scalar>
+std::shared_ptr<const Elimination> HeatSystem<Scalar>::eliminated(const Matrix& A,
+                                                                  const Task& task) const {
+  return std::make_shared<const Elimination>(A, in_blocks(windows_.order(), block_), task);
 }
 
 template <class Scalar>
@@ -70,18 +77,19 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve(HeatSource<Scalar> b, const std::v
     for (Eigen::Index k = index(s) * block_; k < index(s + 1) * block_; ++k)
       b.value[k] = reached[b.blocks[s]] >= 0 ? Scalar(b.value[k] / largest[reached[b.blocks[s]]])
                                              : Scalar(0);
-  const auto in_passes = [&](const Cholesky<Scalar>& factor) {
-    Vector r = Vector::Zero(A_->rows());
+  const auto in_passes = [&](const Matrix& A, const Cholesky<Scalar>& factor) {
+    Vector r = Vector::Zero(A.rows());
     for (std::size_t s = 0; s < b.blocks.size(); ++s)
       r.segment(Eigen::Index{b.blocks[s]} * block_, block_) =
           b.value.segment(index(s) * block_, block_);
-    return solve_in_passes(factor, std::move(r), reached, task, report);
+    return solve_in_passes(A, factor, std::move(r), reached, task, report);
   };
-  if (factor_) return in_passes(*factor_);
+  if (factor_) return in_passes(*A_, *factor_);
   auto field = windows_.solve(b, reached, task, report);
   return_freed_memory();
   if (field) return std::move(*field);
-  return in_passes(raised_cholesky(*A_, eliminated(task), task).factor);
+  const auto A = A_ ? A_ : std::make_shared<const Matrix>(lower_triangle(*rows_, task));
+  return in_passes(*A, raised_cholesky(*A, eliminated(*A, task), task).factor);
 }
 
 template <class Scalar>
@@ -93,7 +101,8 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_prescribed(const Vector& values,
 }
 
 template <class Scalar>
-ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Matrix& A,
+                                                        const Cholesky<Scalar>& factor, Vector r,
                                                         const std::vector<int>& piece,
                                                         const Task& task, Report& report) const {
   const Eigen::Index n = r.size() / block_;
@@ -137,9 +146,9 @@ ScaledField<Scalar> HeatSystem<Scalar>::solve_in_passes(const Cholesky<Scalar>& 
 
     // b - A (x truncated to the layers so far): nonzero on both sides of the front only.
     r.setZero();
-    for (int j = 0; j < A_->outerSize(); ++j) {
+    for (int j = 0; j < A.outerSize(); ++j) {
       const char at_j = side[j];
-      for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
+      for (typename Matrix::InnerIterator it(A, j); it; ++it) {
         const Eigen::Index i = it.row();
         if ((side[i] ^ at_j) != (outside | fresh)) continue;  // not one outside, one fresh
         const Scalar a = it.value(), a_transposed = Eigen::numext::conj(a);

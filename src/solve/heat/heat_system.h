@@ -41,6 +41,8 @@ class HeatSystem {
   /// solves, .4 GB for one.
   HeatSystem(std::shared_ptr<const Matrix> lower, int block, VecX size, SolveHint hint,
              const Task& task, Ordering order = {});
+  /// A matrix too large to be factored, which is never made as a whole unless windows do not fit.
+  HeatSystem(std::shared_ptr<const HermitianRows<Scalar>> rows, VecX size, const Ordering& order);
 
   /// Solves by HeatWindows or, on one factorization, by renormalised passes: the first solve is
   /// good to 1e-250 of its largest entry; the rest is solved again from the residual that
@@ -62,15 +64,16 @@ class HeatSystem {
   double nonzeros() const { return factor_ ? factor_->nonzeros() : 0; }  // 0 without a factor
   /// Null where there is none.
   const Cholesky<Scalar>* factor() const { return factor_ ? &*factor_ : nullptr; }
-  const Matrix& lower() const { return *A_; }
+  const Matrix& lower() const { return *A_; }  // with a factor
 
  private:
-  std::shared_ptr<const Elimination> eliminated(const Task& task) const;
-  ScaledField<Scalar> solve_in_passes(const Cholesky<Scalar>& factor, Vector r,
+  std::shared_ptr<const Elimination> eliminated(const Matrix& A, const Task& task) const;
+  ScaledField<Scalar> solve_in_passes(const Matrix& A, const Cholesky<Scalar>& factor, Vector r,
                                       const std::vector<int>& piece, const Task& task,
                                       Report& report) const;
 
-  std::shared_ptr<const Matrix> A_;
+  std::shared_ptr<const Matrix> A_;  // lower triangle; null where only rows are given
+  std::shared_ptr<const HermitianRows<Scalar>> rows_;
   int block_;
   HeatWindows<Scalar> windows_;
   std::optional<Cholesky<Scalar>> factor_;

@@ -21,6 +21,7 @@ constexpr int longest_overlap = 80;
 constexpr double around_prescribed =
     18;  // what lies beyond does not change a source that prescribes values
 constexpr double negligible = 1e-250;
+constexpr std::size_t row_grain = 4096;
 /// The same with several layers made one where the range of numbers allows it.
 template <class Scalar>
 ScaledField<Scalar> with_fewer_layers(ScaledField<Scalar> field, int block) {
@@ -67,28 +68,9 @@ Outward in_steps(const std::vector<double>& d) {
 VecX decay_lengths(const VecX& M, double t) { return (M.array().max(0.0) / t).sqrt(); }
 
 template <class Scalar>
-HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size,
-                                 const Ordering& order)
-    : A_(std::move(lower)), block_(block), size_(std::move(size)), position_(order.size()) {
+HeatWindows<Scalar>::HeatWindows(std::shared_ptr<const Rows> A, VecX size, const Ordering& order)
+    : A_(std::move(A)), block_(A_->block()), size_(std::move(size)), position_(order.size()) {
   for (std::size_t k = 0; k < order.size(); ++k) position_[order[k]] = k;
-  auto for_edges = [&](const auto& put) {
-    for (int j = 0; j < A_->outerSize(); j += block_)  // the first unknown's column names them all
-      for (typename Matrix::InnerIterator it(*A_, j); it; ++it)
-        if (it.row() % block_ == 0 && it.row() != j) put(it.row() / block_, j / block_);
-  };
-  begin_.assign(order.size() + 1, 0);
-  for_edges([&](int i, int j) {
-    ++begin_[i];
-    ++begin_[j];
-  });
-  int sum = 0;
-  for (int& b : begin_) sum += std::exchange(b, sum);
-  to_.resize(sum);
-  std::vector<int> at = begin_;
-  for_edges([&](int i, int j) {
-    to_[at[i]++] = j;
-    to_[at[j]++] = i;
-  });
 }
 
 template <class Scalar>
@@ -104,6 +86,7 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
   // Dijkstra's algorithm with buckets one decay length wide, settled in any order inside of one.
   std::vector<double> d(position_.size(), infinity);
   std::vector<std::vector<std::pair<double, int>>> buckets(1);
+  std::vector<int> beside;
   for (int i : from) {
     d[i] = 0;
     buckets[0].emplace_back(0, i);
@@ -113,8 +96,8 @@ std::vector<double> HeatWindows<Scalar>::distances(const std::vector<int>& from,
     for (std::size_t k = 0; k < buckets[b].size(); ++k) {  // grows meanwhile
       const auto [at, i] = buckets[b][k];
       if (at > d[i]) continue;
-      for (int e = begin_[i]; e < begin_[i + 1]; ++e) {
-        const int j = to_[e];
+      A_->neighbours(i, beside);
+      for (const int j : beside) {
         const double next = at + 2 * std::asinh(0.25 * (size_[i] + size_[j]) + 1e-3);
         if (!(next < d[j])) continue;
         d[j] = next;
@@ -137,18 +120,20 @@ std::vector<std::vector<int>> HeatWindows<Scalar>::parts(std::span<const int> bl
     in_order[position_[i]] = i;
   }
   std::vector<std::size_t> sizes;
-  std::vector<int> own;
+  std::vector<int> own, beside;
   for (const int first : blocks) {
     if (part[first] != in_none) continue;
     const int number = int_size(sizes);
     own.assign(1, first);
     part[first] = number;
-    for (std::size_t k = 0; k < own.size(); ++k)  // grows meanwhile
-      for (int e = begin_[own[k]]; e < begin_[own[k] + 1]; ++e)
-        if (part[to_[e]] == in_none) {
-          part[to_[e]] = number;
-          own.push_back(to_[e]);
+    for (std::size_t k = 0; k < own.size(); ++k) {  // grows meanwhile
+      A_->neighbours(own[k], beside);
+      for (const int j : beside)
+        if (part[j] == in_none) {
+          part[j] = number;
+          own.push_back(j);
         }
+    }
     sizes.push_back(own.size());
   }
   std::vector<std::vector<int>> out(sizes.size());
@@ -162,45 +147,46 @@ template <class Scalar>
 typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
     const std::vector<int>& blocks, const std::vector<char>& known, const Vector& x, Vector r,
     std::vector<int>& local, const Task& task) const {
-  // Columns that hold entries of these rows: their own and those of known neighbours.
-  std::vector<int> columns = blocks;
   for (std::size_t k = 0; k < blocks.size(); ++k) local[blocks[k]] = k;
-  std::vector<int> neighbours;
-  for (int i : blocks)
-    for (int e = begin_[i]; e < begin_[i + 1]; ++e)
-      if (known[to_[e]]) neighbours.push_back(to_[e]);
-  std::sort(neighbours.begin(), neighbours.end());
-  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  columns.insert(columns.end(), neighbours.begin(), neighbours.end());
-
-  const auto n = index(blocks.size()) * block_;
-  Matrix K(n, n);
-  auto for_entries = [&](const auto& put) {
-    for (int block_column : columns)
-      for (int j = block_column * block_; j < (block_column + 1) * block_; ++j)
-        for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
-          const int i = it.row(), li = local[i / block_], lj = local[j / block_];
-          const int a = li < 0 ? -1 : li * block_ + i % block_;
-          const int b = lj < 0 ? -1 : lj * block_ + j % block_;
-          put(i, j, a, b, it.value());
-        }
-  };
+  const int n_blocks = int_size(blocks), n = n_blocks * block_;
+  Eigen::SparseMatrix<Scalar> K(n, n);  // lower triangle: a column is what a row has on its right
   int* begin = K.outerIndexPtr();
-  std::fill(begin, begin + n + 1, 0);
-  for_entries([&](int i, int j, int a, int b, const Scalar& z) {
-    if (a >= 0 && b >= 0) ++begin[std::min(a, b)];
-    if (a >= 0 && b < 0 && known[j / block_]) r[a] -= z * x[j];
-    if (b >= 0 && a < 0 && known[i / block_]) r[b] -= Eigen::numext::conj(z) * x[i];
+  parallel_for(blocks.size(), row_grain, [&](std::size_t first, std::size_t end) {
+    std::vector<int> beside;
+    for (std::size_t k = first; k < end; ++k) {
+      A_->neighbours(blocks[k], beside);
+      const auto right =
+          std::ranges::count_if(beside, [&](int j) { return local[j] > static_cast<int>(k); });
+      for (int c = 0; c < block_; ++c)
+        begin[index(k) * block_ + c] = block_ - c + block_ * static_cast<int>(right);
+    }
   });
   int sum = 0;
-  for (Eigen::Index k = 0; k <= n; ++k) sum += std::exchange(begin[k], sum);
+  for (int k = 0; k < n; ++k) sum += std::exchange(begin[k], sum);
+  begin[n] = sum;
   K.resizeNonZeros(sum);
-  std::vector<int> at(begin, begin + n);
-  for_entries([&](int, int, int a, int b, const Scalar& z) {
-    if (a < 0 || b < 0) return;
-    const int e = at[std::min(a, b)]++;
-    K.innerIndexPtr()[e] = std::max(a, b);
-    K.valuePtr()[e] = a >= b ? z : Eigen::numext::conj(z);
+  parallel_for(blocks.size(), row_grain, [&](std::size_t first, std::size_t end) {
+    BlockRow<Scalar> row;
+    for (std::size_t k = first; k < end; ++k) {
+      const int own = static_cast<int>(k);
+      A_->row(blocks[k], row);
+      for (int c = 0; c < block_; ++c) {
+        int e = begin[own * block_ + c];
+        const auto put = [&](int i, const Scalar& z) {
+          K.innerIndexPtr()[e] = i;
+          K.valuePtr()[e++] = z;
+        };
+        for (int i = c; i < block_; ++i) put(own * block_ + i, row.values[i * block_ + c]);
+        for (std::size_t s = 1; s < row.blocks.size(); ++s) {
+          const int j = row.blocks[s];
+          const Scalar* z = &row.values[(s * block_ + c) * block_];
+          if (local[j] > own)
+            for (int i = 0; i < block_; ++i) put(local[j] * block_ + i, Eigen::numext::conj(z[i]));
+          else if (known[j])
+            for (int i = 0; i < block_; ++i) r[own * block_ + c] -= z[i] * x[j * block_ + i];
+        }
+      }
+    }
   });
   for (int i : blocks) local[i] = -1;
   Ordering in_order(n);
@@ -246,7 +232,8 @@ std::optional<ScaledField<Scalar>> HeatWindows<Scalar>::solve(const HeatSource<S
                                                               const Outward& outward, int overlap,
                                                               const Task& task) const {
   const std::vector<int>& order = outward.blocks;
-  ScaledField<Scalar> field{Vector::Zero(A_->rows()), std::vector<int>(position_.size(), -1), {}};
+  ScaledField<Scalar> field{
+      Vector::Zero(index(position_.size()) * block_), std::vector<int>(position_.size(), -1), {}};
   std::vector<int> local(position_.size(), -1);
   std::vector<char> known(position_.size(), 0), inside(position_.size(), 0);
   int windows = 0;
@@ -291,45 +278,45 @@ double HeatWindows<Scalar>::misfit(const ScaledField<Scalar>& field, const HeatS
                                    const Task& task) const {
   // (A x)_i at blocks with neighbours in the next layer, in units of their own, relative to the
   // size of its terms; where b is 0, as it is away from the sources.
-  std::vector<int> front(position_.size(), -1);  // blocks: place among those
-  int n_front = 0;
-  for (std::size_t i = 0; i < front.size(); ++i)
-    for (int e = begin_[i]; e < begin_[i + 1] && front[i] < 0; ++e)
-      if (field.layer[i] >= 0 && field.layer[to_[e]] > field.layer[i]) front[i] = n_front++;
-  Vector sum = Vector::Zero(Eigen::Index{n_front} * block_);
-  VecX size = VecX::Zero(sum.size());
-  auto add = [&](Eigen::Index i, Eigen::Index j, const Scalar& a) {
-    const Eigen::Index bi = i / block_, bj = j / block_;
-    if (front[bi] < 0 || field.layer[bj] < 0) return;
-    double unit = 1;
-    if (field.layer[bj] > field.layer[bi]) {
-      unit = field.scale[field.layer[bj]];
-    } else if (field.layer[bj] < field.layer[bi]) {
-      unit = 1 / field.scale[field.layer[bi]];
+  const std::size_t n = position_.size();
+  std::vector<double> worst(n / row_grain + 1, 0.0);
+  parallel_for(n, row_grain, [&](std::size_t first, std::size_t end) {
+    std::vector<int> beside;
+    BlockRow<Scalar> row;
+    stop_if_cancelled(task);
+    for (std::size_t k = first; k < end; ++k) {
+      const int i = static_cast<int>(k), layer = field.layer[i];
+      if (layer < 0) continue;
+      A_->neighbours(i, beside);
+      if (std::ranges::none_of(beside, [&](int j) { return field.layer[j] > layer; })) continue;
+      A_->row(i, row);
+      const Scalar* value = b.at(i);
+      for (int c = 0; c < block_; ++c) {
+        if (value && value[c] != Scalar(0)) continue;
+        Scalar sum = 0;
+        double size = 0;
+        for (std::size_t s = 0; s < row.blocks.size(); ++s) {
+          const int j = row.blocks[s];
+          if (field.layer[j] < 0) continue;
+          double unit = 1;
+          if (field.layer[j] > layer) {
+            unit = field.scale[field.layer[j]];
+          } else if (field.layer[j] < layer) {
+            unit = 1 / field.scale[layer];
+          }
+          for (int d = 0; d < block_; ++d) {
+            const Scalar term =
+                row.values[(s * block_ + c) * block_ + d] * field.x[j * block_ + d] * unit;
+            sum += term;
+            size += magnitude(term);
+          }
+        }
+        double& here = worst[first / row_grain];
+        if (size > 0) here = std::max(here, magnitude(sum) / size);
+      }
     }
-    const Scalar term = a * field.x[j] * unit;
-    const Eigen::Index at = Eigen::Index{front[bi]} * block_ + i % block_;
-    sum[at] += term;
-    size[at] += magnitude(term);
-  };
-  for (int j = 0; j < A_->outerSize(); ++j) {
-    stop_now_and_then(j, task);
-    for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
-      add(it.row(), j, it.value());
-      if (it.row() != j) add(j, it.row(), Eigen::numext::conj(it.value()));
-    }
-  }
-  double worst = 0;
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (front[i] < 0) continue;
-    const Scalar* value = b.at(static_cast<int>(i));
-    for (int k = 0; k < block_; ++k) {
-      const Eigen::Index at = Eigen::Index{front[i]} * block_ + k;
-      if (size[at] > 0 && (!value || value[k] == Scalar(0)))
-        worst = std::max(worst, magnitude(sum[at]) / size[at]);
-    }
-  }
-  return worst;
+  });
+  return *std::ranges::max_element(worst);
 }
 
 template <class Scalar>
@@ -354,22 +341,15 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::source_prescribing(
       solve_region(blocks, known, values, Vector::Zero(index(blocks.size()) * block_), local, task);
   for (std::size_t k = 0; k < blocks.size(); ++k)
     x.segment(Eigen::Index(blocks[k]) * block_, block_) = z.segment(index(k) * block_, block_);
-  // b = A x in the rows of prescribed blocks, whose entries are in their own columns and their
-  // neighbours'.
-  std::vector<int> columns = from;
-  for (int i : from)
-    for (int e = begin_[i]; e < begin_[i + 1]; ++e)
-      if (!known[to_[e]]) columns.push_back(to_[e]);
-  std::sort(columns.begin(), columns.end());
-  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-  Vector b = Vector::Zero(values.size());
-  for (int c : columns)
-    for (int j = c * block_; j < (c + 1) * block_; ++j)
-      for (typename Matrix::InnerIterator it(*A_, j); it; ++it) {
-        const Eigen::Index i = it.row();
-        if (known[i / block_]) b[i] += it.value() * x[j];
-        if (i != j && known[c]) b[j] += Eigen::numext::conj(it.value()) * x[i];
-      }
+  Vector b = Vector::Zero(values.size());  // A x, in the rows of prescribed blocks
+  BlockRow<Scalar> row;
+  for (const int i : from) {
+    A_->row(i, row);
+    const Scalar* value = row.values.data();
+    for (const int j : row.blocks)
+      for (int c = 0; c < block_; ++c)
+        for (int k = 0; k < block_; ++k) b[i * block_ + c] += *value++ * x[j * block_ + k];
+  }
   return b;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/task.h"
 #include "littoral/report.h"
+#include "solve/direct/hermitian_rows.h"
 #include "solve/direct/ordering.h"
 #include "solve/heat/scaled_field.h"
 
@@ -32,13 +33,12 @@ struct Outward {
 template <class Scalar>
 class HeatWindows {
  public:
-  using Matrix = Eigen::SparseMatrix<Scalar>;
+  using Rows = HermitianRows<Scalar>;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
-  /// lower: the matrix's lower triangle, unknowns in blocks of `block`. size: blocks; extent of a
-  /// block in decay lengths, sqrt(M / t): what a step between two blocks is taken to be long.
-  /// order: of elimination, of the blocks.
-  HeatWindows(std::shared_ptr<const Matrix> lower, int block, VecX size, const Ordering& order);
+  /// size: blocks; extent of a block in decay lengths, sqrt(M / t): what a step between two blocks
+  /// is taken to be long. order: of elimination, of the blocks.
+  HeatWindows(std::shared_ptr<const Rows> A, VecX size, const Ordering& order);
 
   /// Solves on the blocks up to some distance from the support of b, keeps all but the farthest,
   /// whose values lack what lies beyond, and goes on from the kept ones, scaled to 1. Time and
@@ -67,11 +67,10 @@ class HeatWindows {
   double misfit(const ScaledField<Scalar>& field, const HeatSource<Scalar>& b,
                 const Task& task) const;
 
-  std::shared_ptr<const Matrix> A_;
+  std::shared_ptr<const Rows> A_;
   int block_;
   VecX size_;
-  std::vector<int> position_;    // blocks: place in the order of elimination
-  std::vector<int> begin_, to_;  // graph of the blocks
+  std::vector<int> position_;  // blocks: place in the order of elimination
 };
 
 extern template class HeatWindows<double>;

@@ -47,7 +47,7 @@ SpMat lower_block(const SpRows& A, const std::vector<int>& unknowns) {
 
 }  // namespace
 
-BandedMultigrid::BandedMultigrid(SpMat lower, const std::vector<int>& stiff, const Task& task)
+BandedMultigrid::BandedMultigrid(SpMat&& lower, const std::vector<int>& stiff, const Task& task)
     : multigrid_(std::move(lower), task) {
   if (stiff.empty()) return;
   band_ = around(multigrid_.matrix(), stiff, band_width);

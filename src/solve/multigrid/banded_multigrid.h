@@ -17,7 +17,7 @@ namespace littoral {
 class BandedMultigrid {
  public:
   /// lower: lower triangle, given up once it is read. stiff: unknowns with penalties.
-  BandedMultigrid(SpMat lower, const std::vector<int>& stiff, const Task& task);
+  BandedMultigrid(SpMat&& lower, const std::vector<int>& stiff, const Task& task);
 
   /// x with A x = b up to `tolerance` in the energy norm, as the preconditioner measures it.
   /// Iterations go to the report, with the status "not converged" where 500 do not suffice.

@@ -64,7 +64,7 @@ SpMat lower_triangle(const SpRows& A) {
 
 }  // namespace
 
-Multigrid::Multigrid(SpMat lower, const Task& task) {
+Multigrid::Multigrid(SpMat&& lower, const Task& task) {
   levels_.emplace_back().A = full_rows(lower);
   SpMat().swap(lower);
   return_freed_memory();

@@ -18,7 +18,7 @@ namespace littoral {
 class Multigrid {
  public:
   /// lower: lower triangle, given up once it is read. Throws Cancelled within 0.2 s of a request.
-  Multigrid(SpMat lower, const Task& task);
+  Multigrid(SpMat&& lower, const Task& task);
 
   /// Vectors that cycles use again and again; of one solve.
   struct Work {

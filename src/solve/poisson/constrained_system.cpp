@@ -6,6 +6,7 @@
 #include "base/dense_decompositions.h"
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/taken.h"
 
 namespace littoral {
 
@@ -47,7 +48,7 @@ std::vector<char> pin_first(const std::vector<int>& component, std::vector<char>
 
 ConstrainedSystem::ConstrainedSystem(SpMat K, std::vector<int> component, int n_components,
                                      const Task& task, Rows expected)
-    : K_(std::make_shared<const SpMat>(std::move(K))),
+    : K_(shared_taken(K)),
       component_(std::move(component)),
       n_components_(n_components),
       pinned_(pin_first(component_, std::vector<char>(n_components, 0), {})),
@@ -81,16 +82,14 @@ void ConstrainedSystem::constrain_many(const SpMat& A, const VecX& give, Constra
     if (!single) weight.push_back(gives ? 1 / give[r] : stiff);
   }
   constrained.pinned_ = pin_first(component_, fixed, constrained.gone_);
-  SpMat K = *K_;
-  if (!weight.empty()) {
-    SpMat penalised(weight.size(), K.cols());
-    penalised.setFromTriplets(others.begin(), others.end());
-    K = with_rows(std::move(K), penalised, Eigen::Map<const VecX>(weight.data(), weight.size()));
-  }
-  K = eliminated(K, constrained.pinned_);
+  SpMat penalised(weight.size(), K_->cols());
+  penalised.setFromTriplets(others.begin(), others.end());
+  const Eigen::Map<const VecX> weights(weight.data(), index(weight.size()));
+  SpMat K =
+      eliminated(weight.empty() ? *K_ : with_rows(*K_, penalised, weights), constrained.pinned_);
   constrained.factor_ = of_many_
                             ? std::make_shared<const DefiniteSystem>(std::move(K), of_many_, task)
-                            : std::make_shared<const DefiniteSystem>(std::move(K), task);
+                            : std::make_shared<const DefiniteSystem>(K, task);
 }
 
 ConstrainedSystem::Constrained ConstrainedSystem::constrain_like(const Constrained& like,
@@ -98,7 +97,7 @@ ConstrainedSystem::Constrained ConstrainedSystem::constrain_like(const Constrain
                                                                  const Task& task,
                                                                  const VecX& give) const {
   ConstrainedSystem other = *this;
-  other.K_ = std::make_shared<const SpMat>(std::move(matrix));
+  other.K_ = shared_taken(matrix);
   other.factor_ = std::make_shared<Kept<DefiniteSystem>>();
   if (like.factor_ && like.factor_->structure() != structure_)
     other.of_many_ = like.factor_->structure();

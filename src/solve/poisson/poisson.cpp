@@ -6,6 +6,7 @@
 
 #include "base/dense_decompositions.h"
 #include "base/index.h"
+#include "base/taken.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -38,11 +39,12 @@ std::shared_ptr<const SpMat> with_diagonal(std::shared_ptr<const SpMat> L) {
   I.setIdentity();
   SpMat K = *L + 0.0 * I;
   K.makeCompressed();
-  return std::make_shared<const SpMat>(std::move(K));
+  return shared_taken(K);
 }
 
-/// K with `d` added to the diagonal at the unknowns `at`.
-SpMat lifted(SpMat K, const std::vector<int>& at, double d) {
+/// L with `d` added to the diagonal at the unknowns `at`.
+SpMat lifted(const SpMat& L, const std::vector<int>& at, double d) {
+  SpMat K = L;
   for (const int i : at) K.valuePtr()[K.outerIndexPtr()[i]] += d;
   return K;
 }
@@ -196,15 +198,15 @@ DefiniteSystem Poisson::penalized(const SpMat& A, const VecX& weight,
         unknowns_of(A));
   const SpMat K = pinned(at);
   if (auto in_place = with_rows_in_place(K, A, weight)) {
-    if (one_solve_ || !system().can_be_patched()) return {std::move(*in_place), structure_, task};
+    if (one_solve_ || !system().can_be_patched()) return {taken(*in_place), structure_, task};
     std::vector<int> changed = unknowns_of(A);
     for (std::size_t c = 0; c < first_.size(); ++c)
       if (fixed[c]) changed.push_back(first_[c]);
-    return system().patched(std::move(*in_place), changed, task);
+    return system().patched(taken(*in_place), changed, task);
   }
   SpMat wider = with_rows(K, A, weight);
   const auto structure = std::make_shared<const Elimination>(wider, structure_->old_of, task);
-  return {std::move(wider), structure, task};
+  return {taken(wider), structure, task};
 }
 
 VecX Poisson::solve_soft(const VecX& b, const SpMat& A, const VecX& weight, const Task& task,

@@ -1,0 +1,43 @@
+#pragma once
+// Hermitian matrices that are asked for row by row, from memory or made anew each time.
+
+#include <memory>
+#include <vector>
+
+#include "base/task.h"
+#include "littoral/types.h"
+
+namespace littoral {
+
+/// A row of blocks of a matrix, without those that are zero.
+template <class Scalar>
+struct BlockRow {
+  std::vector<int> blocks;     // the one on the diagonal first; each once
+  std::vector<Scalar> values;  // of each block, row by row
+};
+
+/// A Hermitian matrix of unknowns in blocks, as what looks at a few rows at a time asks for it: one
+/// that is as quickly made as read need not be kept. May be asked on several threads.
+template <class Scalar>
+class HermitianRows {
+ public:
+  virtual ~HermitianRows() = default;
+
+  virtual int size() const = 0;  // blocks
+  virtual int block() const { return 1; }
+  /// The other blocks that block i is coupled with, each once, in the place of what was in `out`.
+  virtual void neighbours(int i, std::vector<int>& out) const = 0;
+  /// Row i of blocks, in the place of what was in `out`.
+  virtual void row(int i, BlockRow<Scalar>& out) const = 0;
+};
+
+/// The rows of a matrix given by its lower triangle, whose columns ascend.
+template <class Scalar>
+std::shared_ptr<const HermitianRows<Scalar>> rows_of(
+    std::shared_ptr<const Eigen::SparseMatrix<Scalar>> lower, int block);
+
+/// The lower triangle of a matrix given by its rows. Throws Cancelled.
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> lower_triangle(const HermitianRows<Scalar>& A, const Task& task);
+
+}  // namespace littoral

@@ -38,6 +38,24 @@ def test_functions_that_the_docs_name_exist() -> None:
     assert missing == []
 
 
+def test_names_that_the_docs_give_with_a_file_are_in_it() -> None:
+    names = r"(?:`[\w:]+`(?:, | and )?)+"
+    missing = []
+    count = 0
+    for page in pages():
+        text = page.read_text(encoding="utf-8")
+        for file, given in re.findall(rf"`([\w/]+)\.(?:cpp|h)`: ({names})", text):
+            found = [ROOT / top / f"{file}{end}" for top in ("src", ".") for end in (".h", ".cpp")]
+            code = "".join(p.read_text(encoding="utf-8") for p in found if p.exists())
+            words = set(re.findall(r"\w+", code))
+            for name in re.findall(r"`([\w:]+)`", given):
+                count += 1
+                if not words.issuperset(name.split("::")):
+                    missing.append(f"{page.name}: {file}: {name}")
+    assert count > 50
+    assert missing == []
+
+
 def test_methods_that_the_citation_names_exist() -> None:
     notes = re.findall(r"notes: methods? (.+)", (ROOT / "CITATION.cff").read_text())
     options = (ROOT / "include/littoral/options.h").read_text()

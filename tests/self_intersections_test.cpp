@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -122,6 +123,22 @@ TEST(SelfIntersections, OfWholeSurfaces) {
   EXPECT_EQ(crossing(PolygonSoup{}), 0);
 }
 
+/// Each face's flag is that of its pairs with the others.
+void expect_as_pairs(const PolygonSoup& soup) {
+  const MatX3i faces = triangles_of(soup);
+  const auto all = self_intersecting_faces(soup.points, faces);
+  for (int f = 0; f < soup.n_faces(); ++f) {
+    bool any = false;
+    for (int g = 0; g < soup.n_faces() && !any; ++g) {
+      if (g == f) continue;
+      MatX3i pair(2, 3);
+      pair << faces.row(f), faces.row(g);
+      any = self_intersecting_faces(soup.points, pair)[0] != 0;
+    }
+    EXPECT_EQ(any, all[f] != 0) << f;
+  }
+}
+
 TEST(SelfIntersections, AgreeWithAllPairs) {
   // Random triangles: what the tree leaves out does not meet.
   std::mt19937 random(5);
@@ -134,22 +151,60 @@ TEST(SelfIntersections, AgreeWithAllPairs) {
       soup.points.row(3 * f + k) = centre + 0.2 * Vec3(u(random), u(random), u(random));
     test::add_triangle(soup, 3 * f, 3 * f + 1, 3 * f + 2);
   }
+  expect_as_pairs(soup);
   const MatX3i faces = triangles_of(soup);
   const auto all = self_intersecting_faces(soup.points, faces);
-  for (int f = 0; f < 150; ++f) {
-    bool any = false;
-    for (int g = 0; g < 150 && !any; ++g) {
-      if (g == f) continue;
-      MatX3i pair(2, 3);
-      pair << faces.row(f), faces.row(g);
-      any = self_intersecting_faces(soup.points, pair)[0] != 0;
-    }
-    EXPECT_EQ(any, all[f] != 0) << f;
-  }
   std::vector<char> asked(150, 0);  // also of some faces alone
   for (int f = 0; f < 150; f += 7) asked[f] = 1;
   const auto some = self_intersecting_faces(soup.points, faces, {}, asked);
   for (int f = 0; f < 150; ++f) EXPECT_EQ(some[f], asked[f] && all[f]) << f;
+}
+
+TEST(SelfIntersections, AgreeWithAllPairsWhereAllHaveOneCorner) {
+  // On a lattice, so that sides also touch, lie in one plane or are the same.
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> step(-1, 1);
+  int meeting = 0;
+  for (const int width : {3, 6, 12}) {
+    std::uniform_int_distribution<int> place(-width, width);
+    PolygonSoup soup;
+    soup.points.resize(2 * 60 + 1, 3);
+    soup.points.row(0).setZero();
+    for (int f = 0; f < 60; ++f) {
+      const Vec3 x(place(random), place(random), 2 * width);
+      soup.points.row(2 * f + 1) = x;
+      soup.points.row(2 * f + 2) = x + Vec3(step(random), step(random), step(random));
+      test::add_triangle(soup, 0, 2 * f + 1, 2 * f + 2);
+    }
+    expect_as_pairs(soup);
+    meeting += crossing(soup);
+  }
+  EXPECT_GT(meeting, 10);
+  EXPECT_LT(meeting, 150);  // of 180
+}
+
+TEST(SelfIntersections, OfAConeWithVeryManySides) {
+  constexpr int n = 30000;  // all pairs would take minutes
+  PolygonSoup cone;
+  cone.points.resize(n + 1, 3);
+  cone.points.row(n) << 0, 0, 1;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    cone.points.row(i) << std::cos(angle), std::sin(angle), 0;
+    test::add_triangle(cone, i, (i + 1) % n, n);
+  }
+  EXPECT_EQ(crossing(cone), 0);
+  // A triangle from the tip, one side of it within the cone, the other outside.
+  const double angle = 2 * std::numbers::pi * 100.5 / n;
+  PolygonSoup pierced = cone;
+  pierced.points.conservativeResize(n + 3, 3);
+  pierced.points.row(n + 1) << 0.2 * std::cos(angle), 0.2 * std::sin(angle), 0;
+  pierced.points.row(n + 2) << 2 * std::cos(angle), 2 * std::sin(angle), 0.1;
+  test::add_triangle(pierced, n, n + 1, n + 2);
+  const auto flags = self_intersecting_faces(pierced.points, triangles_of(pierced));
+  EXPECT_EQ(flags[100], 1);
+  EXPECT_EQ(flags[n], 1);
+  EXPECT_EQ(std::accumulate(flags.begin(), flags.end(), 0), 2);
 }
 
 }  // namespace

@@ -130,6 +130,9 @@ struct Bounds {
 /// Boxes in a tree.
 class BoxTree {
  public:
+  struct AnyCluster {
+    bool operator()(int) const { return true; }
+  };
   explicit BoxTree(std::vector<Bounds> boxes) : boxes_(std::move(boxes)) {
     MatX3 centres(index(boxes_.size()), 3);
     for (std::size_t i = 0; i < boxes_.size(); ++i)
@@ -148,15 +151,19 @@ class BoxTree {
   /// Neighbours in space stand near each other.
   const std::vector<int>& order() const { return tree_.order; }
 
-  /// True if `is_wanted` is for any of the boxes that a box overlaps.
-  template <class Wanted>
-  bool any_overlaps(const Bounds& box, const Wanted& is_wanted) const {
+  const ClusterTree& tree() const { return tree_; }
+  const Bounds& around(int cluster) const { return around_[cluster]; }
+
+  /// True if `is_wanted` is for any of the boxes that a box overlaps. Clusters that `may_hold` says
+  /// no to are passed over.
+  template <class Wanted, class May = AnyCluster>
+  bool any_overlaps(const Bounds& box, const Wanted& is_wanted, const May& may_hold = {}) const {
     std::vector<int> open{0};
     while (!open.empty()) {
-      const Cluster& each = tree_.clusters[open.back()];
-      const bool near = around_[open.back()].overlaps(box);
+      const int at = open.back();
+      const Cluster& each = tree_.clusters[at];
       open.pop_back();
-      if (!near) continue;
+      if (!around_[at].overlaps(box) || !may_hold(at)) continue;
       if (each.child >= 0) {
         open.push_back(each.child);
         open.push_back(each.child + 1);
@@ -183,6 +190,63 @@ Bounds bounds_of(const Triangle& t) {
   for (const Vec3& corner : t) out.include({corner, corner});
   return out;
 }
+
+/// Clusters of triangles that all have one corner. The boxes of such triangles overlap there, so
+/// that boxes alone would leave all pairs of a fan to be looked at.
+class Fans {
+ public:
+  Fans(const std::vector<Triangle>& triangles, const BoxTree& boxes)
+      : boxes_(boxes), fan_of_(boxes.tree().clusters.size(), -1) {
+    const ClusterTree& tree = boxes.tree();
+    for (std::size_t c = fan_of_.size(); c-- > 0;) {
+      const Cluster& each = tree.clusters[c];
+      if (each.end - each.begin < least) continue;
+      if (each.child >= 0 && tree.clusters[each.child].end - each.begin >= least &&
+          fan_of_[each.child] < 0)
+        continue;  // part of it has no such corner
+      for (const Vec3& corner : triangles[tree.order[each.begin]]) {
+        Fan fan{corner, {}};
+        int k = each.begin;
+        while (k < each.end && add(triangles[tree.order[k]], fan)) ++k;
+        if (k < each.end) continue;
+        fan_of_[c] = static_cast<int>(fans_.size());
+        fans_.push_back(fan);
+        break;
+      }
+    }
+  }
+
+  /// May a triangle meet one of a cluster elsewhere than at what both have? Not if both have a
+  /// corner, and neither the side opposite to it reaches the other: what they have of a common line
+  /// starts at the corner and ends on one of these sides.
+  bool may_meet(const Triangle& t, const Bounds& box, int cluster) const {
+    if (fan_of_[cluster] < 0) return true;
+    const Fan& fan = fans_[fan_of_[cluster]];
+    Fan own{fan.corner, {}};
+    if (!add(t, own)) return true;
+    return fan.rim.overlaps(box) || own.rim.overlaps(boxes_.around(cluster));
+  }
+
+ private:
+  static constexpr int least = 9;  // triangles: smaller fans are not worth the place
+  struct Fan {
+    Vec3 corner;
+    Bounds rim;  // of the sides opposite to it
+  };
+  static bool add(const Triangle& t, Fan& fan) {
+    bool has = false;
+    for (const Vec3& x : t)
+      if (x == fan.corner)
+        has = true;
+      else
+        fan.rim.include({x, x});
+    return has;
+  }
+
+  const BoxTree& boxes_;
+  std::vector<int> fan_of_;  // cluster -> its fan, -1: none
+  std::vector<Fan> fans_;
+};
 
 /// Marks faces whose boxes overlap those of faces that are asked for.
 std::vector<char> near_asked(const MatX3& points, const MatX3i& faces,
@@ -225,13 +289,15 @@ std::vector<char> self_intersecting_faces(const MatX3& points, const MatX3i& fac
 
   const std::size_t n = triangles.size();
   const BoxTree tree(std::move(boxes));
+  const Fans fans(triangles, tree);
   parallel_for(n, 256, [&](std::size_t begin, std::size_t end) {
     task.checkpoint(static_cast<double>(begin) / static_cast<double>(n));
     for (std::size_t k = begin; k < end; ++k) {
       const int i = tree.order()[k];
       if (!asked.empty() && !asked[number[i]]) continue;
       out[number[i]] = tree.any_overlaps(
-          tree.box(i), [&](int j) { return j != i && meet(triangles[i], triangles[j]); });
+          tree.box(i), [&](int j) { return j != i && meet(triangles[i], triangles[j]); },
+          [&](int c) { return fans.may_meet(triangles[i], tree.box(i), c); });
     }
   });
   return out;

@@ -37,9 +37,10 @@ constexpr int samples = 20000;     // on each surface, for distances
 constexpr double missed = 0.5;     // spacings: input farther from the result is not part of it;
                                    // twice that where edges are cut off
 constexpr double missed_share = 0.01;
-constexpr double lowered = 0.9;   // of the least error: what counts as lower
-constexpr int most_in_vain = 2;   // grids one after the other that do not lower the error
-constexpr double usual_wall = 3;  // spacings: thickness of sheets that nobody gave one
+constexpr double lowered = 0.9;    // of the least error: what counts as lower
+constexpr int most_in_vain = 2;    // grids one after the other that do not lower the error
+constexpr double usual_wall = 3;   // spacings: thickness of sheets that nobody gave one
+constexpr double on_sheet = 1e-9;  // spacings: values of nodes on a sheet are not farther from zero
 
 void check(const RepairOptions& options, bool is_cloud) {
   for (const auto& [name, value] : {std::pair("error", options.error),
@@ -116,7 +117,11 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   };
   measure(options.thicken);
   double h = made.distance.grid.spacing.minCoeff();
-  const bool is_empty = !(answer.at_nodes.array() < 0).any();
+  // Nodes that lie on a sheet have the value zero, but for rounding: they are not inside.
+  const auto holds_inside = [&](const VecX& values) {
+    return (values.array() < -on_sheet * h).any();
+  };
+  const bool is_empty = !holds_inside(answer.at_nodes);
   const bool sheets = is_empty && input.n_faces() > 0 && options.thicken == 0;
   const double thicken = sheets ? usual_wall * h : options.thicken;
   if (sheets) {
@@ -135,13 +140,12 @@ Made contoured(const PolygonSoup& input, const RepairOptions& options, const Spa
   const JoinedTriangles target = join_triangles(input, answer.completion);
   made.target = soup_of(target.points, target.triangles);
   const auto contour = [&] {
-    if (!(values.array() < 0).any())
+    if (!holds_inside(values))
       throw InputError(
           "the input has no inside: no node of the grid lies in it. Thin parts need a larger "
           "option resolution; if all of it is reversed, say option flip",
           "no-inside");
-    // Nodes that lie on a sheet have the value zero: they are not inside.
-    made.surface = isosurface(made.distance.grid, values, -1e-9 * h, {.close = true}, report,
+    made.surface = isosurface(made.distance.grid, values, -on_sheet * h, {.close = true}, report,
                               task.stage(0.1, "contour"));
     untangle(made.surface.points, triangles_of(made.surface), task.stage(0.05, "checking"));
   };

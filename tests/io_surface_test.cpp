@@ -138,6 +138,36 @@ TEST(IoOff, ReadsEveryHeader) {
   EXPECT_EQ(normals.normals.row(0), Eigen::RowVector3d(4, 5, 6));
 }
 
+TEST(IoOff, NumbersOfAVertexOrFaceMayStandOnSeveralLines) {
+  const std::string points = "0 0\n0 # x y, z\n\n1\n0\n0\n0 1 0 255 0 0\n0 0 1\n";
+  const PolygonSoup soup =
+      read("OFF\n4\n3\n6\n" + points + "4 0\n1\n2 \n# c\n3\n3 2 1 0 255 0 0\n3\n0 1 3", ".off");
+  ASSERT_EQ(soup.n_vertices(), 4);
+  EXPECT_EQ(soup.points, (MatX3(4, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1).finished());
+  ASSERT_EQ(soup.n_faces(), 3);
+  EXPECT_THAT(corners(soup, 0), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(corners(soup, 1), ElementsAre(2, 1, 0)) << "a colour behind a whole face";
+  EXPECT_THAT(corners(soup, 2), ElementsAre(0, 1, 3));
+  const PolygonSoup normals = read("NOFF\n1 0 0\n1 2 3\n4 5\n6\n", ".off");
+  EXPECT_EQ(normals.normals.row(0), Eigen::RowVector3d(4, 5, 6));
+}
+
+TEST(IoOff, ALineThatLacksANumberTakesNoneFromAWholeOne) {
+  const auto error = [](const std::string& text) { return error_of(text, ".off"); };
+  EXPECT_EQ(error("OFF\n3 2 0\n" + off_body + "3 0 1\n3 0 1 2\n"),
+            "a.off:6: expected a vertex index, found the end of the line");
+  EXPECT_EQ(error("OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+            "a.off:3: expected a coordinate, found the end of the line");
+  EXPECT_EQ(error("OFF\n3\n" + off_body + "3 0 1 2\n"),
+            "a.off:2: expected the number of faces, found the end of the line");
+  EXPECT_EQ(error("OFF\n3 1 0\n" + off_body + "3 0\n1\n"),
+            "a.off:6: expected a vertex index, found the end of the line");
+  EXPECT_EQ(error("OFF\n3 1 0\n" + off_body + "3 0\n1\n\n3\n"),
+            "a.off:9: face refers to vertex 3, the file has 3 (counted from 0)");
+  EXPECT_EQ(error("OFF\n3 1 0\n" + off_body + "3 0\nx\n2\n"),
+            "a.off:7: expected a vertex index, found 'x'");
+}
+
 TEST(IoOff, SaysWhatIsWrong) {
   const auto error = [](const std::string& text) { return error_of(text, ".off"); };
   EXPECT_EQ(error(""), "a.off:1: the file is empty");

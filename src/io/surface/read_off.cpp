@@ -16,6 +16,44 @@ struct OffHeader {
   std::int64_t vertices = 0, faces = 0;
 };
 
+// The numbers of one vertex or face: those of its line, and of the next ones where it has too few.
+// What stands behind them on the line, a colour say, is passed over, but not where another line was
+// begun for them: there it is more likely the next vertex or face, after a line that lacks numbers.
+class Row {
+ public:
+  explicit Row(LineScanner& scan) : scan_(scan) {}
+
+  double number(const char* what) {
+    go_on(what);
+    return scan_.number(what);
+  }
+  std::int64_t integer(const char* what) {
+    go_on(what);
+    return scan_.integer(what);
+  }
+  bool went_on() const { return missing_ != nullptr; }
+  void end() const {
+    if (went_on() && scan_.line_bytes_left() > 0) fail();
+  }
+
+ private:
+  void go_on(const char* what) {
+    if (scan_.line_bytes_left() > 0) return;
+    if (!went_on()) {
+      missing_ = what;
+      line_ = scan_.line();
+    }
+    if (!scan_.next()) fail();
+  }
+  [[noreturn]] void fail() const {
+    scan_.fail_at(line_, std::string("expected ") + missing_ + ", found the end of the line");
+  }
+
+  LineScanner& scan_;
+  const char* missing_ = nullptr;  // the first number that its line lacks
+  std::size_t line_ = 0;           // that line
+};
+
 // The first word: OFF after any of the prefixes ST (texture), C (colour), N (normals), 4 (four
 // coordinates), n (any dimension), in this order; the last two do not describe surfaces in space.
 // `rest` receives what is glued to the word ("OFF8 6 0" is seen in practice). False: another word.
@@ -56,8 +94,11 @@ OffHeader read_header(LineScanner& scan, std::size_t size) {
   const auto vertices = parse_integer(word);
   if (!vertices) scan.fail("expected OFF or the number of vertices, found " + in_quotes(word));
   header.vertices = *vertices;
-  header.faces = scan.integer("the number of faces");
-  // Every vertex and face takes a line, and so at least two bytes.
+  Row counts(scan);
+  header.faces = counts.integer("the number of faces");
+  if (counts.went_on()) counts.integer("the number of edges");
+  counts.end();
+  // Every vertex and face takes a line or more, and so at least two bytes.
   const auto check = [&](std::int64_t count, const char* what) {
     if (count < 0) scan.fail("negative number of " + std::string(what));
     if (static_cast<std::uint64_t>(count) > size / 2 || count > std::numeric_limits<int>::max()) {
@@ -79,18 +120,20 @@ void next_row(LineScanner& scan, std::int64_t row, std::int64_t count, const cha
 void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
   for (std::int64_t f = 0; f < header.faces; ++f) {
     next_row(scan, f, header.faces, "faces");
-    const std::int64_t degree = scan.integer("the number of corners");
+    Row row(scan);
+    const std::int64_t degree = row.integer("the number of corners");
     if (degree < 3) {
       scan.fail("face has " + counted(degree, "corner", "corners") + ", at least 3 are needed");
     }
     for (std::int64_t k = 0; k < degree; ++k) {
-      const std::int64_t v = scan.integer("a vertex index");
+      const std::int64_t v = row.integer("a vertex index");
       if (v < 0 || v >= header.vertices) {
         scan.fail("face refers to vertex " + std::to_string(v) + ", the file has " +
                   std::to_string(header.vertices) + " (counted from 0)");
       }
       soup.corners.push_back(static_cast<int>(v));
     }
+    row.end();
     if (soup.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
       scan.fail("more than 2147483647 corners");
     }
@@ -189,10 +232,12 @@ PolygonSoup read_off(std::string_view bytes, const std::string& name) {
   if (header.normals) soup.normals.resize(header.vertices, 3);
   for (std::int64_t v = 0; v < header.vertices; ++v) {
     next_row(scan, v, header.vertices, "vertices");
-    for (int k = 0; k < 3; ++k) soup.points(v, k) = scan.number("a coordinate");
+    Row row(scan);
+    for (int k = 0; k < 3; ++k) soup.points(v, k) = row.number("a coordinate");
     for (int k = 0; k < 3 && header.normals; ++k) {
-      soup.normals(v, k) = scan.number("a normal's coordinate");
+      soup.normals(v, k) = row.number("a normal's coordinate");
     }
+    row.end();
   }
   read_faces(scan, header, soup);
   return soup;

@@ -293,5 +293,35 @@ TEST(IoOff, BinaryFiles) {
   EXPECT_THAT(changed(faces + 16, 2000000000), HasSubstr("face 0 has a colour of 2000000000"));
 }
 
+// The same square as pmp-library writes it, in the older versions with the lowest byte first.
+std::string plain_binary_off(bool big) {
+  std::string bytes = "OFF BINARY\n";
+  for (const std::int32_t n : {4, 2, 0}) put(bytes, n, big);
+  for (int v = 0; v < 4; ++v)
+    for (const float x : {0.5F * static_cast<float>(v), 2.0F, -1.0F}) put(bytes, x, big);
+  for (const std::int32_t n : {3, 0, 1, 2, 4, 0, 1, 2, 3}) put(bytes, n, big);
+  return bytes;
+}
+
+TEST(IoOff, BinaryFilesWithoutColoursInBothByteOrders) {
+  for (const bool big : {true, false}) {
+    const std::string whole = plain_binary_off(big);
+    const PolygonSoup soup = read(whole, ".off");
+    EXPECT_EQ(soup.corners, (std::vector<int>{0, 1, 2, 0, 1, 2, 3})) << big;
+    EXPECT_EQ(soup.face_offsets, (std::vector<int>{0, 3, 7})) << big;
+    EXPECT_EQ(soup.points.row(3), Eigen::RowVector3d(1.5, 2, -1)) << big;
+    for (std::size_t cut = 0; cut < whole.size(); ++cut)
+      EXPECT_NE(error_of(whole.substr(0, cut), ".off"), "no error") << cut;
+    std::string bytes = whole.substr(0, whole.size() - 4);
+    put(bytes, 4, big);
+    EXPECT_THAT(error_of(bytes, ".off"), HasSubstr("face 1 refers to vertex 4, the file has 4"));
+  }
+  // Counts that fit in neither order are those of the format's.
+  std::string bytes = plain_binary_off(false).substr(0, 15);
+  put(bytes, 99, false);
+  EXPECT_THAT(error_of(bytes + plain_binary_off(false).substr(19), ".off"),
+              HasSubstr("promises 67108864 vertices"));
+}
+
 }  // namespace
 }  // namespace littoral::io

@@ -143,12 +143,14 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
 
 // After the first line: counts of vertices, faces and edges; a vertex's coordinates, normal, colour
 // (four numbers) and texture (two); a face's corners and colour after the counts of both. All take
-// four bytes, the highest first.
+// four bytes, the highest first; files of pmp-library have no counts of colours, and the older ones
+// of them the lowest byte first.
 class BinaryOff {
  public:
   BinaryOff(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {
     const std::size_t line = bytes.find('\n');
     at_ = line == std::string_view::npos ? bytes.size() : line + 1;
+    if (!counts_fit() && counts_fit(std::endian::little)) order_ = std::endian::little;
   }
 
   PolygonSoup read(OffHeader header) {
@@ -166,7 +168,8 @@ class BinaryOff {
       for (int k = 0; k < 3 && header.normals; ++k) soup.normals(v, k) = number();
       for (int k = 0; k < more; ++k) number();
     }
-    for (std::int64_t f = 0; f < header.faces; ++f) read_face(f, header.vertices, soup);
+    const bool colours = !faces_fill_file(header.faces);
+    for (std::int64_t f = 0; f < header.faces; ++f) read_face(f, header.vertices, colours, soup);
     return soup;
   }
 
@@ -181,7 +184,28 @@ class BinaryOff {
       fail("the file ends within " + std::string(what) +
            (number < 0 ? "" : std::to_string(number)));
     at_ += sizeof(T);
-    return load<T>(bytes_.data() + at_ - sizeof(T), std::endian::big);
+    return load<T>(bytes_.data() + at_ - sizeof(T), order_);
+  }
+
+  /// Can the file hold as many vertices and triangles as it counts, its bytes in this order?
+  bool counts_fit(std::endian order = std::endian::big) const {
+    if (bytes_.size() - at_ < 12) return false;
+    const std::int64_t vertices = load<std::int32_t>(bytes_.data() + at_, order);
+    const std::int64_t faces = load<std::int32_t>(bytes_.data() + at_ + 4, order);
+    return vertices > 0 && faces >= 0 &&
+           std::uint64_t(12 * vertices + 16 * faces) <= bytes_.size() - at_ - 12;
+  }
+
+  /// Do faces of nothing but their corners end where the file does?
+  bool faces_fill_file(std::int64_t faces) const {
+    std::size_t at = at_;
+    for (; faces > 0 && bytes_.size() - at >= 4; --faces) {
+      const auto degree = load<std::int32_t>(bytes_.data() + at, order_);
+      at += 4;
+      if (degree < 0 || std::size_t(degree) > (bytes_.size() - at) / 4) return false;
+      at += 4 * std::size_t(degree);
+    }
+    return faces == 0 && at == bytes_.size();
   }
 
   /// A count of things of which each takes `least` bytes.
@@ -194,7 +218,7 @@ class BinaryOff {
     return n;
   }
 
-  void read_face(std::int64_t f, std::int64_t vertices, PolygonSoup& soup) {
+  void read_face(std::int64_t f, std::int64_t vertices, bool has_colours, PolygonSoup& soup) {
     const std::string face = "face " + std::to_string(f);
     const auto degree = next<std::int32_t>("face ", f);
     if (degree < 3)
@@ -209,6 +233,7 @@ class BinaryOff {
     if (soup.corners.size() > std::size_t(std::numeric_limits<int>::max()))
       fail("more than 2147483647 corners");
     soup.face_offsets.push_back(static_cast<int>(soup.corners.size()));
+    if (!has_colours) return;
     const auto colours = next<std::int32_t>("face ", f);
     if (colours < 0 || std::size_t(colours) > (bytes_.size() - at_) / 4)
       fail(face + " has a colour of " + std::to_string(colours) + " numbers");
@@ -218,6 +243,7 @@ class BinaryOff {
   std::string_view bytes_;
   const std::string& name_;
   std::size_t at_ = 0;
+  std::endian order_ = std::endian::big;
 };
 
 }  // namespace

@@ -106,6 +106,35 @@ TEST(IoPly, ReadsTextWithNormalsScalarsAndEdges) {
   EXPECT_THAT(soup.lines, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(3, 2, 0)));
 }
 
+// A strip of four triangles, the second of which is none; one of two vertices; one triangle.
+TEST(IoPly, TriangleStripsBecomeTheirTriangles) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty uchar x\nproperty uchar y\n"
+      "property uchar z\nelement tristrips 2\nproperty list int int vertex_indices\nend_header\n";
+  const std::vector<std::vector<int>> lists{{0, 1, 2, 1, 3, 4, -1, 0, 1}, {4, 3, 2, -1}};
+  const auto triangles = ElementsAre(0, 1, 2, 2, 1, 3, 1, 4, 3, 4, 3, 2);
+  std::string text = header;
+  for (int i = 0; i < 5; ++i) text += "0 1 " + std::to_string(i) + "\n";
+  for (const auto& list : lists) {
+    text += std::to_string(list.size());
+    for (int v : list) text += " " + std::to_string(v);
+    text += "\n";
+  }
+  EXPECT_THAT(read(text, ".ply").corners, triangles);
+  for (const bool big : {false, true}) {
+    std::string bytes =
+        replaced(header, "ascii", big ? "binary_big_endian" : "binary_little_endian");
+    for (int i = 0; i < 5; ++i) bytes += {0, 1, static_cast<char>(i)};
+    for (const auto& list : lists) {
+      put(bytes, static_cast<std::int32_t>(list.size()), big);
+      for (const std::int32_t v : list) put(bytes, v, big);
+    }
+    const PolygonSoup soup = read(bytes, ".ply");
+    EXPECT_THAT(soup.corners, triangles);
+    EXPECT_THAT(soup.face_offsets, ElementsAre(0, 3, 6, 9, 12));
+  }
+}
+
 TEST(IoPly, HeaderMayEndItsLinesInAnyWay) {
   const std::string plain = triangle_header + triangle_body;
   for (const char* end : {"\r\n", "\r"}) {
@@ -166,8 +195,13 @@ TEST(IoPly, SaysWhatIsWrong) {
             "a.ply:13: expected a number, found the end of the line");
   EXPECT_EQ(error(replaced(all, "0 1 0\n", "0 1 0 7\n")),
             "a.ply:12: unexpected '7' at the end of the line");
-  EXPECT_EQ(error(replaced(all, "element face 1", "element tristrips 1")),
-            "a.ply:12: triangle strips are not supported; write the faces as lists");
+  const std::string strips = replaced(all, "element face 1", "element tristrips 1");
+  EXPECT_EQ(error(replaced(strips, "vertex_indices", "corners")),
+            "a.ply:12: element 'tristrips' has no list 'vertex_indices'");
+  EXPECT_EQ(error(replaced(strips, "3 0 1 2\n", "8 0 1 2 -1 0 1 3 -1\n")),
+            "a.ply:13: strip 1 refers to vertex 3, the file has 3 (counted from 0)");
+  EXPECT_EQ(error(replaced(strips, "3 0 1 2\n", "3 0 1 -2\n")),
+            "a.ply:13: strip 0 refers to vertex -2, the file has 3 (counted from 0)");
 
   std::string binary = replaced(triangle_header, "ascii", "binary_little_endian");
   for (int i = 0; i < 9; ++i) put<float>(binary, static_cast<float>(i), false);

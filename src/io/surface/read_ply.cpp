@@ -124,7 +124,7 @@ class PlyReader {
       } else if (e.name == "edge" && e.count > 0) {
         read_edges(e);
       } else if (e.name == "tristrips" && e.count > 0) {
-        body_.fail("triangle strips are not supported; write the faces as lists");
+        read_strips(e);
       } else if (!e.properties.empty()) {  // without any it takes no bytes, whatever its count
         rows(e, unused, [](std::uint64_t) {});
       }
@@ -220,10 +220,23 @@ class PlyReader {
     });
   }
 
-  void read_faces(const PlyElement& element) {
+  int needed_corners(const PlyElement& element) const {
     int list = find_property(element, "vertex_indices", true);
     if (list == unused) list = find_property(element, "vertex_index", true);
-    if (list == unused) body_.fail("element 'face' has no list 'vertex_indices'");
+    if (list == unused)
+      body_.fail("element " + in_quotes(element.name) + " has no list 'vertex_indices'");
+    return list;
+  }
+
+  void end_face() {
+    if (soup_.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
+      body_.fail("more than 2147483647 corners");
+    }
+    soup_.face_offsets.push_back(static_cast<int>(soup_.corners.size()));
+  }
+
+  void read_faces(const PlyElement& element) {
+    const int list = needed_corners(element);
     // Of triangles, as most are; a row takes four bytes or more.
     const std::uint64_t expected = std::min<std::uint64_t>(element.count, body_.bytes_left() / 4);
     soup_.corners.reserve(3 * expected);
@@ -234,10 +247,35 @@ class PlyReader {
                    counted(list_.size(), "corner", "corners") + ", at least 3 are needed");
       }
       for (double v : list_) soup_.corners.push_back(vertex(v, "face", r));
-      if (soup_.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
-        body_.fail("more than 2147483647 corners");
+      end_face();
+    });
+  }
+
+  // A list holds any number of strips, each but the last ended by -1. A vertex after the first two
+  // makes a triangle with the two before it; every second one is turned, so that all have the sense
+  // of the first. Strips turn corners by repeating vertices: such triangles are none.
+  void read_strips(const PlyElement& element) {
+    std::uint64_t strip = 0;
+    rows(element, needed_corners(element), [&](std::uint64_t) {
+      int a = 0, b = 0;
+      std::uint64_t length = 0;
+      for (double item : list_) {
+        if (item == -1) {
+          length = 0;
+          ++strip;
+          continue;
+        }
+        const int c = vertex(item, "strip", strip);
+        if (length >= 2 && a != b && b != c && c != a) {
+          const bool turned = length % 2 == 1;
+          soup_.corners.insert(soup_.corners.end(), {a, turned ? c : b, turned ? b : c});
+          end_face();
+        }
+        a = b;
+        b = c;
+        ++length;
       }
-      soup_.face_offsets.push_back(static_cast<int>(soup_.corners.size()));
+      if (length > 0) ++strip;
     });
   }
 

@@ -17,12 +17,12 @@ namespace littoral::io {
 PolygonSoup read_obj(std::string_view bytes, const std::string& name);
 
 /// Geomview OFF, text or binary, with any of the prefixes ST, C, N; normals are kept, colours are
-/// not.
+/// not. Binary files may lack the counts of colours or have the lowest byte first.
 PolygonSoup read_off(std::string_view bytes, const std::string& name);
 
 /// Stanford PLY, ascii or binary of either byte order. Normals and the vertices' floating-point
-/// properties are kept; edges become lines, joined while one begins where the last one ended (or by
-/// the property "line" of our own files).
+/// properties are kept; triangle strips become their triangles, edges lines, joined while one
+/// begins where the last one ended (or by the property "line" of our own files).
 PolygonSoup read_ply(std::string_view bytes, const std::string& name);
 
 /// The surfaces, lines and points of a glTF scene (.gltf, .glb), placed by its nodes. Vertices of a

@@ -125,15 +125,21 @@ void read_faces(LineScanner& scan, const OffHeader& header, PolygonSoup& soup) {
     if (degree < 3) {
       scan.fail("face has " + counted(degree, "corner", "corners") + ", at least 3 are needed");
     }
+    std::int64_t outside = 0;  // the first vertex that the file does not have
+    std::size_t line = 0;      // where it stands, from 1
     for (std::int64_t k = 0; k < degree; ++k) {
       const std::int64_t v = row.integer("a vertex index");
-      if (v < 0 || v >= header.vertices) {
-        scan.fail("face refers to vertex " + std::to_string(v) + ", the file has " +
-                  std::to_string(header.vertices) + " (counted from 0)");
+      if ((v < 0 || v >= header.vertices) && line == 0) {
+        outside = v;
+        line = scan.line();
       }
       soup.corners.push_back(static_cast<int>(v));
     }
-    row.end();
+    row.end();  // first: a number of another face is no wrong vertex
+    if (line > 0) {
+      scan.fail_at(line, "face refers to vertex " + std::to_string(outside) + ", the file has " +
+                             std::to_string(header.vertices) + " (counted from 0)");
+    }
     if (soup.corners.size() > std::size_t(std::numeric_limits<int>::max())) {
       scan.fail("more than 2147483647 corners");
     }

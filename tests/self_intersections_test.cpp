@@ -183,6 +183,26 @@ TEST(SelfIntersections, AgreeWithAllPairsWhereAllHaveOneCorner) {
   EXPECT_LT(meeting, 150);  // of 180
 }
 
+TEST(SelfIntersections, OfAConeOnItsBase) {
+  // Two fans over each other with a common rim: no part of space holds faces of one alone.
+  constexpr int n = 500;
+  PolygonSoup cone;
+  cone.points.resize(n + 2, 3);
+  cone.points.row(n) << 0, 0, 1;
+  cone.points.row(n + 1).setZero();
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    cone.points.row(i) << std::cos(angle), std::sin(angle), 0;
+    test::add_triangle(cone, i, (i + 1) % n, n);
+    test::add_triangle(cone, (i + 1) % n, i, n + 1);
+  }
+  EXPECT_EQ(crossing(cone), 0);
+  cone.points(n + 1, 2) = 0.5;  // a dent, whose tip stays within
+  EXPECT_EQ(crossing(cone), 0);
+  cone.points.row(n + 1) << 0.9, 0, 0.5;  // outside
+  EXPECT_GT(crossing(cone), 0);
+}
+
 TEST(SelfIntersections, OfAConeWithVeryManySides) {
   constexpr int n = 30000;  // all pairs would take minutes
   PolygonSoup cone;

@@ -91,8 +91,55 @@ bool parted_by(const Triangle& s, const Triangle& t, int axis) {
   return false;
 }
 
+struct Bounds {
+  Vec3 low = Vec3::Constant(infinity), high = -low;
+  void include(const Bounds& b) {
+    low = low.cwiseMin(b.low);
+    high = high.cwiseMax(b.high);
+  }
+  bool overlaps(const Bounds& b) const {
+    return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all();
+  }
+};
+
+Bounds bounds_of(const Triangle& t) {
+  Bounds out;
+  for (const Vec3& corner : t) out.include({corner, corner});
+  return out;
+}
+
+/// Do the boxes of triangles whose boxes overlap say that they have nothing but a corner in common?
+/// Faces around a vertex, or on both sides of the rim of a fan, are mostly told apart so.
+bool parted_by_boxes(const Triangle& s, const Triangle& t) {
+  const Bounds in_s = bounds_of(s), in_t = bounds_of(t);
+  for (int axis = 0; axis < 3; ++axis) {  // where they touch in a plane: only corners there count
+    if (in_s.high[axis] != in_t.low[axis] && in_t.high[axis] != in_s.low[axis]) continue;
+    const double plane = std::max(in_s.low[axis], in_t.low[axis]);
+    Bounds s_there, t_there;
+    for (const Vec3& x : s)
+      if (x[axis] == plane) s_there.include({x, x});
+    for (const Vec3& x : t)
+      if (x[axis] == plane) t_there.include({x, x});
+    if (!s_there.overlaps(t_there)) return true;
+  }
+  // Beside one common corner they have something only if a side opposite to it reaches the other.
+  int shared = 0;
+  Bounds beyond_in_s, beyond_in_t;
+  for (const Vec3& x : s) {
+    if (x == t[0] || x == t[1] || x == t[2])
+      ++shared;
+    else
+      beyond_in_s.include({x, x});
+  }
+  if (shared != 1) return false;
+  for (const Vec3& x : t)
+    if (!(x == s[0] || x == s[1] || x == s[2])) beyond_in_t.include({x, x});
+  return !beyond_in_s.overlaps(in_t) && !beyond_in_t.overlaps(in_s);
+}
+
 /// Two triangles of some area: do they meet beyond what they share?
 bool meet(Triangle s, Triangle t) {
+  if (parted_by_boxes(s, t)) return false;
   int broadest = 0;
   (s[1] - s[0]).cross(s[2] - s[0]).cwiseAbs().maxCoeff(&broadest);
   if (parted_by(s, t, broadest) || parted_by(t, s, broadest)) return false;
@@ -115,17 +162,6 @@ bool meet(Triangle s, Triangle t) {
   }
   return false;
 }
-
-struct Bounds {
-  Vec3 low = Vec3::Constant(infinity), high = -low;
-  void include(const Bounds& b) {
-    low = low.cwiseMin(b.low);
-    high = high.cwiseMax(b.high);
-  }
-  bool overlaps(const Bounds& b) const {
-    return (low.array() <= b.high.array()).all() && (b.low.array() <= high.array()).all();
-  }
-};
 
 /// Boxes in a tree.
 class BoxTree {
@@ -183,12 +219,6 @@ class BoxTree {
 
 Triangle triangle(const MatX3& points, const MatX3i& faces, Eigen::Index f) {
   return {points.row(faces(f, 0)), points.row(faces(f, 1)), points.row(faces(f, 2))};
-}
-
-Bounds bounds_of(const Triangle& t) {
-  Bounds out;
-  for (const Vec3& corner : t) out.include({corner, corner});
-  return out;
 }
 
 /// Clusters of triangles that all have one corner. The boxes of such triangles overlap there, so

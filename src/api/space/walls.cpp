@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "api/space/input_queries.h"
 #include "base/disjoint_sets.h"
@@ -159,12 +160,40 @@ VecX distance_to_ends(const PolygonSoup& triangles, const MatX3& x, const Task& 
   return NearestOnInput(ends).at(x, task).distances;
 }
 
+/// For each piece one that is much like it: where needles crowd in a place, more than eight with
+/// one normal in a quarter of h, the largest of them; else itself.
+std::vector<int> much_alike(const std::vector<Piece>& pieces, double h) {
+  constexpr double many_cells = 4, many_directions = 8;
+  constexpr std::size_t crowd = 8;
+  std::map<std::array<long, 6>, std::vector<int>> groups;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::array<long, 6> key{};
+    for (int a = 0; a < 3; ++a) {
+      key[a] = std::lround(std::floor(many_cells * pieces[i].middle[a] / h));
+      key[3 + a] = std::lround(many_directions * pieces[i].normal[a]);
+    }
+    groups[key].push_back(static_cast<int>(i));
+  }
+  std::vector<int> out(pieces.size());
+  std::iota(out.begin(), out.end(), 0);
+  for (const auto& [key, group] : groups) {
+    if (group.size() <= crowd) continue;
+    const int largest = *std::ranges::max_element(group, {}, [&](int i) { return pieces[i].area; });
+    for (const int i : group) out[i] = largest;
+  }
+  return out;
+}
+
 /// How thick a part the pieces are sides of, up to h; 0 of sheets.
-VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, double h) {
+VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, double h,
+                 const Task& task) {
   const auto n = pieces.size();
+  const std::vector<int> alike = much_alike(pieces, h);
   VecX own = VecX::Zero(index(n));
   parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    task.checkpoint();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (alike[i] != static_cast<int>(i)) continue;
       for (const double sign : {1.0, -1.0}) {
         // Seen from a spacing away the other side is the nearest.
         const Vec3 away = sign * h * pieces[i].normal;
@@ -174,7 +203,9 @@ VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, doubl
         const bool faces = std::abs(pieces[found.face].normal.dot(pieces[i].normal)) > parallel;
         if (faces && t > own[index(i)] && (to - t / h * away).norm() <= 0.1 * h) own[index(i)] = t;
       }
+    }
   });
+  for (std::size_t i = 0; i < n; ++i) own[index(i)] = own[alike[i]];
   // Those at the rim of a part, which see no other side, are as thick as those next to them.
   VecX out = own;
   const auto cells = cells_of(pieces, h);
@@ -190,7 +221,7 @@ VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, doubl
 }
 
 Walls made_of(const PolygonSoup& triangles, const std::vector<Piece>& all,
-              const std::vector<char>& chosen, double thickness, double h) {
+              const std::vector<char>& chosen, double thickness, double h, const Task& task) {
   Walls out;
   out.wholly.assign(std::size_t(triangles.n_faces()), 1);
   double area = 0, of_walls = 0;
@@ -217,7 +248,7 @@ Walls made_of(const PolygonSoup& triangles, const std::vector<Piece>& all,
   out.pieces = soup_of(points, faces);
   const TriangleBvh bvh(points, faces);
   // The other side adds its thickness; but a grid holds no less than two spacings.
-  const VecX part = thicknesses(pieces, bvh, h);
+  const VecX part = thicknesses(pieces, bvh, h, task);
   const VecX held = (2 * h - part.array()).min(thickness);
   out.radii = held.cwiseMax((thickness - part.array()).matrix()) / 2;
   return out;
@@ -230,7 +261,7 @@ bool is_inside(const Volume& distance, const Vec3& x) { return value_at(distance
 Walls walls_of_all(const PolygonSoup& triangles, const Grid& grid, double thickness, Task task) {
   const double h = grid.spacing.maxCoeff();
   const std::vector<Piece> pieces = pieces_of(triangles, h, task);
-  return made_of(triangles, pieces, std::vector<char>(pieces.size(), 1), thickness, h);
+  return made_of(triangles, pieces, std::vector<char>(pieces.size(), 1), thickness, h, task);
 }
 
 Walls walls_of(const PolygonSoup& triangles, const PolygonSoup& surface, const Volume& distance,
@@ -246,7 +277,7 @@ Walls walls_of(const PolygonSoup& triangles, const PolygonSoup& surface, const V
   for (std::size_t i = 0; i < all.size(); ++i)
     if (thin[i]) pieces.push_back(all[i]);
   std::vector<char> chosen(all.size(), 0);
-  if (pieces.empty()) return made_of(triangles, all, chosen, thickness, h);
+  if (pieces.empty()) return made_of(triangles, all, chosen, thickness, h, task);
 
   const VecX to_surface =
       NearestOnInput(surface).at(middles_of(pieces), task.stage(1, "walls")).distances;
@@ -280,7 +311,7 @@ Walls walls_of(const PolygonSoup& triangles, const PolygonSoup& surface, const V
   std::size_t k = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (thin[i]) chosen[i] = stays[part[k++]];
-  return made_of(triangles, all, chosen, thickness, h);
+  return made_of(triangles, all, chosen, thickness, h, task);
 }
 
 WallDistance wall_distance(const Walls& walls, const Grid& grid, Task task) {
@@ -297,6 +328,7 @@ WallDistance wall_distance(const Walls& walls, const Grid& grid, Task task) {
       isosurface(grid, out.at_nodes, 0, {.close = true}, ignored, task.stage(0.2, "walls"));
   MatX3& points = out.surface.points;
   parallel_for(std::size_t(points.rows()), 1024, [&](std::size_t begin, std::size_t end) {
+    task.checkpoint();
     for (std::size_t v = begin; v < end; ++v) {
       const Vec3 x = points.row(index(v));
       const NearestPoint foot = bvh.closest_point(x);

@@ -48,6 +48,13 @@ TEST(SideCensus, PlacesAreSpreadByArea) {
   EXPECT_TRUE(census_of(PolygonSoup()).face.empty());
 }
 
+TEST(SideCensus, PartsMuchSmallerThanTheirDistanceBound) {
+  PolygonSoup near = box(1e-6), far = near;
+  far.points.col(0).array() += 1;
+  const auto shares = census_of(test::joined(near, far)).shares({});
+  EXPECT_NEAR(shares.bounds, 1, 1e-3);
+}
+
 TEST(SideCensus, SharesOfBoxesInBoxes) {
   const PolygonSoup wall = test::joined(box(), box(2));
   const auto inside = census_of(wall).shares({});

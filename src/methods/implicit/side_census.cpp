@@ -12,8 +12,9 @@ namespace littoral {
 
 namespace {
 
-constexpr double off_face =
-    1e-6;  // off the faces, which are about 1 across: sheets that are nearer count as one
+// Off the faces, which are about 1 across altogether: sheets that are nearer count as one. But no
+// more than so much of the longest side of the face itself, as parts may be that small.
+constexpr double off_face = 1e-6, off_face_of_side = 1e-3;
 constexpr double certain = 0.01;  // winding numbers this far from the level are on one side of it
 
 }  // namespace
@@ -49,8 +50,13 @@ SideCensus side_census(const MatX3& points, const MatX3i& faces, const WindingNu
       const Vec3 x = (1 - u - v) * points.row(faces(f, 0)) + u * points.row(faces(f, 1)) +
                      v * points.row(faces(f, 2));
       census.face[i] = static_cast<int>(f);
-      census.back[i] = winding(x - off_face * normals[f]);
-      census.front[i] = winding(x + off_face * normals[f]);
+      double longest = 0;
+      for (int k = 0; k < 3; ++k)
+        longest = std::max(
+            longest, (points.row(faces(f, (k + 1) % 3)) - points.row(faces(f, k))).norm());
+      const Vec3 off = std::min(off_face, off_face_of_side * longest) * normals[f];
+      census.back[i] = winding(x - off);
+      census.front[i] = winding(x + off);
     }
   });
   return census;

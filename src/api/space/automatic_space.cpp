@@ -96,7 +96,8 @@ SpaceAnswer on_nodes(const Grid& grid, const SpaceSources& sources, Task& task, 
 SpaceAnswer anywhere(const SpaceSources& sources, Task& task, Report& report) {
   const Frame frame(bounding_box(sources.soup));
   const SpaceInput input = make_input(sources, frame, infinity, task, report);
-  auto distance = completed(input, nullptr, query_side, task.stage(0.95, "preparing"), report);
+  auto distance =
+      completed(input, nullptr, frame.query_side(), task.stage(0.95, "preparing"), report);
   SpaceAnswer answer;
   answer.completion = completion_of(*distance, frame);
   answer.function = placed(std::move(distance), frame);

@@ -27,12 +27,18 @@ struct Box {
 /// same bits wherever it was and however large.
 struct Frame {
   Vec3 centre;
-  double unit;  // [length] of one unit
+  double unit = 1;     // [length] of one unit
+  double longest = 1;  // side of the box in units; 1 if it has none
 
-  explicit Frame(const Box& box) : centre(box.low + box.size() / 2), unit(1) {
-    const double longest = box.size().maxCoeff();
-    if (longest > 0) unit = std::exp2(std::ceil(std::log2(longest)));
+  explicit Frame(const Box& box) : centre(box.low + box.size() / 2) {
+    const double side = box.size().maxCoeff();
+    if (!(side > 0)) return;
+    unit = std::exp2(std::ceil(std::log2(side)));
+    longest = side / unit;
   }
+  /// How fine a mesh is sampled for points that have no grid, in units: the same part of it however
+  /// large it is.
+  double query_side() const { return 0.0125 * longest; }
   Vec3 local(const Vec3& p) const { return (p - centre) / unit; }
   Grid local(const Grid& grid) const { return {grid.n, local(grid.origin), grid.spacing / unit}; }
   MatX3 local(const MatX3& p) const { return (p.rowwise() - centre.transpose()) / unit; }

@@ -168,8 +168,8 @@ PolygonSoup fit_tori_cloud(const PolygonSoup& input, const SpaceRequest& request
   report.method = info.name;
   report.domain = "set of points";
   const Frame frame(bounding_box(input));
-  const SpaceInput local =
-      make_input({input, request.flip, request.estimate_normals}, frame, query_side, task, report);
+  const SpaceInput local = make_input({input, request.flip, request.estimate_normals}, frame,
+                                      frame.query_side(), task, report);
   const auto fitted = fit_tori(local, options, task.stage(0.9, "fitting"), report);
   report_options(tori_options(), options, report);
   std::vector<Torus> tori = fitted->tori();

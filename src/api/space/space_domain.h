@@ -71,9 +71,6 @@ Method<SpaceDomain> heat_filling_method(MethodInfo info);
 /// The part of the input that each sample belongs to where the options tell parts apart.
 std::vector<int> parts_to_hold(const SpaceInput& input, const SpaceSignedHeat& options);
 
-/// How fine a mesh is sampled for points that have no grid, in units of its frame.
-inline constexpr double query_side = 0.01;
-
 /// A field in a frame's units, asked in those of the input.
 std::shared_ptr<const PointwiseDistance> placed(std::unique_ptr<const PointwiseDistance> distance,
                                                 const Frame& frame);
@@ -121,7 +118,7 @@ Method<SpaceDomain> make_pointwise_method(MethodInfo info, const OptionTable<S>&
         return [make, grid = domain.grid](const SpaceSources& sources, S& options, Task& task,
                                           Report& r) {
           const Frame frame(grid ? box_on_grid(sources.soup, *grid) : bounding_box(sources.soup));
-          const double side = grid ? frame.local(*grid).spacing.minCoeff() : query_side;
+          const double side = grid ? frame.local(*grid).spacing.minCoeff() : frame.query_side();
           const SpaceInput input = make_input(sources, frame, side, task, r);
           auto distance = make(input, options, task.stage(grid ? 0.3 : 0.95, "preparing"), r);
           SpaceAnswer answer;

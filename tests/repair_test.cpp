@@ -179,13 +179,27 @@ TEST(Repair, KeepsABoxInsideOutToTheBit) {
   EXPECT_GT(repair(box, options).surface.soup().n_faces(), 100);
 }
 
-TEST(Repair, GridsAreFinerWherePartsAreThin) {
-  // A ruler of which a face is missing, thinner than a spacing of the usual grid.
-  PolygonSoup ruler;
+/// Of which a face is missing, thinner than a spacing of the usual grid.
+PolygonSoup ruler() {
+  PolygonSoup out;
   const PolygonSoup box = test::box_soup(Vec3(0.5, 0.03, 0.004));
-  ruler.points = box.points;
-  for (int f = 0; f < box.n_faces() - 1; ++f) ruler.add_face(box.face(f));
-  const Repaired out = repair(ruler);
+  out.points = box.points;
+  for (int f = 0; f < box.n_faces() - 1; ++f) out.add_face(box.face(f));
+  return out;
+}
+
+TEST(Repair, KeepsTheUsualGridWhereAFinerOneIsTooLarge) {
+  const double finer = test::size_named(repair(ruler()).report, "nodes");
+  Context little;
+  little.memory_limit = 40 * finer;  // a grid takes 48 bytes a node
+  const Repaired usual = repair(ruler(), {}, {}, {}, little);
+  EXPECT_LT(test::size_named(usual.report, "nodes"), 0.8 * finer);
+  EXPECT_GT(usual.surface.n_faces(), 0);
+  EXPECT_EQ(usual.report.status, "uncertain");  // of parts that were lost
+}
+
+TEST(Repair, GridsAreFinerWherePartsAreThin) {
+  const Repaired out = repair(ruler());
   test::expect_watertight(out.surface);
   EXPECT_GT(test::size_named(out.report, "nodes"), 128);
   EXPECT_NEAR(test::volume_of(out.surface.soup()), 0.06 * 0.008, 0.02 * 0.06 * 0.008);
@@ -252,6 +266,18 @@ TEST(Repair, StopsWhereRefiningDoesNotLowerTheError) {
   EXPECT_NE(out.report.warnings.back().text.find("finer grids do not lower it"), std::string::npos);
   EXPECT_NEAR(test::size_named(out.report, "result to input and closure: largest"), 0.1, 0.01);
   EXPECT_LT(test::size_named(out.report, "nodes"), 1e6);  // 6.6 million on the finest grid
+}
+
+TEST(Repair, StopsWhereAFinerGridIsTooLarge) {
+  RepairOptions options;
+  options.error = 1e-9;
+  options.remesh = true;
+  Context little;
+  little.memory_limit = 3e7;
+  const Repaired out = repair(test::octasphere_soup(3), options, {}, {}, little);
+  EXPECT_EQ(out.report.status, "uncertain");
+  EXPECT_EQ(out.report.warnings.back().code, "accuracy-missed");
+  EXPECT_NE(out.report.warnings.back().text.find("a finer grid is too large"), std::string::npos);
 }
 
 TEST(Repair, RefusesWhatMakesNoSense) {

@@ -74,8 +74,11 @@ double size_named(const Report& report, const std::string& name) {
   return 0;
 }
 
+/// Does it say that memory, or numbers, do not suffice?
+bool is_too_large(const Error& error) { return error.code() == "too-large"; }
+
 /// Distance on the grid asked for; without one, on a finer grid where parts are thinner than the
-/// spacing of the usual one.
+/// spacing of the usual one, if that is possible.
 SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceRequest& request,
                      Grid& grid, Task task, Report& report) {
   const bool free = !asked.resolution && !asked.spacing;
@@ -86,10 +89,17 @@ SpaceAnswer answered(const PolygonSoup& input, GridOptions asked, const SpaceReq
       grid_answer(input, grid, request, task.stage(free ? 0.3 : 1, "distance"), report);
   const double needed = size_named(report, "resolution that holds the thin parts");
   if (!free || needed <= repair_nodes || needed > hopeless) return answer;
-  report = before;
+  const Report of_usual = std::exchange(report, before);
   asked.resolution = static_cast<int>(std::min<double>(needed, most_nodes));
-  grid = choose_grid(input, asked);
-  return grid_answer(input, grid, request, task.stage(1, "distance"), report);
+  try {
+    const Grid finer = choose_grid(input, asked);
+    answer = grid_answer(input, finer, request, task.stage(1, "distance"), report);
+    grid = finer;
+  } catch (const Error& error) {
+    if (!is_too_large(error)) throw;
+    report = of_usual;
+  }
+  return answer;
 }
 
 /// The triangles without the first ones that are marked.
@@ -350,11 +360,19 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
   Report of_best;
   double least = infinity;
   int nodes = 0, in_vain = 0;
+  std::string why_not_finer;
   for (const int n : resolutions) {
     GridOptions grid = options.grid;
     grid.spacing = {};
     grid.resolution = n;
-    PolygonSoup surface = once(grid, task.stage(n / 1632.0, "surface"));
+    PolygonSoup surface;
+    try {
+      surface = once(grid, task.stage(n / 1632.0, "surface"));
+    } catch (const Error& error) {
+      if (nodes == 0 || !is_too_large(error)) throw;
+      why_not_finer = "; a finer grid is too large";
+      break;
+    }
     const double error = largest_error(report);
     if (error <= options.error) return surface;
     in_vain = error < lowered * least ? 0 : in_vain + 1;
@@ -364,14 +382,16 @@ PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& option
       least = error;
       nodes = n;
     }
-    if (in_vain == most_in_vain) break;
+    if (in_vain == most_in_vain) {
+      why_not_finer = "; finer grids do not lower it";
+      break;
+    }
   }
   report = of_best;
   report.status = "uncertain";
-  report.warn("accuracy-missed",
-              "the largest error is " + rounded_text(least) + " with " + std::to_string(nodes) +
-                  " nodes, not " + rounded_text(options.error) +
-                  (in_vain == most_in_vain ? "; finer grids do not lower it" : ""));
+  report.warn("accuracy-missed", "the largest error is " + rounded_text(least) + " with " +
+                                     std::to_string(nodes) + " nodes, not " +
+                                     rounded_text(options.error) + why_not_finer);
   return best;
 }
 

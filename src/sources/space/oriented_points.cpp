@@ -1,6 +1,7 @@
 #include "sources/space/oriented_points.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -15,7 +16,7 @@ namespace littoral {
 
 namespace {
 
-constexpr std::size_t max_samples = std::size_t{1} << 26;
+constexpr double max_samples = 1 << 26;
 constexpr std::size_t samples_between_checkpoints = 65536;
 
 void check_faces(const PolygonSoup& soup) {
@@ -29,6 +30,11 @@ void check_faces(const PolygonSoup& soup) {
 }
 
 using Triangle = std::array<Vec3, 3>;
+
+Triangle corners_of(const PolygonSoup& triangles, int f) {
+  const auto v = triangles.face(f);
+  return {triangles.points.row(v[0]), triangles.points.row(v[1]), triangles.points.row(v[2])};
+}
 
 /// Halves a triangle at its longest side until no side is longer than max_side.
 template <class Visit>
@@ -57,18 +63,37 @@ void refine(const Triangle& whole, double max_side, const Visit& visit) {
   }
 }
 
+void check_count(double samples) {
+  if (samples > max_samples)
+    throw InputError("more than " + std::to_string(static_cast<int>(max_samples)) +
+                         " samples of the input are needed; lower option resolution",
+                     "too-large");
+}
+
+/// Samples that triangles with an area need at least: one for every max_side of their length.
+double least_samples(const PolygonSoup& triangles, double max_side) {
+  double least = 0;
+  for (int f = 0; f < triangles.n_faces(); ++f) {
+    const Triangle t = corners_of(triangles, f);
+    const Vec3 ab = t[1] - t[0], bc = t[2] - t[1], ca = t[0] - t[2];
+    if (stable_length(ab.cross(bc)) > 0)
+      least += std::max(1.0, std::max({ab.norm(), bc.norm(), ca.norm()}) / max_side);
+  }
+  return least;
+}
+
 }  // namespace
 
 OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& report,
                             SamplesPerTriangle count, const Task& task) {
   check_faces(soup);
   const PolygonSoup triangles = triangulate(soup);
+  check_count(least_samples(triangles, max_side));
   std::vector<Vec3> points, normals;
   std::vector<double> areas;
   int flat = 0;
   for (int f = 0; f < triangles.n_faces(); ++f) {
-    Triangle t;
-    for (int k = 0; k < 3; ++k) t[k] = triangles.points.row(triangles.face(f)[k]);
+    const Triangle t = corners_of(triangles, f);
     const Vec3 twice = (t[1] - t[0]).cross(t[2] - t[0]);
     const double norm = stable_length(twice);
     if (!(norm > 0) || !std::isfinite(norm)) {
@@ -92,10 +117,7 @@ OrientedPoints sample_faces(const PolygonSoup& soup, double max_side, Report& re
         areas.push_back(area / 3);
       }
     });
-    if (points.size() > max_samples)
-      throw InputError("more than " + std::to_string(max_samples) +
-                           " samples of the input are needed; lower option resolution",
-                       "too-large");
+    check_count(static_cast<double>(points.size()));
   }
   if (points.empty()) throw InputError("no face of the mesh has any area", "empty-input");
   if (flat > 0)

@@ -104,7 +104,7 @@ TEST(ConstrainedSystem, AnotherMatrixOnTheSameStructure) {
 }
 
 /// Rows by their entries.
-SpMat rows_of(int n, const std::vector<std::vector<std::pair<int, double>>>& rows) {
+SpMat matrix_of_rows(int n, const std::vector<std::vector<std::pair<int, double>>>& rows) {
   SpMat out(static_cast<Eigen::Index>(rows.size()), n);
   Triplets entries;
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -121,7 +121,7 @@ TEST(ConstrainedSystem, RowsThatAreAlmostAnotherAreThatOneHoweverStiffTheMatrix)
     const SpMat K = stiff * two_chains(n).topLeftCorner(n, n);
     const ConstrainedSystem system(K, std::vector<int>(n, 0), 1, {});
     for (const double share : {1e-7, 1e-4}) {
-      const SpMat rows = rows_of(n, {{{0, 1}}, {{0, 1 - share}, {1, share}}, {{n - 1, 1}}});
+      const SpMat rows = matrix_of_rows(n, {{{0, 1}}, {{0, 1 - share}, {1, share}}, {{n - 1, 1}}});
       const VecX u = system.constrain(rows, {}).solve(VecX::Ones(n));
       const int from = share < 1e-6 ? 0 : 1;
       for (int i = 0; i < n; ++i)
@@ -141,10 +141,11 @@ TEST(ConstrainedSystem, RepeatedRowsChangeNothing) {
                                             other = {{4, 0.3}, {6, 0.7}};
   auto thrice = first;  // the sum of whose shares is rounded otherwise
   for (auto& [i, value] : thrice) value *= 3;
-  const VecX once = system.constrain(rows_of(n, {first, other}), {}).solve(b);
+  const VecX once = system.constrain(matrix_of_rows(n, {first, other}), {}).solve(b);
   EXPECT_GT(once.cwiseAbs().maxCoeff(), 0.1);
-  for (const auto& rows : {rows_of(n, {first, thrice, other}), rows_of(n, {first, other, other}),
-                           rows_of(n, {first, thrice, other, first, other})})
+  for (const auto& rows :
+       {matrix_of_rows(n, {first, thrice, other}), matrix_of_rows(n, {first, other, other}),
+        matrix_of_rows(n, {first, thrice, other, first, other})})
     EXPECT_LE((system.constrain(rows, {}).solve(b) - once).cwiseAbs().maxCoeff(), 1e-12);
 }
 

@@ -78,6 +78,30 @@ TEST(CellPenalties, MarchAndTransportFromASide) {
                 start->flux.segment<2>(2 * c).norm(), 1e-12);
 }
 
+TEST(CellPenalties, StartFromWhatIsTransported) {
+  const double alpha = 2;
+  VecX flux(6), bound(2);
+  flux << 0, 0, 0.3, 0.4, 3, 4;  // nothing, less than alpha, more
+  bound << 7, 9;
+  SplitProblem problem;
+  problem.G.resize(10, 1);
+  VecX gradient(10), all(10), rest(10);
+  gradient << 0, 0, 0.15, 0.2, 0.6, 0.8, 7, 0, 9, 0;
+  all << flux, 0, 0, 0, 0;
+  rest << 0, 0, 0, 0, 1.8, 2.4, 0, 0, 0, 0;
+  start_from(flux, alpha, false, bound, problem);
+  EXPECT_LE((problem.near_gradient - gradient).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((problem.near_multipliers - all).cwiseAbs().maxCoeff(), 1e-15);
+  start_from(flux, alpha, true, bound, problem);
+  EXPECT_LE((problem.near_gradient - gradient).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((problem.near_multipliers - rest).cwiseAbs().maxCoeff(), 1e-15);
+  // Without smoothing every gradient has length 1 where anything is transported.
+  start_from(flux, 0, false, VecX(), problem);
+  gradient << 0, 0, 0.6, 0.8, 0.6, 0.8, 0, 0, 0, 0;
+  EXPECT_LE((problem.near_gradient - gradient).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((problem.near_multipliers - all).cwiseAbs().maxCoeff(), 1e-15);
+}
+
 TEST(CellPenalties, NothingToMarchOverWhereCellsAreNoTriangles) {
   SpRows G(2, 4);
   for (int d = 0; d < 2; ++d)

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace littoral {
 namespace {
@@ -98,6 +101,52 @@ TEST(ConstrainedSystem, AnotherMatrixOnTheSameStructure) {
           ConstrainedSystem(other, component, 2, {}).constrain(rows, {}, give).solve(b);
       EXPECT_LE((u - expected).norm(), 1e-12 * expected.norm()) << step << gives;
     }
+}
+
+/// Rows by their entries.
+SpMat matrix_of_rows(int n, const std::vector<std::vector<std::pair<int, double>>>& rows) {
+  SpMat out(static_cast<Eigen::Index>(rows.size()), n);
+  Triplets entries;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (const auto& [i, value] : rows[r]) entries.emplace_back(static_cast<int>(r), i, value);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+TEST(ConstrainedSystem, RowsThatAreAlmostAnotherAreThatOneHoweverStiffTheMatrix) {
+  // A chain held at both ends under unit forces hangs in a parabola, and in a shorter one if the
+  // unknown beside an end is held as well.
+  const int n = 6;
+  for (const double stiff : {1e-6, 1.0, 1e6}) {
+    const SpMat K = stiff * two_chains(n).topLeftCorner(n, n);
+    const ConstrainedSystem system(K, std::vector<int>(n, 0), 1, {});
+    for (const double share : {1e-7, 1e-4}) {
+      const SpMat rows = matrix_of_rows(n, {{{0, 1}}, {{0, 1 - share}, {1, share}}, {{n - 1, 1}}});
+      const VecX u = system.constrain(rows, {}).solve(VecX::Ones(n));
+      const int from = share < 1e-6 ? 0 : 1;
+      for (int i = 0; i < n; ++i)
+        EXPECT_NEAR(stiff * u[i], i < from ? 0 : 0.5 * (i - from) * (n - 1 - i), 1e-7)
+            << stiff << " " << share << " " << i;
+    }
+  }
+}
+
+TEST(ConstrainedSystem, RepeatedRowsChangeNothing) {
+  const int n = 8;
+  const SpMat K = two_chains(n).topLeftCorner(n, n);
+  const ConstrainedSystem system(K, std::vector<int>(n, 0), 1, {});
+  VecX b(n);
+  for (int i = 0; i < n; ++i) b[i] = std::sin(1 + 3 * i);
+  const std::vector<std::pair<int, double>> first = {{0, 0.1}, {1, 0.2}, {3, 0.7}},
+                                            other = {{4, 0.3}, {6, 0.7}};
+  auto thrice = first;  // the sum of whose shares is rounded otherwise
+  for (auto& [i, value] : thrice) value *= 3;
+  const VecX once = system.constrain(matrix_of_rows(n, {first, other}), {}).solve(b);
+  EXPECT_GT(once.cwiseAbs().maxCoeff(), 0.1);
+  for (const auto& rows :
+       {matrix_of_rows(n, {first, thrice, other}), matrix_of_rows(n, {first, other, other}),
+        matrix_of_rows(n, {first, thrice, other, first, other})})
+    EXPECT_LE((system.constrain(rows, {}).solve(b) - once).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "api/space/sdf.h"
 #include "heat_helpers.h"
@@ -162,6 +164,58 @@ TEST(Sharpen, TetsFromAPlane) {
   const VecX phi = sharpen(ops, terms, phi0, {}, {}, report);
   EXPECT_EQ(report.status, "converged");
   for (Eigen::Index v = 0; v < nv; ++v) EXPECT_NEAR(phi[v], mesh.points(v, 0) - 0.5, 5e-3) << v;
+}
+
+/// Operators of triangles in the plane.
+Operators plane_operators(const std::vector<Vec2>& x,
+                          const std::vector<std::array<int, 3>>& faces) {
+  Operators ops;
+  Calculus& C = ops.scalar;
+  const auto n = static_cast<Eigen::Index>(x.size()), m = static_cast<Eigen::Index>(faces.size());
+  C.A.resize(m);
+  C.M = VecX::Zero(n);
+  Triplets entries;
+  for (int f = 0; f < m; ++f)
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 &a = x[faces[f][k]], &b = x[faces[f][(k + 1) % 3]], &c = x[faces[f][(k + 2) % 3]];
+      const double twice = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+      C.A[f] = twice / 2;
+      C.M[faces[f][k]] += twice / 6;
+      entries.emplace_back(2 * f, faces[f][k], (b - c).y() / twice);
+      entries.emplace_back(2 * f + 1, faces[f][k], (c - b).x() / twice);
+    }
+  SpRows G(2 * m, n);
+  G.setFromTriplets(entries.begin(), entries.end());
+  VecX weight(2 * m);
+  for (int f = 0; f < m; ++f) weight[2 * f] = weight[2 * f + 1] = C.A[f];
+  const MatX L = MatX(G).transpose() * weight.asDiagonal() * MatX(G);
+  C.L = SpMat(MatX(L.triangularView<Eigen::Lower>()).sparseView());
+  C.G.rows = 2 * m;
+  C.G.cols = n;
+  C.G.apply = [G](const VecX& u) { return VecX(G * u); };
+  C.G.matrix = [G] { return G; };
+  C.h = 1;
+  C.component.assign(x.size(), 0);
+  C.n_components = 1;
+  return ops;
+}
+
+TEST(Sharpen, NodesOnTheZeroSetHoldWhatIsBesideThem) {
+  // The zero set goes through node 1, near node 0, and leaves the other triangle far from that.
+  const Operators ops =
+      plane_operators({{0, 0}, {0.2, 0}, {0, 2}, {-2, 0}}, {{0, 1, 2}, {3, 0, 2}});
+  const VecX phi0 = Eigen::Vector4d(0.1, 0, -0.1, 0.1);
+  SourceSystem terms;
+  terms.reached = {1};
+  terms.A.resize(1, 4);
+  terms.A.insert(0, 1) = 1;
+  Report report;
+  const VecX phi = sharpen(ops, terms, phi0, {}, {}, report);
+  EXPECT_EQ(report.status, "converged");
+  EXPECT_EQ(phi[1], 0);
+  EXPECT_GT(phi[0], 0);
+  EXPECT_LT(phi[0], 0.205);
+  EXPECT_GT(phi[3], 0.5);
 }
 
 TEST(Sharpen, GridAroundASphere) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "api/report_json.h"
 #include "domain/intrinsic/intrinsic_triangulation.h"
@@ -61,6 +62,83 @@ TEST(Admm, SmallResidualsDoNotHideALargeGap) {
   options.max_iterations = early.iterations;
   state = {};
   EXPECT_FALSE(admm(disk.problem, options, state, Task()).converged);
+}
+
+/// Whether it would have converged in iteration k, the last, which is always looked at.
+bool converged_in(const SplitProblem& problem, AdmmOptions options, int k) {
+  options.max_iterations = k;
+  AdmmState state;
+  return admm(problem, options, state, Task()).converged;
+}
+
+/// How often it looks: runs end in the first iteration that is 1, where that counts, or a multiple
+/// of `every` and after which it has converged. Asserts that some runs could have ended between.
+void expect_looks(const AdmmOptions& options, double AdmmOptions::*limit, double most, double least,
+                  bool at_first, int every) {
+  const LinearOnDisk disk;
+  int between = 0;
+  AdmmOptions one = options;
+  for (one.*limit = most; one.*limit > least; one.*limit *= 0.8) {
+    int expected = at_first ? 1 : every, first = 1;
+    while (!converged_in(disk.problem, one, expected))
+      ASSERT_LT(expected += expected == 1 ? every - 1 : every, 200);
+    while (!converged_in(disk.problem, one, first)) ++first;
+    AdmmState state;
+    const AdmmResult result = admm(disk.problem, one, state, Task());
+    EXPECT_TRUE(result.converged);
+    EXPECT_EQ(result.iterations, expected) << one.*limit;
+    between += first < expected;
+  }
+  EXPECT_GT(between, 3);
+}
+
+TEST(Admm, ResidualsAreLookedAtInTheFirstIterationAndEveryFifth) {
+  AdmmOptions options;
+  options.rho = 100;  // short steps
+  options.relative = 0;
+  options.penalty_changes = 0;
+  expect_looks(options, &AdmmOptions::absolute, 100, 0.05, true, 5);
+}
+
+TEST(Admm, AGapIsLookedAtEveryTwentiethIteration) {
+  AdmmOptions options;
+  options.rho = 100;
+  options.relative = 0;
+  options.absolute = -1;  // never met
+  options.penalty_changes = 0;
+  expect_looks(options, &AdmmOptions::gap, 0.5, 1e-3, false, 20);
+}
+
+TEST(Admm, CellsGetPenaltiesAnewAfterThirtyIterationsOrHalfOfAll) {
+  LinearOnDisk disk;
+  int iterations = 0;
+  std::vector<int> after;
+  const auto solve = disk.problem.solve;
+  disk.problem.solve = [&](const VecX& b, double rho) {
+    ++iterations;
+    return solve(b, rho);
+  };
+  disk.problem.solve_cells = [&](const VecX& rho, const SpRows&) -> SplitProblem::Solve {
+    after.push_back(iterations);
+    return [&, one = rho[0]](const VecX& b) {
+      ++iterations;
+      return solve(b, one);
+    };
+  };
+  AdmmOptions options;
+  options.absolute = -1;  // never met
+  options.relative = 0;
+  options.max_iterations = 250;
+  AdmmState state;
+  EXPECT_EQ(admm(disk.problem, options, state, Task()).iterations, 250);
+  EXPECT_EQ(after, (std::vector<int>{10, 30, 60, 90, 135, 205}));
+  // With a start nearby also before the first.
+  iterations = 0;
+  after.clear();
+  disk.problem.near_gradient = disk.problem.near_multipliers = Eigen::Vector2d(0.6, 0.8);
+  state = {};
+  admm(disk.problem, options, state, Task());
+  EXPECT_EQ(after, (std::vector<int>{0, 10, 30, 60, 90, 135, 205}));
 }
 
 TEST(Pdhg, ResidualsOfFewIterationsAreReported) {

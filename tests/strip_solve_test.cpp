@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <vector>
 
 #include "littoral/error.h"
 #include "solve/direct/sparse_rows.h"
@@ -101,17 +102,53 @@ TEST(StripSolve, Stops) {
 TEST(StripSolve, ResidualsAreTheirDefinition) {
   const SpRows A = full_rows(definite_grid(20));
   const Strip b = waves(A.rows()), x = 0.3 * b.colwise().reverse();
-  Strip r(A.rows(), strip_width);
-  double sums[3][strip_width];
-  dense::residual_strip(static_cast<int>(A.rows()), A.outerIndexPtr(), A.innerIndexPtr(),
-                        A.valuePtr(), b.data(), x.data(), r.data(), sums[0]);
   const Strip expected = b - A * x;
-  EXPECT_LT((r - expected).cwiseAbs().maxCoeff(), 1e-13);
-  for (int k = 0; k < strip_width; ++k) {
-    EXPECT_NEAR(sums[0][k], expected.col(k).squaredNorm(), 1e-10);
-    EXPECT_NEAR(sums[1][k], b.col(k).squaredNorm(), 1e-10);
-    EXPECT_NEAR(sums[2][k], x.col(k).squaredNorm(), 1e-10);
+  for (const auto residual : {dense::residual_strip, dense::residual_plain}) {
+    Strip r(A.rows(), strip_width);
+    double sums[3][strip_width];
+    residual(static_cast<int>(A.rows()), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(),
+             b.data(), x.data(), r.data(), sums[0]);
+    EXPECT_LT((r - expected).cwiseAbs().maxCoeff(), 1e-13);
+    for (int k = 0; k < strip_width; ++k) {
+      EXPECT_NEAR(sums[0][k], expected.col(k).squaredNorm(), 1e-10);
+      EXPECT_NEAR(sums[1][k], b.col(k).squaredNorm(), 1e-10);
+      EXPECT_NEAR(sums[2][k], x.col(k).squaredNorm(), 1e-10);
+    }
   }
+}
+
+TEST(StripSolve, OneSupernodeAsByTriangularSolves) {
+  for (const int n : {1, 2, 3, 5, 8, 13, 20})
+    for (const int below : {0, 1, 2, 3, 4, 7}) {
+      MatX block(n + below, n);
+      for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n + below; ++i) block(i, j) = 0.3 * std::sin(3.1 * i + 5.7 * j);
+        block(j, j) = 2 + j % 3;
+      }
+      const Eigen::Matrix<double, -1, -1, Eigen::ColMajor> columns = block;
+      const MatX L = block.topRows(n).triangularView<Eigen::Lower>(), A = block.bottomRows(below);
+      std::vector<int> rows;
+      for (int i = 0; i < below; ++i) rows.push_back((5 * i + 3) % 11);
+      const Strip own = waves(n), strip = waves(n + 11).bottomRows(11);
+      const Strip solved = L.triangularView<Eigen::Lower>().solve(MatX(own));
+      Strip passed = strip, back = own;
+      for (int i = 0; i < below; ++i) {
+        passed.row(rows[i]) -= A.row(i) * solved;
+        back -= A.row(i).transpose() * strip.row(rows[i]);
+      }
+      back = Strip(L.transpose().triangularView<Eigen::Upper>().solve(MatX(back)));
+      for (const auto forward : {dense::forward_strip, dense::forward_plain}) {
+        Strip x = own, y = strip;
+        forward(n, n + below, columns.data(), x.data(), y.data(), rows.data());
+        EXPECT_LT((x - solved).cwiseAbs().maxCoeff(), 1e-13) << n << " " << below;
+        EXPECT_LT((y - passed).cwiseAbs().maxCoeff(), 1e-13) << n << " " << below;
+      }
+      for (const auto backward : {dense::backward_strip, dense::backward_plain}) {
+        Strip x = own;
+        backward(n, n + below, columns.data(), x.data(), strip.data(), rows.data());
+        EXPECT_LT((x - back).cwiseAbs().maxCoeff(), 1e-13) << n << " " << below;
+      }
+    }
 }
 
 }  // namespace

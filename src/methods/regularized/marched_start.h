@@ -6,6 +6,7 @@
 #include "base/task.h"
 #include "littoral/types.h"
 #include "solve/direct/sparse_rows.h"
+#include "solve/optimization/admm.h"
 #include "sources/surface/known_distances.h"
 
 namespace littoral {
@@ -23,5 +24,12 @@ struct MarchedStart {
 /// Throws Cancelled.
 std::optional<MarchedStart> marched_start(const SpRows& G, const VecX& A, const VecX& b,
                                           const KnownDistances& known, const Task& task);
+
+/// Lets a problem start from what is transported in its first cells (2 numbers each): up to alpha
+/// it is alpha times the gradient, whose length is 1 beyond. The multiplier is all of it, or where
+/// the quadratic part stands apart what that leaves. The gradients of the cells after those are
+/// their bounds.
+void start_from(const VecX& flux, double alpha, bool quadratic_apart, const VecX& bound,
+                SplitProblem& problem);
 
 }  // namespace littoral

@@ -150,24 +150,6 @@ double least_convex(const SpMat& W, const Calculus& C, const Held& held, const T
   return high;
 }
 
-/// From what is transported in the cells: up to alpha it is alpha times the gradient, whose length
-/// is 1 beyond. The multiplier is all of it, or what the quadratic part leaves.
-void start_from(const VecX& flux, double alpha, bool quadratic_apart, const VecX& bound,
-                SplitProblem& problem) {
-  problem.near_gradient = VecX::Zero(problem.G.rows());
-  problem.near_multipliers = problem.near_gradient;
-  for (Eigen::Index i = 0; i < flux.size(); i += 2) {
-    const Vec2 f = flux.segment<2>(i);
-    const double amount = f.norm();
-    if (!(amount > 0)) continue;
-    const Vec2 gradient = f / std::max(alpha, amount);
-    problem.near_gradient.segment<2>(i) = gradient;
-    problem.near_multipliers.segment<2>(i) = quadratic_apart ? Vec2(f - alpha * gradient) : f;
-  }
-  for (Eigen::Index k = 0; k < bound.size(); ++k)
-    problem.near_gradient[flux.size() + 2 * k] = bound[k];
-}
-
 LinearMap as_map(SpRows&& matrix) {
   LinearMap G;
   G.rows = matrix.rows();

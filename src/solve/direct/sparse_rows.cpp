@@ -23,8 +23,7 @@ void counts_to_begins(int* begin, Eigen::Index rows) {
 SpRows full_rows(const SpMat& lower) {
   const Eigen::Index n = lower.cols();
   SpRows A(n, n);
-  int* begin = A.outerIndexPtr();
-  std::fill(begin, begin + n + 1, 0);
+  int* begin = A.outerIndexPtr();  // zeros
   for (int j = 0; j < n; ++j)
     for (SpMat::InnerIterator it(lower, j); it; ++it) {
       ++begin[it.row() + 1];
@@ -150,8 +149,7 @@ VecX SymmetricRows::residual(const SpMat& lower, const VecX& x, const VecX& b) c
 
 SpRows transposed(const SpRows& A) {
   SpRows T(A.cols(), A.rows());
-  int* begin = T.outerIndexPtr();
-  std::fill(begin, begin + T.rows() + 1, 0);
+  int* begin = T.outerIndexPtr();  // zeros
   for (Eigen::Index e = 0; e < A.nonZeros(); ++e) ++begin[A.innerIndexPtr()[e] + 1];
   counts_to_begins(begin, T.rows());
   T.resizeNonZeros(A.nonZeros());

@@ -27,6 +27,8 @@ Eigen::Map<const StripRow> row_at(const double* strip, std::ptrdiff_t i) {
   return Eigen::Map<const StripRow>(strip + width * i);
 }
 
+}  // namespace
+
 void forward_plain(int n, int height, const double* block, double* own, double* strip,
                    const int* rows) {
   for (int j = 0; j < n; ++j, block += height) {
@@ -64,6 +66,8 @@ void residual_plain(int n, const int* begin, const int* to, const double* a, con
   row_at(sums, 1) = b2;
   row_at(sums, 2) = x2;
 }
+
+namespace {
 
 #ifdef LITTORAL_STRIP_AVX2
 

@@ -43,6 +43,14 @@ void backward_strip(int n, int height, const double* block, double* own, const d
 void residual_strip(int n, const int* begin, const int* to, const double* a, const double* b,
                     const double* x, double* r, double* sums);
 
+/// The same where processors have nothing better.
+void forward_plain(int n, int height, const double* block, double* own, double* strip,
+                   const int* rows);
+void backward_plain(int n, int height, const double* block, double* own, const double* strip,
+                    const int* rows);
+void residual_plain(int n, const int* begin, const int* to, const double* a, const double* b,
+                    const double* x, double* r, double* sums);
+
 }  // namespace dense
 
 }  // namespace littoral

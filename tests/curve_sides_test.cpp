@@ -1,0 +1,107 @@
+// On which side of broken curves points lie; circulations around triangles.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "heat_helpers.h"
+#include "operators/jump_calculus.h"
+#include "sources/curves/completed_curves.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+/// Ends of what the line y = height has in a triangle of the plane, left to right; none: first
+/// beyond second.
+std::pair<double, double> part_in_triangle(const std::array<Vec3, 3>& corners, double height) {
+  std::pair<double, double> ends{infinity, -infinity};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+    if ((a.y() < height) == (b.y() < height)) continue;
+    const double x = a.x() + (height - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    ends = {std::min(ends.first, x), std::max(ends.second, x)};
+  }
+  return ends;
+}
+
+TEST(CurveSides, AreThoseOfPiecesInTheTriangleAndElsewhereOfTheFunction) {
+  // A curve to the right, up to the middle of a triangle; the function says the opposite.
+  const SurfaceMesh mesh(test::jittered_grid_soup(6, 6, 0.2));
+  const double height = 0.41, end = 0.63;
+  MatX3 line(2, 3);
+  line << 0, height, 0, end, height, 0;
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const PlacedSources placed = place_sources(mesh, test::space_curve(line), report);
+  VecX phi(mesh.n_vertices()), expected_at_vertices(phi.size());
+  for (int v = 0; v < mesh.n_vertices(); ++v) phi[v] = height - mesh.point(v).y();
+  for (Eigen::Index v = 0; v < phi.size(); ++v) expected_at_vertices[v] = phi[v] < 0 ? -1 : 1;
+  const CurveSides sides(mesh, T, placed, phi);
+  int by_pieces = 0, by_function = 0, ahead = 0;
+  for (int f = 0; f < T.n_faces(); ++f) {
+    std::array<Vec3, 3> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = mesh.point(T.faces(f, k));
+    auto [from, to] = part_in_triangle(corners, height);
+    to = std::min(to, end);
+    for (int i = 0; i <= 12; ++i)
+      for (int j = 0; i + j <= 12; ++j) {
+        const P2Shape<2>::Point b = P2Shape<2>::Point(i, j, 12 - i - j) / 12;
+        const Vec3 x = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+        const double above = x.y() - height;
+        const double away = std::hypot(x.x() - std::clamp(x.x(), std::min(from, to), to), above);
+        const bool has_piece = from < to - 1e-9, beside = std::abs(above) >= 0.5 * away;
+        if (std::abs(above) < 1e-3 || std::abs(std::abs(above) - 0.5 * away) < 1e-6) continue;
+        const bool by_piece = has_piece && beside;
+        EXPECT_EQ(sides.at(f, b), (above > 0) == by_piece ? 1 : -1) << f << " at " << b.transpose();
+        ++(by_piece ? by_pieces : has_piece ? ahead : by_function);
+      }
+  }
+  EXPECT_GT(by_pieces, 100);
+  EXPECT_GT(ahead, 5);
+  EXPECT_GT(by_function, 500);
+}
+
+TEST(CurveSides, VerticesOfTrianglesWithPiecesLieBesideThem) {
+  const SurfaceMesh mesh(test::grid_soup(4, 4));
+  MatX3 line(2, 3);
+  line << 0, 0.4, 0, 1, 0.4, 0;
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const PlacedSources placed = place_sources(mesh, test::space_curve(line), report);
+  VecX phi(mesh.n_vertices());
+  for (int v = 0; v < mesh.n_vertices(); ++v) phi[v] = 0.4 - mesh.point(v).y();
+  const VecX sign = CurveSides(mesh, T, placed, phi).at_vertices();
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    const double y = mesh.point(v).y();
+    const bool near = y > 0.2 && y < 0.6;  // the rows of vertices next to the curve
+    EXPECT_EQ(sign[v], (y > 0.4) == near ? 1 : -1) << v;
+  }
+  // No curve with sides: all is positive.
+  const PlacedSources unsided = place_sources(mesh, test::space_curve(line, false), report);
+  EXPECT_EQ(CurveSides(mesh, T, unsided, phi).at_vertices(), VecX::Ones(phi.size()));
+}
+
+TEST(JumpCalculus, CirculationsOfARotationAreAreas) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(5, 4, 0.2));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const JumpCalculus J = jump_calculus(T);
+  VecX omega(J.n_edges);  // of x dy
+  for (int e = 0; e < J.n_edges; ++e) {
+    const Vec3 a = mesh.point(T.edges(e, 0)), b = mesh.point(T.edges(e, 1));
+    omega[e] = 0.5 * (a.x() + b.x()) * (b.y() - a.y());
+  }
+  const VecX around = J.d1(omega);
+  for (int f = 0; f < J.n_faces; ++f) {
+    const Vec3 a = mesh.point(T.faces(f, 0)), b = mesh.point(T.faces(f, 1)),
+               c = mesh.point(T.faces(f, 2));
+    EXPECT_NEAR(around[f], 0.5 * (b - a).cross(c - a).z(), 1e-14) << f;
+    // The transpose, by what it does to single faces.
+    EXPECT_NEAR(J.d1_transpose(VecX::Unit(J.n_faces, f)).dot(omega), around[f], 1e-14) << f;
+  }
+}
+
+}  // namespace
+}  // namespace littoral

@@ -218,6 +218,27 @@ TEST(Sharpen, NodesOnTheZeroSetHoldWhatIsBesideThem) {
   EXPECT_GT(phi[3], 0.5);
 }
 
+TEST(Sharpen, NodesWithoutASignStayZero) {
+  // Node 4 lies far from the zero set and has a value of the size of rounding.
+  const Operators ops = plane_operators({{0, 0}, {0.2, 0}, {0, 2}, {-2, 0}, {-3, -1}},
+                                        {{0, 1, 2}, {3, 0, 2}, {4, 0, 3}});
+  SourceSystem terms;
+  terms.reached = {1};
+  terms.A.resize(1, 5);
+  terms.A.insert(0, 1) = 1;
+  VecX phi0(5);
+  for (const double value : {1e-12, 0.1}) {
+    phi0 << 0.1, 0, -0.1, 0.1, value;
+    Report report;
+    const VecX phi = sharpen(ops, terms, phi0, {}, {}, report);
+    EXPECT_GT(phi[3], 0.5);
+    if (value < 0.1)
+      EXPECT_EQ(phi[4], 0);
+    else
+      EXPECT_GT(phi[4], 0.5);
+  }
+}
+
 TEST(Sharpen, GridAroundASphere) {
   Grid grid;
   grid.n = {17, 17, 17};

@@ -52,8 +52,8 @@ SideCensus side_census(const MatX3& points, const MatX3i& faces, const WindingNu
       census.face[i] = static_cast<int>(f);
       double longest = 0;
       for (int k = 0; k < 3; ++k)
-        longest = std::max(
-            longest, (points.row(faces(f, (k + 1) % 3)) - points.row(faces(f, k))).norm());
+        longest =
+            std::max(longest, (points.row(faces(f, (k + 1) % 3)) - points.row(faces(f, k))).norm());
       const Vec3 off = std::min(off_face, off_face_of_side * longest) * normals[f];
       census.back[i] = winding(x - off);
       census.front[i] = winding(x + off);

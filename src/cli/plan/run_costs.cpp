@@ -42,7 +42,7 @@ constexpr double patch_bytes = 200;      // for each cell that holds a part of t
 // (src/solve/heat/heat_system.cpp, src/solve/poisson/poisson.cpp): tori of 1 to 10 million faces,
 // for unsigned-heat of 1 million.
 constexpr double largest_whole = 4e5;  // vertices
-constexpr Beyond signed_windows = {largest_whole, 1.25e9, 1.24e3};
+constexpr Beyond signed_windows = {largest_whole, 0.6e9, 0.9e3};
 constexpr Beyond unsigned_windows = {largest_whole, 0.6e9, 1.24e3};
 
 // Of two runs each by bench/studies/run_costs.py, `sdf` by cells: of a sphere with bumps on grids

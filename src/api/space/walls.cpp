@@ -178,7 +178,8 @@ std::vector<int> much_alike(const std::vector<Piece>& pieces, double h) {
   std::iota(out.begin(), out.end(), 0);
   for (const auto& [key, group] : groups) {
     if (group.size() <= crowd) continue;
-    const int largest = *std::ranges::max_element(group, {}, [&](int i) { return pieces[i].area; });
+    const int largest = *std::max_element(
+        group.begin(), group.end(), [&](int i, int j) { return pieces[i].area < pieces[j].area; });
     for (const int i : group) out[i] = largest;
   }
   return out;

@@ -155,8 +155,8 @@ typename HeatWindows<Scalar>::Vector HeatWindows<Scalar>::solve_region(
     std::vector<int> beside;
     for (std::size_t k = first; k < end; ++k) {
       A_->neighbours(blocks[k], beside);
-      const auto right =
-          std::ranges::count_if(beside, [&](int j) { return local[j] > static_cast<int>(k); });
+      const auto right = std::count_if(beside.begin(), beside.end(),
+                                       [&](int j) { return local[j] > static_cast<int>(k); });
       for (int c = 0; c < block_; ++c)
         begin[index(k) * block_ + c] = block_ - c + block_ * static_cast<int>(right);
     }

@@ -85,10 +85,10 @@ TYPED_TEST(HermitianRowsOf, LowerTriangleAreThoseOfTheMatrix) {
   }
 }
 
-/// Three fans of triangles about one edge, and many about another, beside a closed surface.
-SurfaceMesh with_shared_edges() {
+/// Triangles about one edge, beside a closed surface.
+SurfaceMesh with_a_book(int fan) {
   PolygonSoup soup = test::octasphere_soup(2);
-  const int first = soup.n_vertices(), fan = 20;
+  const int first = soup.n_vertices();
   MatX3 points(first + 2 + fan, 3);
   points.topRows(first) = soup.points;
   points.row(first) << 3, 0, 0;
@@ -96,12 +96,19 @@ SurfaceMesh with_shared_edges() {
   for (int k = 0; k < fan; ++k)
     points.row(first + 2 + k) << 3 + std::cos(0.3 * k), std::sin(0.3 * k), 0.4;
   soup.points = points;
-  for (int k = 0; k < fan; ++k) test::add_triangle(soup, first, first + 1, first + 2 + k);
+  for (int k = 0; k < fan; ++k)  // from any corner on, so that edges meet in no order
+    if (k % 2)
+      test::add_triangle(soup, first, first + 1, first + 2 + k);
+    else
+      test::add_triangle(soup, first + 2 + k, first, first + 1);
   return SurfaceMesh(soup);
 }
 
 TEST(ConnectionRows, AreThoseOfTheMatrix) {
-  for (const SurfaceMesh& mesh : {SurfaceMesh(test::grid_soup(5, 4)), with_shared_edges()}) {
+  // Of any number of faces at an edge.
+  std::vector<SurfaceMesh> meshes{SurfaceMesh(test::grid_soup(5, 4))};
+  for (const int fan : {3, 7, 8, 9, 20}) meshes.push_back(with_a_book(fan));
+  for (const SurfaceMesh& mesh : meshes) {
     Report report;
     auto T = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(mesh, report));
     T->seam.setZero();  // rows are asked for where there are none
@@ -144,7 +151,7 @@ TEST(ConnectionRows, MeetEachNeighbourOnceWhereTrianglesShareTwoEdges) {
 }
 
 TEST(ConnectionRows, AreThoseOfTheHeatStepWithMassesAdded) {
-  const SurfaceMesh mesh = with_shared_edges();
+  const SurfaceMesh mesh = with_a_book(20);
   Report report;
   auto T = std::make_shared<IntrinsicTriangulation>(intrinsic_triangulation(mesh, report));
   T->seam.setZero();

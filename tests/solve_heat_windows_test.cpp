@@ -172,14 +172,19 @@ TEST(HeatWindows, BlocksOfTwoUnknownsThatAreHeldAreHeld) {
   }
 }
 
-TEST(HeatWindows, NoticeMisjudgedDistances) {
-  // Triangles 175 times as high as wide: heat decays over many more of them than their areas say.
-  const SurfaceMesh mesh(test::grid_soup(700, 4));
+/// Triangles 175 times as high as wide: heat decays over many more of them than their areas say.
+struct Misjudged {
   Report report;
-  const auto p = test::problem(mesh, test::vertex_points({0}), report);
+  SurfaceMesh mesh{test::grid_soup(700, 4)};
+  test::Problem p = test::problem(mesh, test::vertex_points({0}), report);
   const VectorDiffusion& V = p.ops->vector;
-  const double t = V.h * V.h;
-  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  double t = V.h * V.h;
+  std::shared_ptr<const SpMatC> A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+};
+
+TEST(HeatWindows, NoticeMisjudgedDistances) {
+  Misjudged m;
+  auto& [report, mesh, p, V, t, A] = m;
   const HeatWindows<Complex> windows(rows_of<Complex>(A, 1), decay_lengths(V.M, t),
                                      dissection(*A, {}));
   const VecXc b = as_complex(p.terms.vectors(p.ops->vector.n));
@@ -187,12 +192,8 @@ TEST(HeatWindows, NoticeMisjudgedDistances) {
 }
 
 TEST(HeatWindows, MatricesGivenByRowsAreFactoredWhereDistancesAreMisjudged) {
-  const SurfaceMesh mesh(test::grid_soup(700, 4));
-  Report report;
-  const auto p = test::problem(mesh, test::vertex_points({0}), report);
-  const VectorDiffusion& V = p.ops->vector;
-  const double t = V.h * V.h;
-  const auto A = std::make_shared<const SpMatC>(heat_matrix(V, t));
+  Misjudged m;
+  auto& [report, mesh, p, V, t, A] = m;
   const VecX size = decay_lengths(V.M, t);
   const Ordering order = dissection(*A, {});
   const VecXc b = as_complex(p.terms.vectors(V.n));

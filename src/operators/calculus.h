@@ -55,17 +55,14 @@ struct VectorDiffusion {
                                              //   semidefinite; none if frames cannot be chosen so
                                              //   that it is complex-linear
   std::function<SpMat(const Task&)> L_real;  // then: 2 dofs x 2 dofs, lower triangle, symmetric
-  std::function<std::shared_ptr<const HermitianRows<Complex>>()>
-      L_rows;  // the rows of L, where
-               //   they need not be kept; else empty
-  SharedRows<int, 2>
-      ends;                // dofs x 2: the nodes a dof lies between; empty where dofs are not edges
-                           //   between nodes
-  bool at_nodes = false;   // dofs are the nodes of the scalar calculus, coupled as in its L
-  LinearMap to_cells;      // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame; `apply`
-                           //   alone
-  double h = 0;            // mean distance between neighbouring dofs [length]
-  std::vector<int> piece;  // dofs; connected pieces of the diffusion, -1 for unused dofs
+  // The rows of L where they need not be kept, else empty:
+  std::function<std::shared_ptr<const HermitianRows<Complex>>()> L_rows;
+  SharedRows<int, 2> ends;  // dofs x 2: the nodes a dof lies between; none where dofs are not edges
+  bool at_nodes = false;    // dofs are the nodes of the scalar calculus, coupled as in its L
+  LinearMap to_cells;       // 2 cells x 2 dofs; mean of a cell's dofs, in the cell's frame; `apply`
+                            //   alone
+  double h = 0;             // mean distance between neighbouring dofs [length]
+  std::vector<int> piece;   // dofs; connected pieces of the diffusion, -1 for unused dofs
   int n_pieces = 0;
   std::vector<Pinch> pinches;
 

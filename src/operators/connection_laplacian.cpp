@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "operators/sum_over_triangles.h"
 
@@ -43,7 +42,8 @@ class ConnectionRows : public HermitianRows<Complex> {
     out.clear();
     for (const TriangleSide& side : sides_.at(i))
       for (const int l : {1, 2}) out.push_back(T_->side_edge(side.face(), (side.k() + l) % 3));
-    leave_each_once(out);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
   }
 
   void row(int i, BlockRow<Complex>& out) const override {
@@ -61,24 +61,8 @@ class ConnectionRows : public HermitianRows<Complex> {
   }
 
  private:
-  static constexpr int few = 16;  // beyond, neighbours ascend
-
-  static void leave_each_once(std::vector<int>& edges) {
-    if (int_size(edges) > few) {
-      std::sort(edges.begin(), edges.end());
-      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-      return;
-    }
-    auto end = edges.begin();
-    for (const int e : edges)
-      if (std::find(edges.begin(), end, e) == end) *end++ = e;
-    edges.erase(end, edges.end());
-  }
-
-  static Complex& place(BlockRow<Complex>& row, int j) {
-    const auto others = row.blocks.begin() + 1;
-    const auto found = int_size(row.blocks) <= few ? std::find(others, row.blocks.end(), j)
-                                                   : std::lower_bound(others, row.blocks.end(), j);
+  static Complex& place(BlockRow<Complex>& row, int j) {  // of a neighbour: these ascend
+    const auto found = std::lower_bound(row.blocks.begin() + 1, row.blocks.end(), j);
     return row.values[found - row.blocks.begin()];
   }
 

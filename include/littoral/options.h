@@ -104,6 +104,10 @@ enum class Regularizer { dirichlet, hessian, align, max_norm };
 /// What functions are between the nodes (supplement 10.5).
 enum class Elements { linear, quadratic };
 
+/// On which triangles of the same surface functions are linear: these, intrinsic Delaunay ones with
+/// the same vertices, or the latter where more than a few edges are not Delaunay.
+enum class Triangles { automatic, as_is, delaunay };
+
 /// Unsigned distance that is smooth at the cut locus, aligned to directions, or unaffected by
 /// boundaries. Edelstein, Guillen, Solomon, Ben-Chen: A Convex Optimization Framework for
 /// Regularized Geodesic Distances (2023).
@@ -119,6 +123,7 @@ struct Regularized {
   double gap = 0;           // > 0: iterate until the relative duality gap is below
   int max_iterations = 10000;
   Elements elements = Elements::linear;
+  Triangles triangulation = Triangles::automatic;
   int subdivide = 1;  // cuts of a triangle's sides where the field is shown
 };
 
@@ -130,6 +135,7 @@ struct BelyaevFayolle {
   double gap = 0;
   int max_iterations = 10000;
   Elements elements = Elements::linear;
+  Triangles triangulation = Triangles::automatic;
   int subdivide = 1;
 };
 

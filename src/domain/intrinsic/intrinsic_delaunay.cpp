@@ -26,6 +26,7 @@ class Improvement {
         most_flips_(50 * static_cast<long long>(M.edges.size()) + 10000),
         most_vertices_(M.n_vertices() + 1000 +
                        static_cast<long long>(options.growth * M.n_vertices())) {
+    if (!(options.smallest_angle > 0)) return;  // what follows is for refinement
     double sum = 0;
     for (std::size_t f = 0; f < M_.faces.size(); ++f) {
       const auto cot = M_.shape(f).cot;
@@ -171,6 +172,21 @@ class Improvement {
 };
 
 }  // namespace
+
+double share_not_delaunay(const IntrinsicTriangulation& T) {
+  VecX sum = VecX::Zero(T.n_edges());
+  for (int f = 0; f < T.n_faces(); ++f) {
+    const TriangleShape t = T.shape(f);
+    for (int k = 0; k < 3; ++k) sum[T.side_edge(f, k)] += t.cot[(k + 2) % 3];
+  }
+  int inner = 0, found = 0;
+  for (int e = 0; e < T.n_edges(); ++e) {
+    if (T.edge_use[e] != 2) continue;
+    ++inner;
+    found += sum[e] < delaunay_margin;
+  }
+  return inner > 0 ? double(found) / inner : 0;
+}
 
 Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
                                    CurveNetwork curves, const RefineOptions& options,

@@ -25,6 +25,10 @@ struct CurveNetwork {
   std::vector<Segment> segments;
 };
 
+/// Share of all edges between two triangles that are not Delaunay: the angles across from them are
+/// more than half a turn together, and their weights in the cotan Laplacian negative.
+double share_not_delaunay(const IntrinsicTriangulation& T);
+
 struct RefineOptions {
   double smallest_angle = 25;  // degrees; 0: flips only
   double growth = 3;           // at most this many vertices are added for each there was

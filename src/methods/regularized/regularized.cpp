@@ -41,6 +41,10 @@ OptionTable<S> with_elements(OptionTable<S> table) {
           &S::elements, "elements", {"linear", "quadratic"},
           "Functions on triangles: linear, or quadratic, which bend inside them and are rounder "
           "near the source (Dirichlet energy and no energy; triangle meshes).")
+      .choice(&S::triangulation, "triangulation", {"auto", "as-is", "delaunay"},
+              "Functions are linear on the given triangles, or on intrinsic Delaunay ones with the "
+              "same vertices; auto takes these where more than 7.5 % of the edges are not Delaunay "
+              "(linear elements, Dirichlet energy and no energy; triangle meshes).")
       .integer(&S::subdivide, "subdivide", "", 1, 64,
                "Write and draw a mesh with every side cut into this many parts (quadratic).");
 }

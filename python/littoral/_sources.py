@@ -247,7 +247,10 @@ def make_sources(
         if in_space is not None:
             out.add_space_curve(in_space, is_signed, value)
         else:
-            out.add_curve(point_arrays(curve, mesh, name), is_signed, value)
+            nodes = point_arrays(curve, mesh, name)
+            if len(nodes) == 1:
+                raise InputError(f"{name}: a curve needs at least two nodes; points= takes points")
+            out.add_curve(nodes, is_signed, value)
     if on_mesh is not None:
         out.add_points(on_mesh, np.zeros(n_points) if counted is None else counted[len(given) :])
     return out

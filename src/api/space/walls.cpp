@@ -29,7 +29,7 @@ constexpr std::array depths = {0.5, 0.75, 1.0, 1.25};
 constexpr double clear = 0.25;
 constexpr double gap = 0.9;  // the surface is torn where it misses a thin part by more: next to
                              // edges of what it holds it may by less
-constexpr double missed_share =
+constexpr double missed_of_part =
     0.15;                         // of a thin part's area, for those next to holes of the input
 constexpr double parallel = 0.9;  // cosine of the angle between the two sides of a thin part
 
@@ -304,7 +304,7 @@ Walls walls_of(const PolygonSoup& triangles, const PolygonSoup& surface, const V
   for (int c = 0; c < count; ++c) {
     const Part& of = parts[c];
     const bool is_torn = of.away_from_ends > gap * h ||
-                         (of.farthest > gap * h && of.missed > missed_share * of.area) ||
+                         (of.farthest > gap * h && of.missed > missed_of_part * of.area) ||
                          of.farthest > 2 * h;
     const bool is_wide = of.box.size().norm() > 2 * thickness;
     stays[c] = (is_torn && is_wide) || of.farthest > std::max(thickness, 2 * h);

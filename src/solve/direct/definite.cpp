@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/taken.h"
@@ -14,24 +15,26 @@ VecX times_symmetric(const SpMat& lower, const VecX& x) {
   return lower.selfadjointView<Eigen::Lower>() * x;
 }
 
-std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W) {
-  std::optional<SpMat> made(lower);
-  SpMat& K = *made;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = R;
+bool add_rows_in_place(SpMat& lower, const SpMat& R, const VecX& W) {
+  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  const Rows rows = R;
+  std::vector<std::pair<int, double>> added;  // place among the entries, what is added there
   for (int r = 0; r < rows.outerSize(); ++r) {
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator a(rows, r); a; ++a) {
+    for (Rows::InnerIterator a(rows, r); a; ++a) {
       const auto column = a.col();
-      const int* begin = K.innerIndexPtr() + K.outerIndexPtr()[column];
-      const int* end = K.innerIndexPtr() + K.outerIndexPtr()[column + 1];
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator b(rows, r); b; ++b) {
+      const int* begin = lower.innerIndexPtr() + lower.outerIndexPtr()[column];
+      const int* end = lower.innerIndexPtr() + lower.outerIndexPtr()[column + 1];
+      for (Rows::InnerIterator b(rows, r); b; ++b) {
         if (b.col() < column) continue;
         const int* at = std::lower_bound(begin, end, static_cast<int>(b.col()));
-        if (at == end || *at != b.col()) return std::nullopt;
-        K.valuePtr()[at - K.innerIndexPtr()] += W[r] * a.value() * b.value();
+        if (at == end || *at != b.col()) return false;
+        added.emplace_back(static_cast<int>(at - lower.innerIndexPtr()),
+                           W[r] * a.value() * b.value());
       }
     }
   }
-  return made;
+  for (const auto& [at, value] : added) lower.valuePtr()[at] += value;
+  return true;
 }
 
 SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W) {

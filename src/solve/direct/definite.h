@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/task.h"
@@ -17,11 +16,11 @@ namespace littoral {
 /// A x for A given by its lower triangle.
 VecX times_symmetric(const SpMat& lower, const VecX& x);
 
-/// A + R^T W R for the lower triangle of A, if A has an entry for every pair of unknowns that share
-/// a row of R; the lower triangle has the pattern of A then.
-std::optional<SpMat> with_rows_in_place(const SpMat& lower, const SpMat& R, const VecX& W);
+/// Adds R^T W R to the lower triangle of A, if A has an entry for every pair of unknowns that share
+/// a row of R; else nothing is changed. lower: compressed.
+bool add_rows_in_place(SpMat& lower, const SpMat& R, const VecX& W);
 
-/// The same whatever the pattern.
+/// A + R^T W R whatever the pattern of A; lower triangles.
 SpMat with_rows(const SpMat& lower, const SpMat& R, const VecX& W);
 
 /// K with the rows and columns of the marked unknowns those of the identity. Lower triangles.

@@ -196,13 +196,13 @@ DefiniteSystem Poisson::penalized(const SpMat& A, const VecX& weight,
           return with_rows(lifted(*L, at, d), A, weight);
         },
         unknowns_of(A));
-  const SpMat K = pinned(at);
-  if (auto in_place = with_rows_in_place(K, A, weight)) {
-    if (one_solve_ || !system().can_be_patched()) return {taken(*in_place), structure_, task};
+  SpMat K = pinned(at);
+  if (add_rows_in_place(K, A, weight)) {
+    if (one_solve_ || !system().can_be_patched()) return {taken(K), structure_, task};
     std::vector<int> changed = unknowns_of(A);
     for (std::size_t c = 0; c < first_.size(); ++c)
       if (fixed[c]) changed.push_back(first_[c]);
-    return system().patched(taken(*in_place), changed, task);
+    return system().patched(taken(K), changed, task);
   }
   SpMat wider = with_rows(K, A, weight);
   const auto structure = std::make_shared<const Elimination>(wider, structure_->old_of, task);

@@ -79,3 +79,15 @@ def test_fields_of_reports_that_the_docs_name_exist() -> None:
     names = [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
     assert len(names) > 40
     assert [name for name in names if name.lstrip(". ") not in known] == []
+
+
+def test_every_field_of_reports_is_in_the_docs() -> None:
+    page = (ROOT / "docs/reference/report.md").read_text(encoding="utf-8")
+    added = re.compile(r'report\.(?:sizes|iterations|residuals)\.emplace_back\(\s*"([^"]+)"')
+    names = {
+        name
+        for file in (ROOT / "src").rglob("*.cpp")
+        for name in added.findall(file.read_text(encoding="utf-8"))
+    }
+    assert len(names) > 60
+    assert sorted(name for name in names if f"`{name}`" not in page) == []

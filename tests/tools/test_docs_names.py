@@ -1,5 +1,6 @@
 """The names and files that the documentation points to exist in the code."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -91,3 +92,25 @@ def test_every_field_of_reports_is_in_the_docs() -> None:
     }
     assert len(names) > 60
     assert sorted(name for name in names if f"`{name}`" not in page) == []
+
+
+def test_every_name_of_the_package_has_its_entry() -> None:
+    package = ast.parse((ROOT / "python/littoral/__init__.py").read_text(encoding="utf-8"))
+    lists = [
+        ast.literal_eval(node.value)
+        for node in package.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    ]
+    page = (ROOT / "docs/reference/python.md").read_text(encoding="utf-8")
+    entries = re.findall(r"^::: littoral\.(\w+)$", page, re.M)
+    assert len(lists) == 1
+    assert sorted(entries) == sorted(set(lists[0]) - {"__version__"})
+
+
+def test_every_public_header_is_in_the_table() -> None:
+    page = (ROOT / "docs/reference/cpp.md").read_text(encoding="utf-8")
+    headers = {file.name for file in (ROOT / "include/littoral").glob("*.h")}
+    named = set(re.findall(r"`(\w+\.h)`", page))
+    assert len(headers) > 20
+    assert sorted(headers - named - {"littoral.h"}) == []
+    assert sorted(named - headers) == []

@@ -83,4 +83,4 @@ grids:  ## the part of that about grids in space
 	  64,128 $(MESHES)
 
 clean:  ## remove what was built
-	rm -rf build out dist
+	rm -rf build dist out/*

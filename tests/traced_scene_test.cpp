@@ -91,6 +91,38 @@ TEST(TracedScene, RaysMeetTheTorus) {
               std::numeric_limits<double>::infinity());
 }
 
+/// n points on an ellipsoid with axes 1, 1 and `flat`, evenly enough.
+PolygonSoup lens_cloud(int n, double flat) {
+  PolygonSoup cloud;
+  cloud.points.resize(n, 3);
+  cloud.normals.resize(n, 3);
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2 * i + 1.0) / n, r = std::sqrt(1 - z * z);
+    const double angle = pi * (3 - std::sqrt(5.0)) * i;
+    const Vec3 on_sphere(r * std::cos(angle), r * std::sin(angle), z);
+    cloud.points.row(i) = Vec3(on_sphere[0], on_sphere[1], flat * z);
+    cloud.normals.row(i) = Vec3(flat * on_sphere[0], flat * on_sphere[1], z).normalized();
+  }
+  return cloud;
+}
+
+TEST(TracedScene, CloudsThinnerThanTheGridHaveNoHolesInPictures) {
+  const double flat = 0.08;  // cells are 0.11 wide
+  CsgShapes shapes = shapes_of(lens_cloud(2000, flat));
+  shapes.all[0].request.method = {};
+  const io::Scene scene = scene_of(shapes, {});
+  Vec3 normal;
+  for (const double r : {0.3, 0.8, 0.85, 0.9})
+    for (int k = 0; k < 60; ++k) {
+      const double x = r * std::cos(k * pi / 30), y = r * std::sin(k * pi / 30);
+      const double height = flat * std::sqrt(1 - r * r);
+      const Vec3 known = Vec3(flat * x, flat * y, height / flat).normalized();
+      const double t = scene.trace->hit({x, y, 3}, -Vec3::UnitZ(), 0, 10, 1e-4, normal);
+      EXPECT_NEAR(3 - t, height, 3e-3) << r << " " << k;
+      EXPECT_NEAR((normal - known).norm(), 0, 0.1) << r << " " << k;
+    }
+}
+
 TEST(TracedScene, PicturesShowTheSurfaceForAnyNumberOfThreads) {
   const io::Scene scene = scene_of(shapes_of(torus_cloud(600)), {});
   io::PictureOptions options{.width = 64, .height = 64};

@@ -33,6 +33,7 @@ SURFACE = {
 }
 SPACE = ("auto", "winding", "tori", "signed-heat", "hopf-cole", "planar", "log-sum-exp")
 FLOOR = 0.01  # smaller errors on surfaces are drawn here [%]
+BELOW = {"unsigned-heat", "exact", "planar", "winding"}  # their names are crowded above
 
 
 def row(where: str, size: int, method: str, error: float, seconds: float) -> None:
@@ -119,13 +120,14 @@ def plot(tables: list[Path], folder: Path) -> None:
                     x, y, "o", color="#00796b" if mine else "#c4c9d0",
                     markersize=6 if mine else 4, zorder=2 if mine else 1,
                 )  # fmt: skip
-                at = np.exp(np.log(x).mean()), max(y)
+                below = method in BELOW
+                at = np.exp(np.log(x).mean()), min(y) if below else max(y)
                 if method == "belyaev-fayolle":  # it lies where regularized does
                     continue
                 axes.annotate(
                     method, at, fontsize=9 if mine else 7, ha="center", zorder=3,
-                    color="#00564d" if mine else "#7a828c", xytext=(0, 6),
-                    textcoords="offset points",
+                    color="#00564d" if mine else "#7a828c", xytext=(0, -6 if below else 6),
+                    va="top" if below else "bottom", textcoords="offset points",
                 )  # fmt: skip
             axes.set_xlabel(xlabel)
             axes.set_ylabel("mean error [%]" + (", 0.01 or less" if kind == "surface" else ""))

@@ -19,6 +19,30 @@ def test_help_leaves_the_options_of_methods_to_help_all(run: Run) -> None:
     assert "--help-all" not in run("formats", "--help").stdout.splitlines()[-1]
 
 
+@pytest.mark.parametrize("verb", ["query", "samples", "view", "render"])
+def test_help_names_the_methods_that_a_verb_runs(run: Run, verb: str) -> None:
+    text = " ".join(run(verb, "--help").stdout.split())
+    full = run(verb, "--help-all").stdout
+    assert "closest-point, hopf-cole, planar, log-sum-exp, tori [default auto]" in text
+    assert "signed-heat" not in text
+    assert "--time-scale" not in full  # of signed-heat, which needs a grid
+    assert "--noisy" not in text
+    assert "--noisy" in full
+    assert "--help-all adds" in text
+
+
+def test_options_of_methods_go_with_trace(run: Run, mesh: Path) -> None:
+    failed = run("render", "square.obj", "--noisy", "-o", "a.png", status=2)
+    assert "option --noisy goes with --trace" in failed.stderr
+
+
+def test_help_shows_no_inner_marks(run: Run) -> None:
+    text = run("help", "--markdown").stdout
+    assert "{" not in text
+    assert "| `--no-resume` | do everything again |" in text
+    assert "`BESIDE`" in text
+
+
 def completed(tmp_path: Path, script: str, words: str) -> list[str]:
     """What bash offers for the last of the words."""
     (tmp_path / "complete.sh").write_text(script)

@@ -1,5 +1,6 @@
 """The names and files that the documentation points to exist in the code."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -79,3 +80,37 @@ def test_fields_of_reports_that_the_docs_name_exist() -> None:
     names = [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
     assert len(names) > 40
     assert [name for name in names if name.lstrip(". ") not in known] == []
+
+
+def test_every_field_of_reports_is_in_the_docs() -> None:
+    page = (ROOT / "docs/reference/report.md").read_text(encoding="utf-8")
+    added = re.compile(r'report\.(?:sizes|iterations|residuals)\.emplace_back\(\s*"([^"]+)"')
+    names = {
+        name
+        for file in (ROOT / "src").rglob("*.cpp")
+        for name in added.findall(file.read_text(encoding="utf-8"))
+    }
+    assert len(names) > 60
+    assert sorted(name for name in names if f"`{name}`" not in page) == []
+
+
+def test_every_name_of_the_package_has_its_entry() -> None:
+    package = ast.parse((ROOT / "python/littoral/__init__.py").read_text(encoding="utf-8"))
+    lists = [
+        ast.literal_eval(node.value)
+        for node in package.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__"
+    ]
+    page = (ROOT / "docs/reference/python.md").read_text(encoding="utf-8")
+    entries = re.findall(r"^::: littoral\.(\w+)$", page, re.M)
+    assert len(lists) == 1
+    assert sorted(entries) == sorted(set(lists[0]) - {"__version__"})
+
+
+def test_every_public_header_is_in_the_table() -> None:
+    page = (ROOT / "docs/reference/cpp.md").read_text(encoding="utf-8")
+    headers = {file.name for file in (ROOT / "include/littoral").glob("*.h")}
+    named = set(re.findall(r"`(\w+\.h)`", page))
+    assert len(headers) > 20
+    assert sorted(headers - named - {"littoral.h"}) == []
+    assert sorted(named - headers) == []

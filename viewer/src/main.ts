@@ -35,6 +35,7 @@ function showFacts(scene: SceneData): void {
     fillTable(element<HTMLTableElement>("facts"), part.facts);
     fillTable(element<HTMLTableElement>("options"), part.options);
   }
+  element("facts-box").hidden = parts.every((part) => part.facts.length === 0);
   element("options-box").hidden = parts.every((part) => part.options.length === 0);
   element("panel").hidden = false;
   element("view").setAttribute("aria-label", parts.map(describe).join("; beside "));

@@ -125,3 +125,16 @@ test("clouds are discs, of the field's colours and lines, that can be pointed at
     await shown.close();
   }
 });
+
+test("headings without anything below them are left out", async () => {
+  for (const facts of [[], [["method", "auto"]]]) {
+    const shown = await show({ ...scene(square(4), []), facts }, small), { page } = shown;
+    try {
+      assert.equal(await page.isVisible("#facts-box"), facts.length > 0);
+      assert.equal(await page.isVisible("#options-box"), false);
+      assertAlone(shown);
+    } finally {
+      await shown.close();
+    }
+  }
+});

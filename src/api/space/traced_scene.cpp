@@ -44,6 +44,14 @@ class Sketched final : public PointwiseDistance {
   double level_, margin_;
 };
 
+/// Clouds for which no method was asked are traced by their tori, as in pages: their completion has
+/// the same zero set, but jumps beside parts thinner than the grid.
+void trace_clouds_by_tori(CsgShapes& shapes) {
+  for (Shape& shape : shapes.all)
+    if (!shape.field && shape.surface.n_faces() == 0 && shape.request.method.name().empty())
+      shape.request.method = Tori{};
+}
+
 /// Clouds become their tori, which pages trace, so that they are fitted once.
 void fit_for_page(CsgShapes& shapes, Task task, Report& report) {
   if (shapes.all.size() > most_clouds)
@@ -144,7 +152,10 @@ io::Scene traced_scene(const CsgShapes& shapes, const Grid& grid, const TracedVi
   if (!std::isfinite(view.level))
     throw InputError("the level must be a finite number", "option-value");
   CsgShapes used = shapes;
-  if (view.for_page) fit_for_page(used, task.stage(0.2, "fitting"), report);
+  if (view.for_page)
+    fit_for_page(used, task.stage(0.2, "fitting"), report);
+  else if (view.level == 0 && used.csg.offset == 0)
+    trace_clouds_by_tori(used);
   const auto field = pointwise_distance(used, task.stage(0.2, "preparing"), report);
   const Volume volume{grid, evaluate(*field, grid, task.stage(0.3, "sampling"))};
   if (!(volume.values.minCoeff() < view.level && volume.values.maxCoeff() > view.level))

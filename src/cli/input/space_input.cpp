@@ -25,8 +25,12 @@ void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
 }
 
-void add_space_method(CLI::App& verb, SpaceArguments& texts) {
-  add_methods(verb, texts.method, Registry<SpaceDomain>::instance().infos());
+void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& domain) {
+  std::vector<MethodInfo> methods = Registry<SpaceDomain>::instance().infos();
+  std::erase_if(methods, [&](const MethodInfo& method) {
+    return std::find(method.domains.begin(), method.domains.end(), domain) == method.domains.end();
+  });
+  add_methods(verb, texts.method, methods);
 }
 
 namespace {

@@ -43,8 +43,9 @@ struct SpaceArguments {
 void add_space_input(CLI::App& verb, SpaceArguments& texts, Session& session,
                      const io::Kinds& kinds = {io::Kind::surface, io::Kind::cloud,
                                                io::Kind::volume});
-/// Adds --method and the methods' options.
-void add_space_method(CLI::App& verb, SpaceArguments& texts);
+/// Adds --method and the options of the methods that run on a domain, "set of points" where a verb
+/// asks anywhere.
+void add_space_method(CLI::App& verb, SpaceArguments& texts, const std::string& domain = "grid");
 /// Adds what makes one shape of several, and --redistance. The verb `offset` has offsets of its
 /// own.
 void add_shape_options(CLI::App& verb, SpaceArguments& texts, bool with_offset = true);

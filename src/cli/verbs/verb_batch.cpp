@@ -295,9 +295,11 @@ void add_batch(CLI::App& program, Session& session) {
   verb->add_option("--shard", arguments->shard,
                    "only the I-th of N parts, the same for the same list: 3/8 [default 1/1]")
       ->type_name("I/N");
-  verb->add_flag("--resume,!--no-resume", options.resume,
-                 "leave out what is done, with these options and this content of the input "
-                 "[default]");
+  verb->add_flag(
+      "--resume", [&options](std::int64_t) { options.resume = true; },
+      "leave out what is done, with these options and this content of the input [default]");
+  verb->add_flag(
+      "--no-resume", [&options](std::int64_t) { options.resume = false; }, "do everything again");
   verb->add_flag("--fail-fast", options.fail_fast, "end with the first failure");
   verb->add_option("--progress", session.progress,
                    "a bar on stderr: auto (if it is a terminal), always, never [default auto]")

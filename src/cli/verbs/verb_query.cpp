@@ -61,7 +61,7 @@ void add_query(CLI::App& program, Session& session) {
   verb.add_flag("--gradient", arguments->gradient, "also the gradient");
   add_confidence_option(verb, arguments->confidence);
   add_values_option(verb, arguments->space);
-  add_space_method(verb, arguments->space);
+  add_space_method(verb, arguments->space, "set of points");
   add_shape_options(verb, arguments->space);
   add_plan_option(verb, session);
   add_json_option(verb, session);

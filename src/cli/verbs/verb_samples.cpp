@@ -99,7 +99,7 @@ void add_samples(CLI::App& program, Session& session) {
                   "of positions and distances: float16, float32, float64 [default float32]")
       ->check(one_of({"float16", "float32", "float64"}))
       ->type_name("WORD");
-  add_space_method(verb, arguments->space);
+  add_space_method(verb, arguments->space, "set of points");
   add_json_option(verb, session);
 }
 

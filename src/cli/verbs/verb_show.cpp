@@ -153,11 +153,13 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
   verb.add_flag("--estimate-normals", texts.space.estimate_normals,
                 "of a point cloud: compute normals from neighbouring points");
   verb.add_flag("--flip", session.flip, "reverse all normals: the other side is positive");
-  add_space_method(verb, texts.space);
+  add_space_method(verb, texts.space, "set of points");
   add_shape_options(verb, texts.space);
   add_grid_options(verb, texts.space);
   for (CLI::Option* option : verb.get_options())
-    if (std::find(before.begin(), before.end(), option) == before.end()) option->group(trace_group);
+    if (std::find(before.begin(), before.end(), option) == before.end() &&
+        option->get_group() != method_options_group)
+      option->group(trace_group);
   verb.add_flag("--trace", texts.trace,
                 "FILE is a mesh, soup, cloud or volume of distance: follow rays through its signed "
                 "distance to the surface, or with --level to an offset of it");
@@ -165,7 +167,8 @@ void add_trace_options(CLI::App& verb, TraceArguments& texts, Session& session) 
 
 void check_no_trace_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
-    if (option->get_group() == trace_group && option->count() > 0)
+    if ((option->get_group() == trace_group || option->get_group() == method_options_group) &&
+        option->count() > 0)
       throw InputError("option " + option->get_single_name() + " goes with option trace",
                        "options-conflict");
 }
@@ -334,7 +337,8 @@ void add_view(CLI::App& program, Session& session) {
                                  "a page that shows a result in a browser, also offline");
   verb.add_option("BESIDE", arguments->beside,
                   "a second result, shown beside the first with the same camera; on the same "
-                  "surface also their difference");
+                  "surface also their difference")
+      ->type_name("");
   verb.add_option("-o,--output", arguments->out,
                   "the page: " + io::written_extensions({io::Kind::page}) +
                       "; without it the page is served on 127.0.0.1 until Ctrl-C")

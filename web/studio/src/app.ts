@@ -11,7 +11,7 @@ import { Engine, type Answer, type Settings, type Task } from "./engine";
 import { Files } from "./files";
 import { fillForm, type Chosen } from "./forms";
 import { Marks, type Layout } from "./marks";
-import { listCurves, showFacts, showWarnings } from "./panel";
+import { listCurves, showFacts, showWarnings, sizeOf } from "./panel";
 import { lineOf, nodeOf } from "./pick";
 import { fieldOf, infiniteColour } from "./skin";
 import { Stage } from "./stage";
@@ -103,6 +103,12 @@ export class App {
     this.failure = null;
     this.showAnswer();
     if (!this.engine.busy) this.idle();
+  }
+
+  /** Answers what is drawn where that was broken off. */
+  goOn(): void {
+    if (!this.answer || this.answer.preview) this.drawingChanged();
+    else this.idle();
   }
 
   /** Lines at these distances from what is drawn. */
@@ -216,7 +222,7 @@ export class App {
   idle(): void {
     element("progress").hidden = element("cancel").hidden = true;
     const { answer, failure } = this, surface = this.engine?.surface;
-    let text = surface ? `${surface.counts.faces.toLocaleString("en")} faces. Nothing to measure from yet.` : "Nothing open";
+    let text = surface ? `${sizeOf(surface)}. Nothing to measure from yet.` : "Nothing open";
     if (failure && !answer) text = "No answer";
     else if (answer) {
       const { report } = answer, warnings = report.warnings.length;
@@ -321,9 +327,8 @@ export class App {
   }
 
   message(text: string | null): void {
-    const box = element("message");
-    box.hidden = text === null;
-    box.textContent = text ?? "";
+    element("message").hidden = text === null;
+    element("message-text").textContent = text ?? "";
   }
 
   // ------------------------------------------------------------------------- controls

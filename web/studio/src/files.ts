@@ -117,7 +117,7 @@ export class Files {
       return true;
     } catch (error) {
       this.app.message(`${name} cannot be opened.\n${(error as Error).message}`);
-      this.app.idle();
+      this.app.goOn(); // reading has cancelled what was being computed
       return false;
     }
   }

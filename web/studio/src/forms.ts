@@ -35,9 +35,9 @@ export function fillForm(form: HTMLFormElement, options: readonly OptionInfo[], 
     const fallback = shown(option.default), input = control(option, chosen[option.name] ?? fallback);
     input.id = `option-${option.name}`;
     inputs.set(option.name, input);
-    const unit = option.unit ? ` ${option.unit}.` : "";
+    const limits = [option.unit, option.range].filter(Boolean).join("; ");
     form.append(make("label", { htmlFor: input.id }, make("span", { textContent: option.name }), input,
-      make("small", { textContent: `${option.help}${unit}${option.range ? ` (${option.range})` : ""}` })));
+      make("small", { textContent: `${option.help}${limits ? ` (${limits})` : ""}` })));
   }
   form.onsubmit = (event) => event.preventDefault();
   form.onchange = () => {

@@ -10,7 +10,7 @@ const help: readonly (readonly [string, string])[] = [
   ["V C F P", "turn and select; curve by clicks; draw freehand; points"],
   ["Click", "in Turn: selects, or copies the place as a line of a source file"],
   ["Drag a node", "moves it"],
-  ["Enter, Esc", "ends the curve"],
+  ["Enter, Esc", "ends the curve; Esc closes messages first"],
   ["L", "closes or opens the curve"],
   ["R", "reverses it: the other side is positive"],
   ["U", "signed or unsigned"],
@@ -59,6 +59,14 @@ export function connectKeys(app: App, stage: Stage): void {
     tools.finish();
     app.selected();
   };
+  const menu = element<HTMLDetailsElement>("save-menu");
+  const leave = () => { // what lies over the picture goes first
+    if (!element("message").hidden) app.message(null);
+    else if (menu.open) menu.open = false;
+    else end();
+  };
+  element("message-close").addEventListener("click", () => app.message(null));
+  document.addEventListener("pointerdown", ({ target }) => { if (!menu.contains(target as Node)) menu.open = false; });
   const mode = (next: Mode) => () => app.setMode(next);
   const tick = (id: string) => () => element<HTMLInputElement>(id).click();
   const middle = () => {
@@ -73,7 +81,7 @@ export function connectKeys(app: App, stage: Stage): void {
 
   const keys: Record<string, () => void> = {
     v: mode("turn"), c: mode("curve"), f: mode("freehand"), p: mode("point"), s: snap, u: sign, l: close, r: reverse,
-    delete: () => tools.remove(), backspace: () => tools.remove(), enter: end, escape: end,
+    delete: () => tools.remove(), backspace: () => tools.remove(), enter: end, escape: leave,
     h: () => stage.reset(), i: tick("lines"), w: tick("wires"), o: tick("marks"),
     "?": () => { element<HTMLDetailsElement>("keys").open = !element<HTMLDetailsElement>("keys").open; },
   };

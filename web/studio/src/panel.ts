@@ -31,10 +31,20 @@ export function listCurves(drawing: Drawing, selection: Selection | null, select
   element("curves").replaceChildren(...rows);
 }
 
+const isCloud = ({ kind }: Surface) => kind === "point cloud";
+
+/** "5,856 faces"; of clouds their points. */
+export const sizeOf = (surface: Surface) => isCloud(surface)
+  ? `${surface.counts.vertices.toLocaleString("en")} points` : `${surface.counts.faces.toLocaleString("en")} faces`;
+
 export function showFacts(surface: Surface): void {
   const { counts } = surface, rows: [string, string][] = [
-    ["Name", surface.name], ["Kind", surface.kind], ["Vertices", counts.vertices.toLocaleString("en")],
-    ["Faces", counts.faces.toLocaleString("en")], ["Components", String(counts.components)], ["Up", surface.up],
+    ["Name", surface.name], ["Kind", surface.kind],
+    ...(isCloud(surface) ? [["Points", counts.vertices.toLocaleString("en")]] : [
+      ["Vertices", counts.vertices.toLocaleString("en")], ["Faces", counts.faces.toLocaleString("en")],
+      ["Components", String(counts.components)],
+    ]) as [string, string][],
+    ["Up", surface.up],
   ];
   element("facts").replaceChildren(...rows.map(([key, value]) =>
     make("tr", {}, make("th", { scope: "row", textContent: key }), make("td", { textContent: value }))));

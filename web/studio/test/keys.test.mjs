@@ -122,6 +122,26 @@ test("files are opened by the button and by letting them go over the picture", a
   await closeQuietly(shown);
 });
 
+test("what can be saved stands within its menu, which Escape and a click beside it close", async () => {
+  for (const width of [800, 390, 320]) {
+    const shown = await openStudio({ viewport: { width, height: 640 } }), { page } = shown;
+    const open = () => page.evaluate(() => document.getElementById("save-menu").open);
+    await page.click("#save-menu > summary");
+    const out = await page.evaluate(() => {
+      const menu = document.querySelector(".drop").getBoundingClientRect();
+      const boxes = [...document.querySelectorAll(".drop button, .drop select, .drop input")].map((e) => e.getBoundingClientRect());
+      return boxes.filter((b) => b.left < menu.left || b.right > menu.right || b.left < 0 || b.right > innerWidth).length;
+    });
+    assert.equal(out, 0, `${width} pixels wide`);
+    await page.keyboard.press("Escape");
+    assert.equal(await open(), false);
+    await page.click("#save-menu > summary");
+    await page.mouse.click(width / 2, 500);
+    assert.equal(await open(), false);
+    await closeQuietly(shown);
+  }
+});
+
 test("on a narrow page the options are behind a button", async () => {
   const shown = await openStudio({ viewport: { width: 420, height: 800 } }), { page } = shown;
   const inside = () => page.evaluate(() => {

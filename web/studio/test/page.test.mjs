@@ -242,6 +242,38 @@ test("files that are damaged, unknown or huge get a message and leave the pictur
   await closeQuietly(shown);
 });
 
+test("a file that cannot be read stops no answer, and its message closes by a button or Escape", async () => {
+  const shown = await openStudio(), { page } = shown, { values } = await state(page);
+  await page.evaluate(() => {
+    studio.engine.lastWhole = Infinity; // as if exact distance took long
+    studio.changed();
+  });
+  await page.waitForFunction(() => studio.answer.preview);
+  const close = [() => page.click("#message-close"), () => page.keyboard.press("Escape")];
+  for (const act of close) {
+    await pickFile(page, "nothing.obj", Buffer.from(""));
+    await page.waitForSelector("#message:not([hidden])");
+    const { status, warnings, values: after_ } = await state(page);
+    assert.doesNotMatch(status, /preview/);
+    assert.deepEqual(warnings, []);
+    assertClose(after_, values, 1e-12);
+    await act();
+    assert.equal((await state(page)).message, null);
+  }
+  await closeQuietly(shown);
+});
+
+test("of a cloud the points are counted", async () => {
+  const shown = await openStudio(), { page } = shown;
+  const points = Array.from({ length: 64 }, (_, i) => `${i % 8} ${Math.floor(i / 8)} 0`);
+  await pickFile(page, "grid.xyz", Buffer.from(points.join("\n")));
+  await page.waitForFunction(() => studio.engine.surface.kind === "point cloud");
+  assert.match((await state(page)).status, /^64 points\. Nothing/);
+  assert.match(await page.textContent("#facts"), /Points64/);
+  assert.doesNotMatch(await page.textContent("#facts"), /Faces|Components/);
+  await closeQuietly(shown);
+});
+
 test("a lost graphics context: a message, then the picture again", async () => {
   const shown = await openStudio(), { page } = shown;
   const pixels = await changedPixels(page, async () => {

@@ -35,7 +35,7 @@ def settings(threads: int | None = None, callback: Progress | None = None) -> _c
     ):
         return None
     used = _defaults["threads"] if threads is None else threads
-    if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or used < 0:
+    if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or not 0 <= used < 2**31:
         raise ValueError(
             f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
         )

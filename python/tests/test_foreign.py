@@ -276,3 +276,12 @@ def test_space_around_polydata(accessor_mesh):
     radii = np.linalg.norm(shell.points, axis=1)
     np.testing.assert_allclose(radii, 1.5, atol=0.05)
     assert accessor_mesh.littoral.offset(0.5, resolution=24).n_points == shell.n_points
+
+
+def test_curved_faces_are_refused_even_among_flat_ones():
+    meshio = pytest.importorskip("meshio")
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0]])
+    cells = [("triangle", [[0, 2, 1]]), ("triangle6", [[0, 1, 2, 3, 4, 5]])]
+    with pytest.raises(littoral.InputError, match="of triangle6 has curved faces"):
+        littoral.as_surface(meshio.Mesh(points, cells))
+    assert littoral.as_surface(meshio.Mesh(points, cells[:1])).n_faces == 1

@@ -149,6 +149,8 @@ class Surface:
         >>> soup.welded().n_vertices, soup.welded(1e-6).n_vertices
         (5, 4)
         """
+        if self.kind == "voxel surface":
+            raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
         return type(self)._of(self._handle.welded(float(distance)), self._dtype)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -293,10 +295,6 @@ class Voxels(Surface):
         grid = _core.Grid(self._inside.shape, self._origin, self._spacing)
         x_first = self._inside.ravel(order="F").astype(np.uint8)
         self._handle = _core.Mesh.voxels(grid, x_first)
-
-    def welded(self, distance: float = 0.0) -> Voxels:
-        """Raises UnsupportedError: voxels share their vertices."""
-        raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Voxels, (self._inside, self._spacing, self._origin)

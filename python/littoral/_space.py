@@ -298,7 +298,8 @@ def offset(
         side = float(np.ptp(sdf.bounds, axis=0).max())
         reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
         padding = max(0.25, 1.5 * reach)
-        grid = _core.Grid.around(sdf._handle, resolution, spacing, None, padding)
+        nodes, _ = nodes_and_box(resolution, None)
+        grid = _core.Grid.around(sdf._handle, nodes, spacing, None, padding)
         cores = _core.offset(sdf._handle, grid, wanted, *given)
     return [Mesh._of(core) for core in cores]
 

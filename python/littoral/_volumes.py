@@ -20,19 +20,19 @@ def nodes_and_box(
     resolution: int | None, bounds: Sequence[float] | None
 ) -> tuple[int | None, list[float] | None]:
     """The words for a grid, checked: nodes along the longest side, x0 y0 z0 x1 y1 z1."""
-    if resolution is not None and not _is_count(resolution):
-        raise InputError(f"resolution: expected a whole number of nodes, got {resolution}")
+    nodes = None if resolution is None else whole(resolution, "resolution", " of nodes")
     box: list[float] | None = None if bounds is None else floats(bounds, "bounds").ravel().tolist()
     if box is not None and len(box) != 6:
         raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
-    return None if resolution is None else int(resolution), box
+    return nodes, box
 
 
-def _is_count(value: Any) -> bool:
-    """A whole number, also as a float, that the library has room for."""
-    if np.ndim(value) > 0 or np.asarray(value).dtype.kind not in "biuf":
-        return False
-    return bool(abs(value) < 2**31 and int(value) == value)
+def whole(value: Any, name: str, what: str, least: int = -(2**31), most: int = 2**31 - 1) -> int:
+    """A whole number, also as a float, that the library has room for; InputError for others."""
+    known = np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf"
+    if not known or not least <= value <= most or int(value) != value:
+        raise InputError(f"{name}: expected a whole number{what}, got {value}")
+    return int(value)
 
 
 class Volume(Shown):

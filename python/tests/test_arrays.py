@@ -215,6 +215,33 @@ def test_resolutions_are_whole_numbers(resolution):
     assert sdf.sample(8.0).shape == (8, 8, 8)
 
 
+@pytest.mark.parametrize(
+    "numbers",
+    [{"resolution": 8.5}, {"surface": float("inf")}, {"space": 2**40}, {"seed": 1.5}, {"seed": -1}],
+)
+def test_samples_are_counted_in_whole_numbers(numbers):
+    name = next(iter(numbers))
+    with pytest.raises(littoral.InputError, match=f"{name}: expected a whole number"):
+        littoral.samples(littoral.examples.cube(), **numbers)
+
+
+@pytest.mark.parametrize(
+    ("grid", "says"),
+    [
+        ({"resolution": -1}, "resolution must be at least 2"),
+        ({"resolution": 8.5}, "resolution: expected a whole number"),
+        ({"spacing": float("nan")}, "spacing must be positive and finite"),
+        ({"spacing": -1}, "spacing must be positive and finite"),
+        ({"resolution": 8, "spacing": 0.1}, "give one"),
+    ],
+)
+def test_repair_checks_its_grid_also_where_it_needs_none(grid, says):
+    cube = littoral.examples.cube()
+    assert littoral.repair(cube, resolution=8.0).surface.n_faces == cube.n_faces
+    with pytest.raises(littoral.InputError, match=says):
+        littoral.repair(cube, **grid)
+
+
 @pytest.mark.parametrize("spacing", [0, -1, [1, 1, -1], [1, 0, 1]])
 def test_spacings_are_positive(spacing):
     for make in (littoral.Volume, littoral.Voxels):

@@ -258,6 +258,15 @@ def test_distance_of_polydata(accessor_mesh):
         accessor_mesh.littoral.distance(points=0, method="no-such")
 
 
+def test_options_of_polydata_may_be_lists_and_arrays(accessor_mesh):
+    pyvista = pytest.importorskip("pyvista")
+    points = pyvista.PolyData(np.array([[0, 0, 0], [3, 0, 0.0]]))
+    for values, expected in (([-1, -0.5], 0.5), (np.array([-1, -0.75]), 0.25), ((-1, -0.5), 0.5)):
+        assert points.littoral.sdf([2, 0, 0], values=values) == pytest.approx(expected)
+    one = accessor_mesh.littoral.offset(np.array(0.1), resolution=12)
+    assert one.bounds[1] == pytest.approx(1.1, abs=0.05)
+
+
 def test_winding_of_polydata(square, accessor_mesh):
     flat = handed_over(square, "pyvista")
     loop = [20, 24, 60, 56, 20]

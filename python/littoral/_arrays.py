@@ -23,8 +23,9 @@ def as_array(value: Any, name: str) -> Array:
     if type(value) is np.ndarray:
         return value
     if isinstance(value, np.ndarray):
-        if np.ma.is_masked(value):
-            first = np.argwhere(np.ma.getmaskarray(value))[0]
+        hidden = np.broadcast_to(getattr(value, "mask", False), value.shape)
+        if hidden.dtype == bool and hidden.any():
+            first = np.argwhere(hidden)[0]
             at = ", ".join(str(i) for i in first)
             raise InputError(f"{name}[{at}] is masked: expected numbers, fill or leave them out")
         return np.asarray(value)

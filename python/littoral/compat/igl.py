@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import Floats, Ints, as_array, check_range, floats, ints
+from .._arrays import Array, Floats, Ints, as_array, check_range, floats, ints
 from .._distance import DistanceSolver, distance
 from .._errors import InputError
 from .._space import SDF, Closest
@@ -188,7 +188,7 @@ def _closest_points(points: Floats, elements: Ints, x: Floats) -> Closest:
     return SDF(triangle_mesh(points, elements), method="closest-point").closest(x)
 
 
-def _closest_of_few(places: Floats, chosen: Ints, x: Floats) -> Closest:
+def _closest_of_few(places: Floats, chosen: Array, x: Floats) -> Closest:
     """The nearest of the chosen places, which are too few to be a cloud."""
     away = np.linalg.norm(x[:, None] - places[chosen][None], axis=2)
     nearest = chosen[away.argmin(axis=1)].astype(np.int32)

@@ -78,6 +78,20 @@ TEST_P(VolumeFile, DamagedFilesAreRefusedOrRead) {
   }
 }
 
+TEST(WriteNpz, ValuesDoNotTakeTheNamesOfTheBox) {
+  const fs::path path = fs::path(testing::TempDir()) / "littoral_volume_names.npz";
+  for (const char* name : {"origin", "spacing", "depth"}) {
+    Volume out = example();
+    out.name = name;
+    io::write_volume(path, out);
+    const Volume in = io::read_volume(path);
+    EXPECT_EQ(in.values, out.values) << name;
+    EXPECT_EQ(in.grid.origin, out.grid.origin) << name;
+    EXPECT_EQ(in.grid.spacing, out.grid.spacing) << name;
+  }
+  fs::remove(path);
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, VolumeFile, testing::Values(".vti", ".nrrd", ".npy"));
 
 std::string vti(const std::string& array, const std::string& attributes = "",

@@ -156,7 +156,8 @@ void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWrite
   const auto triple = [](const Vec3& x) {
     return npy_bytes([&](std::ostream& to) { write_npy(to, {{""}, x}); });
   };
-  write_zip(out, {{volume.name + ".npy",
+  const bool taken = volume.name == "origin" || volume.name == "spacing";
+  write_zip(out, {{(taken ? "values" : volume.name) + ".npy",
                    npy_bytes([&](std::ostream& to) { write_npy_volume(to, volume, options); })},
                   {"origin.npy", triple(volume.grid.origin)},
                   {"spacing.npy", triple(volume.grid.spacing)}});

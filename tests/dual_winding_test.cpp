@@ -9,6 +9,7 @@
 #include "littoral/error.h"
 #include "one_call.h"
 #include "shared_data.h"
+#include "space_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -119,6 +120,22 @@ TEST(DualWinding, RefusesChainsThatAreNone) {
   const SurfaceMesh mesh = band(40, false);
   EXPECT_THROW(dual(mesh, chain_of({{3, 9}})), InputError);
   EXPECT_THROW(dual(mesh, chain_of({{3, 3}})), InputError);
+  Sources unnamed;
+  const auto error = [&](const std::vector<int>& faces) {
+    unnamed.chains = {{{10, 11}, ""}, {faces, ""}};
+    return test::message_of([&] { dual(mesh, unnamed); });
+  };
+  EXPECT_EQ(error({3, 9}),
+            "chain 2: faces 3 and 9 (counted from 0) share no edge; a chain goes from face to "
+            "neighbour");
+  for (const int face : {-1, 80, 1 << 30}) {
+    const std::string says =
+        "chain 2: there is no face " + std::to_string(face) + "; the mesh has 80, counted from 0";
+    EXPECT_EQ(error({10, face}), says);
+    EXPECT_EQ(error({face, 10}), says);
+  }
+  EXPECT_EQ(error({3}), "chain 2 has 1 face, at least 2 are needed");
+  EXPECT_EQ(error({}), "chain 2 has 0 faces, at least 2 are needed");
   const auto read = [&](const std::string& text) {
     return io::read_sources_txt(text, "a.txt", mesh, {});
   };

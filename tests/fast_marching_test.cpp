@@ -87,6 +87,21 @@ TEST(FastMarching, ErrorFallsWithTheEdgeLength) {
   EXPECT_LT(error[1], 0.05);
 }
 
+TEST(FastMarching, RightAnglesAreSplitInAnyUnit) {
+  constexpr int n = 8;
+  const PolygonSoup soup = test::grid_soup(n, n, 1);
+  const VecX d = test::marched(SurfaceMesh(soup), test::vertex_points({3}));
+  const Vec3 source = soup.points.row(3);
+  EXPECT_LT(worst_error(SurfaceMesh(soup), d, [&](const Vec3& p) { return (p - source).norm(); }),
+            0.025);
+  for (const double unit : {3., 0.7, 1e-40, 1e40}) {
+    PolygonSoup scaled = soup;
+    scaled.points *= unit;
+    const VecX same = test::marched(SurfaceMesh(scaled), test::vertex_points({3}));
+    EXPECT_LT((same / unit - d).cwiseAbs().maxCoeff(), 1e-12) << unit;
+  }
+}
+
 TEST(FastMarching, PointsInFacesAndOnEdges) {
   const SurfaceMesh mesh(test::jittered_grid_soup(24, 24, 0.2));
   for (const SurfacePoint& p :

@@ -174,6 +174,9 @@ TEST(FrontDistance, ContextReportsStopsAndLimits) {
   const Sdf f = signed_distance(cube());
   EXPECT_THROW(f.sample(Grid::around(f, {.resolution = 40}), small), IoError);
   EXPECT_NO_THROW(f.sample(Grid::around(f, {.resolution = 10})));  // the limit went with its call
+  last = 0;                                                        // of a call that is two
+  EXPECT_EQ(offset(f, Grid::around(f, {.resolution = 10}), {0.1}, {}, context).size(), 1u);
+  EXPECT_EQ(last, 1);
 }
 
 TEST(FrontDistance, MatrixBetweenPointsInsideFaces) {

@@ -78,6 +78,20 @@ TEST_P(VolumeFile, DamagedFilesAreRefusedOrRead) {
   }
 }
 
+TEST(WriteNpz, ValuesDoNotTakeTheNamesOfTheBox) {
+  const fs::path path = fs::path(testing::TempDir()) / "littoral_volume_names.npz";
+  for (const char* name : {"origin", "spacing", "depth"}) {
+    Volume out = example();
+    out.name = name;
+    io::write_volume(path, out);
+    const Volume in = io::read_volume(path);
+    EXPECT_EQ(in.values, out.values) << name;
+    EXPECT_EQ(in.grid.origin, out.grid.origin) << name;
+    EXPECT_EQ(in.grid.spacing, out.grid.spacing) << name;
+  }
+  fs::remove(path);
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, VolumeFile, testing::Values(".vti", ".nrrd", ".npy"));
 
 std::string vti(const std::string& array, const std::string& attributes = "",
@@ -188,6 +202,30 @@ TEST(ReadNrrd, TypesAndEncodings) {
   EXPECT_THAT(
       test::message_of([&] { read("sizes: 2 2 1\ntype: uint8\nencoding: ascii\n\n0 1 2 3\n"); }),
       testing::HasSubstr("'sizes' appears twice"));
+}
+
+TEST(ReadNrrd, EndsOfAxesPlaceTheGrid) {
+  const auto read = [](const std::string& rest) {
+    return io::read_volume_bytes(
+        "NRRD0001\ntype: uint8\nencoding: ascii\ndimension: 3\n"
+        "sizes: 2 2 2\n" +
+            rest + "\n0 1 2 3 4 5 6 7\n",
+        ".nrrd", "a");
+  };
+  // The first sample of these is at 2, 2, 3, and they are 0.5, 1 and 2 apart.
+  expect_counting(read("axis mins: 2 2 3\naxis maxs: 2.5 3 5\ncenters: node node node\n"));
+  expect_counting(read("axismins: 1.75 1.5 2\naxismaxs: 2.75 3.5 6\ncenterings: cell cell cell\n"));
+  expect_counting(read("axis mins: 1.75 2 3\ncenters: cell node node\nspacings: 0.5 1 2\n"));
+  expect_counting(
+      read("axis mins: nan 2 nan\naxis maxs: 2.5 nan 6\ncenters: node node cell\n"
+           "spacings: 0.5 1 2\n"));
+  const Grid nowhere = read("axis mins: nan nan nan\n").grid;
+  EXPECT_EQ(nowhere.origin, Vec3::Zero());
+  EXPECT_EQ(nowhere.spacing, Vec3::Ones());
+  EXPECT_THROW(read("axis mins: 2 2 3\n"), UnsupportedError);  // of nodes or of cells?
+  EXPECT_THROW(read("axis mins: 2 2 3\ncenters: node node ???\n"), UnsupportedError);
+  EXPECT_THROW(read("axis mins: 2 2\ncenters: node node node\n"), InputError);
+  EXPECT_THROW(read("axis mins: 2 2 3\naxis maxs: 2 3 4\ncenters: node node node\n"), InputError);
 }
 
 TEST(ReadNpy, RowMajorArraysAndOtherTypes) {

@@ -77,6 +77,24 @@ TEST(VtkSurfaces, EveryFormatHoldsTheSameRoof) {
   expect_roof(test::read(vtp, ".vtp"));
 }
 
+TEST(VtkSurfaces, EmptyArraysMayBeEmptyElements) {
+  std::string text = vtp;
+  const auto replace = [&](const std::string& part, const std::string& by) {
+    const std::size_t at = text.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    text.replace(at, part.size(), by);
+  };
+  replace("NumberOfVerts=\"1\"", "NumberOfVerts=\"0\"");
+  replace("NumberOfLines=\"2\"", "NumberOfLines=\"0\"");
+  replace("format=\"ascii\">0 1 2 2 3</DataArray>", "format=\"ascii\"/>");
+  replace("format=\"ascii\">3 5</DataArray>", "format=\"binary\" />");
+  const PolygonSoup soup = test::read(text, ".vtp");
+  EXPECT_EQ(soup.n_faces(), 4);
+  EXPECT_TRUE(soup.lines.empty());
+  replace("NumberOfLines=\"0\"", "NumberOfLines=\"2\"");
+  EXPECT_EQ(test::error_of(text, ".vtp"), "a.vtp: the array 'offsets' is empty");
+}
+
 TEST(VtkSurfaces, PolygonsOfAnUnstructuredGrid) {
   const PolygonSoup soup = test::read(
       "# vtk DataFile Version 2.0\nflat\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n" +
@@ -149,6 +167,37 @@ TEST(VtkGrids, StructuredPointsAreAVolume) {
       grid + "SCALARS distance float\nLOOKUP_TABLE default\n" + "5 5 5 5 5 5 5 5 5 5 5 5\n";
   EXPECT_EQ(io::read_volume_bytes(two, ".vtk", "a.vtk", "").name, "distance");
   EXPECT_EQ(io::read_volume_bytes(two, ".vtk", "a.vtk", "phi").values[11], 11);
+}
+
+TEST(VtkGrids, NamesHoldBlanksAndTextsArePassedOver) {
+  const auto file = [](const std::string& kind, const std::string& texts,
+                       const std::string& values) {
+    return "# vtk DataFile Version 4.2\nt\n" + kind + "\nDATASET STRUCTURED_POINTS\n" +
+           "FIELD FieldData 1\nabout 1 2 string\n" + texts +
+           "\nDIMENSIONS 2 1 1\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 2\n"
+           "SCALARS my%20depth%C3%A9 unsigned_char 1\nLOOKUP_TABLE default\n" +
+           values + "\n";
+  };
+  const std::string in_two_bytes = "\x81\x04" + std::string(260, '7');  // 260 = 1 << 8 | 4
+  for (const std::string& bytes :
+       {file("ASCII", "a%20text\nof two lines, 1 2 string\n", "3 4"), file("BINARY",
+                                                                           "\xC3"
+                                                                           "a\n1" +
+                                                                               in_two_bytes,
+                                                                           "\3\4")}) {
+    const Volume volume = io::read_volume_bytes(bytes, ".vtk", "a.vtk");
+    EXPECT_EQ(volume.name, "my depth\xC3\xA9");
+    EXPECT_EQ(volume.values, (VecX(2) << 3, 4).finished());
+  }
+  const std::string whole = file("BINARY",
+                                 "\xC3"
+                                 "a\n1" +
+                                     in_two_bytes,
+                                 "\3\4");
+  for (std::size_t cut = whole.find("\xC3"
+                                    "a");
+       cut < whole.find("DIMENSIONS"); ++cut)
+    EXPECT_THROW(io::read_volume_bytes(whole.substr(0, cut), ".vtk", "a.vtk"), InputError) << cut;
 }
 
 TEST(VtkGrids, AspectRatioIsAnOlderWordForSpacing) {

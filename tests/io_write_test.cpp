@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "comma_locale.h"
 #include "constants.h"
 #include "io/binary.h"
 #include "io/read.h"
@@ -216,9 +217,20 @@ TEST_F(IoWrite, PlyHasTheFieldAsColoursToo) {
 
 TEST_F(IoWrite, FieldsAsText) {
   write_field(folder_ / "a.txt", small_field(), "a,b");
-  EXPECT_EQ(read_bytes(folder_ / "a.txt"), "0.33333333333333331\ninf\n-2\n");
+  EXPECT_EQ(read_bytes(folder_ / "a.txt"), "0.3333333333333333\ninf\n-2\n");
   write_field(folder_ / "a.csv", small_field(), "a,b");
   EXPECT_EQ(read_bytes(folder_ / "a.csv"), "vertex,\"a,b\"\n0,0.3333333333333333\n1,inf\n2,-2\n");
+}
+
+TEST_F(IoWrite, DecimalsHaveAPointInAnyLocale) {
+  const test::CommaLocale comma;
+  if (!test::CommaLocale::there()) GTEST_SKIP() << test::no_comma_locale;
+  for (const std::string name : {"a.txt", "a.csv"}) {
+    write_field(folder_ / name, small_field(), "a,b");
+    EXPECT_THAT(read_bytes(folder_ / name), HasSubstr("0.333333"));
+  }
+  write_surface(folder_ / "a.obj", small_field());
+  EXPECT_EQ(read_surface(folder_ / "a.obj").points, small_field().points);
 }
 
 TEST_F(IoWrite, FieldsAsNpy) {

@@ -259,8 +259,11 @@ TEST(TetValues, WhatCannotBeHadIsRefusedInTets) {
   vertices.values = {0, 1, 2};
   EXPECT_THAT(test::message_of([&] { counted(mesh, vertices); }),
               HasSubstr("3 values for 2 sources"));
-  vertices.values = {std::numeric_limits<double>::quiet_NaN()};
-  EXPECT_THROW(counted(mesh, vertices), InputError);
+  vertices.values = {0, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_EQ(test::message_of([&] { counted(mesh, vertices); }),
+            "value 1 of the sources, counted from 0, is not finite");
+  EXPECT_EQ(test::message_of([&] { counted(mesh, {}); }),
+            "there is nothing to measure from: no surface, cloud, vertex or boundary");
 }
 
 }  // namespace

@@ -93,6 +93,30 @@ TEST(VoxelBoundary, OneVoxelIsACube) {
   EXPECT_THROW(boundary_of_voxels(grid, {0}), InputError);
 }
 
+TEST(VoxelBoundary, NormalsAreTheSameInAnyUnit) {
+  const int n = 9;
+  Grid grid{{n, n, n}, Vec3::Zero(), Vec3(1, 1.5, 0.75)};
+  std::vector<unsigned char> ball(grid.n_nodes());
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        ball[grid.node(i, j, k)] = Vec3(i - 4, j - 4, k - 4).squaredNorm() <= 10;
+  const MatX3 normals = boundary_of_voxels(grid, ball).face_normals;
+  for (const double unit : {1e-200, 1e-3, 1e200}) {
+    Grid scaled = grid;
+    scaled.spacing *= unit;
+    const MatX3 same = boundary_of_voxels(scaled, ball).face_normals;
+    EXPECT_LT((same - normals).cwiseAbs().maxCoeff(), 1e-12) << unit;
+  }
+}
+
+TEST(VoxelBoundary, SpacingsMustBePositive) {
+  for (const Vec3& spacing : {Vec3(1, 0, 1), Vec3(1, 1, -1), Vec3(1e308, 1, 1)}) {
+    const Grid grid{{3, 1, 1}, Vec3::Zero(), spacing};
+    EXPECT_THROW(boundary_of_voxels(grid, {1, 1, 1}), InputError) << spacing.transpose();
+  }
+}
+
 TEST(VoxelBoundary, CorrectedNormalsConverge) {
   double error[2];
   for (int l = 0; l < 2; ++l) {

@@ -34,7 +34,8 @@ class Mesh {
   static Mesh cloud(const MatX3& points, const MatX3& normals = MatX3(0, 3));
 
   /// The boundary of the voxels that are not 0 (nodes of the grid, x fastest), with normals that do
-  /// not know about the grid. Throws InputError where there is none.
+  /// not know about the grid. Throws InputError where there is none and for spacings that are not
+  /// positive.
   static Mesh voxels(const Grid& grid, const std::vector<unsigned char>& inside);
 
   /// "triangle mesh", "polygon mesh", "point cloud" or "voxel surface".

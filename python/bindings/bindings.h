@@ -8,6 +8,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -17,7 +18,9 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -27,6 +30,8 @@
 namespace littoral::python {
 
 namespace nb = nanobind;
+
+using Path = std::filesystem::path;  // from Python: any str or PathLike that names a file
 
 void bind_surfaces(nb::module_& m);
 void bind_space(nb::module_& m);
@@ -109,6 +114,13 @@ auto released(const Settings* settings, const Body& body) {
 struct PointArrays {
   std::vector<SurfacePoint> points;
 };
+
+/// Text of the library for people: bytes that are not UTF-8, of a file's or a field's name, as
+/// "\\xe9".
+nb::str shown_text(std::string_view text);
+/// A field's name, and back: such bytes as Python has them in names of files.
+nb::str name_out(std::string_view name);
+std::string name_in(nb::handle name);
 
 /// A report as Python data, and back.
 nb::dict as_dict(const Report& report);

@@ -13,7 +13,7 @@ nb::object error_class(const char* name) {
 }
 
 nb::object error_object(const char* name, const Error& error) {
-  nb::object instance = error_class(name)(error.what());
+  nb::object instance = error_class(name)(shown_text(error.what()));
   instance.attr("code") = error.code();
   return instance;
 }
@@ -46,10 +46,11 @@ template <class T>
 nb::object as_python(const T& value) {
   return nb::cast(value);
 }
+nb::object as_python(const std::string& text) { return shown_text(text); }
 template <class Value>
 nb::object as_python(const std::vector<std::pair<std::string, Value>>& entries) {
   nb::dict out;
-  for (const auto& [name, value] : entries) out[name.c_str()] = value;
+  for (const auto& [name, value] : entries) out[name.c_str()] = as_python(value);
   return out;
 }
 
@@ -66,7 +67,7 @@ void read_into(std::vector<std::pair<std::string, Value>>& entries, const nb::ha
 nb::object as_python(const std::vector<Warning>& warnings) {
   const nb::object type = nb::module_::import_("littoral._report").attr("ReportWarning");
   nb::list out;
-  for (const auto& [code, text] : warnings) out.append(type(text, code));
+  for (const auto& [code, text] : warnings) out.append(type(shown_text(text), code));
   return out;
 }
 void read_into(std::vector<Warning>& warnings, const nb::handle& data) {
@@ -106,7 +107,23 @@ nb::list families() {
   return out;
 }
 
+nb::str decoded(std::string_view text, const char* errors) {
+  PyObject* out = PyUnicode_DecodeUTF8(text.data(), std::ssize(text), errors);
+  if (out == nullptr) nb::raise_python_error();
+  return nb::steal<nb::str>(out);
+}
+
 }  // namespace
+
+nb::str shown_text(std::string_view text) { return decoded(text, "backslashreplace"); }
+nb::str name_out(std::string_view name) { return decoded(name, "surrogateescape"); }
+
+std::string name_in(nb::handle name) {
+  PyObject* out = PyUnicode_AsEncodedString(name.ptr(), "utf-8", "surrogateescape");
+  if (out == nullptr) nb::raise_python_error();
+  const auto bytes = nb::steal<nb::bytes>(out);
+  return {bytes.c_str(), bytes.size()};
+}
 
 nb::dict as_dict(const Report& report) {
   nb::dict out;
@@ -123,7 +140,7 @@ Report as_report(const nb::dict& data) {
 
 nb::tuple as_tuple(PolygonSoup soup) {
   nb::dict scalars;
-  for (auto& [name, values] : soup.scalars) scalars[name.c_str()] = nb::cast(std::move(values));
+  for (auto& [name, values] : soup.scalars) scalars[name_out(name)] = nb::cast(std::move(values));
   const auto integers = [](const std::vector<int>& values) {
     return nb::cast(VecXi(Eigen::Map<const VecXi>(values.data(), std::ssize(values))));
   };
@@ -144,7 +161,7 @@ PolygonSoup as_soup(const nb::tuple& data) {
   soup.lines = nb::cast<std::vector<std::vector<int>>>(data[3]);
   soup.normals = nb::cast<MatX3>(data[4]);
   for (const auto& [name, values] : nb::cast<nb::dict>(data[5]))
-    soup.scalars[nb::cast<std::string>(name)] = nb::cast<VecX>(values);
+    soup.scalars[name_in(name)] = nb::cast<VecX>(values);
   return soup;
 }
 

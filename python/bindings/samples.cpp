@@ -48,7 +48,7 @@ void bind_samples(nb::module_& m) {
       .def("card",
            [](const Samples& s, const std::string& input) { return samples_card(s, input); })
       .def("report", [](const Samples& s) { return as_dict(s.report); })
-      .def("write", [](const Samples& s, const std::string& path, const std::string& input) {
+      .def("write", [](const Samples& s, const Path& path, const std::string& input) {
         write(s, path, input);
       });
   m.def(

@@ -47,12 +47,11 @@ void bind_volume(nb::module_& m) {
       .def_ro("grid", &Volume::grid)
       .def_prop_ro("values",
                    [](nb::handle self) { return view(nb::cast<const Volume&>(self).values, self); })
-      .def("write", [](const Volume& volume, const std::string& path) { write(volume, path); })
-      .def("write_page",
-           [](const Volume& volume, const std::string& path) { write_page(volume, path); })
+      .def("write", [](const Volume& volume, const Path& path) { write(volume, path); })
+      .def("write_page", [](const Volume& volume, const Path& path) { write_page(volume, path); })
       .def("write_picture",
-           [](const Volume& volume, const std::string& path) { write_picture(volume, path); });
-  m.def("read_volume", [](const std::string& path) { return read_volume(path); });
+           [](const Volume& volume, const Path& path) { write_picture(volume, path); });
+  m.def("read_volume", [](const Path& path) { return read_volume(path); });
   m.def(
       "isosurface",
       [](const Volume& volume, double level, bool close_at_box, const Settings* settings) {

@@ -1,5 +1,6 @@
 // Surfaces: meshes, sources, distance, all pairs, regions.
 
+#include "api/surface/surface_domain.h"
 #include "arrays.h"
 #include "bindings.h"
 
@@ -29,8 +30,21 @@ Mesh voxels(const Grid& grid, nb::ndarray<const unsigned char, nb::ndim<1>, nb::
   return Mesh::voxels(grid, {inside.data(), inside.data() + inside.size()});
 }
 
-/// The boundary of voxels cannot be made of a soup again: it is made of the voxels.
-nb::tuple mesh_state(const Mesh& mesh) { return as_tuple(mesh.soup()); }
+/// Its soup, and of the boundary of voxels also the normals, which do not come from that.
+nb::tuple mesh_state(const Mesh& mesh) {
+  const nb::tuple soup = as_tuple(mesh.soup());
+  const auto& normals = mesh.domain().face_normals;
+  return normals ? nb::tuple(soup + nb::make_tuple(nb::cast(MatX3(*normals)))) : soup;
+}
+
+Mesh mesh_from(const nb::tuple& state) {
+  constexpr std::size_t of_soup = 6;
+  Mesh mesh(as_soup(state));
+  if (state.size() == of_soup) return mesh;
+  auto normals = std::make_shared<const MatX3>(nb::cast<MatX3>(state[of_soup]));
+  if (normals->rows() != mesh.n_faces()) throw InputError("voxels have a normal for each face");
+  return Mesh(SurfaceDomain{mesh.domain().mesh, std::move(normals)});
+}
 
 void bind_mesh(nb::module_& m) {
   nb::class_<Mesh>(m, "Mesh")
@@ -40,8 +54,7 @@ void bind_mesh(nb::module_& m) {
           "cloud", [](Points points, Points normals) { return Mesh::cloud(points, normals); },
           nb::arg("points"), nb::arg("normals"))
       .def_static("voxels", voxels, nb::arg("grid"), nb::arg("inside"))
-      .def_static(
-          "from_soup", [](const nb::tuple& soup) { return Mesh(as_soup(soup)); }, nb::arg("soup"))
+      .def_static("from_soup", mesh_from, nb::arg("soup"))
       .def("soup", mesh_state)
       .def_prop_ro("kind", &Mesh::kind)
       .def_prop_ro("n_vertices", &Mesh::n_vertices)
@@ -78,9 +91,9 @@ void bind_mesh(nb::module_& m) {
                out[i] = mesh.interpolate(given, at.points[i]);
              return out;
            })
-      .def("write", [](const Mesh& mesh, const std::string& path) { write(mesh, path); });
+      .def("write", [](const Mesh& mesh, const Path& path) { write(mesh, path); });
   m.def("mesh_extensions", mesh_extensions);
-  m.def("read_mesh", [](const std::string& path) {
+  m.def("read_mesh", [](const Path& path) {
     const nb::gil_scoped_release unlocked;
     return read_mesh(path);
   });
@@ -154,7 +167,7 @@ void bind_sources(nb::module_& m) {
         return values;
       });
   m.def("read_sources",
-        [](const std::string& path, const Mesh& mesh) { return read_sources(path, mesh); });
+        [](const Path& path, const Mesh& mesh) { return read_sources(path, mesh); });
 }
 
 std::vector<MatX3> isolines(const Mesh& mesh, Numbers values, double level) {
@@ -185,11 +198,10 @@ void bind_distance(nb::module_& m) {
              return as_tuple(*field.refined);
            })
       .def("report", [](const Field& field) { return as_dict(field.report); })
-      .def("write", [](const Field& field, const std::string& path) { write(field, path); })
-      .def("write_page",
-           [](const Field& field, const std::string& path) { write_page(field, path); })
+      .def("write", [](const Field& field, const Path& path) { write(field, path); })
+      .def("write_page", [](const Field& field, const Path& path) { write_page(field, path); })
       .def("write_picture",
-           [](const Field& field, const std::string& path) { write_picture(field, path); });
+           [](const Field& field, const Path& path) { write_picture(field, path); });
   m.def("isolines", isolines);
   m.def(
       "distance",
@@ -259,11 +271,11 @@ void bind_winding(nb::module_& m) {
       .def_prop_ro("bounding_sources",
                    [](const Regions& regions) { return regions.bounding_sources; })
       .def("report", [](const Regions& regions) { return as_dict(regions.report); })
-      .def("write", [](const Regions& regions, const std::string& path) { write(regions, path); })
+      .def("write", [](const Regions& regions, const Path& path) { write(regions, path); })
       .def("write_page",
-           [](const Regions& regions, const std::string& path) { write_page(regions, path); })
+           [](const Regions& regions, const Path& path) { write_page(regions, path); })
       .def("write_picture",
-           [](const Regions& regions, const std::string& path) { write_picture(regions, path); });
+           [](const Regions& regions, const Path& path) { write_picture(regions, path); });
   m.def(
       "winding",
       [](const Mesh& mesh, const Sources& curves, const std::string& method,

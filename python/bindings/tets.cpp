@@ -57,16 +57,18 @@ void bind_tets(nb::module_& m) {
           "values",
           [](nb::handle self) { return view(nb::cast<const TetField&>(self).values, self); })
       .def("report", [](const TetField& field) { return as_dict(field.report); })
-      .def("write", [](const TetField& field, const std::string& path) { write(field, path); })
+      .def("write", [](const TetField& field, const Path& path) { write(field, path); })
       .def(
           "write_page",
-          [](const TetField& field, const std::string& path, int axis,
-             std::optional<double> position) { write_page(field, path, cut(axis, position)); },
+          [](const TetField& field, const Path& path, int axis, std::optional<double> position) {
+            write_page(field, path, cut(axis, position));
+          },
           nb::arg("path"), nb::arg("axis"), nb::arg("position").none())
       .def(
           "write_picture",
-          [](const TetField& field, const std::string& path, int axis,
-             std::optional<double> position) { write_picture(field, path, cut(axis, position)); },
+          [](const TetField& field, const Path& path, int axis, std::optional<double> position) {
+            write_picture(field, path, cut(axis, position));
+          },
           nb::arg("path"), nb::arg("axis"), nb::arg("position").none());
   nb::class_<TetDistanceSolver>(m, "TetDistanceSolver")
       .def(
@@ -95,7 +97,7 @@ void bind_tets(nb::module_& m) {
       },
       nb::arg("surface"), nb::arg("resolution").none(), nb::arg("spacing").none(),
       nb::arg("bounds").none(), nb::arg("padding"), nb::arg("settings").none());
-  m.def("read_tets", [](const std::string& path) { return read_tets(path); });
+  m.def("read_tets", [](const Path& path) { return read_tets(path); });
 }
 
 }  // namespace littoral::python

@@ -16,9 +16,19 @@ Array: TypeAlias = npt.NDArray[Any]
 
 
 def as_array(value: Any, name: str) -> Array:
-    """Anything with `__array__` or `__dlpack__`, or nested sequences, as a numpy array."""
-    if isinstance(value, np.ndarray):
+    """Anything with `__array__` or `__dlpack__`, or nested sequences, as a plain numpy array.
+
+    What a masked array hides must not be taken for numbers: InputError.
+    """
+    if type(value) is np.ndarray:
         return value
+    if isinstance(value, np.ndarray):
+        hidden = np.broadcast_to(getattr(value, "mask", False), value.shape)
+        if hidden.dtype == bool and hidden.any():
+            first = np.argwhere(hidden)[0]
+            at = ", ".join(str(i) for i in first)
+            raise InputError(f"{name}[{at}] is masked: expected numbers, fill or leave them out")
+        return np.asarray(value)
     if hasattr(value, "detach") and hasattr(value, "numpy"):  # a torch tensor, perhaps with a graph
         return as_array(value.detach().cpu().numpy(), name)
     if not hasattr(value, "__array__") and hasattr(value, "__dlpack__"):

@@ -7,11 +7,13 @@ import errno
 import glob
 import hashlib
 import json
+import math
 import os
 import re
 import shutil
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -66,6 +68,8 @@ def _is_url(path: str) -> bool:
 
 def _without_extension(path: str) -> str:
     parts = [p for p in path.split("://")[-1].split("/") if p not in ("", ".", "..")]
+    if not parts:
+        raise InputError(f"items: {path!r} names no file")
     head, _, _ = parts[-1].rpartition(".")
     return "/".join([*parts[:-1], head or parts[-1]])
 
@@ -90,15 +94,19 @@ def _listed(items: Any, out: str) -> list[_Item]:
         found = [_item(path, _without_extension(below)) for path, below in files]
     else:
         found = [_item(value, None) for value in items]
-    counts: dict[str, int] = {}
-    for item in found:
-        counts[item.name] = counts.get(item.name, 0) + 1
-    return [
-        dataclasses.replace(item, name=item.name + Path(item.label).suffix)
-        if item.is_file and counts[item.name] > 1
-        else item
-        for item in found
-    ]
+    # a.obj and a.ply keep theirs, and then a.obj.gz as well.
+    while doubled := {name for name, n in Counter(x.name for x in found).items() if n > 1}:
+        longer = [_with_extension(x) if x.is_file and x.name in doubled else x for x in found]
+        if longer == found:
+            break
+        found = longer
+    return found
+
+
+def _with_extension(item: _Item) -> _Item:
+    suffix = Path(item.label).suffix
+    is_whole = item.name.endswith(suffix) and item.name.endswith(Path(item.label).name)
+    return item if is_whole else dataclasses.replace(item, name=item.name + suffix)
 
 
 def _files(where: str, out: str) -> list[tuple[str, str]]:
@@ -173,6 +181,9 @@ def _jobs(items: Any) -> str | list[tuple[str, str | None]]:
     return [(os.fspath(value), name) for name, value in named]
 
 
+_STATUS = {UnsupportedError: "unsupported", InputError: "input", SolveError: "solve"}
+
+
 class _Failure(Exception):
     """A failure with its kind."""
 
@@ -180,23 +191,38 @@ class _Failure(Exception):
 def _outcome(call: Callable[[], Any]) -> tuple[str, str, str]:
     """Status, message and report of a call."""
     try:
-        return "done", "", json.dumps(call(), default=str)
-    except _Failure as error:
-        return str(error.args[0]), str(error.args[1]), ""
-    except MemoryError as error:
-        return "memory", str(error) or "not enough memory", ""
-    except UnsupportedError as error:
-        return "unsupported", str(error), ""
-    except InputError as error:
-        return "input", str(error), ""
-    except SolveError as error:
-        return "solve", str(error), ""
-    except OSError as error:
-        is_memory = error.errno == errno.ENOMEM or getattr(error, "code", "") == "too-large"
-        return "memory" if is_memory else "io", str(error), ""
+        return "done", "", json.dumps(_finite(call()), default=str)
     except BaseException as error:
-        kind = "internal" if not isinstance(error, Error) else "failed"
-        return kind, f"{type(error).__name__}: {error}", ""
+        status, message = _failure(error)
+        # Names of files may hold bytes that are no text.
+        return status, message.encode("utf-8", "backslashreplace").decode(), ""
+
+
+def _finite(value: Any) -> Any:
+    """The same with words for the numbers that JSON does not have, as the program writes them."""
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(each) for each in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value
+
+
+def _failure(error: BaseException) -> tuple[str, str]:
+    """Status and message."""
+    if isinstance(error, _Failure):
+        return str(error.args[0]), str(error.args[1])
+    if isinstance(error, MemoryError):
+        return "memory", str(error) or "not enough memory"
+    if isinstance(error, OSError):
+        is_memory = error.errno == errno.ENOMEM or getattr(error, "code", "") == "too-large"
+        return "memory" if is_memory else "io", str(error)
+    for kind, status in _STATUS.items():
+        if isinstance(error, kind):
+            return status, str(error)
+    status = "failed" if isinstance(error, Error) else "internal"
+    return status, f"{type(error).__name__}: {error}"
 
 
 def _sha256(path: str) -> str:
@@ -330,6 +356,12 @@ def batch(
         )
     if not isinstance(items, (str, os.PathLike, Mapping)):
         items = list(items)
+    for name, n in (("processes", processes), ("retries", retries), ("shard", max(shard))):
+        if not 0 <= n < 2**31:
+            raise InputError(f"{name}: expected a number from 0 on, got {n}")
+    for name, limit in (("time_limit", time_limit), ("memory_limit", memory_limit)):
+        if not 0 <= limit < math.inf:
+            raise InputError(f"{name}: expected a positive number, or 0 for none, got {limit}")
     if isinstance(work, str):
         extensions = [to] if isinstance(to, str) and to else list(to)
         if not remote and not _is_remote(items):

@@ -23,12 +23,15 @@ _kinds = {"input": InputError, "usage": InputError, "unsupported": UnsupportedEr
 
 
 def _words(options: Mapping[str, Any]) -> list[str]:
-    """Options as on the command line: True is one alone, a list is one given several times."""
+    """Options as on the command line: True and False are on and off, a list is one given several
+    times, None is none."""
     words = []
     for key, value in options.items():
         for each in value if isinstance(value, (list, tuple)) else [value]:
-            if each is not None and each is not False:
-                words.append(f"--{key.replace('_', '-')}" + ("" if each is True else f"={each}"))
+            if each is None:
+                continue
+            text = ("" if each else "=off") if isinstance(each, bool) else f"={each}"
+            words.append(f"--{key.replace('_', '-')}{text}")
     return words
 
 

@@ -15,7 +15,7 @@ from ._foreign import as_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, Shown, method_takes_kind, takes_kind
-from ._settings import Progress, settings
+from ._settings import Progress, part, settings
 from ._sources import make_sources, point_arrays, sources_from, sources_state
 from ._surfaces import Surface
 from ._tets import TetDistanceSolver, TetField, TetMesh, tet_distance
@@ -297,8 +297,16 @@ def distance_matrix(
     [[1.0, 1.0], [0.0, 1.414214]]
     """
     if isinstance(mesh, TetMesh):
-        solver = TetDistanceSolver(mesh, method, threads=threads, progress=progress, **options)
-        return solver._matrix(sources, targets, threads, progress)
+        prepared = 0.1  # share of the work
+        solver = TetDistanceSolver(
+            mesh, method, threads=threads, progress=part(progress, 0, prepared), **options
+        )
+
+        def tell(begin: float, end: float) -> Progress | None:
+            scale = 1 - prepared
+            return part(progress, prepared + scale * begin, prepared + scale * end)
+
+        return solver._matrix(sources, targets, threads, tell)
     surface = as_surface(mesh)
     values, _ = _core.distance_matrix(
         surface._handle,

@@ -33,7 +33,7 @@ def read(path: str | os.PathLike[str]) -> Surface:
     ...     littoral.read(f"{folder}/cube.obj")
     <littoral.Mesh: 8 vertices, 12 faces>
     """
-    name = os.fspath(path)
+    name = os.fsdecode(path)
     try:
         return _of_kind(_core.read_mesh(name))
     except InputError as error:

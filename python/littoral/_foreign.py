@@ -76,6 +76,9 @@ def _of_open3d(value: Any) -> Surface:
     )
 
 
+_CURVED_FACES = tuple(f"{name}{n}" for name in ("triangle", "quad") for n in range(1, 10))
+
+
 def _of_meshio(value: Any) -> Surface:
     points = np.asarray(value.points)
     if points.shape[1] == 2:
@@ -85,6 +88,12 @@ def _of_meshio(value: Any) -> Surface:
         if block.type in ("triangle", "quad") or block.type.startswith("polygon"):
             faces.extend(np.asarray(face) for face in block.data)
     others = sorted({block.type for block in value.cells} - {"vertex"})
+    curved = [name for name in others if name.startswith(_CURVED_FACES)]
+    if curved:
+        raise _refused(
+            value,
+            f"of {', '.join(curved)} has curved faces; triangles, quads and polygons are taken",
+        )
     if not faces and others:
         raise _refused(value, f"of {', '.join(others)} has no triangles, quads or polygons")
     if not faces:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -11,11 +13,30 @@ from . import _core
 Options: TypeAlias = list[tuple[str, str]]
 
 
+@functools.cache
+def _of_any_text() -> frozenset[str]:
+    """Options whose value is no word that the library knows, but the name of a file."""
+    return frozenset(
+        option["name"]
+        for _, family in _core.method_families()
+        for entry in family
+        for option in entry["options"]
+        if option["kind"] == "text"
+    )
+
+
+def _known_name(name: str) -> str:
+    return name.rstrip("_").replace("_", "-")
+
+
 def _text(name: str, value: Any) -> str:
     if isinstance(value, bool):
         return "on" if value else "off"
+    if isinstance(value, os.PathLike):
+        return os.fsdecode(value)
     if isinstance(value, str):
-        return value.replace("_", "-") if value.isidentifier() else value
+        is_word = value.isidentifier() and _known_name(name) not in _of_any_text()
+        return value.replace("_", "-") if is_word else value
     if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
         return _text(name, value.item())
     if isinstance(value, (int, float)):
@@ -26,7 +47,7 @@ def _text(name: str, value: Any) -> str:
 def option_texts(options: Mapping[str, Any]) -> Options:
     """Keyword arguments as the library reads them; None leaves an option at its default."""
     return [
-        (name.rstrip("_").replace("_", "-"), _text(name, value))
+        (_known_name(name), _text(name, value))
         for name, value in options.items()
         if value is not None
     ]

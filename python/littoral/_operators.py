@@ -86,7 +86,7 @@ class Factorization:
             self._handle = _core.Factorization.complex(matrix, settings(threads))
         else:
             self._handle = _core.Factorization.real(
-                matrix.astype(np.float64), laplacian, settings(threads)
+                matrix.astype(np.float64), bool(laplacian), settings(threads)
             )
 
     def solve(self, b: Any, *, threads: int | None = None) -> Array:

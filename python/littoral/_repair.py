@@ -11,6 +11,7 @@ from ._report import Report
 from ._results import Reported
 from ._settings import Progress, settings
 from ._surfaces import Mesh, Surface
+from ._volumes import nodes_and_box
 
 
 class Repaired(Reported):
@@ -76,7 +77,7 @@ def repair(
         option_texts(options),
         bool(flip),
         bool(estimate_normals),
-        resolution,
+        nodes_and_box(resolution, None)[0],
         spacing,
         float(error),
         float(thicken),

@@ -15,6 +15,7 @@ from ._methods import option_texts
 from ._report import Report
 from ._settings import Progress, settings
 from ._surfaces import Mesh
+from ._volumes import whole
 
 
 class Samples:
@@ -103,9 +104,11 @@ def samples(
     if numbers not in ("float16", "float32", "float64"):
         raise InputError(f"numbers: expected float16, float32 or float64, got {numbers!r}")
     how.numbers = getattr(_core.SampleNumbers, numbers)
-    how.resolution, how.surface, how.space = int(resolution), int(surface), int(space)
+    how.resolution = whole(resolution, "resolution", " of nodes")
+    how.surface, how.space = whole(surface, "surface", ""), whole(space, "space", "")
     how.sharp, how.uniform, how.curvature = float(sharp), float(uniform), float(curvature)
-    how.scales, how.margin, how.seed = [float(x) for x in scales], float(margin), int(seed)
+    how.scales, how.margin = [float(x) for x in scales], float(margin)
+    how.seed = whole(seed, "seed", " from 0 on", 0, 2**64 - 1)
     shape = as_cloud_or_surface(V, F)
     return Samples(
         _core.sample(

@@ -25,6 +25,14 @@ def told(callback: Progress | None = None) -> Progress | None:
     return callback or _progress.get()
 
 
+def part(callback: Progress | None, begin: float, end: float) -> Progress | None:
+    """Whom a call tells that is a part of another one's work, from one share of it to another."""
+    listener = told(callback)
+    if listener is None:
+        return None
+    return lambda share, stage: listener(begin + (end - begin) * share, stage)
+
+
 def settings(threads: int | None = None, callback: Progress | None = None) -> _core.Settings | None:
     """What a call is run with; None where everything is as by default."""
     listener = told(callback)
@@ -35,7 +43,7 @@ def settings(threads: int | None = None, callback: Progress | None = None) -> _c
     ):
         return None
     used = _defaults["threads"] if threads is None else threads
-    if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or used < 0:
+    if isinstance(used, bool) or not isinstance(used, (int, np.integer)) or not 0 <= used < 2**31:
         raise ValueError(
             f"threads: expected a number of threads or 0 for all cores, got {threads!r}"
         )

@@ -40,6 +40,12 @@ class SurfacePoint:
     element: int
     b: tuple[float, float, float]
 
+    def __post_init__(self) -> None:
+        if self.on not in (_VERTEX, _EDGE, _FACE) or len(self.b) != 3:
+            raise InputError(
+                f"SurfacePoint: on is {self.on!r}, b is {self.b!r}; make one by vertex, edge, face"
+            )
+
     @staticmethod
     def vertex(v: int) -> SurfacePoint:
         """A vertex by number."""
@@ -161,17 +167,19 @@ def point_arrays(value: Any, mesh: Any, name: str) -> _core.Points:
         raise TypeError(f"{name}: expected vertices or surface points, got {value!r}")
     nodes = [_node(v, f"{name}[{i}]") for i, v in enumerate(value)]
     on = np.array([p.on for p in nodes], np.int32)
-    element = np.array([p.element for p in nodes], np.int64)
+    counts = {
+        _VERTEX: (mesh.n_vertices, "vertices"),
+        _EDGE: (mesh.n_edges, "edges"),
+        _FACE: (mesh.n_faces, "faces"),
+    }
+    for i, p in enumerate(nodes):  # before numpy, which has no room for any integer
+        count, of = counts[p.on]
+        if not 0 <= p.element < count:
+            check_range(np.array([p.element]), count, f"{name}[{i}]", of)
+    element = np.array([p.element for p in nodes], np.int32)
     b = np.array([p.b for p in nodes], np.float64).reshape(-1, 3)
-    for kind, count, of in (
-        (_VERTEX, mesh.n_vertices, "vertices"),
-        (_EDGE, mesh.n_edges, "edges"),
-        (_FACE, mesh.n_faces, "faces"),
-    ):
-        for i in np.flatnonzero(on == kind):
-            check_range(element[i : i + 1], count, f"{name}[{i}]", of)
     floats(b, f"{name}'s barycentric coordinates", 3)
-    return _core.Points(on, element.astype(np.int32), b)
+    return _core.Points(on, element, b)
 
 
 def _space_points(value: Any) -> Floats | None:

@@ -13,7 +13,7 @@ from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, method_takes_kind, takes_kind
-from ._settings import Progress, settings
+from ._settings import Progress, part, settings
 from ._surfaces import Mesh, PointCloud, Surface
 from ._volumes import Volume, nodes_and_box
 
@@ -290,16 +290,22 @@ def offset(
     1.1
     """
     wanted = list(floats(np.atleast_1d(np.asarray(distances)), "distances"))
-    given = (float(open), float(close), settings(threads, progress))
+    radii = float(open), float(close)
     if isinstance(shape, Volume):
-        cores = _core.offset(shape._handle, wanted, *given)
+        cores = _core.offset(shape._handle, wanted, *radii, settings(threads, progress))
     else:
-        sdf = shape if isinstance(shape, SDF) else SDF(shape)
+        prepared = 0.0 if isinstance(shape, SDF) else 0.2  # share of the work
+        if isinstance(shape, SDF):
+            sdf = shape
+        else:
+            sdf = SDF(shape, threads=threads, progress=part(progress, 0, prepared))
         side = float(np.ptp(sdf.bounds, axis=0).max())
         reach = max([abs(d) for d in wanted] + [0.0]) / side if side > 0 else 0.0
         padding = max(0.25, 1.5 * reach)
-        grid = _core.Grid.around(sdf._handle, resolution, spacing, None, padding)
-        cores = _core.offset(sdf._handle, grid, wanted, *given)
+        nodes, _ = nodes_and_box(resolution, None)
+        grid = _core.Grid.around(sdf._handle, nodes, spacing, None, padding)
+        how = settings(threads, part(progress, prepared, 1))
+        cores = _core.offset(sdf._handle, grid, wanted, *radii, how)
     return [Mesh._of(core) for core in cores]
 
 

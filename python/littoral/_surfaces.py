@@ -149,6 +149,8 @@ class Surface:
         >>> soup.welded().n_vertices, soup.welded(1e-6).n_vertices
         (5, 4)
         """
+        if self.kind == "voxel surface":
+            raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
         return type(self)._of(self._handle.welded(float(distance)), self._dtype)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -265,7 +267,8 @@ class Voxels(Surface):
     """The boundary of the voxels that are not 0, with normals that do not know about the grid.
 
     inside: nx x ny x nz. The centre of voxel i, j, k lies at origin + (i, j, k) * spacing [length].
-    Outside the array is 0. Raises InputError for another shape.
+    Outside the array is 0. Raises InputError for another shape, for numbers that are not finite and
+    for spacings that are not positive.
 
     >>> import numpy as np
     >>> Voxels(np.pad(np.ones((2, 2, 2), bool), 1)).n_faces
@@ -283,19 +286,26 @@ class Voxels(Surface):
             raise InputError(
                 f"inside: expected nx x ny x nz numbers, got {values.dtype} {values.shape}"
             )
+        if not np.isfinite(values).all():  # neither inside nor outside
+            i, j, k = np.argwhere(~np.isfinite(values))[0]
+            raise InputError(f"inside[{i}, {j}, {k}] is {values[i, j, k]}: expected finite numbers")
         self._inside = np.asarray(values != 0)
-        self._spacing = triple(spacing, "spacing")
+        self._spacing = spacings(spacing)
         self._origin = triple(origin, "origin")
         grid = _core.Grid(self._inside.shape, self._origin, self._spacing)
         x_first = self._inside.ravel(order="F").astype(np.uint8)
         self._handle = _core.Mesh.voxels(grid, x_first)
 
-    def welded(self, distance: float = 0.0) -> Voxels:
-        """Raises UnsupportedError: voxels share their vertices."""
-        raise UnsupportedError("welded: voxels share their vertices; there is nothing to weld")
-
     def __reduce__(self) -> tuple[Any, ...]:
         return Voxels, (self._inside, self._spacing, self._origin)
+
+
+def spacings(value: Any) -> tuple[float, float, float]:
+    """Of a grid: one for all axes, or one for each; InputError unless all are positive."""
+    steps = triple(value, "spacing")
+    if not min(steps) > 0:
+        raise InputError(f"spacing: expected positive lengths, got {steps}")
+    return steps
 
 
 def triple(value: Any, name: str) -> tuple[float, float, float]:

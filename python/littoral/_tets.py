@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ from ._foreign import as_cloud_or_surface
 from ._methods import option_texts
 from ._report import Report
 from ._results import Reported, Shown, method_takes_kind, takes_kind
-from ._settings import Progress, settings
+from ._settings import Progress, part, settings
 from ._surfaces import Mesh, Surface
 from ._volumes import nodes_and_box
 
@@ -306,14 +306,18 @@ class TetDistanceSolver:
         return TetField(self._handle.solve(sources, settings(threads, progress)), self.mesh)
 
     def _matrix(
-        self, sources: Any, targets: Any, threads: int | None, progress: Progress | None
+        self, sources: Any, targets: Any, threads: int | None, tell: Callable[..., Any]
     ) -> Array:
-        """sources x targets, or x vertices: one solve for each source [length]."""
+        """sources x targets, or x vertices: one solve for each source [length].
+
+        tell(begin, end): whom a solve tells that is this share of the work.
+        """
         rows = self.mesh._vertices(sources, "sources")
         chosen = range(self.mesh.n_vertices) if targets is None else targets
         columns = self.mesh._vertices(chosen, "targets")
         out = np.empty((len(rows), len(columns)), self.mesh._dtype)
-        for row, source in zip(out, rows, strict=True):
+        for i, (row, source) in enumerate(zip(out, rows, strict=True)):
+            progress = tell(i / len(rows), (i + 1) / len(rows))
             row[:] = self.solve(vertices=source, threads=threads, progress=progress).values[columns]
         return out
 
@@ -355,7 +359,10 @@ def tet_distance(
     >>> littoral.tet_distance(tets, vertices=[0, 1], values=[0, 0.5]).values.round(2).tolist()
     [0.0, 0.5, 1.0, 1.0]
     """
-    solver = TetDistanceSolver(mesh, method, threads=threads, progress=progress, **options)
+    prepared = 0.2  # share of the work
+    solver = TetDistanceSolver(
+        mesh, method, threads=threads, progress=part(progress, 0, prepared), **options
+    )
     return solver.solve(
         surface,
         vertices,
@@ -364,5 +371,5 @@ def tet_distance(
         estimate_normals=estimate_normals,
         values=values,
         threads=threads,
-        progress=progress,
+        progress=part(progress, prepared, 1),
     )

@@ -13,19 +13,26 @@ from ._arrays import Floats, as_array, contiguous, floats
 from ._errors import InputError
 from ._results import Shown, method_takes_kind
 from ._settings import settings
-from ._surfaces import Mesh, Surface, triple
+from ._surfaces import Mesh, Surface, spacings, triple
 
 
 def nodes_and_box(
     resolution: int | None, bounds: Sequence[float] | None
 ) -> tuple[int | None, list[float] | None]:
     """The words for a grid, checked: nodes along the longest side, x0 y0 z0 x1 y1 z1."""
-    if resolution is not None and int(resolution) != resolution:
-        raise InputError(f"resolution: expected a whole number of nodes, got {resolution}")
+    nodes = None if resolution is None else whole(resolution, "resolution", " of nodes")
     box: list[float] | None = None if bounds is None else floats(bounds, "bounds").ravel().tolist()
     if box is not None and len(box) != 6:
         raise InputError(f"bounds: expected x0 y0 z0 x1 y1 z1, got {len(box)} numbers")
-    return None if resolution is None else int(resolution), box
+    return nodes, box
+
+
+def whole(value: Any, name: str, what: str, least: int = -(2**31), most: int = 2**31 - 1) -> int:
+    """A whole number, also as a float, that the library has room for; InputError for others."""
+    known = np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf"
+    if not known or not least <= value <= most or int(value) != value:
+        raise InputError(f"{name}: expected a whole number{what}, got {value}")
+    return int(value)
 
 
 class Volume(Shown):
@@ -53,7 +60,10 @@ class Volume(Shown):
             raise InputError(
                 f"values: expected nx x ny x nz numbers, got {array.dtype} {array.shape}"
             )
-        grid = _core.Grid(array.shape, triple(origin, "origin"), triple(spacing, "spacing"))
+        if array.size == 0:
+            raise InputError(f"values: there are none, the shape is {array.shape}")
+        steps = spacings(spacing)
+        grid = _core.Grid(array.shape, triple(origin, "origin"), steps)
         self._handle = _core.Volume(grid, contiguous(array.ravel(order="F"), np.float64))
 
     @classmethod

@@ -24,6 +24,17 @@ from ._space import SDF, offset
 from ._surfaces import Surface
 
 
+def _words(what: str, options: dict[str, Any]) -> tuple[Any, ...]:
+    """What is prepared with these options; arrays and lists by their numbers."""
+    words: list[Any] = [what]
+    for name, value in sorted(options.items()):
+        if isinstance(value, (list, tuple, np.ndarray)):
+            array = np.asarray(value)
+            value = array.dtype.str, array.shape, array.tobytes()
+        words.append((name, value))
+    return tuple(words)
+
+
 class Accessor:
     """What littoral computes on one `pyvista.PolyData`.
 
@@ -54,7 +65,7 @@ class Accessor:
         """
         surface = self.surface
         signed, values = options.pop("signed", None), options.pop("values", None)
-        words = ("distance", *sorted(options.items()))
+        words = _words("distance", options)
         if words not in self._prepared:
             self._prepared[words] = DistanceSolver(surface, **options)
         field = self._prepared[words].solve(curves, points, signed=signed, values=values)
@@ -81,7 +92,7 @@ class Accessor:
 
     def _sdf(self, options: dict[str, Any]) -> SDF:
         surface = self.surface
-        words = ("sdf", *sorted(options.items()))
+        words = _words("sdf", options)
         if words not in self._prepared:
             self._prepared[words] = SDF(surface, **options)
         made: SDF = self._prepared[words]
@@ -92,7 +103,9 @@ class Accessor:
 
         Options as for `littoral.offset`: resolution, spacing, open, close.
         """
-        single = isinstance(distances, (int, float, np.number))
+        single = isinstance(distances, (int, float, np.number)) or (
+            isinstance(distances, np.ndarray) and distances.ndim == 0
+        )
         wanted = [float(distances)] if single else list(distances)  # type: ignore[arg-type]
         found = offset(self._sdf({}), wanted, as_="pyvista", **options)
         return found[0] if single else found

@@ -167,3 +167,109 @@ def test_random_arrays_give_an_answer_or_an_error_of_ours(data):
         return
     values = sdf(np.zeros((2, 3)))
     assert np.isfinite(values).all()
+
+
+def test_what_is_masked_is_no_number():
+    points = np.ma.array(V, mask=False)
+    np.testing.assert_array_equal(littoral.Mesh(points, F).points, V)  # nothing is
+    points[2, 1] = np.ma.masked
+    with pytest.raises(littoral.InputError, match=r"V\[2, 1\] is masked"):
+        littoral.Mesh(points, F)
+    with pytest.raises(littoral.InputError, match=r"points\[1\] is masked"):
+        littoral.distance((V, F), points=np.ma.array([0, 3], mask=[False, True]))
+    with pytest.raises(littoral.InputError, match=r"values\[0, 0, 1\] is masked"):
+        littoral.Volume(np.ma.array(np.zeros((2, 2, 2)), mask=np.arange(8).reshape(2, 2, 2) == 1))
+
+
+@pytest.mark.filterwarnings("ignore::PendingDeprecationWarning")
+def test_matrices_are_arrays():
+    padded = np.matrix(np.column_stack([F, [-1, -1]]))
+    mesh = littoral.Mesh(np.matrix(V), padded)
+    np.testing.assert_array_equal(mesh.faces, F)
+
+
+@pytest.mark.parametrize("element", [2**31, 2**63, 2**70, -(2**70)])
+def test_elements_beyond_any_integer_are_named(element):
+    mesh = littoral.Mesh(V, F)
+    for points in (
+        [(element, [])],
+        [littoral.SurfacePoint.vertex(element)],
+        [0, littoral.SurfacePoint.edge(element, 0.5)],
+        [littoral.SurfacePoint.face(element, 1, 0, 0)],
+    ):
+        with pytest.raises(littoral.IndexOutOfRange, match=f"is {element}: there are"):
+            littoral.distance(mesh, points=points)
+
+
+def test_surface_points_lie_on_something():
+    for on, b in ((3, (1.0, 0.0, 0.0)), (0, (1.0, 0.0))):
+        with pytest.raises(littoral.InputError, match="make one by vertex, edge, face"):
+            littoral.SurfacePoint(on, 0, b)
+
+
+@pytest.mark.parametrize("resolution", [float("nan"), float("inf"), 2**31, 2.5, "64", [8]])
+def test_resolutions_are_whole_numbers(resolution):
+    sdf = littoral.SDF(littoral.examples.cube())
+    with pytest.raises(littoral.InputError, match="resolution: expected a whole number of nodes"):
+        sdf.sample(resolution)
+    assert sdf.sample(8.0).shape == (8, 8, 8)
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [{"resolution": 8.5}, {"surface": float("inf")}, {"space": 2**40}, {"seed": 1.5}, {"seed": -1}],
+)
+def test_samples_are_counted_in_whole_numbers(numbers):
+    name = next(iter(numbers))
+    with pytest.raises(littoral.InputError, match=f"{name}: expected a whole number"):
+        littoral.samples(littoral.examples.cube(), **numbers)
+
+
+@pytest.mark.parametrize(
+    ("grid", "says"),
+    [
+        ({"resolution": -1}, "resolution must be at least 2"),
+        ({"resolution": 8.5}, "resolution: expected a whole number"),
+        ({"spacing": float("nan")}, "spacing must be positive and finite"),
+        ({"spacing": -1}, "spacing must be positive and finite"),
+        ({"resolution": 8, "spacing": 0.1}, "give one"),
+    ],
+)
+def test_repair_checks_its_grid_also_where_it_needs_none(grid, says):
+    cube = littoral.examples.cube()
+    assert littoral.repair(cube, resolution=8.0).surface.n_faces == cube.n_faces
+    with pytest.raises(littoral.InputError, match=says):
+        littoral.repair(cube, **grid)
+
+
+@pytest.mark.parametrize("spacing", [0, -1, [1, 1, -1], [1, 0, 1]])
+def test_spacings_are_positive(spacing):
+    for make in (littoral.Volume, littoral.Voxels):
+        with pytest.raises(littoral.InputError, match="spacing: expected positive lengths"):
+            make(np.ones((2, 2, 2)), spacing=spacing)
+
+
+def test_grids_have_values():
+    with pytest.raises(littoral.InputError, match="values: there are none"):
+        littoral.Volume(np.zeros((2, 0, 2)))
+    inside = np.ones((2, 2, 2))
+    inside[1, 0, 1] = np.nan
+    with pytest.raises(littoral.InputError, match=r"inside\[1, 0, 1\] is nan"):
+        littoral.Voxels(inside)
+
+
+def test_too_many_threads_are_a_value_error():
+    with pytest.raises(ValueError, match="threads: expected"):
+        littoral.set_threads(2**40)
+
+
+def test_files_of_options_keep_their_names(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("along_x").write_text("f 0 1 0 0\n")
+    mesh = littoral.Mesh(V, F)
+    how = {"method": "regularized", "regularizer": "align", "points": 0}
+    fields = [littoral.distance(mesh, field=f, **how) for f in ("along_x", Path("along_x"))]
+    np.testing.assert_array_equal(fields[0].values, fields[1].values)
+    assert fields[0].report.options["field"] == "along_x"
+    with pytest.raises(littoral.IoError, match="along_y"):
+        littoral.distance(mesh, field="along_y", **how)

@@ -258,6 +258,15 @@ def test_distance_of_polydata(accessor_mesh):
         accessor_mesh.littoral.distance(points=0, method="no-such")
 
 
+def test_options_of_polydata_may_be_lists_and_arrays(accessor_mesh):
+    pyvista = pytest.importorskip("pyvista")
+    points = pyvista.PolyData(np.array([[0, 0, 0], [3, 0, 0.0]]))
+    for values, expected in (([-1, -0.5], 0.5), (np.array([-1, -0.75]), 0.25), ((-1, -0.5), 0.5)):
+        assert points.littoral.sdf([2, 0, 0], values=values) == pytest.approx(expected)
+    one = accessor_mesh.littoral.offset(np.array(0.1), resolution=12)
+    assert one.bounds[1] == pytest.approx(1.1, abs=0.05)
+
+
 def test_winding_of_polydata(square, accessor_mesh):
     flat = handed_over(square, "pyvista")
     loop = [20, 24, 60, 56, 20]
@@ -276,3 +285,12 @@ def test_space_around_polydata(accessor_mesh):
     radii = np.linalg.norm(shell.points, axis=1)
     np.testing.assert_allclose(radii, 1.5, atol=0.05)
     assert accessor_mesh.littoral.offset(0.5, resolution=24).n_points == shell.n_points
+
+
+def test_curved_faces_are_refused_even_among_flat_ones():
+    meshio = pytest.importorskip("meshio")
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [0.5, 0.5, 0], [0, 0.5, 0]])
+    cells = [("triangle", [[0, 2, 1]]), ("triangle6", [[0, 1, 2, 3, 4, 5]])]
+    with pytest.raises(littoral.InputError, match="of triangle6 has curved faces"):
+        littoral.as_surface(meshio.Mesh(points, cells))
+    assert littoral.as_surface(meshio.Mesh(points, cells[:1])).n_faces == 1

@@ -57,7 +57,7 @@ def test_factorizations_solve(sphere):
     b = rng.normal(size=two.shape[0])
     b[: len(ops.M)] -= b[: len(ops.M)].mean()
     b[len(ops.M) :] -= b[len(ops.M) :].mean()
-    x = littoral.Factorization(two, laplacian=True).solve(b)
+    x = littoral.Factorization(two, laplacian=np.bool_(True)).solve(b)
     np.testing.assert_allclose(two @ x, b, atol=1e-9)
     assert abs(x[: len(ops.M)].mean()) < 1e-10
     with pytest.raises(littoral.SolveError):

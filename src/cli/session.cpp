@@ -175,8 +175,8 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return a == b || std::filesystem::equivalent(a, b, none);
 }
 
-/// A result must not replace what is read, or another result.
-void check_files(const RunRecord& record) {
+/// A result must not replace what is read, or another result, and nor must the log be added to it.
+void check_files(const RunRecord& record, const std::string& log) {
   const auto& in = record.inputs;
   for (std::size_t i = 0; i < in.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
@@ -195,6 +195,12 @@ void check_files(const RunRecord& record) {
         throw InputError("the output " + out[i] + " would replace the input: name another file",
                          "cannot-write");
   }
+  for (const auto* files : {&in, &out})
+    for (const std::string& file : *files)
+      if (!log.empty() && is_same_file(file, log))
+        throw InputError("option log: " + log + " is a file of the " +
+                             (files == &in ? "input" : "results") + ": name another",
+                         "cannot-write");
 }
 
 }  // namespace
@@ -207,7 +213,7 @@ void record_files(const CLI::App& verb, Session& session) {
     auto& files = input ? session.record.inputs : session.record.outputs;
     files.insert(files.end(), option->results().begin(), option->results().end());
   }
-  check_files(session.record);
+  check_files(session.record, session.log_file);
 }
 
 void add_common_options(CLI::App& verb, Session& session) {

@@ -28,6 +28,9 @@ std::string lower_case(std::string text);
 /// Is this one of the blanks that separate words within a line?
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
+/// A text in which "%20" stands for a blank, and so on for any byte.
+std::string without_percents(std::string_view text);
+
 /// Text without the UTF-8 byte-order mark; throws InputError for UTF-16.
 std::string_view without_byte_order_mark(std::string_view bytes, const std::string& name);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 
 #include "io/binary.h"
 #include "io/formats.h"
@@ -57,12 +56,9 @@ void write_tsv(std::ostream& out, const Table& table) { write_separated(out, tab
 
 void write_txt(std::ostream& out, const Table& table) {
   const Eigen::MatrixXd& x = table.columns;
-  char text[32];
   for (Eigen::Index r = 0; r < x.rows(); ++r)
-    for (Eigen::Index c = 0; c < x.cols(); ++c) {
-      std::snprintf(text, sizeof text, "%.17g", x(r, c));
-      out << text << (c + 1 < x.cols() ? ' ' : '\n');
-    }
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+      out << exact_text(x(r, c)) << (c + 1 < x.cols() ? ' ' : '\n');
 }
 
 void write_npy_header(std::ostream& out, const std::string& shape, bool first_axis_fastest,

@@ -1,6 +1,7 @@
 """Many inputs: what becomes of each is a line, and nothing ends the rest."""
 
 import fcntl
+import gzip
 import hashlib
 import json
 import os
@@ -113,6 +114,11 @@ def test_results_of_one_name_do_not_overwrite_each_other(run: Run, scans: Path) 
     run("convert", "in/a/y.obj", "-o", "in/a/x.ply")
     batch(scans, "in/a/x.*", "--verb", "convert", "--to", ".off", "-o", "out")
     assert files(scans / "out") == ["status.jsonl", "x.obj.off", "x.ply.off"]
+    packed = gzip.compress((scans / "in/a/x.obj").read_bytes())
+    (scans / "in/a/x.obj.gz").write_bytes(packed)
+    batch(scans, "in/a/x.*", "--verb", "convert", "--to", ".off", "-o", "out")
+    assert "x.obj.gz.off" in files(scans / "out")
+    (scans / "in/a/x.obj.gz").unlink()
     (scans / "twice.txt").write_text("in/a/x.obj\n'in/a/x.obj' --triangulate\n")
     failed = run("batch", "twice.txt", *TO_PLY, status=2)
     assert "would both be named 'in/a/x.obj': give one of them another name" in failed.stderr

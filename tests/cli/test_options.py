@@ -36,6 +36,18 @@ def test_points_without_a_file(
     assert ("is 3 from the surface" in result.stderr) == ("--at=-3,0.5,0" in arguments)
 
 
+def test_places_within_polygons_are_moved_to_vertices(run: Run, tmp_path: Path) -> None:
+    corners = [(0, 0), (4, 0), (8, 0), (0, 3), (4, 3), (8, 3)]
+    lines = [f"v {x} {y} 0" for x, y in corners] + ["f 1 2 5 4", "f 2 3 6 5"]
+    (tmp_path / "quads.obj").write_text("\n".join(lines) + "\n")
+    result = run("distance", "quads.obj", "--at", "5.5,2,0", "-o", "a.txt")
+    assert "5.5,2,0 is 1.803 from vertex 4, which is taken" in result.stderr
+    assert "face 1 has 4 corners [source-moved]" in result.stderr
+    assert field(tmp_path / "a.txt")[4] == 0
+    result = run("distance", "quads.obj", "--at", "4,2.99,0", "-o", "a.txt")
+    assert "source-moved" not in result.stderr and field(tmp_path / "a.txt")[4] == 0
+
+
 def test_curves_without_a_file(run: Run, mesh: Path) -> None:
     column = [str(5 + 11 * j) for j in range(11)]
     run("distance", "square.obj", "-s", "curve.txt", "-o", "a.txt")

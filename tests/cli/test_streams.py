@@ -65,6 +65,9 @@ def test_results_replace_neither_input_nor_each_other(run: Run, mesh: Path) -> N
     assert "would replace the input" in run(*words, "square.obj", status=2).stderr
     os.symlink(mesh, mesh.parent / "link.obj")
     assert "would replace the input" in run(*words, "link.obj", status=2).stderr
+    for log, of in (("link.obj", "input"), ("./square.obj", "input"), ("a.ply", "results")):
+        failed = run(*words, "a.ply", "--log", log, status=2)
+        assert f"--log: {log} is a file of the {of}" in failed.stderr
     assert mesh.read_bytes() == before
     assert "name it once" in run(*words, "a.ply", "-o", "a.ply", status=2).stderr
 

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import Floats, Ints, as_array, check_range, floats, ints
+from .._arrays import Array, Floats, Ints, as_array, check_range, floats, ints
 from .._distance import DistanceSolver, distance
 from .._errors import InputError
 from .._space import SDF, Closest
@@ -169,16 +169,32 @@ def point_mesh_squared_distance(P: Any, V: Any, Ele: Any) -> tuple[Floats, Indic
         unsupported("distance to segments in space", "use libigl itself for elements x 2")
     check_range(elements, len(points), "Ele", "vertices")
     closest = _closest_points(points, elements, x)
-    columns = np.shape(P)[1]
+    columns = 2 if as_array(P, "P").shape[1:] == (2,) else 3
     squared: Floats = own(closest.distance) ** 2
     return squared, closest.face.astype(np.int64), own(closest.point)[:, :columns].copy()
 
 
 def _closest_points(points: Floats, elements: Ints, x: Floats) -> Closest:
     if elements.ndim == 2 and elements.shape[1] == 1 and len(elements):
-        cloud = PointCloud(points[elements[:, 0]], np.ones((len(elements), 3)))
-        return SDF(cloud, method="winding").closest(x)
+        places = points[elements[:, 0]]
+        try:
+            cloud = PointCloud(places, np.ones((len(elements), 3)))
+            return SDF(cloud, method="winding").closest(x)
+        except InputError:  # a cloud has points at three places
+            different = np.unique(places, axis=0, return_index=True)[1]
+            if len(different) < 3:
+                return _closest_of_few(places, different, x)
+            raise
     return SDF(triangle_mesh(points, elements), method="closest-point").closest(x)
+
+
+def _closest_of_few(places: Floats, chosen: Array, x: Floats) -> Closest:
+    """The nearest of the chosen places, which are too few to be a cloud."""
+    away = np.linalg.norm(x[:, None] - places[chosen][None], axis=2)
+    nearest = chosen[away.argmin(axis=1)].astype(np.int32)
+    corners = np.repeat(nearest[:, None], 3, axis=1)
+    barycentric = np.tile([1.0, 0.0, 0.0], (len(x), 1))
+    return Closest(places[nearest], nearest, barycentric, corners, away.min(axis=1))
 
 
 def winding_number(V: Any, F: Any, O: Any = None, *, o: Any = None) -> Any:  # noqa: E741

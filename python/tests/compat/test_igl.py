@@ -279,3 +279,18 @@ def test_names_that_are_missing_say_what_to_use(real):
     np.testing.assert_allclose(
         real.cotmatrix(V, F).toarray(), -littoral.operators((V, F)).L.toarray(), atol=1e-12
     )
+
+
+def test_points_nearest_to_one_or_two_points():
+    V = np.array([[0, 0, 0], [2, 0, 0], [0, 9, 0.0]])
+    D, nearest, C = igl.point_mesh_squared_distance([[-1, 0, 0], [3, 0, 0]], V, [[0], [1], [1]])
+    assert (D.tolist(), nearest.tolist()) == ([1, 1], [0, 1])
+    np.testing.assert_array_equal(C, V[:2])
+    D, nearest, C = igl.point_mesh_squared_distance([[0, 8]], V[:, :2], [[2]])
+    assert (D.tolist(), nearest.tolist(), C.tolist()) == ([1], [0], [[0, 9]])
+
+
+def test_no_points_have_no_nearest(cube):
+    for P, columns in (([], 3), (np.zeros((0, 3)), 3), (np.zeros((0, 2)), 2)):
+        D, nearest, C = igl.point_mesh_squared_distance(P, *cube)
+        assert (D.shape, nearest.shape, C.shape) == ((0,), (0,), (0, columns))

@@ -10,6 +10,16 @@
 
 namespace littoral {
 
+/// The context of a part of a call, whose progress goes from one share of it to another.
+inline Context part_of(Context context, double begin, double end) {
+  if (context.progress)
+    context.progress = [begin, end, whole = context.progress](double fraction,
+                                                              const std::string& stage) {
+      whole(begin + (end - begin) * fraction, stage);
+    };
+  return context;
+}
+
 /// What `body(task)` returns, on the context's threads and within its memory; the last progress
 /// reported is 1.
 template <class Body>

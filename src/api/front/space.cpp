@@ -279,8 +279,9 @@ std::vector<Mesh> offset(const Volume& distance, const std::vector<double>& dist
 
 std::vector<Mesh> offset(const Sdf& shape, const Grid& grid, const std::vector<double>& distances,
                          const Morphology& morphology, const Context& context) {
-  const Volume distance = shape.sample(grid, context);
-  return run(context, [&](const Task& task) {
+  constexpr double sampled = 0.8;
+  const Volume distance = shape.sample(grid, part_of(context, 0, sampled));
+  return run(part_of(context, sampled, 1), [&](const Task& task) {
     Report report;
     std::vector<Mesh> out;
     for (Isosurface& each : offset_isosurfaces(distance, distances, morphology, false, report, task,

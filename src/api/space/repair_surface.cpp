@@ -43,6 +43,7 @@ constexpr double usual_wall = 3;   // spacings: thickness of sheets that nobody 
 constexpr double on_sheet = 1e-9;  // spacings: values of nodes on a sheet are not farther from zero
 
 void check(const RepairOptions& options, bool is_cloud) {
+  check_grid_options(options.grid);
   for (const auto& [name, value] : {std::pair("error", options.error),
                                     {"thicken", options.thicken},
                                     {"smallest-part", options.smallest_part}})

@@ -26,6 +26,10 @@ SpaceAnswer solve(const PolygonSoup& input, const SpaceDomain& domain, const Spa
                            report);
 }
 
+Box box_of(const std::array<double, 6>& b) {
+  return {Vec3(b[0], b[1], b[2]), Vec3(b[3], b[4], b[5])};
+}
+
 }  // namespace
 
 void check_queries(const MatX3& queries, Eigen::Index first) {
@@ -36,7 +40,7 @@ void check_queries(const MatX3& queries, Eigen::Index first) {
           "not-finite");
 }
 
-Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
+void check_grid_options(const GridOptions& request) {
   if (request.resolution && request.spacing)
     throw InputError("option resolution and option spacing both say how fine the grid is: give one",
                      "options-conflict");
@@ -51,13 +55,18 @@ Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
   if (!(request.padding >= 0 && request.padding <= 1e3))
     throw InputError("option padding must be in [0, 1000], not " + number_text(request.padding),
                      "option-value");
+  if (!request.bounds) return;
+  const Box wanted = box_of(*request.bounds);
+  if (!(wanted.size().minCoeff() > 0) || !wanted.size().allFinite())
+    throw InputError("option bounds must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1",
+                     "option-value");
+}
+
+Grid choose_grid(const PolygonSoup& input, const GridOptions& request) {
+  check_grid_options(request);
   Box box = bounding_box(input);
   if (request.bounds) {
-    const auto& b = *request.bounds;
-    const Box wanted{Vec3(b[0], b[1], b[2]), Vec3(b[3], b[4], b[5])};
-    if (!(wanted.size().minCoeff() > 0) || !wanted.size().allFinite())
-      throw InputError("option bounds must be x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1, z0 < z1",
-                       "option-value");
+    const Box wanted = box_of(*request.bounds);
     if ((wanted.low.array() > box.high.array()).any() ||
         (wanted.high.array() < box.low.array()).any())
       throw InputError("the box of option bounds misses the input, which fills " + box_text(box),

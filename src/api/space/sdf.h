@@ -25,6 +25,9 @@ struct SpaceRequest {
   std::vector<double> values{};   // what distance is counted from, as of SpaceSources [length]
 };
 
+/// Throws InputError for values out of range, whatever the input is.
+void check_grid_options(const GridOptions& request);
+
 /// The grid asked for. With bounds, nodes lie on all of them, and spacings differ by axis as little
 /// as that allows. Throws InputError for values out of range and for an input without extent,
 /// IoError if computing on it will not fit into memory.

@@ -213,8 +213,11 @@ void check_values(const PolygonSoup& input, const std::vector<double>& values) {
     throw InputError("there are " + std::to_string(values.size()) + " values for " +
                          std::to_string(n) + (input.n_faces() > 0 ? " faces" : " points"),
                      "sizes-differ");
-  for (const double c : values)
-    if (!std::isfinite(c)) throw InputError("the value of a source is not finite", "not-finite");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw InputError(
+          "value " + std::to_string(i) + " of the sources, counted from 0, is not finite",
+          "not-finite");
 }
 
 double reach_of_values(const std::vector<double>& values) {

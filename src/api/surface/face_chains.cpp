@@ -1,8 +1,10 @@
 #include "api/surface/face_chains.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
+#include "base/counted.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -31,14 +33,28 @@ bool add_step(int f, int g, const JumpCalculus& J, DualCurve& curve) {
 
 void add_chains(const std::vector<FaceChain>& chains, const JumpCalculus& J,
                 const std::vector<int>& triangle_of_face, DualCurve& curve) {
-  for (const FaceChain& chain : chains)
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const FaceChain& chain = chains[c];
+    const auto label = [&] {
+      return chain.origin.empty() ? "chain " + std::to_string(c + 1) : chain.origin;
+    };
+    if (chain.faces.size() < 2)
+      throw InputError(label() + " has " + counted(chain.faces.size(), "face", "faces") +
+                       ", at least 2 are needed");
+    for (const int face : chain.faces)
+      if (face < 0 || face >= std::ssize(triangle_of_face))
+        throw InputError(label() + ": there is no face " + std::to_string(face) +
+                             "; the mesh has " + std::to_string(triangle_of_face.size()) +
+                             ", counted from 0",
+                         "no-such-element");
     for (std::size_t i = 0; i + 1 < chain.faces.size(); ++i) {
       const int f = triangle_of_face[chain.faces[i]], g = triangle_of_face[chain.faces[i + 1]];
       if (f < 0 || g < 0 || !add_step(f, g, J, curve))
-        throw InputError(chain.origin + ": faces " + std::to_string(chain.faces[i]) + " and " +
+        throw InputError(label() + ": faces " + std::to_string(chain.faces[i]) + " and " +
                          std::to_string(chain.faces[i + 1]) +
                          " (counted from 0) share no edge; a chain goes from face to neighbour");
     }
+  }
 }
 
 }  // namespace littoral

@@ -46,8 +46,11 @@ const std::vector<double>& checked_values(const TetSources& sources) {
     throw InputError("there are " + std::to_string(values.size()) + " values for " +
                          std::to_string(n) + " sources",
                      "sizes-differ");
-  for (const double c : values)
-    if (!std::isfinite(c)) throw InputError("the value of a source is not finite", "not-finite");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw InputError(
+          "value " + std::to_string(i) + " of the sources, counted from 0, is not finite",
+          "not-finite");
   return values;
 }
 
@@ -150,6 +153,9 @@ TetProblem TetDiscretization::problem(const TetSources& sources, Task task, Repo
   if (from_vertices && (sources.surface.n_faces() > 0 || sources.surface.n_vertices() > 0))
     throw UnsupportedError(
         "distance through tets is signed, from surfaces, or unsigned, from vertices: not both");
+  if (!from_vertices && sources.surface.n_faces() == 0 && sources.surface.n_vertices() == 0)
+    throw InputError("there is nothing to measure from: no surface, cloud, vertex or boundary",
+                     "nothing-given");
   for (const int v : sources.vertices)
     if (v < 0 || v >= mesh_->n_vertices())
       throw InputError("there is no vertex " + std::to_string(v) +

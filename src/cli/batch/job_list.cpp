@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "base/counted.h"
@@ -263,8 +264,15 @@ std::vector<ListedJob> listed_jobs(const std::string& jobs, const fs::path& with
   };
   std::map<std::string, int> count;
   for (const ListedJob& job : all) ++count[short_name(job)];
+  // a.obj and a.ply keep their extensions, and then a.obj.gz does, too.
+  std::set<std::string> kept;
+  for (std::size_t before = all.size() + 1; before != kept.size();) {
+    before = kept.size();
+    for (const ListedJob& job : all)
+      if (count[short_name(job)] > 1 || kept.contains(short_name(job))) kept.insert(job.name);
+  }
   for (ListedJob& job : all)
-    if (std::string name = short_name(job); count[name] == 1) job.name = std::move(name);
+    if (!kept.contains(job.name)) job.name = short_name(job);
   return all;
 }
 

@@ -1,13 +1,16 @@
 // Sources given as options, without a file.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "api/space/input_queries.h"
 #include "base/option_table.h"
 #include "cli/input/numbers.h"
 #include "cli/input/surface_input.h"
 #include "littoral/error.h"
+#include "spatial/finite_box.h"
 
 namespace littoral::cli {
 
@@ -61,19 +64,28 @@ SurfacePoint nearest_to(const std::string& text, const SurfaceMesh& mesh,
                         const NearestOnInput& nearest, Session& session) {
   const Vec3 x = parse_position("at", text);
   const NearestPoints found = nearest.at(x.transpose(), session.task());
-  const MatX3& points = mesh.soup().points;
-  const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
-  if (found.distances[0] > 0.01 * size)
-    session.report.warn("source-moved", "option at: " + text + " is " +
-                                            rounded_text(found.distances[0]) +
-                                            " from the surface; its nearest point there is taken");
+  const double size = points_size(mesh.soup().points);
+  const auto warn_if_far = [&](double distance, const std::string& from) {
+    if (distance > 0.01 * size)
+      session.report.warn("source-moved",
+                          "option at: " + text + " is " + rounded_text(distance) + " from " + from);
+  };
+  warn_if_far(found.distances[0], "the surface; its nearest point there is taken");
   const int face = found.elements[0];
   const auto b = found.barycentric.row(0);
   if (mesh.n_faces() > 0 && mesh.face(face).size() == 3)
     return SurfacePoint::in_face(face, b[0], b[1], b[2]);
-  Eigen::Index corner = 0;
-  b.maxCoeff(&corner);
-  return SurfacePoint::at_vertex(found.corners(0, corner));
+  const Vec3 there = found.points.row(0);
+  const auto corners = mesh.n_faces() > 0 ? mesh.face(face) : std::span(&face, 1);
+  const int vertex = *std::ranges::min_element(
+      corners, {}, [&](int v) { return (Vec3(mesh.point(v)) - there).norm(); });
+  if (mesh.n_faces() > 0)
+    warn_if_far((Vec3(mesh.point(vertex)) - there).norm(),
+                "vertex " + std::to_string(vertex + session.index_base.value_or(0)) +
+                    ", which is taken: sources lie inside triangles only, and face " +
+                    std::to_string(face + session.index_base.value_or(0)) + " has " +
+                    std::to_string(corners.size()) + " corners");
+  return SurfacePoint::at_vertex(vertex);
 }
 
 }  // namespace

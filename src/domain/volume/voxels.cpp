@@ -24,6 +24,14 @@ struct Voxels {
   bool operator()(const Index3& v) const { return (*this)(v[0], v[1], v[2]); }
 };
 
+void check_box(const Grid& grid) {
+  const Vec3 far = grid.point(grid.n[0], grid.n[1], grid.n[2]);
+  if (grid.spacing.minCoeff() > 0 && grid.spacing.allFinite() && grid.origin.allFinite() &&
+      far.allFinite())
+    return;
+  throw InputError("voxels: the grid's spacing must be positive, its box finite", "option-value");
+}
+
 /// A quad: the voxel inside it and the direction that leads out.
 struct Surfel {
   Index3 voxel;
@@ -52,17 +60,17 @@ std::vector<Surfel> find_surfels(const Voxels& voxels) {
 
 /// The corrected normal at a surfel, never further than about 87 degrees from the surfel's own.
 Vec3 corrected_normal(const Voxels& voxels, const Surfel& s, double radius) {
-  const Vec3& h = voxels.grid.spacing;
+  // In the shortest spacing, so that the ball holds the same voxels in any unit.
+  const Vec3 h = voxels.grid.spacing / voxels.grid.spacing.minCoeff();
   Vec3 centre(s.voxel[0], s.voxel[1], s.voxel[2]);
   centre[s.axis] += 0.5 * s.sign;
   const int r = static_cast<int>(std::ceil(radius)) + 1;
-  const double limit = radius * h.minCoeff();
   Vec3 sum = Vec3::Zero();
   for (int k = s.voxel[2] - r; k <= s.voxel[2] + r; ++k)
     for (int j = s.voxel[1] - r; j <= s.voxel[1] + r; ++j)
       for (int i = s.voxel[0] - r; i <= s.voxel[0] + r; ++i) {
         const Vec3 d = h.cwiseProduct(Vec3(i, j, k) - centre);
-        if (d.squaredNorm() <= limit * limit && voxels(i, j, k)) sum -= d;
+        if (d.squaredNorm() <= radius * radius && voxels(i, j, k)) sum -= d;
       }
   const Vec3 own = s.sign * Vec3::Unit(s.axis);
   Vec3 n = sum.squaredNorm() > 0 ? Vec3(sum.normalized()) : own;
@@ -74,6 +82,7 @@ Vec3 corrected_normal(const Voxels& voxels, const Surfel& s, double radius) {
 }  // namespace
 
 VoxelSurface boundary_of_voxels(const Grid& grid, const std::vector<unsigned char>& inside) {
+  check_box(grid);
   const Voxels voxels{grid, inside};
   const std::vector<Surfel> surfels = find_surfels(voxels);
   PolygonSoup soup;

@@ -43,28 +43,6 @@ int columns_of(std::string_view type) {
   return 0;
 }
 
-/// Section 2.8: "%20" stands for a blank.
-std::string without_percents(const std::string& uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const auto digit = [&](std::size_t at) {
-      const char c = at < uri.size() ? uri[at] : '?';
-      return c >= '0' && c <= '9'   ? c - '0'
-             : c >= 'a' && c <= 'f' ? c - 'a' + 10
-             : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                    : -1;
-    };
-    const int high = digit(i + 1), low = digit(i + 2);
-    if (uri[i] == '%' && high >= 0 && low >= 0) {
-      out += static_cast<char>(16 * high + low);
-      i += 2;
-    } else {
-      out += uri[i];
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void GltfFile::fail(const std::string& text) const {
@@ -194,7 +172,7 @@ std::string GltfFile::load(const std::string& uri, const std::string& where) con
   if (folder_ == nullptr)
     unsupported(where + " is in the file " + in_quotes(uri) +
                 ", which does not come with these bytes; save as .glb");
-  return read_bytes(*folder_ / without_percents(uri));
+  return read_bytes(*folder_ / without_percents(uri));  // section 2.8
 }
 
 std::string_view GltfFile::buffer(std::uint64_t index) const {

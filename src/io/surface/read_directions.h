@@ -16,8 +16,9 @@ struct FaceDirections {
 };
 
 /// Lines `x y z`, one for each face in order; or lines `f I x y z`, I counted from 0. `#` starts a
-/// comment. Throws InputError naming file and line for anything else: numbers that are not finite,
-/// sparse directions of length 0, faces out of range, a count that is not that of the faces.
+/// comment. Throws IoError where the file cannot be read, InputError naming file and line for
+/// anything else: numbers that are not finite, sparse directions of length 0, faces out of range, a
+/// count that is not that of the faces.
 FaceDirections read_directions(const std::filesystem::path& path, int n_faces);
 
 }  // namespace littoral::io

@@ -50,6 +50,9 @@ struct NpyHeader {
   std::size_t data = 0;  // where the numbers begin
 };
 std::optional<NpyHeader> parse_npy_header(std::string_view bytes);
+/// Can read_npy_array take it? Texts, dates, complex numbers, objects and records without points it
+/// cannot.
+bool is_read_as_numbers(const NpyHeader& header);
 
 /// A NumPy array of numbers, as stored.
 struct NpyArray {

@@ -185,12 +185,17 @@ std::vector<NpyField> named_fields(const NpyHeader& header, const std::vector<st
   return {};
 }
 
+/// The fields of a row of points; none unless there is one axis of them.
+std::vector<NpyField> point_fields(const NpyHeader& header) {
+  if (header.shape.size() != 1) return {};
+  return named_fields(header, {"x", "y", "z"}, {"xyz", "point", "points", "position", "positions"});
+}
+
 /// Points of records, N x 3 or, with normals, N x 6.
 NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
                            const std::string& name) {
-  std::vector<NpyField> fields =
-      named_fields(header, {"x", "y", "z"}, {"xyz", "point", "points", "position", "positions"});
-  if (fields.empty() || header.shape.size() != 1) {
+  std::vector<NpyField> fields = point_fields(header);
+  if (fields.empty()) {
     std::string names;
     for (const NpyField& field : header.fields) names += (names.empty() ? "" : ", ") + field.name;
     throw UnsupportedError(name + ": records with the fields " + names +
@@ -219,6 +224,12 @@ NpyArray points_of_records(const NpyHeader& header, std::string_view bytes,
 }
 
 }  // namespace
+
+bool is_read_as_numbers(const NpyHeader& header) {
+  constexpr std::string_view families = "fiub";
+  if (!header.fields.empty()) return !point_fields(header).empty();
+  return header.type.size() > 1 && families.find(header.type[1]) != std::string_view::npos;
+}
 
 NpyArray read_npy_array(std::string_view bytes, const std::string& name) {
   const auto header = parse_npy_header(bytes);

@@ -18,14 +18,15 @@ namespace {
 
 using NpyArrays = std::map<std::string, NpyArray>;
 
+/// What an archive holds besides, such as a text about it, says nothing of a shape.
 NpyArrays read_arrays(std::string_view bytes, const std::string& name) {
   NpyArrays arrays;
   for (const ZipMember& member : zip_members(bytes, name)) {
     std::string key = member.name;
     if (key.ends_with(".npy")) key.resize(key.size() - 4);
     const std::string held = unpacked(member, name);
-    const auto header = parse_npy_header(held);
-    if (header && header->type.size() == 3 && header->type[1] == 'U') continue;  // text
+    if (const auto header = parse_npy_header(held); header && !is_read_as_numbers(*header))
+      continue;
     arrays[key] = read_npy_array(held, name + ": " + key);
   }
   return arrays;
@@ -155,7 +156,8 @@ void write_npz_volume(std::ostream& out, const Volume& volume, const VolumeWrite
   const auto triple = [](const Vec3& x) {
     return npy_bytes([&](std::ostream& to) { write_npy(to, {{""}, x}); });
   };
-  write_zip(out, {{volume.name + ".npy",
+  const bool taken = volume.name == "origin" || volume.name == "spacing";
+  write_zip(out, {{(taken ? "values" : volume.name) + ".npy",
                    npy_bytes([&](std::ostream& to) { write_npy_volume(to, volume, options); })},
                   {"origin.npy", triple(volume.grid.origin)},
                   {"spacing.npy", triple(volume.grid.spacing)}});

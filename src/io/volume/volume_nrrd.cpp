@@ -1,5 +1,7 @@
 // Nearly raw raster data (Teem): a text header, an empty line, numbers.
 
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/index.h"
@@ -169,12 +171,53 @@ class NrrdReader {
     return out;
   }
 
+  /// Of a field that has two names.
+  const std::string* either(const char* key, const char* other) const {
+    for (const char* name : {key, other})
+      if (const auto it = fields_.find(name); it != fields_.end()) return &it->second;
+    return nullptr;
+  }
+
+  /// Where the axes begin and end: at the middle of the first and last samples, or half a sample
+  /// before and after these. NaN is unknown.
+  void read_ends(Grid& grid) const {
+    const std::string *low = either("axis mins", "axismins"),
+                      *high = either("axis maxs", "axismaxs"),
+                      *centers = either("centers", "centerings");
+    if (!low && !high) return;
+    const auto three = [&](const std::string* text, const char* key) {
+      std::vector<double> out(3, std::numeric_limits<double>::quiet_NaN());
+      if (text) out = numbers(*text, key);
+      if (out.size() != 3) fail(std::string("'") + key + "' needs three numbers");
+      return out;
+    };
+    const auto mins = three(low, "axis mins"), maxs = three(high, "axis maxs");
+    Words words(centers ? std::string_view(*centers) : std::string_view());
+    for (int a = 0; a < 3; ++a) {
+      const std::string center = lower_case(std::string(words.next()));
+      if (std::isnan(mins[a]) && std::isnan(maxs[a])) continue;
+      const bool node = center == "node", cell = center == "cell";
+      if (!node && !cell)
+        throw UnsupportedError(name_ + ": 'axis mins' and 'axis maxs' without 'centers', which " +
+                                   "says for each axis whether they are those of nodes or cells",
+                               "unsupported-file");
+      const int steps = grid.n[a] - (node ? 1 : 0);
+      double& h = grid.spacing[a];
+      if (!fields_.contains("spacings") && steps > 0 && !std::isnan(maxs[a] - mins[a]))
+        h = (maxs[a] - mins[a]) / steps;
+      const double margin = cell ? h / 2 : 0;
+      grid.origin[a] =
+          std::isnan(mins[a]) ? maxs[a] - margin - h * (grid.n[a] - 1) : mins[a] + margin;
+    }
+  }
+
   void read_box(Grid& grid) const {
     if (const auto it = fields_.find("spacings"); it != fields_.end()) {
       const auto spacing = numbers(it->second, "spacings");
       if (spacing.size() != 3) fail("'spacings' needs three numbers");
       grid.spacing = Vec3(spacing[0], spacing[1], spacing[2]);
     }
+    read_ends(grid);
     if (const auto it = fields_.find("space directions"); it != fields_.end()) {
       const auto d = numbers(it->second, "space directions");
       if (d.size() != 9) fail("'space directions' needs three vectors of three numbers");

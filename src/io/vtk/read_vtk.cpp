@@ -196,7 +196,7 @@ class VtkReader {
   }
 
   void attribute(const std::string& keyword) {
-    const std::string name(scan_.word_of_line());
+    const std::string name = without_percents(scan_.word_of_line());
     if (keyword == "field") {
       const std::int64_t n = scan_.count("arrays");
       for (std::int64_t i = 0; i < n; ++i) {
@@ -208,7 +208,11 @@ class VtkReader {
         }
         const int width = components();
         const std::int64_t tuples = scan_.count("values");
-        keep(label, width, tuples, std::string(scan_.word_of_line()));
+        const std::string type(scan_.word_of_line());
+        if (lower_case(type) == "string")
+          scan_.skip_texts(width * tuples);
+        else
+          keep(without_percents(label), width, tuples, type);
       }
       return;
     }

@@ -119,6 +119,28 @@ class VtkScanner {
     return out;
   }
 
+  /// Passes texts over, from the next line on: lines, or bytes behind their number, the two highest
+  /// bits of which say in how many bytes it stands.
+  void skip_texts(std::int64_t n) {
+    rest_of_line();
+    for (std::int64_t i = 0; i < n; ++i) {
+      if (at_ >= bytes_.size()) fail("the file ends within " + std::to_string(n) + " texts");
+      if (!binary) {
+        rest_of_line();
+        continue;
+      }
+      const auto first = static_cast<unsigned char>(bytes_[at_]);
+      const std::size_t held = std::size_t{8} >> (first >> 6);
+      std::uint64_t length = first & 63u;
+      if (held > bytes_.size() - at_) fail("the file ends within the length of a text");
+      for (std::size_t k = 1; k < held; ++k)
+        length = length << 8 | static_cast<unsigned char>(bytes_[at_ + k]);
+      at_ += held;
+      if (length > bytes_.size() - at_) fail("the file ends within a text");
+      at_ += length;
+    }
+  }
+
  private:
   static bool is_end(char c) { return c == '\n' || c == '\r'; }
   NumberKind kind_of(const std::string& type) const {

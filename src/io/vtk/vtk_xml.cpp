@@ -43,7 +43,8 @@ VtkXml::Array VtkXml::array(const XmlTag& tag) const {
               tag.attribute("format", "ascii"),
               1,
               tag.end,
-              0};
+              0,
+              tag.empty};
   const auto components = parse_integer(tag.attribute("NumberOfComponents", "1"));
   if (!components || *components < 1 || *components > 100)
     fail("the array " + in_quotes(array.name) + " must have 1 to 100 components");
@@ -53,8 +54,6 @@ VtkXml::Array VtkXml::array(const XmlTag& tag) const {
     if (!offset || *offset < 0) fail("an appended array has no offset");
     array.offset =
         std::size_t(std::min<std::int64_t>(*offset, static_cast<std::int64_t>(bytes().size())));
-  } else if (tag.empty) {
-    fail("the array " + in_quotes(array.name) + " is empty");
   }
   return array;
 }
@@ -77,6 +76,10 @@ VecX VtkXml::values(const Array& array, std::size_t count) const {
   const NumberKind kind = number_kind(array.type);
   std::string_view stored;
   bool is_raw = false;
+  if (array.empty && array.format != "appended") {
+    if (count == 0) return {};
+    fail("the array " + in_quotes(array.name) + " is empty");
+  }
   if (array.format == "appended") {
     if (appended_ == 0 || array.offset >= bytes().size() - appended_)
       fail("the data of " + in_quotes(array.name) + " begin after the end of the file");

@@ -18,6 +18,7 @@ class VtkXml {
     int components = 1;
     std::size_t content = 0;  // where inline numbers begin
     std::size_t offset = 0;   // of appended ones
+    bool empty = false;       // the element has no content
   };
 
   VtkXml(std::string_view bytes, const std::string& name) : tags_(bytes, name) {}

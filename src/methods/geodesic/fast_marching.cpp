@@ -36,6 +36,10 @@ struct UnfoldedStencil {
   double to_side_end, to_in_front, both;  // scalar products
 };
 
+/// Corners whose cosine is no larger are split as obtuse ones, so that rounding does not choose
+/// among those of a grid.
+constexpr double right_angle = 1e-9;
+
 /// From where fronts reach vertices: from the side of each triangle across from them; where that is
 /// seen at an obtuse angle, from two edges to a vertex in front.
 class Stencils {
@@ -68,13 +72,16 @@ class Stencils {
       if (f % 0x10000 == 0) task.checkpoint();
       for (int k = 0; k < 3; ++k) {
         const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
-        if (law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1)) >= 0) continue;
+        const double slight = right_angle * T_.length(f, k) * T_.length(f, k2),
+                     twice_dot =
+                         law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1));
+        if (twice_dot > slight) continue;
         if (sides.begin.empty()) sides = edge_sides(T_);
         const TriangleShape t =
             triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false);
         const auto [d, D] = vertex_in_front(sides, f, k1, t.p[1], t.p[2]);  // v at 0
         if (d < 0 || d == v) {
-          ++n_unsplit;
+          if (twice_dot < -slight) ++n_unsplit;
           continue;
         }
         unfolds_[3 * std::size_t(f) + k] = 1;

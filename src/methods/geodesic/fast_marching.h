@@ -14,8 +14,8 @@ namespace littoral {
 /// not filled in. Counted from the sources' values, which must all be the same beside signed
 /// curves.
 ///
-/// A triangle that is obtuse at the vertex to be reached is split by unfolding its neighbours until
-/// one of their vertices lies in front of it. Any topology.
+/// A triangle that is obtuse, or right, at the vertex to be reached is split by unfolding its
+/// neighbours until one of their vertices lies in front of it. Any topology.
 VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sources,
                    const Task& task, Report& report);
 

@@ -104,6 +104,47 @@ TEST(CoveringMesh, CarriesPointsToAllSheets) {
   }
 }
 
+TEST(CoveringMesh, CarriesPointsOnAnyEdgeAndCurvesAlongThem) {
+  Report report;
+  PolygonSoup soup = book(3);
+  for (int f = 0; f < soup.n_faces(); f += 2)  // corners begin anywhere, some faces are turned
+    std::rotate(soup.corners.begin() + 3 * f, soup.corners.begin() + 3 * f + 1 + f % 3 / 2,
+                soup.corners.begin() + 3 * f + 3);
+  for (int f = 0; f < soup.n_faces(); f += 5)
+    std::swap(soup.corners[3 * static_cast<std::size_t>(f)],
+              soup.corners[3 * static_cast<std::size_t>(f) + 1]);
+  const SurfaceMesh mesh(soup);
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const CoveringMesh cover = covering_mesh(mesh, T);
+  for (int e = 0; e < mesh.n_edges(); ++e) {
+    PlacedSources sources;
+    sources.add_point(SurfacePoint::on_edge(e, 0.2), 0.5);
+    for (int f : mesh.edge_faces(e)) {
+      CurvePiece piece;
+      piece.face = f;
+      piece.edge = e;
+      sources.pieces.push_back(piece);
+    }
+    const PlacedSources on = covering_sources(mesh, T, cover, sources);
+    std::set<int> edges;
+    for (std::size_t i = 0; i < on.points.size(); ++i) {
+      EXPECT_EQ(on.points[i].on, SurfacePoint::On::edge);
+      EXPECT_EQ(on.point_value(i), 0.5);
+      EXPECT_LE((cover.mesh.position(on.points[i]) - mesh.position(sources.points[0])).norm(),
+                1e-14);
+      edges.insert(on.points[i].element);
+    }
+    // As many sheets as faces, but both sides of a boundary are one.
+    EXPECT_EQ(edges.size(), mesh.edge_faces(e).size()) << e;
+    ASSERT_EQ(on.pieces.size(), mesh.edge_faces(e).size());
+    for (const CurvePiece& piece : on.pieces) {
+      EXPECT_EQ(edges.count(piece.edge), 1u);
+      const auto faces = cover.mesh.edge_faces(piece.edge);
+      EXPECT_EQ(std::count(faces.begin(), faces.end(), piece.face), 1);
+    }
+  }
+}
+
 TEST(CoveringMesh, MakesDistanceInABookBetter) {
   const SurfaceMesh mesh(book(12));
   for (const SurfacePoint& source :

@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "constants.h"
 #include "littoral/error.h"
@@ -166,6 +170,80 @@ TEST(TracePath, AroundACorner) {
   const auto bent = trace(mesh, c, d);
   expect_path(mesh, bent, c, d);
   EXPECT_NEAR(path_length(mesh, bent), std::hypot(0.5, 0.05) * 2, 1e-9);
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Angles on both sides of a path that passes a vertex of a closed surface, from one point beside
+/// the vertex to another.
+std::array<double, 2> angles_at(const SurfaceMesh& mesh, int v, const SurfacePoint& before,
+                                const SurfacePoint& after) {
+  // The faces in turn, each from one tip to the next.
+  std::vector<std::array<int, 2>> fan;
+  for (int f : mesh.vertex_faces(v))
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh.face(f)[k] == v)
+        fan.push_back({mesh.face(f)[(k + 1) % 3], mesh.face(f)[(k + 2) % 3]});
+  for (std::size_t i = 1; i < fan.size(); ++i)
+    for (std::size_t j = i; j < fan.size(); ++j)
+      if (fan[j][0] == fan[i - 1][1]) {
+        std::swap(fan[i], fan[j]);
+        break;
+      }
+  const Vec3 x = mesh.point(v);
+  const auto turn_to = [&](const SurfacePoint& p) {
+    double turn = 0;
+    for (const auto& [a, b] : fan) {
+      const Vec3 d = mesh.position(p) - x, to_a = mesh.point(a) - x, to_b = mesh.point(b) - x;
+      const double from_a = angle_between(to_a, d), to = angle_between(d, to_b);
+      if (from_a + to < angle_between(to_a, to_b) + 1e-7) return turn + from_a;
+      turn += angle_between(to_a, to_b);
+    }
+    return -1.0;
+  };
+  double all = 0;
+  for (const auto& [a, b] : fan) all += angle_between(mesh.point(a) - x, mesh.point(b) - x);
+  const double from = turn_to(before), to = turn_to(after);
+  EXPECT_GE(from, 0);
+  EXPECT_GE(to, 0);
+  const double one = std::abs(to - from);
+  return {one, all - one};
+}
+
+TEST(TracePath, StraightAcrossEdgesAndHalfATurnOnBothSidesOfVertices) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> radius(0.7, 1.3);
+  int at_edges = 0, at_vertices = 0;
+  for (int shape = 0; shape < 6; ++shape) {
+    PolygonSoup soup = test::octasphere_soup(2);
+    for (auto p : soup.points.rowwise()) p *= radius(random);
+    const SurfaceMesh mesh{soup};
+    const Tracer tracer(mesh);
+    for (int i = 0; i < 60; ++i) {
+      const SurfacePoint a = random_point(mesh, random), b = random_point(mesh, random);
+      const auto path = tracer.trace(a, b);
+      expect_path(mesh, path, a, b);
+      for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+        const Vec3 x = mesh.position(path[k]);
+        const int at = path[k].element;
+        if (path[k].on == SurfacePoint::On::vertex) {
+          for (const double angle : angles_at(mesh, at, path[k - 1], path[k + 1]))
+            EXPECT_GT(angle, pi - 1e-5) << shape << ", " << i;
+          ++at_vertices;
+          continue;
+        }
+        const Vec3 along = mesh.point(mesh.edges()(at, 1)) - mesh.point(mesh.edges()(at, 0));
+        const double in = angle_between(mesh.position(path[k - 1]) - x, along);
+        const double out = angle_between(mesh.position(path[k + 1]) - x, along);
+        EXPECT_NEAR(in + out, pi, 1e-5) << shape << ", " << i;
+        ++at_edges;
+      }
+    }
+  }
+  EXPECT_GT(at_edges, 1000);
+  EXPECT_GT(at_vertices, 100);
 }
 
 TEST(TracePath, DifferentComponentsAreNamed) {

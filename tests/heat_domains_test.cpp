@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "constants.h"
 #include "heat_helpers.h"
 #include "io/read.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "shared_data.h"
 #include "test_meshes.h"
 
@@ -133,6 +136,26 @@ TEST(HeatDomains, DegenerateAndRepeatedFacesDoNotMatterMuch) {
   const VecX psi = test::signed_heat(SurfaceMesh(broken), line, zero_set(), report);
   ASSERT_TRUE(psi.allFinite());
   EXPECT_LE((phi - psi).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(HeatDomains, PolygonsThatComeBackToACornerAreCut) {
+  PolygonSoup soup;  // two squares, and on the diagonal of one a flap out to vertex 6 and back
+  soup.points.resize(7, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0, 0.5, 0.5, 1;
+  soup.add_face(std::vector<int>{0, 1, 2, 3});
+  soup.add_face(std::vector<int>{1, 4, 5, 2});
+  PolygonSoup cut = soup;
+  soup.add_face(std::vector<int>{0, 6, 2, 6});
+  test::add_triangle(cut, 0, 6, 2);
+  test::add_triangle(cut, 0, 2, 6);
+  const auto source = test::vertex_points({0});
+  Report report, ignored;
+  const VecX phi = test::surface_distance(SurfaceMesh(soup), source, UnsignedHeat{}, report);
+  EXPECT_TRUE(phi.allFinite());
+  const VecX same = test::surface_distance(SurfaceMesh(cut), source, UnsignedHeat{}, ignored);
+  EXPECT_LT((phi - same).norm(), 0.02);  // its mean edge, and so the time, is not quite the same
+  EXPECT_EQ(std::ranges::count(report.warnings, "polygons-cut", &Warning::code), 1);
+  EXPECT_TRUE(test::surface_distance(SurfaceMesh(soup), source, SignedHeat{}, ignored).allFinite());
 }
 
 TEST(HeatDomains, ACurveAndItsReverseCancel) {

@@ -144,7 +144,7 @@ constexpr std::array message_table = std::to_array<Message>({
      "they were left out, or had their sides lengthened minimally",
      "nothing; `--intrinsic-delaunay` for accuracy"},
     {a_warning, "polygons-cut", "polygons were cut into triangles",
-     "they have very many corners, or an option needs triangles", "nothing"},
+     "they have very many corners or come back to one, or an option needs triangles", "nothing"},
     {a_warning, "sign-ignored", "signed curves count as unsigned ones", "`exact` has no signs",
      "method `auto` has"},
     {a_warning, "normals-cancel", "the normals of the sources cancel everywhere",

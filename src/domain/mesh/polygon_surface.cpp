@@ -1,5 +1,6 @@
 #include "domain/mesh/polygon_surface.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/counted.h"
@@ -13,6 +14,22 @@ namespace littoral {
 namespace {
 
 constexpr std::size_t most_corners = 64;  // the operators of a polygon are dense in its corners
+
+/// Does the polygon come back to one of its corners, as one with a hole or a spike does? The same
+/// one twice in a row is no way back.
+bool comes_back(std::span<const int> corners) {
+  std::vector<int> met;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (corners[k] != corners[(k + 1) % corners.size()]) met.push_back(corners[k]);
+  std::sort(met.begin(), met.end());
+  return std::adjacent_find(met.begin(), met.end()) != met.end();
+}
+
+/// A vertex in the middle sees no such polygon as a whole, or is a corner of it where it is a
+/// spike.
+bool is_cut(std::span<const int> corners) {
+  return corners.size() > most_corners || comes_back(corners);
+}
 
 /// A virtual vertex: its affine weights on the corners of its polygon.
 VecX virtual_weights(const SurfaceMesh& mesh, std::span<const int> corners) {
@@ -78,14 +95,14 @@ Refinement refine(const SurfaceMesh& mesh, Report& report) {
   const int n = mesh.n_vertices();
   std::vector<Vec3> added;
   for (int v = 0; v < n; ++v) out.weights.emplace_back(v, v, 1.0);
-  int cut = 0;
+  int large = 0, returning = 0;
   for (int f = 0; f < mesh.n_faces(); ++f) {
     const auto corners = mesh.face(f);
     if (corners.size() == 3) {
       out.soup.add_face(corners);
-    } else if (corners.size() > most_corners) {
+    } else if (is_cut(corners)) {
       add_triangles(mesh, corners, out.soup);
-      ++cut;
+      ++(corners.size() > most_corners ? large : returning);
     } else {
       const VecX w = virtual_weights(mesh, corners);
       const int centre = n + int_size(added);
@@ -101,9 +118,12 @@ Refinement refine(const SurfaceMesh& mesh, Report& report) {
     }
     out.face_offsets.push_back(out.soup.n_faces());
   }
-  if (cut)
-    report.warn("polygons-cut", counted(cut, "polygon", "polygons") + " of more than " +
+  if (large)
+    report.warn("polygons-cut", counted(large, "polygon", "polygons") + " of more than " +
                                     std::to_string(most_corners) + " corners: cut into triangles");
+  if (returning)
+    report.warn("polygons-cut", counted(returning, "polygon that comes", "polygons that come") +
+                                    " back to a corner: cut into triangles");
   out.soup.points.resize(n + index(added.size()), 3);
   out.soup.points.topRows(n) = mesh.points();
   for (std::size_t i = 0; i < added.size(); ++i) out.soup.points.row(n + index(i)) = added[i];
@@ -146,7 +166,7 @@ NodalSurface refined_surface(const SurfaceMesh& mesh, Report& report) {
     int n = 0;
     for (int t = S.face_offsets[f]; t < S.face_offsets[f + 1]; ++t)
       n += cells->triangle_of_face[t] >= 0;
-    if (mesh.face(f).size() > most_corners)
+    if (is_cut(mesh.face(f)))
       for (int k = 1; k <= n; ++k) S.patch_offsets.push_back(S.patch_offsets.back() + 1);
     else if (n)
       S.patch_offsets.push_back(S.patch_offsets.back() + n);

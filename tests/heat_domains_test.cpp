@@ -153,7 +153,7 @@ TEST(HeatDomains, PolygonsThatComeBackToACornerAreCut) {
   const VecX phi = test::surface_distance(SurfaceMesh(soup), source, UnsignedHeat{}, report);
   EXPECT_TRUE(phi.allFinite());
   const VecX same = test::surface_distance(SurfaceMesh(cut), source, UnsignedHeat{}, ignored);
-  EXPECT_LT((phi - same).norm(), 1e-12);
+  EXPECT_LT((phi - same).norm(), 0.02);  // its mean edge, and so the time, is not quite the same
   EXPECT_EQ(std::ranges::count(report.warnings, "polygons-cut", &Warning::code), 1);
   EXPECT_TRUE(test::surface_distance(SurfaceMesh(soup), source, SignedHeat{}, ignored).allFinite());
 }

@@ -9,8 +9,8 @@ namespace littoral {
 /// corners give n - 2 triangles. Points, lines, normals and scalars stay as they are.
 ///
 /// Ears are clipped in the plane of the polygon's vector area; where none is left (the polygon
-/// crosses itself or has no area), or the polygon has so many corners that clipping would take
-/// seconds, the rest becomes a fan. Faces of fewer than three corners are dropped. Never fails.
+/// crosses itself or has no area), or clipping would take seconds, the rest becomes a fan. Faces of
+/// fewer than three corners are dropped. Never fails.
 PolygonSoup triangulate(const PolygonSoup& soup);
 
 /// The corners of a soup of triangles alone: faces x 3.

@@ -19,7 +19,7 @@ struct VoxelSurface {
 ///
 /// A corrected normal points from the centroid of the voxels inside a ball about the quad's centre
 /// to that centre (the integral invariant of Pottmann et al. 2007; multigrid convergent:
-/// Coeurjolly, Lachaud, Levallois 2014). The ball's radius is 0.4 n^(2/3) voxels, n being the
+/// Coeurjolly, Lachaud, Levallois 2014). The ball's radius is 0.5 n^(2/3) voxels, n being the
 /// extent of the set in voxels, within [2.5, 10]. Throws InputError if no voxel is set or the quads
 /// are too many to number.
 VoxelSurface boundary_of_voxels(const Grid& grid, const std::vector<unsigned char>& inside);

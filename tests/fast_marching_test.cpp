@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
+#include "one_call.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -134,6 +137,52 @@ TEST(FastMarching, GoesIntoEverySheetAtAnEdge) {
     if (std::isfinite(e[v])) {
       EXPECT_NEAR(d[v], e[v], 0.1);
     }
+}
+
+TEST(FastMarching, ShareOfTheAreaWhereTheGradientIsOffUnitLength) {
+  for (const double unit : {1.0, 1e-5, 1e7}) {
+    PolygonSoup soup = test::grid_soup(8, 8);
+    soup.points *= unit;
+    const SurfaceMesh mesh(soup);
+    Report report;
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    const auto share = [&](const std::function<double(double)>& of_x) {
+      VecX d(mesh.n_vertices());
+      for (int v = 0; v < mesh.n_vertices(); ++v) d[v] = of_x(mesh.point(v).x() / unit) * unit;
+      return off_unit_share(T, d);
+    };
+    for (const double slope : {0.76, 1.0, 1.24})
+      EXPECT_EQ(share([&](double x) { return slope * x; }), 0) << slope;
+    for (const double slope : {0.0, 0.74, 1.26, 100.0})
+      EXPECT_EQ(share([&](double x) { return slope * x; }), 1) << slope;
+    EXPECT_NEAR(share([](double x) { return std::max(x, 4 * x - 2.25); }), 0.25, 1e-12);
+    // Of triangles through which the sign changes the gradient says nothing, nor beyond what is
+    // reached.
+    EXPECT_EQ(share([](double x) { return x < 0.6 ? x - 1 : x; }), 0);
+    EXPECT_NEAR(share([](double x) { return x > 0.51 ? infinity : std::max(x, 4 * x - 0.75); }),
+                0.5, 1e-12);
+  }
+}
+
+TEST(FastMarching, TheMethodSaysWhereLongTrianglesMakeItWrong) {
+  const int n = 12;
+  for (const double shear : {0.0, 2.0}) {
+    PolygonSoup soup = test::grid_soup(n, n);
+    soup.points.col(0) += shear * soup.points.col(1);
+    const SurfaceMesh mesh(soup);
+    Sources corner;  // an obtuse one of the parallelogram, from which it is seen whole
+    corner.points.push_back(SurfacePoint::at_vertex(n));
+    Report report;
+    const VecX d = test::surface_distance(mesh, corner, FastMarching{}, report);
+    const Vec3 from = mesh.point(n);
+    const double worst =
+        worst_error(mesh, d, [&](const Vec3& p) { return (p - from).norm(); }) / d.maxCoeff();
+    EXPECT_EQ(worst > 0.05, shear > 0) << worst;
+    const auto n_warnings =
+        std::ranges::count(report.warnings, "gradient-off-unit", &Warning::code);
+    EXPECT_EQ(n_warnings, shear > 0 ? 1 : 0);
+    EXPECT_EQ(report.residuals.back().first, "area fraction with gradient off unit length");
+  }
 }
 
 TEST(FastMarching, StopsWhenAsked) {

@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
+#include "methods/heat/time_scale.h"
 #include "sources/surface/source_values.h"
 #include "sources/surface/triangle_sources.h"
 
@@ -82,8 +83,13 @@ std::vector<Method<SurfaceDomain>> geodesic_methods() {
           [](const SurfaceDomain& domain, const FastMarching&, SolveHint, const Task&,
              Report& report) {
             const auto march = [](const IntrinsicTriangulation& T, const TriangleSources& on,
-                                  const FastMarching&, const Task& task,
-                                  Report& r) { return fast_marching(T, on, task, r); };
+                                  const FastMarching&, const Task& task, Report& r) {
+              VecX d = fast_marching(T, on, task, r);
+              r.residuals.emplace_back(off_unit_area_fraction, off_unit_share(T, d));
+              warn_off_unit(
+                  "Method auto measures exactly; otherwise finer or more even triangles help", r);
+              return d;
+            };
             return [solve = solve_on_triangles<FastMarching>(domain, march, report)](
                        const Sources& sources, FastMarching& options, Task& task, Report& r) {
               if (!value_range(sources).same() && has_sides(sources))

@@ -10,6 +10,7 @@
 #include "base/index.h"
 #include "domain/mesh/edge_sides.h"
 #include "methods/heat/finalize.h"
+#include "methods/heat/time_scale.h"
 
 namespace littoral {
 
@@ -311,6 +312,21 @@ VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sourc
   report.sizes.emplace_back("obtuse_corners_left", front.n_unsplit());
   return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
                         report);
+}
+
+double off_unit_share(const IntrinsicTriangulation& T, const VecX& d) {
+  double off = 0, all = 0;
+  for (int f = 0; f < T.n_faces(); ++f) {
+    const double d0 = d[T.faces(f, 0)], d1 = d[T.faces(f, 1)], d2 = d[T.faces(f, 2)];
+    if (!std::isfinite(d0 + d1 + d2)) continue;
+    if (std::min({d0, d1, d2}) < 0 && std::max({d0, d1, d2}) > 0) continue;
+    const TriangleShape t = triangle_shape(T.length(f, 0), T.length(f, 1), T.length(f, 2), false);
+    const double x = (d1 - d0) / t.p[1].real();
+    const double y = (d2 - d0 - x * t.p[2].real()) / t.p[2].imag();
+    all += t.area;
+    if (!(std::abs(std::hypot(x, y) / T.unit - 1) <= off_unit_by)) off += t.area;
+  }
+  return all > 0 ? off / all : 0;
 }
 
 }  // namespace littoral

@@ -19,4 +19,8 @@ namespace littoral {
 VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sources,
                    const Task& task, Report& report);
 
+/// Share of the area where the gradient of d (vertices) [length] is off unit length by more than
+/// `off_unit_by` (methods/heat/time_scale.h), of the triangles that are reached on one side.
+double off_unit_share(const IntrinsicTriangulation& T, const VecX& d);
+
 }  // namespace littoral

@@ -79,19 +79,15 @@ void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& 
   report.residuals.emplace_back(off_unit_area_fraction, shares.off_unit);
 }
 
-void warn_off_unit(const std::string& kind, Report& report) {
+void warn_off_unit(const std::string& what_helps, Report& report) {
   double share = 0;
   for (const auto& [name, value] : report.residuals)
     if (name == off_unit_area_fraction) share = value;
   if (share <= remarkable_off_unit) return;
-  const bool triangles = kind == "triangle mesh" || kind == "polygon mesh";
-  report.warn(
-      "gradient-off-unit",
-      "the gradient of the distance is more than a quarter off unit length on " +
-          in_short(100 * share) + " % of the surface: the distance is not right there. " +
-          (triangles ? "Method auto measures exactly; otherwise finer or more even triangles "
-                       "help, as by option intrinsic-delaunay"
-                     : "A finer surface helps"));
+  report.warn("gradient-off-unit",
+              "the gradient of the distance is more than a quarter off unit length on " +
+                  in_short(100 * share) + " % of the surface: the distance is not right there. " +
+                  what_helps);
 }
 
 double misaligned_fraction(const Report& report) {

@@ -207,6 +207,22 @@ TEST(FixedEdges, AreSplitUntilTheyAreDelaunay) {
   }
 }
 
+TEST(Retriangulated, PointsInAnyFaceAreKeptWhereTheyAre) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(5, 4, 0.2));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  for (const int f : {0, 1, mesh.n_faces() - 1}) {
+    PlacedSources sources;
+    sources.add_point(SurfacePoint::in_face(f, 0.2, 0.5, 0.3), 0.25);
+    const Retriangulated fine = retriangulated(mesh, T, sources, {}, report, {});
+    ASSERT_EQ(fine.sources.points.size(), 1u) << f;
+    EXPECT_EQ(fine.sources.point_value(0), 0.25);
+    EXPECT_LT(
+        (fine.mesh.position(fine.sources.points[0]) - mesh.position(sources.points[0])).norm(),
+        1e-9);
+  }
+}
+
 TEST(PolygonOptions, RunOnTriangles) {
   PolygonSoup quads;
   quads.points = test::grid_soup(12, 12).points;

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
+#include <vector>
 
 #include "heat_helpers.h"
 #include "operators/jump_calculus.h"
 #include "sources/curves/completed_curves.h"
+#include "sources/curves/conform.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -78,6 +82,12 @@ TEST(CurveSides, VerticesOfTrianglesWithPiecesLieBesideThem) {
     const bool near = y > 0.2 && y < 0.6;  // the rows of vertices next to the curve
     EXPECT_EQ(sign[v], (y > 0.4) == near ? 1 : -1) << v;
   }
+  // Where the function is 0 and no curve is near, too.
+  VecX zero = phi;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.point(v).y() > 0.9) zero[v] = v % 2 ? 0.0 : -0.0;
+  const VecX with_zeros = CurveSides(mesh, T, placed, zero).at_vertices();
+  for (int v = 0; v < mesh.n_vertices(); ++v) EXPECT_EQ(with_zeros[v], zero[v] == 0 ? 1 : sign[v]);
   // No curve with sides: all is positive.
   const PlacedSources unsided = place_sources(mesh, test::space_curve(line, false), report);
   EXPECT_EQ(CurveSides(mesh, T, unsided, phi).at_vertices(), VecX::Ones(phi.size()));
@@ -101,6 +111,39 @@ TEST(JumpCalculus, CirculationsOfARotationAreAreas) {
     // The transpose, by what it does to single faces.
     EXPECT_NEAR(J.d1_transpose(VecX::Unit(J.n_faces, f)).dot(omega), around[f], 1e-14) << f;
   }
+}
+
+TEST(Conform, SegmentsThatAreACurveByThemselvesAreHalved) {
+  // Along one edge there is no vertex between the ends, at which all would be held.
+  const SurfaceMesh mesh(test::grid_soup(4, 4));
+  Report report;
+  const auto conforming = [&](std::initializer_list<int> vertices) {
+    Sources sources;
+    sources.curves.emplace_back();
+    for (const int v : vertices) sources.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
+    return conform(mesh, pieces_with_sides(place_sources(mesh, sources, report)));
+  };
+  const auto edges = [](const ConformingCurves& of) {
+    return std::count_if(of.times.begin(), of.times.end(), [](double t) { return t != 0; });
+  };
+  for (const auto& [a, b] : {std::pair(6, 7), {7, 6}, {6, 11}, {11, 6}, {6, 12}, {12, 6}}) {
+    const ConformingCurves one = conforming({a, b});
+    EXPECT_EQ(one.cut.mesh.n_vertices(), mesh.n_vertices() + 1) << a << " " << b;
+    EXPECT_EQ(edges(one), 2);
+    EXPECT_TRUE(one.is_cut);
+    // It leads from a to b.
+    VecX ends = VecX::Zero(one.cut.mesh.n_vertices());
+    for (int e = 0; e < one.cut.mesh.n_edges(); ++e) {
+      ends[one.cut.mesh.edges()(e, 0)] -= one.times[e];
+      ends[one.cut.mesh.edges()(e, 1)] += one.times[e];
+    }
+    EXPECT_EQ(ends[a], -1);
+    EXPECT_EQ(ends[b], 1);
+    EXPECT_EQ(ends.cwiseAbs().sum(), 2);
+  }
+  EXPECT_EQ(conforming({6, 7, 8}).cut.mesh.n_vertices(), mesh.n_vertices());
+  EXPECT_EQ(edges(conforming({6, 7, 8})), 2);
+  EXPECT_FALSE(conforming({6, 7, 12, 6}).is_cut);
 }
 
 }  // namespace

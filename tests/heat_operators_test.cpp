@@ -2,14 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "domain/cloud/cloud_surface.h"
 #include "domain/mesh/polygon_surface.h"
 #include "domain_shapes.h"
 #include "heat_helpers.h"
 #include "operators/nodal.h"
+#include "operators/triangles.h"
+#include "sources/surface/surface_points.h"
+#include "sources/surface/triangle_sources.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -289,6 +296,45 @@ TEST(HeatOperatorsPlane, RealAndComplexFormsHaveTheSameEnergy) {
   const double energy = z.dot(y).real();
   const VecX real_y = joint.vector.L_real({}).selfadjointView<Eigen::Lower>() * x;
   EXPECT_NEAR(x.dot(real_y), energy, 1e-10 * energy);
+}
+
+TEST(HeatOperatorsPlane, PointsGiveTheEdgesOppositeAndThoseTheyLieOnTheirDirections) {
+  // The integral of directions over the angle of a side: along its bisector, 2 sin(angle / 2) long.
+  const SurfaceMesh mesh(test::jittered_grid_soup(5, 4, 0.25));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  std::vector<SurfacePoint> points{SurfacePoint::at_vertex(13), SurfacePoint::at_vertex(3),
+                                   SurfacePoint::in_face(11, 0.3, 0.5, 0.2)};
+  for (int e = 2; e < mesh.n_edges(); e += 11) points.push_back(SurfacePoint::on_edge(e, 0.35));
+  for (const SurfacePoint& p : points) {
+    const Vec3 x = mesh.position(p);
+    MatX3 expected = MatX3::Zero(T.n_edges(), 3);
+    double all = 0;
+    for (const int f : faces_at(mesh, p)) {
+      std::array<Vec3, 3> to;
+      for (std::size_t k = 0; k < 3; ++k) to[k] = mesh.point(mesh.face(f)[k]) - x;
+      std::array<bool, 3> on_side;
+      for (std::size_t k = 0; k < 3; ++k) on_side[k] = to[k].cross(to[(k + 1) % 3]).norm() < 1e-12;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (on_side[k]) continue;
+        const Vec3 u = to[k].normalized(), w = to[(k + 1) % 3].normalized();
+        const double angle = std::acos(std::clamp(u.dot(w), -1., 1.));
+        all += angle;
+        for (int l = 0; l < 3; ++l)
+          if (l == int(k) || on_side[static_cast<std::size_t>(l)])
+            expected.row(T.side_edge(f, l)) += (u + w).normalized() * 2 * std::sin(angle / 2);
+      }
+    }
+    std::vector<std::pair<int, Complex>> found;
+    add_radial_measure(T, triangles_around(mesh, T, p), 5, found);
+    MatX3 vectors = MatX3::Zero(T.n_edges(), 3);
+    for (const auto& [e, z] : found) {
+      const Vec3 d = (mesh.point(T.edges(e, 1)) - mesh.point(T.edges(e, 0))).normalized();
+      vectors.row(e) += z.real() * d + z.imag() * Vec3::UnitZ().cross(d);
+    }
+    EXPECT_LT((vectors - 5 / all * expected).cwiseAbs().maxCoeff(), 1e-9)
+        << static_cast<int>(p.on) << " " << p.element;
+  }
 }
 
 }  // namespace

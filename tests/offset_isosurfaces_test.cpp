@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/space/isosurfaces.h"
@@ -8,6 +9,8 @@
 #include "contour/isosurface.h"
 #include "contour/redistance.h"
 #include "littoral/error.h"
+#include "spatial/triangle_bvh.h"
+#include "spatial/triangulate.h"
 #include "volume_helpers.h"
 
 namespace littoral {
@@ -34,6 +37,28 @@ TEST(Redistance, IsTheDistanceToTheLevelSetUpToItsReach) {
   set_thread_count(0);
   EXPECT_TRUE((again.array() == distance.array()).all());
   EXPECT_EQ(redistance(field.grid, field.values, 9, {}, 0.3, {}).maxCoeff(), -0.3);
+}
+
+TEST(Redistance, IsTheDistanceToTheNearestTriangleAtEveryNodeWithinItsReach) {
+  // Far from the origin, on a box with another size and spacing along each axis.
+  Grid grid{{41, 34, 27}, Vec3(50, -70, 30), Vec3(0.05, 0.06, 0.08)};
+  const Vec3 middle = grid.origin + Vec3(0.8, 0.9, 1.1);
+  const Volume field =
+      test::sampled(grid, [&](const Vec3& p) { return 3 * ball(p, middle, 0.45) + 7; });
+  Report report;
+  const PolygonSoup surface = isosurface(grid, field.values, 7, {}, report);
+  for (const double reach : {0.12, 0.5, 9.0}) {
+    const VecX distance = redistance(grid, field.values, 7, surface, reach, {});
+    const TriangleBvh bvh(surface.points, triangles_of(surface));
+    for (int k = 0; k < grid.n[2]; ++k)
+      for (int j = 0; j < grid.n[1]; ++j)
+        for (int i = 0; i < grid.n[0]; ++i) {
+          const auto node = static_cast<Eigen::Index>(grid.node(i, j, k));
+          const double near = std::min(reach, bvh.closest_point(grid.point(i, j, k)).distance);
+          ASSERT_NEAR(distance[node], field.values[node] > 7 ? near : -near, 1e-12)
+              << reach << " at " << i << " " << j << " " << k;
+        }
+  }
 }
 
 TEST(Isosurface, PointsLieWhereTheFunctionTakesTheLevel) {

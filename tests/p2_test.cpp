@@ -84,6 +84,25 @@ TEST(P2, CalculusIsConsistent) {
   EXPECT_GT(C.M.minCoeff(), 0);
 }
 
+TEST(P2, NodesOnTheBoundaryAreMarkedAndMassesAreThoseOfTheirElements) {
+  const SurfaceMesh mesh(test::jittered_grid_soup(4, 3, 0.2));
+  const P2Elements<2> E = elements(mesh);
+  const Calculus C = p2_calculus(E);
+  VecX x(E.n_nodes()), y(E.n_nodes());
+  x = nodal(mesh, E, [](const Vec3& p) { return p[0]; });
+  y = nodal(mesh, E, [](const Vec3& p) { return p[1]; });
+  int on_boundary = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const bool at_end =
+        x[i] < 1e-12 || x[i] > x.maxCoeff() - 1e-12 || y[i] < 1e-12 || y[i] > y.maxCoeff() - 1e-12;
+    EXPECT_EQ(C.boundary[static_cast<std::size_t>(i)] != 0, at_end) << x[i] << " " << y[i];
+    on_boundary += at_end;
+  }
+  EXPECT_EQ(on_boundary, 2 * (2 * 4 + 2 * 3));
+  const SurfaceMesh closed(test::octasphere_soup(1));
+  for (const char b : p2_calculus(elements(closed)).boundary) EXPECT_EQ(b, 0);
+}
+
 TEST(P2, TetrahedraIntegrateAndReproduceQuadraticsToo) {
   P2Elements<3> E;
   E.n_vertices = 4;

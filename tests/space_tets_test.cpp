@@ -11,6 +11,7 @@
 #include "domain/tet/tet_lattice.h"
 #include "littoral/error.h"
 #include "methods/heat/signed_heat_tets.h"
+#include "operators/tet_calculus.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
 
@@ -111,6 +112,29 @@ TEST(TetOperators, AreExactForConstantAndLinearFunctions) {
   EXPECT_NEAR(u.dot(times(ops.L, u)), 8 * g.squaredNorm(), 1e-9);
   const MatX3 Y = g.transpose().replicate(tets.mesh().n_tets(), 1);
   EXPECT_LT((ops.divergence(Y) - times(ops.L, u)).norm(), 1e-10);
+}
+
+TEST(TetOperators, OfTetsAsACalculusKnowTheBoundaryAndTheEdgesOfRegularTets) {
+  const int n = 3;
+  const TetMesh box = test::tet_box(n);
+  const Calculus C = tet_calculus(std::make_shared<const TetOperators>(tet_operators(box)));
+  for (int v = 0; v < box.n_vertices(); ++v) {
+    const Vec3 x = box.points.row(v);
+    const bool inside = x.minCoeff() > 1e-9 && x.maxCoeff() < 1 - 1e-9;
+    EXPECT_EQ(C.boundary[static_cast<std::size_t>(v)] == 0, inside) << x.transpose();
+  }
+  EXPECT_NEAR(C.A.sum(), 1, 1e-12);
+  EXPECT_NEAR(C.M.sum(), 1, 1e-12);
+  const Vec3 g(2, -1, 0.5);
+  EXPECT_LT((C.G.apply(box.points * g) - g.replicate(C.A.size(), 1)).cwiseAbs().maxCoeff(), 1e-9);
+  TetMesh regular;  // with edges of length 3
+  regular.points.resize(4, 3);
+  regular.points << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+  regular.points *= 3 / std::sqrt(8.0);
+  regular.tets.resize(1, 4);
+  regular.tets << 0, 1, 2, 3;
+  EXPECT_NEAR(tet_calculus(std::make_shared<const TetOperators>(tet_operators(regular))).h, 3,
+              1e-12);
 }
 
 TEST(TetOperators, SayWhatIsWrong) {

@@ -4,9 +4,11 @@
 #include <zlib.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include "domain_shapes.h"
 #include "io/volume/read_voxels.h"
@@ -131,6 +133,47 @@ TEST(VoxelBoundary, CorrectedNormalsConverge) {
   }
   EXPECT_LT(error[0], 0.12);
   EXPECT_LT(error[1], error[0] / std::exp2(2 * 0.6));  // order 2/3 is proven
+}
+
+TEST(VoxelBoundary, CorrectedNormalsPointAwayFromTheCentroidInABallOfTheExtentsSize) {
+  // Ellipsoids longest along one axis or another: the ball is 0.5 n^(2/3) voxels large, at least
+  // 2.5 and at most 10.
+  const auto beyond = [](const Vec3& x, const Vec3& half) {
+    return x.cwiseQuotient(half).squaredNorm() > 1;
+  };
+  for (const Vec3& half :
+       {Vec3(3.2, 4.1, 13.3), Vec3(12.6, 3.4, 3.9), Vec3(3.3, 14.2, 4.4), Vec3(2.2, 2.4, 1.9)}) {
+    Grid grid;
+    for (int a = 0; a < 3; ++a) grid.n[a] = 2 * static_cast<int>(half[a]) + 4;
+    grid.origin = Vec3(1, -2, 3);
+    grid.spacing = Vec3::Constant(0.25);
+    const Vec3 middle(0.5 * (grid.n[0] - 1), 0.5 * (grid.n[1] - 1), 0.5 * (grid.n[2] - 1));
+    std::vector<unsigned char> inside(grid.n_nodes());
+    std::vector<Vec3> voxels;
+    Eigen::Vector3d low = Vec3::Constant(1e9), high = -low;
+    for (int k = 0; k < grid.n[2]; ++k)
+      for (int j = 0; j < grid.n[1]; ++j)
+        for (int i = 0; i < grid.n[0]; ++i) {
+          if (beyond(Vec3(i, j, k) - middle, half)) continue;
+          inside[grid.node(i, j, k)] = 1;
+          voxels.emplace_back(i, j, k);
+          low = low.cwiseMin(voxels.back());
+          high = high.cwiseMax(voxels.back());
+        }
+    const double extent = (high - low).maxCoeff() + 1;
+    const double radius = std::clamp(0.5 * std::pow(extent, 2.0 / 3), 2.5, 10.0);
+    const VoxelSurface surface = boundary_of_voxels(grid, inside);
+    EXPECT_GT(surface.mesh.n_faces(), 50);
+    for (int f = 0; f < surface.mesh.n_faces(); ++f) {
+      Vec3 centre = Vec3::Zero(), sum = Vec3::Zero();
+      for (const int v : surface.mesh.face(f))
+        centre += (surface.mesh.point(v) - grid.origin).cwiseQuotient(grid.spacing) / 4;
+      for (const Vec3& x : voxels)
+        if ((x - centre).norm() <= radius) sum += centre - x;
+      EXPECT_LT((sum.normalized() - surface.face_normals.row(f).transpose()).norm(), 1e-9)
+          << half.transpose() << ", " << f;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+// Frames of triangles and edges: where more than two triangles meet, and one-sided curves there.
+#include "domain/intrinsic/intrinsic_triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "domain/mesh/polygon_surface.h"
+#include "heat_helpers.h"
+#include "sources/systems/triangle_source_system.h"
+#include "test_meshes.h"
+
+namespace littoral {
+namespace {
+
+TEST(IntrinsicTriangulation, TrianglesThatLeaveAnEdgeInTheFirstsDirectionLieOnItsSide) {
+  // Tips far along the edge: what counts is how they leave it, not where their tips are.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-1, 1);
+  int same = 0, opposite = 0;
+  for (int round = 0; round < 60; ++round) {
+    const int pages = 3 + round % 3;
+    PolygonSoup soup;
+    soup.points.resize(2 + pages, 3);
+    soup.points.row(0) << 0, 0, 0;
+    soup.points.row(1) << 0, 0, 1;
+    std::vector<double> angle;
+    for (int p = 0; p < pages; ++p) {
+      angle.push_back(4 * u(random));
+      soup.points.row(2 + p) << 0.4 * std::cos(angle[p]), 0.4 * std::sin(angle[p]), 6 * u(random);
+      std::array<int, 3> corners{0, 1, 2 + p};
+      if (random() % 2) std::swap(corners[0], corners[1]);
+      std::rotate(corners.begin(), corners.begin() + random() % 3, corners.end());
+      soup.add_face(corners);
+    }
+    Report report;
+    const SurfaceMesh mesh(soup);
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    const auto left = [&](int f) {  // of the edge as its frame has it
+      for (int k = 0; k < 3; ++k)
+        if (T.edges(T.side_edge(f, k), 0) + T.edges(T.side_edge(f, k), 1) == 1)
+          return std::array{k, T.orientation[f] * T.along(f, k)};
+      return std::array{-1, 0};
+    };
+    for (int p = 1; p < pages; ++p) {
+      const double across = std::cos(angle[p] - angle[0]);
+      if (std::abs(across) < 1e-3) continue;
+      const auto [k, side] = left(p);
+      const bool fits = side == (across > 0 ? 1 : -1) * left(0)[1];
+      EXPECT_EQ(T.seam(p, k) != 0, !fits) << round << ", " << p;
+      ++(across > 0 ? same : opposite);
+    }
+    EXPECT_EQ(T.seam(0, left(0)[0]), 0);
+  }
+  EXPECT_GT(same, 30);
+  EXPECT_GT(opposite, 30);
+}
+
+TEST(PolygonSurface, PolygonsOfManyCornersAreOnePatchForEachOfTheirTriangles) {
+  PolygonSoup soup;  // a square beside one whose sides have many corners
+  const int n = 20;
+  soup.points.resize(4 * n + 2, 3);
+  std::vector<int> all;
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < n; ++i) {
+      const double t = double(i) / n;
+      const double x[4] = {t, 1, 1 - t, 0}, y[4] = {0, t, 1, 1 - t};
+      soup.points.row(side * n + i) << x[side], y[side], 0;
+      all.push_back(side * n + i);
+    }
+  soup.points.row(4 * n) << 2, 0, 0;
+  soup.points.row(4 * n + 1) << 2, 1, 0;
+  std::vector<int> beside{4 * n, 4 * n + 1, 2 * n};
+  for (int i = n - 1; i >= 0; --i) beside.push_back(n + i);
+  soup.add_face(all);
+  soup.add_face(beside);
+  Report report;
+  const NodalSurface S = polygon_surface(SurfaceMesh(soup), report);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0].code, "polygons-cut");
+  const int triangles = 4 * n - 2, fan = static_cast<int>(beside.size());
+  ASSERT_EQ(S.n_patches(), triangles + 1);
+  for (int p = 0; p < triangles; ++p) EXPECT_EQ(S.patch_offsets[p], p);
+  EXPECT_EQ(S.patch_offsets[triangles], triangles);
+  EXPECT_EQ(S.patch_offsets[triangles + 1], triangles + fan);
+}
+
+/// A grid over [0, 1]^2, and with it what is its mirror image below; the faces of the first come
+/// first.
+PolygonSoup mirrored_grid(const PolygonSoup& grid, int nx) {
+  PolygonSoup soup = grid;
+  const int n = grid.n_vertices();
+  soup.points.conservativeResize(2 * n, 3);
+  std::vector<int> there(static_cast<std::size_t>(n));
+  for (int v = 0; v < n; ++v) {
+    there[v] = v <= nx ? v : n + v;
+    soup.points.row(n + v) << grid.points(v, 0), -grid.points(v, 1), 0;
+  }
+  for (int f = 0; f < grid.n_faces(); ++f)
+    test::add_triangle(soup, there[grid.face(f)[1]], there[grid.face(f)[0]],
+                       there[grid.face(f)[2]]);
+  return soup;
+}
+
+TEST(TriangleSources, UnsignedCurvesAlongTheBoundaryAreAsStrongAsOneSideOfThoseWithin) {
+  const int nx = 6;
+  PolygonSoup grid = test::jittered_grid_soup(nx, 5, 0.2);
+  for (int v = 0; v <= nx; ++v) ASSERT_EQ(grid.points(v, 1), 0);
+  const PolygonSoup both = mirrored_grid(grid, nx);
+  const auto vectors = [&](const PolygonSoup& soup, int faces) {
+    const SurfaceMesh mesh(soup);
+    Report report;
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    Sources sources;
+    sources.curves.emplace_back();
+    sources.curves[0].is_signed = false;
+    for (int v = 1; v < nx; ++v) sources.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
+    const SourceSystem system = source_system(mesh, T, place_sources(mesh, sources, report));
+    VecX length = VecX::Zero(T.n_edges());
+    for (const auto& [e, z] : system.X0) length[e] = std::abs(z) * T.unit;
+    // Of edges inside the first faces, and not at the ends of the curve.
+    std::vector<double> out;
+    for (int e = 0; e < T.n_edges(); ++e) {
+      const Vec3 x = (mesh.point(T.edges(e, 0)) + mesh.point(T.edges(e, 1))) / 2;
+      if (mesh.edge_faces(e)[0] < faces && x[1] > 1e-9 && x[0] > 2.6 / nx && x[0] < 3.4 / nx)
+        out.push_back(length[e]);
+    }
+    return out;
+  };
+  const std::vector<double> one = vectors(grid, grid.n_faces());
+  const std::vector<double> of_two = vectors(both, grid.n_faces());
+  ASSERT_EQ(one.size(), of_two.size());
+  int some = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_NEAR(one[i], of_two[i], 1e-9) << i;
+    some += one[i] > 1e-3;
+  }
+  EXPECT_GE(some, 1);
+}
+
+}  // namespace
+}  // namespace littoral

@@ -11,7 +11,7 @@
 #include "domain/tet/tet_lattice.h"
 #include "littoral/error.h"
 #include "methods/heat/signed_heat_tets.h"
-#include "operators/tet_calculus.h"
+#include "operators/tet_operators.h"
 #include "operators/tet_operators.h"
 #include "space_helpers.h"
 

@@ -12,7 +12,6 @@
 #include "littoral/error.h"
 #include "methods/heat/signed_heat_tets.h"
 #include "operators/tet_operators.h"
-#include "operators/tet_operators.h"
 #include "space_helpers.h"
 
 namespace littoral {

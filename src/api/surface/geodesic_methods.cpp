@@ -87,7 +87,9 @@ std::vector<Method<SurfaceDomain>> geodesic_methods() {
               VecX d = fast_marching(T, on, task, r);
               r.residuals.emplace_back(off_unit_area_fraction, off_unit_share(T, d));
               warn_off_unit(
-                  "Method auto measures exactly; otherwise finer or more even triangles help", r);
+                  "the distance may be off there. Method auto measures exactly; otherwise finer or "
+                  "more even triangles help",
+                  r);
               return d;
             };
             return [solve = solve_on_triangles<FastMarching>(domain, march, report)](

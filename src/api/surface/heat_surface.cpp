@@ -1,6 +1,7 @@
 #include "api/surface/heat_surface.h"
 
 #include <algorithm>
+#include <string>
 
 #include "base/stopwatch.h"
 #include "domain/mesh/covering_mesh.h"
@@ -73,10 +74,12 @@ void HeatSurface::check(BesideMarching* marching, const VecX& phi, const Task& t
                         Report& report) const {
   const std::size_t before = report.warnings.size();
   const bool triangles = domain_.kind() == "triangle mesh" || domain_.kind() == "polygon mesh";
-  warn_off_unit(triangles ? "Method auto measures exactly; otherwise finer or more even triangles "
-                            "help, as by option intrinsic-delaunay"
-                          : "A finer surface helps",
-                report);
+  warn_off_unit(
+      "the distance is not right there. " +
+          std::string(triangles ? "Method auto measures exactly; otherwise finer or more even "
+                                  "triangles help, as by option intrinsic-delaunay"
+                                : "A finer surface helps"),
+      report);
   if (!marching) return;
   const double mean = marching->report(at_input(phi).values, task, report);
   if (report.warnings.size() == before) warn_beside_marching(mean, report);

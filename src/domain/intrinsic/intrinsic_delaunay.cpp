@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/index.h"
+#include "base/parallel.h"
 #include "domain/intrinsic/intrinsic_mesh_editor.h"
 
 namespace littoral {
@@ -46,6 +47,25 @@ class Improvement {
     shortest_ = 1e-6 * sum / (3 * static_cast<double>(M_.faces.size()));
   }
 
+  /// Flips from all edges on.
+  void flip_all() {
+    std::deque<int> all;
+    for (std::size_t e = 0; e < M_.edges.size(); ++e) all.push_back(static_cast<int>(e));
+    settled_ = are_delaunay();
+    flip(std::move(all));
+    settled_.clear();
+  }
+
+  /// Edges; found on all threads.
+  std::vector<char> are_delaunay() const {
+    std::vector<char> out(M_.edges.size());
+    parallel_for(out.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e)
+        out[e] = !(M_.delaunay_sum(static_cast<int>(e)) < delaunay_margin);
+    });
+    return out;
+  }
+
   /// Flips from the edges in the queue on.
   void flip(std::deque<int> queue) {
     std::vector<char> waiting(M_.edges.size(), 0);
@@ -55,15 +75,18 @@ class Improvement {
       const int e = queue.front();
       queue.pop_front();
       waiting[e] = 0;
+      if (!settled_.empty() && settled_[e]) continue;
       if (!(M_.delaunay_sum(e) < delaunay_margin) || !M_.flip(e)) continue;
       ++flips;
       for (int f : M_.edges[e].faces) {
         touched.push_back(f);
-        for (int s : M_.faces[f].e)
+        for (int s : M_.faces[f].e) {
+          if (!settled_.empty()) settled_[s] = 0;
           if (s != e && !waiting[s]) {
             waiting[s] = 1;
             queue.push_back(s);
           }
+        }
       }
     }
   }
@@ -166,6 +189,7 @@ class Improvement {
   IntrinsicMeshEditor& M_;
   const Task& task_;
   double cot_;
+  std::vector<char> settled_;  // edges known to be Delaunay; empty: none
   std::vector<double> angle_;  // around the vertices of the input; others have enough
   double least_angle_, shortest_ = 0;
   long long most_flips_, most_vertices_;
@@ -194,16 +218,14 @@ Retriangulation intrinsic_delaunay(const SurfaceMesh& mesh, const IntrinsicTrian
   IntrinsicMeshEditor M(mesh, T, std::move(curves));
   if (!options.keep.empty()) M.keep = options.keep;
   Improvement improvement(M, options, task);
-  std::deque<int> all;
-  for (std::size_t e = 0; e < M.edges.size(); ++e) all.push_back(e);
-  improvement.flip(all);
+  improvement.flip_all();
   if (options.smallest_angle > 0) improvement.refine();
-  int left = 0;
-  for (std::size_t e = 0; e < M.edges.size(); ++e) left += M.delaunay_sum(e) < delaunay_margin;
+  const std::vector<char> are_delaunay = improvement.are_delaunay();
+  const auto left = std::count(are_delaunay.begin(), are_delaunay.end(), 0);
   Retriangulation out = std::move(M).finish(T);
   out.flips = std::min<long long>(improvement.flips, 1 << 30);
   out.added = improvement.added;
-  out.not_delaunay = left;
+  out.not_delaunay = static_cast<int>(left);
   report.sizes.emplace_back("intrinsic_flips", out.flips);
   report.sizes.emplace_back("intrinsic_vertices_added", out.added);
   report.sizes.emplace_back("intrinsic_edges_not_delaunay", out.not_delaunay);

@@ -79,15 +79,14 @@ void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& 
   report.residuals.emplace_back(off_unit_area_fraction, shares.off_unit);
 }
 
-void warn_off_unit(const std::string& what_helps, Report& report) {
+void warn_off_unit(const std::string& meaning, Report& report) {
   double share = 0;
   for (const auto& [name, value] : report.residuals)
     if (name == off_unit_area_fraction) share = value;
   if (share <= remarkable_off_unit) return;
   report.warn("gradient-off-unit",
               "the gradient of the distance is more than a quarter off unit length on " +
-                  in_short(100 * share) + " % of the surface: the distance is not right there. " +
-                  what_helps);
+                  in_short(100 * share) + " % of the surface: " + meaning);
 }
 
 double misaligned_fraction(const Report& report) {

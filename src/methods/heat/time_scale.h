@@ -40,10 +40,10 @@ inline constexpr const char* off_unit_area_fraction = "area fraction with gradie
 inline constexpr double off_unit_by = 0.25;
 /// Reports both.
 void report_gradient(const Calculus& C, const VecX& phi, const VecX& Y, Report& report);
-/// Warns, with what helps (a sentence without its stop), where the gradient of an answer is off
-/// unit length on more of the surface than meshes and sources for which the method is right have
-/// shown.
-void warn_off_unit(const std::string& what_helps, Report& report);
+/// Warns, with what that means and what helps (without a stop), where the gradient of an answer is
+/// off unit length on more of the surface than meshes and sources for which the method is right
+/// have shown.
+void warn_off_unit(const std::string& meaning, Report& report);
 inline constexpr double tolerable_share = 0.005;
 /// What is asked for on a mesh that has shown more: half-way, directions may be smooth and wrong.
 inline constexpr double settled_share = 0.001;

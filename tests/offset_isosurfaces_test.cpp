@@ -164,5 +164,30 @@ TEST(Offset, RefusesWhatCannotBe) {
                Cancelled);
 }
 
+TEST(OffsetIsosurfaces, WhatIsThinnerThanTheGridNamesAFinerOne) {
+  const Volume sheet = test::sampled(test::box_grid(9), [](const Vec3& p) {
+    return std::abs(p.z() - 0.01);  // the nodes next to it lie in z = 0
+  });
+  const auto said = [&](double level) {
+    Report report;
+    try {
+      isosurfaces(sheet, {level}, false, report, {});
+    } catch (const InputError& error) {
+      EXPECT_EQ(report.warnings.size(), 1U);
+      EXPECT_EQ(report.warnings.front().code, "level-missed");
+      const auto names = [](const std::string& text) {
+        return text.find("thinner than the grid: option spacing 0.004 would") != std::string::npos;
+      };
+      EXPECT_EQ(names(report.warnings.front().text), names(error.what()));
+      return std::string(names(error.what()) ? "thin" : "missed");
+    }
+    return std::string("there");
+  };
+  EXPECT_EQ(said(0.004), "thin");
+  EXPECT_EQ(said(0.04), "there");
+  EXPECT_EQ(said(40), "missed");
+  EXPECT_EQ(said(-0.004), "missed");
+}
+
 }  // namespace
 }  // namespace littoral

@@ -35,6 +35,14 @@ Volume offset_back(const Volume& distance, double level, double back, double rea
   return field;
 }
 
+/// What to do about a level so near to a sheet between the nodes that none is within it; else
+/// empty.
+std::string if_too_thin(const Volume& volume, double level) {
+  if (!(0 < level && level < volume.values.minCoeff())) return "";
+  return "; what lies within it is thinner than the grid: option spacing " + rounded_text(level) +
+         " would show it";
+}
+
 }  // namespace
 
 std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<double>& levels,
@@ -49,10 +57,10 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
         isosurface(volume.grid, volume.values, level, options, report,
                    task.stage(1.0 / static_cast<double>(levels.size()), "contouring"));
     if (surface.n_faces() == 0)
-      report.warn("level-missed", "there is no surface at level " + rounded_text(level) +
-                                      "; values run from " +
-                                      rounded_text(volume.values.minCoeff()) + " to " +
-                                      rounded_text(volume.values.maxCoeff()));
+      report.warn("level-missed",
+                  "there is no surface at level " + rounded_text(level) + "; values run from " +
+                      rounded_text(volume.values.minCoeff()) + " to " +
+                      rounded_text(volume.values.maxCoeff()) + if_too_thin(volume, level));
     any = any || surface.n_faces() != 0;
     report.sizes.emplace_back("triangles", static_cast<double>(surface.n_faces()));
     surfaces.push_back({level, std::move(surface)});
@@ -60,7 +68,8 @@ std::vector<Isosurface> isosurfaces(const Volume& volume, const std::vector<doub
   if (!any)
     throw InputError("the distance takes none of the levels; it runs from " +
                          rounded_text(volume.values.minCoeff()) + " to " +
-                         rounded_text(volume.values.maxCoeff()),
+                         rounded_text(volume.values.maxCoeff()) +
+                         (levels.empty() ? "" : if_too_thin(volume, levels.front())),
                      "nothing-there");
   return surfaces;
 }

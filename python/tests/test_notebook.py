@@ -30,6 +30,9 @@ def test_the_tutorial_runs(monkeypatch, tmp_path, capsys):
     assert names["signed"].values.min() < 0 < names["signed"].values.max()
     assert set(names["regions"].region) == {0, 1}
     assert names["sdf"](names["x"])[0] < 0 < names["sdf"](names["x"])[1]
-    assert names["headless"].confidence(names["along"])[2] < 0.1
+    top = names["mesh"].points[:, 1].argmax()  # of the head, there without the hindquarters
+    assert top in names["mesh"].faces[names["kept"]]
+    sure = names["cut"].confidence(names["along"])
+    assert sure[2] < 0.1 < 0.5 < min(sure[0], sure[1], sure[3])
     assert np.ptp(names["thin"].points, axis=0).max() < np.ptp(names["thick"].points, axis=0).max()
     assert "normals" in capsys.readouterr().out  # the cloud's warning

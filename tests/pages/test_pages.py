@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from pathlib import Path
-from typing import Any
 
 import page_code
 import pytest
@@ -30,27 +28,6 @@ def test_the_code_of_a_page_runs(
     monkeypatch.setattr(sys, "argv", ["page"])
     data = page_code.data_collection()
     page_code.run_page(ROOT / page, tmp_path, os.environ["LITTORAL"], data)
-
-
-def test_the_notebook_runs_and_says_what_is_so(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("MPLBACKEND", "Agg")
-    monkeypatch.setattr("webbrowser.open", lambda address: True)
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    (tmp_path / "examples").symlink_to(ROOT / "examples")
-    cells = json.loads((ROOT / "docs/tutorials/tutorial.ipynb").read_text("utf-8"))["cells"]
-    code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
-    assert len(code) > 8
-    names: dict[str, Any] = {}
-    for number, cell in enumerate(code):
-        exec(compile(cell, f"cell {number}", "exec"), names)
-    points, kept = names["mesh"].points, names["mesh"].faces[names["kept"]]
-    top = points[:, 1].argmax()  # of the head, which is there without the hindquarters
-    assert top in kept
-    sure = names["cut"].confidence(names["along"])
-    assert sure[2] < 0.05 < 0.5 < min(sure[0], sure[1], sure[3])
 
 
 def test_blocks_are_found_with_their_language_and_reason() -> None:

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
 
+#include "api/space/sdf.h"
+#include "api/space/walls.h"
 #include "broken_shapes.h"
 #include "littoral/repair.h"
 #include "repair_helpers.h"
@@ -141,6 +144,38 @@ TEST(RepairWalls, WhatLiesOnThePartIsNoWall) {
   const double above = M_PI * r * r / 4 * 1;  // a quarter of a tube at most on the box
   EXPECT_GT(test::volume_of(soup), 1 + whole - 0.002);
   EXPECT_LT(test::volume_of(soup), 1 + whole + above + 0.002);
+}
+
+/// A flat rod along x of needles from end to end, side by side.
+PolygonSoup needles(int count, double width) {
+  PolygonSoup out;
+  out.points.resize(4 * count, 3);
+  for (int k = 0; k < count; ++k) {
+    const double y = width * k / count, next = width * (k + 1) / count;
+    out.points.middleRows(4 * k, 4) << 0, y, 0, 1, y, 0, 1, next, 0, 0, next, 0;
+    out.add_face(std::array{4 * k, 4 * k + 1, 4 * k + 2});
+    out.add_face(std::array{4 * k, 4 * k + 2, 4 * k + 3});
+  }
+  return out;
+}
+
+TEST(RepairWalls, CrowdedNeedlesTakeTheTimeOfAFew) {
+  const double width = 0.004, r = 0.05;
+  const PolygonSoup crowd = needles(200, width), few = needles(1, width);
+  const Grid grid = choose_grid(crowd, {.resolution = 64});
+  const Walls walls = walls_of_all(crowd, grid, 2 * r, {}),
+              of_few = walls_of_all(few, grid, 2 * r, {});
+  EXPECT_EQ(walls.triangles, 400);
+  EXPECT_EQ(walls.share, 1);
+  EXPECT_LE(walls.pieces.n_faces(), 4 * of_few.pieces.n_faces());
+
+  RepairOptions options;
+  options.grid.resolution = 64;
+  options.thicken = 2 * r;
+  const Repaired out = repair(crowd, options);
+  test::expect_watertight(out.surface);
+  const double volume = test::volume_of(out.surface.soup());
+  EXPECT_NEAR(volume, test::volume_of(repair(few, options).surface.soup()), 0.03 * volume);
 }
 
 TEST(RepairWallsSlow, DentsAreNoWalls) {

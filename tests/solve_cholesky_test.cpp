@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -16,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/parallel_forest.h"
 #include "base/platform/large_pages.h"
+#include "dense_solves.h"
 #include "heat_helpers.h"
 #include "littoral/error.h"
 #include "solve/direct/cholesky.h"
@@ -52,7 +52,7 @@ void expect_solves(int n, int edges, std::mt19937& random) {
   const Eigen::SparseMatrix<Scalar> full = lower.template selfadjointView<Eigen::Lower>();
   const Dense A = full;
   const Dense b = Dense::Random(n, 3);
-  const Dense exact = A.llt().solve(b);
+  const Dense exact = test::dense_solve(A, b);
   Ordering shuffled(n);
   std::iota(shuffled.begin(), shuffled.end(), 0);
   std::shuffle(shuffled.begin(), shuffled.end(), random);
@@ -285,7 +285,7 @@ TEST(Poisson, ConstraintsOnTheSharedFactorAgreeWithANewFactor) {
   // Optimal: the force L x - b is a combination of the rows.
   const VecX force = times_symmetric(C.L, x) - b;
   const MatX At = MatX(p.terms.A.transpose());
-  const VecX y = At.completeOrthogonalDecomposition().solve(force);
+  const VecX y = test::dense_solve(At, force);
   EXPECT_LE((At * y - force).cwiseAbs().maxCoeff(), 1e-9);
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "api/space/input_queries.h"
 #include "base/disjoint_sets.h"
@@ -160,9 +159,10 @@ VecX distance_to_ends(const PolygonSoup& triangles, const MatX3& x, const Task& 
   return NearestOnInput(ends).at(x, task).distances;
 }
 
-/// For each piece one that is much like it: where needles crowd in a place, more than eight with
-/// one normal in a quarter of h, the largest of them; else itself.
-std::vector<int> much_alike(const std::vector<Piece>& pieces, double h) {
+/// The pieces without those that one that stays is much like: where needles crowd, more than eight
+/// with one normal in a quarter of h, the largest of them stays. Its wall, two spacings thick and
+/// more, covers the others.
+std::vector<Piece> without_crowds(const std::vector<Piece>& pieces, double h) {
   constexpr double many_cells = 4, many_directions = 8;
   constexpr std::size_t crowd = 8;
   std::map<std::array<long, 6>, std::vector<int>> groups;
@@ -174,14 +174,16 @@ std::vector<int> much_alike(const std::vector<Piece>& pieces, double h) {
     }
     groups[key].push_back(static_cast<int>(i));
   }
-  std::vector<int> out(pieces.size());
-  std::iota(out.begin(), out.end(), 0);
+  std::vector<char> stays(pieces.size(), 1);
   for (const auto& [key, group] : groups) {
     if (group.size() <= crowd) continue;
-    const int largest = *std::max_element(
-        group.begin(), group.end(), [&](int i, int j) { return pieces[i].area < pieces[j].area; });
-    for (const int i : group) out[i] = largest;
+    for (const int i : group) stays[i] = 0;
+    stays[*std::max_element(group.begin(), group.end(),
+                            [&](int i, int j) { return pieces[i].area < pieces[j].area; })] = 1;
   }
+  std::vector<Piece> out;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (stays[i]) out.push_back(pieces[i]);
   return out;
 }
 
@@ -189,12 +191,10 @@ std::vector<int> much_alike(const std::vector<Piece>& pieces, double h) {
 VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, double h,
                  const Task& task) {
   const auto n = pieces.size();
-  const std::vector<int> alike = much_alike(pieces, h);
   VecX own = VecX::Zero(index(n));
   parallel_for(n, 1024, [&](std::size_t begin, std::size_t end) {
     task.checkpoint();
     for (std::size_t i = begin; i < end; ++i) {
-      if (alike[i] != static_cast<int>(i)) continue;
       for (const double sign : {1.0, -1.0}) {
         // Seen from a spacing away the other side is the nearest.
         const Vec3 away = sign * h * pieces[i].normal;
@@ -206,7 +206,6 @@ VecX thicknesses(const std::vector<Piece>& pieces, const TriangleBvh& bvh, doubl
       }
     }
   });
-  for (std::size_t i = 0; i < n; ++i) own[index(i)] = own[alike[i]];
   // Those at the rim of a part, which see no other side, are as thick as those next to them.
   VecX out = own;
   const auto cells = cells_of(pieces, h);
@@ -239,6 +238,7 @@ Walls made_of(const PolygonSoup& triangles, const std::vector<Piece>& all,
   }
   if (pieces.empty()) return out;
   out.share = of_walls / area;
+  pieces = without_crowds(pieces, h);
   const auto n = index(pieces.size());
   MatX3 points(3 * n, 3);
   MatX3i faces(n, 3);

@@ -45,6 +45,25 @@ TEST(FastMarching, SignedLineAndItsReverse) {
   EXPECT_LT((r + d).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(FastMarching, ThereAndBackHasNoSides) {
+  for (const SurfaceMesh& mesh : {SurfaceMesh(test::jittered_grid_soup(20, 20, 0.3)),
+                                  SurfaceMesh(test::grid_soup(20, 20))})  // along edges
+    for (const double y : {0.37, 0.5}) {
+      MatX3 line(2, 3), back(3, 3);
+      line << 0, y, 0, 1, y, 0;
+      back << 0, y, 0, 1, y, 0, 0, y, 0;
+      const VecX d = test::marched(mesh, test::space_curve(back));
+      const VecX unsigned_line = test::marched(mesh, test::space_curve(line, false));
+      EXPECT_LT((d - unsigned_line).cwiseAbs().maxCoeff(), 1e-12) << y;
+      // Once more and it has.
+      back.conservativeResize(4, 3);
+      back.row(3) = line.row(1);
+      const VecX again = test::marched(mesh, test::space_curve(back));
+      EXPECT_LT((again - test::marched(mesh, test::space_curve(line))).cwiseAbs().maxCoeff(),
+                1e-12);
+    }
+}
+
 TEST(FastMarching, SignsAroundACircleThroughFacesAndALoopOfEdges) {
   const SurfaceMesh mesh(test::jittered_grid_soup(30, 30, 0.3));
   const VecX d = test::marched(mesh, test::space_curve(test::circle(0.5, 0.5, 0, 0.3, 80)));

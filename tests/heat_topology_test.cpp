@@ -9,7 +9,7 @@
 namespace littoral {
 namespace {
 
-const double turn = 2 * std::acos(-1.0);
+const double whole_turn = 2 * std::acos(-1.0);
 
 Curve curve_at(const std::vector<int>& vertices, bool is_signed = true) {
   Curve curve;
@@ -37,8 +37,9 @@ TEST(HeatTopology, TwoParallelLoopsBoundABandOnATorus) {
     Report report;
     const VecX phi = test::signed_heat(mesh, sources, with(constraint), report);
     for (int v = 0; v < mesh.n_vertices(); ++v) {
-      const double angle = turn * (v % nv) / nv, off = std::min(angle, turn - angle);
-      const double exact = r * std::min(off, turn / 2 - off) * (angle < turn / 2 ? 1 : -1);
+      const double angle = whole_turn * (v % nv) / nv, off = std::min(angle, whole_turn - angle);
+      const double exact =
+          r * std::min(off, whole_turn / 2 - off) * (angle < whole_turn / 2 ? 1 : -1);
       ASSERT_NEAR(phi[v], exact, 0.035) << "constraint " << static_cast<int>(constraint);
     }
   }
@@ -67,7 +68,7 @@ TEST(HeatTopology, TwoMeridiansBoundHalfATorus) {
       EXPECT_GT(value * (i < nu / 2 ? 1 : -1), 0) << i << " " << j;
       EXPECT_NEAR(value, phi[(nu + nu / 2 - i) % nu * nv + j], 0.03);
       // No path is shorter than along the inner equator, none longer than along the outer.
-      const double angle = turn * std::min(i % (nu / 2), nu / 2 - i % (nu / 2)) / nu;
+      const double angle = whole_turn * std::min(i % (nu / 2), nu / 2 - i % (nu / 2)) / nu;
       EXPECT_GT(std::abs(value), 0.85 * 0.6 * angle);
       EXPECT_LT(std::abs(value), 1.1 * 1.4 * angle + 0.02);
     }
@@ -89,7 +90,7 @@ struct MoebiusBand {
     soup.points.resize(nu * (nw + 1), 3);
     for (int i = 0; i < nu; ++i)
       for (int j = 0; j <= nw; ++j) {
-        const double u = turn * i / nu, s = 1 + across(j) * std::cos(u / 2);
+        const double u = whole_turn * i / nu, s = 1 + across(j) * std::cos(u / 2);
         soup.points.row(i * (nw + 1) + j) << s * std::cos(u), s * std::sin(u),
             across(j) * std::sin(u / 2);
       }
@@ -211,7 +212,7 @@ TEST(HeatTopology, ACurveAlongTheSeamOfAMoebiusBand) {
         for (const int away : {2, 5, 9})
           for (int j = 0; j <= band.nw; ++j) {
             // Left of travel is where i falls, as the faces after either column say.
-            const double least = 0.2 * turn * away / band.nu, sign = reversed ? -1 : 1;
+            const double least = 0.2 * whole_turn * away / band.nu, sign = reversed ? -1 : 1;
             EXPECT_LT(sign * phi[band.vertex(at + away, j)], -least)
                 << report.method << " " << at << " " << j;
             EXPECT_GT(sign * phi[band.vertex(at + 2 * band.nu - away, j)], least)

@@ -11,6 +11,7 @@
 #include "io/read.h"
 #include "littoral/error.h"
 #include "shared_data.h"
+#include "sources/surface/surface_points.h"
 
 namespace littoral::io {
 namespace {
@@ -176,18 +177,6 @@ TEST(IoData, CollectedFilesHaveTheListedSizes) {
     }
   }
   EXPECT_GT(read_files, 150);
-}
-
-// Faces that contain a node, ascending.
-std::vector<int> faces_at(const SurfaceMesh& mesh, const SurfacePoint& p) {
-  std::vector<int> faces{p.element};
-  if (p.on == SurfacePoint::On::vertex) {
-    faces.assign(mesh.vertex_faces(p.element).begin(), mesh.vertex_faces(p.element).end());
-  } else if (p.on == SurfacePoint::On::edge) {
-    faces.assign(mesh.edge_faces(p.element).begin(), mesh.edge_faces(p.element).end());
-  }
-  std::ranges::sort(faces);
-  return faces;
 }
 
 // Fraction of consecutive nodes that lie in one face; an edge numbering other than the files' would

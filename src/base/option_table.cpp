@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <utility>
 
@@ -17,17 +16,16 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
-std::string rounded_text(double value) {
+std::string rounded_text(double value, int digits) {
   if (!std::isfinite(value) || std::abs(value) < 1e-290) return number_text(value);
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
   return number_text(unit >= 1 ? std::round(value / unit) * unit
                                : std::round(value / unit) / std::round(1 / unit));
 }
 
 std::string percent_text(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, share < 0.0995 ? "%.2g %%" : "%.0f %%", 100 * share);
-  return text;
+  return (share < 0.0995 ? rounded_text(100 * share, 2) : number_text(std::round(100 * share))) +
+         " %";
 }
 
 std::string OptionInfo::kind_name() const {

@@ -20,8 +20,8 @@ int parse_option_integer(const OptionInfo& info, const std::string& text);
 int parse_option_choice(const OptionInfo& info, const std::string& text);
 bool parse_option_switch(const OptionInfo& info, const std::string& text);
 std::string number_text(double value);
-/// A measured value in a sentence: four digits.
-std::string rounded_text(double value);
+/// A measured value in a sentence, with a point in every locale.
+std::string rounded_text(double value, int digits = 4);
 /// "2.5 %" of .025, two digits below a tenth.
 std::string percent_text(double share);
 /// Throws InputError unless the number is in [low, high].

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <map>
 #include <new>
@@ -334,13 +333,11 @@ class RunningBatch {
     const double now = seconds();
     if (finished == shown_ || (now - shown_at_ < redraw && finished < summary_.jobs)) return;
     const double rate = static_cast<double>(finished) / now;
-    char speed[64];
-    std::snprintf(speed, sizeof speed, ", %.3g a second, ", rate);
     const auto left = static_cast<double>(summary_.jobs - finished);
     const std::string text =
         std::to_string(finished) + " of " + std::to_string(summary_.jobs) +
-        (summary_.failed > 0 ? ", " + std::to_string(summary_.failed) + " failed" : "") + speed +
-        duration_text(left / rate) + " left";
+        (summary_.failed > 0 ? ", " + std::to_string(summary_.failed) + " failed" : "") + ", " +
+        rounded_text(rate, 3) + " a second, " + duration_text(left / rate) + " left";
     task_.stage(static_cast<double>(finished - shown_) / static_cast<double>(summary_.jobs), text)
         .checkpoint(1);
     shown_ = finished;

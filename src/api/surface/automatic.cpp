@@ -141,11 +141,11 @@ class AutomaticOnTriangles {
   WholeCurves curves_;
 };
 
-using Solve = std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)>;
+using SolveAutomatic = std::function<SurfaceAnswer(const Sources&, Automatic&, Task&, Report&)>;
 
 /// Signed heat completes and measures at once.
-Solve by_heat(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
-              const Task& task, Report& report) {
+SolveAutomatic by_heat(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
+                       const Task& task, Report& report) {
   if (options.confidence)
     throw UnsupportedError("option confidence: there is none with metric heat", "options-conflict");
   if (options.completion != Completion::automatic && options.completion != Completion::heat)
@@ -172,7 +172,7 @@ Solve by_heat(const SurfaceDomain& domain, const Automatic& options, SolveHint h
 }
 
 /// What lies there twice is there once: jumps along copies of faces would contradict each other.
-Solve on_triangles(const SurfaceDomain& domain, SolveHint hint, Report& report) {
+SolveAutomatic on_triangles(const SurfaceDomain& domain, SolveHint hint, Report& report) {
   const auto unique = std::make_shared<const UniqueFaces>(domain.mesh);
   return [mesh = domain.mesh, unique,
           method = std::make_shared<const AutomaticOnTriangles>(
@@ -185,7 +185,7 @@ Solve on_triangles(const SurfaceDomain& domain, SolveHint hint, Report& report) 
 }
 
 /// Polygons cut into triangles.
-Solve on_polygons(const SurfaceDomain& domain, SolveHint hint, Report& report) {
+SolveAutomatic on_polygons(const SurfaceDomain& domain, SolveHint hint, Report& report) {
   Report quiet;  // that polygons are cut needs no warning where nobody asked for triangles
   auto cut = std::make_shared<const CutPolygons>(cut_into_triangles(domain, quiet));
   return [cut, solve = on_triangles(cut->triangles, hint, report)](
@@ -194,8 +194,8 @@ Solve on_polygons(const SurfaceDomain& domain, SolveHint hint, Report& report) {
   };
 }
 
-Solve automatic(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
-                const Task& task, Report& report) {
+SolveAutomatic automatic(const SurfaceDomain& domain, const Automatic& options, SolveHint hint,
+                         const Task& task, Report& report) {
   if (options.metric == Metric::heat) return by_heat(domain, options, hint, task, report);
   const std::string kind = domain.kind();
   if (kind == "polygon mesh") return on_polygons(domain, hint, report);

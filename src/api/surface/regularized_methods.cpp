@@ -287,11 +287,12 @@ class RegularizedNodes {
   std::shared_ptr<const RegularizedSolver> method_;
 };
 
-using Solve = std::function<SurfaceAnswer(const Sources&, const Regularized&, Task&, Report&)>;
+using SolveRegularized =
+    std::function<SurfaceAnswer(const Sources&, const Regularized&, Task&, Report&)>;
 
-Solve regularized(const SurfaceDomain& domain, const Regularized& options, const Task& task,
-                  Report& report) {
-  const auto with = [](auto method) -> Solve {
+SolveRegularized regularized(const SurfaceDomain& domain, const Regularized& options,
+                             const Task& task, Report& report) {
+  const auto with = [](auto method) -> SolveRegularized {
     return [method](const Sources& sources, const Regularized& o, Task& t, Report& r) {
       return method->solve(sources, o, t, r);
     };

@@ -11,11 +11,12 @@
 #endif
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <utility>
 
+#include "base/option_table.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -85,10 +86,10 @@ double memory_to_use() {
 void check_memory(double bytes, const std::string& what, const std::string& remedy) {
   const double available = memory_to_use();
   if (bytes <= available) return;
-  char numbers[96];
-  std::snprintf(numbers, sizeof numbers, " needs about %.1f GB of memory, %.1f GB are available; ",
-                bytes / 1e9, available / 1e9);
-  throw IoError(what + numbers + remedy, too_large);
+  const auto gigabytes = [](double x) { return number_text(std::round(x / 1e8) / 10) + " GB"; };
+  throw IoError(what + " needs about " + gigabytes(bytes) + " of memory, " + gigabytes(available) +
+                    " are available; " + remedy,
+                too_large);
 }
 
 bool is_about_memory(const IoError& error) { return error.code() == too_large; }

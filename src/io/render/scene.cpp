@@ -93,9 +93,7 @@ void describe(Scene& scene, const std::string& title, const Report& report) {
   facts.insert(facts.end(), scene.facts.begin(), scene.facts.end());
   double seconds = 0;
   for (const auto& [stage, time] : report.timings) seconds += time;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f s", seconds);
-  facts.emplace_back("time", text);
+  facts.emplace_back("time", number_text(std::round(100 * seconds) / 100) + " s");
   scene.facts = std::move(facts);
   scene.options.insert(scene.options.end(), report.options.begin(), report.options.end());
   for (const Warning& warning : report.warnings) scene.warnings.push_back(warning.text);

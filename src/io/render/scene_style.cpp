@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/index.h"
+#include "base/option_table.h"
 
 namespace littoral::io {
 
@@ -260,11 +260,7 @@ std::vector<double> nice_ticks(double low, double high, double step) {
   return ticks;
 }
 
-std::string label_text(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.5g", value == 0 ? 0.0 : value);
-  return text;
-}
+std::string label_text(double value) { return rounded_text(value == 0 ? 0.0 : value, 5); }
 
 SourceMarks source_marks(const Scene& scene, double radius) {
   SourceMarks marks;

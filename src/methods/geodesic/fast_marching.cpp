@@ -1,9 +1,13 @@
 #include "methods/geodesic/fast_marching.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <queue>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "base/falling_keys.h"
 #include "base/groups.h"
@@ -18,6 +22,25 @@ namespace {
 
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
+/// Which segments have sides: those that as many run along one way as the other have none.
+std::vector<char> with_sides(const std::vector<TriangleSources::Segment>& segments) {
+  using Place = std::array<long long, 3>;
+  const auto place = [](const std::array<double, 3>& b) {  // the same but for rounding
+    Place out;
+    for (int k = 0; k < 3; ++k) out[k] = std::llround(std::ldexp(b[k], 30));
+    return out;
+  };
+  std::map<std::tuple<int, Place, Place>, int> runs;
+  const auto forth = [&](const auto& s) { return std::tuple(s.triangle, place(s.a), place(s.b)); };
+  const auto back = [&](const auto& s) { return std::tuple(s.triangle, place(s.b), place(s.a)); };
+  for (const TriangleSources::Segment& s : segments)
+    if (s.is_signed) ++runs[forth(s)];
+  std::vector<char> out(segments.size());
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    out[i] = segments[i].is_signed && runs[forth(segments[i])] != runs[back(segments[i])];
+  return out;
+}
 
 /// How a front reaches a vertex from an edge: scalar products of the vectors from the vertex to the
 /// end that is fixed last, and to the other one.
@@ -175,8 +198,10 @@ class MarchingFront {
         offer(T.faces(where.face, k),
               value(points.inside_source[i]) + std::abs(t.p[k] - point(t, where.b)), 0);
     }
-    for (const TriangleSources::Segment& s : sources.segments) add_segment(s, value(s.source));
-    find_sides(sources);
+    const std::vector<char> sided = with_sides(sources.segments);
+    for (std::size_t i = 0; i < sided.size(); ++i)
+      add_segment(sources.segments[i], sided[i], value(sources.segments[i].source));
+    find_sides(sources.segments, sided);
   }
 
   void run(const Task& task) {
@@ -212,7 +237,7 @@ class MarchingFront {
   }
 
   /// Corners of a triangle that holds a straight piece of a curve: exact in the triangle's plane.
-  void add_segment(const TriangleSources::Segment& s, double value) {
+  void add_segment(const TriangleSources::Segment& s, bool sided, double value) {
     const TriangleShape t = T_.shape(s.triangle);
     const Complex a = point(t, s.a), ab = point(t, s.b) - a;
     const double length2 = std::norm(ab);
@@ -223,19 +248,21 @@ class MarchingFront {
           value + std::abs(ap - std::clamp(dot(ab, ap) / length2, 0.0, 1.0) * ab);
       const double left = cross(ab, ap);
       const bool on_line = std::abs(left) <= 1e-12 * (length2 + std::norm(ap));
-      offer(T_.faces(s.triangle, k), distance, !s.is_signed || on_line ? 0 : left > 0 ? 1 : -1);
+      offer(T_.faces(s.triangle, k), distance, !sided || on_line ? 0 : left > 0 ? 1 : -1);
     }
   }
 
   /// Around a vertex on a signed curve, triangles that hold no piece of it lie on one side: their
   /// corners take each other's sign.
-  void find_sides(const TriangleSources& sources) {
+  void find_sides(const std::vector<TriangleSources::Segment>& segments,
+                  const std::vector<char>& sided) {
     std::vector<char> holds(T_.n_faces(), 0), on_curve(T_.n_vertices, 0);
-    for (const TriangleSources::Segment& s : sources.segments) {
-      if (!s.is_signed) continue;
-      holds[s.triangle] = 1;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      if (!sided[i]) continue;
+      const int f = segments[i].triangle;
+      holds[f] = 1;
       for (int k = 0; k < 3; ++k)
-        if (d_[T_.faces(s.triangle, k)] == 0) on_curve[T_.faces(s.triangle, k)] = 1;
+        if (d_[T_.faces(f, k)] == 0) on_curve[T_.faces(f, k)] = 1;
     }
     std::vector<std::vector<int>> near(T_.n_vertices);  // vertex -> triangles that touch the curve
     for (int f = 0; f < T_.n_faces(); ++f)

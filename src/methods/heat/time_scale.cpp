@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "base/index.h"
+#include "base/option_table.h"
 #include "base/parallel.h"
 #include "methods/heat/signed_heat.h"
 
@@ -18,11 +18,7 @@ namespace {
 constexpr double remarkable_off_unit = 0.08;
 constexpr double remarkable_share = 0.02;  // of cells, for sources that may have gaps
 
-std::string in_short(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", x);
-  return text;
-}
+std::string in_short(double x) { return rounded_text(x, 2); }
 
 }  // namespace
 

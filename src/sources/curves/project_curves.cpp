@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "base/option_table.h"
 #include "littoral/error.h"
 
 namespace littoral {
@@ -21,11 +21,7 @@ MatX3i triangles(const SurfaceMesh& mesh) {
   return faces;
 }
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
+std::string number(double x) { return rounded_text(x, 3); }
 
 std::string label(const SpaceCurve& curve) {
   return curve.origin.empty() ? "a space curve" : "the space curve at " + curve.origin;

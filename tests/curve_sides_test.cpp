@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -115,13 +116,18 @@ TEST(JumpCalculus, CirculationsOfARotationAreAreas) {
   }
 }
 
-/// A walk over the first faces of a mesh: each node lies in a face with the one before.
-std::vector<SurfacePoint> random_walk(const SurfaceMesh& mesh, int faces, int steps,
+/// A walk over the first faces of a mesh: each node lies in a face with the one before. It begins
+/// and ends inside faces.
+std::vector<SurfacePoint> random_walk(const SurfaceMesh& mesh, int faces, std::size_t steps,
                                       std::mt19937& random) {
   const auto any = [&](std::size_t n) { return std::size_t(random() % n); };
   std::uniform_real_distribution<double> some(0.1, 0.9);
-  std::vector<SurfacePoint> out{SurfacePoint::in_face(int(any(std::size_t(faces))), 0.3, 0.3, 0.4)};
-  while (int(out.size()) < steps) {
+  const auto inside = [&](int f) {
+    const double b = some(random) / 2, c = some(random) / 2;
+    return SurfacePoint::in_face(f, 1 - b - c, b, c);
+  };
+  std::vector<SurfacePoint> out{inside(int(any(std::size_t(faces))))};
+  while (out.size() < steps || out.back().on != SurfacePoint::On::face) {
     const SurfacePoint& at = out.back();
     std::vector<int> near;
     for (int f = 0; f < faces; ++f) {
@@ -135,7 +141,7 @@ std::vector<SurfacePoint> random_walk(const SurfaceMesh& mesh, int faces, int st
     const int f = near[any(near.size())], k = int(any(3));
     const SurfacePoint to[3] = {SurfacePoint::at_vertex(mesh.face(f)[std::size_t(k)]),
                                 SurfacePoint::on_edge(mesh.side_edge(f, k), some(random)),
-                                SurfacePoint::in_face(f, 0.2, 0.5, 0.3)};
+                                inside(f)};
     const SurfacePoint next = to[any(3)];
     if ((mesh.position(next) - mesh.position(at)).norm() > 1e-9) out.push_back(next);
   }
@@ -164,13 +170,30 @@ TEST(CarrySides, InThePlaneCurvesStayOnTheirSideWhateverIsFlippedAndAttachedTher
       test::add_triangle(soup, plane.edges()(e, 0), plane.edges()(e, 1), n);
     }
     const SurfaceMesh mesh(soup);
-    // One curve in two parts, and two that begin where they end.
-    const std::vector<SurfacePoint> walk = random_walk(mesh, faces, 30, random);
     Sources sources;
-    sources.curves.resize(3);
-    sources.curves[0].nodes.assign(walk.begin() + 14, walk.end());
-    sources.curves[1].nodes.assign(walk.begin(), walk.begin() + 15);
-    sources.curves[2].nodes = random_walk(mesh, faces, 8, random);
+    const auto add = [&](const std::vector<SurfacePoint>& nodes) {
+      sources.curves.emplace_back();
+      sources.curves.back().nodes = nodes;
+    };
+    const auto some_walk = [&](std::size_t steps) {
+      return random_walk(mesh, faces, steps, random);
+    };
+    // 0 and 1: one curve in two parts, the second first. 2 and 3: there and back.
+    std::vector<SurfacePoint> walk = some_walk(30);
+    add({walk.begin() + 14, walk.end()});
+    add({walk.begin(), walk.begin() + 15});
+    walk = some_walk(8);
+    add(walk);
+    add({walk.rbegin(), walk.rend()});
+    // 4: two begin where it ends. 7 and 8 end where 9 begins. None goes on as another.
+    walk = some_walk(20);
+    add({walk.begin(), walk.begin() + 6});
+    add({walk.begin() + 5, walk.begin() + 12});
+    add({walk.begin() + 5, walk.end()});
+    walk = some_walk(20);
+    add({walk.begin(), walk.begin() + 11});
+    add({walk.begin() + 5, walk.begin() + 11});
+    add({walk.begin() + 10, walk.end()});
     Report report;
     const PlacedSources placed = place_sources(mesh, sources, report);
     const FaceOrientation& orientation = face_orientation(mesh);
@@ -180,17 +203,26 @@ TEST(CarrySides, InThePlaneCurvesStayOnTheirSideWhateverIsFlippedAndAttachedTher
       const double up = (mesh.point(c[1]) - a).cross(mesh.point(c[2]) - a).z();
       return (up * orientation.sign[std::size_t(p.face)] > 0) == p.left;
     };
-    std::vector<const CurvePiece*> first(3, nullptr);
+    std::vector<const CurvePiece*> first(sources.curves.size(), nullptr);
     for (const CurvePiece& p : placed.pieces) {
       ASSERT_LT(p.face, faces);
       if (!first[std::size_t(p.curve)]) first[std::size_t(p.curve)] = &p;
     }
-    EXPECT_TRUE(first[1]->left);
-    EXPECT_TRUE(first[2]->left);
+    const auto leader = [&](int curve) { return curve == 0 ? 1 : curve == 3 ? 2 : curve; };
+    for (std::size_t c = 1; c < first.size(); ++c)
+      if (c != 3) {
+        EXPECT_TRUE(first[c]->left) << c;
+      }
     for (const CurvePiece& p : placed.pieces) {
-      EXPECT_EQ(is_left(p), is_left(*first[p.curve == 2 ? 2 : 1])) << "curve " << p.curve;
+      EXPECT_EQ(is_left(p), is_left(*first[std::size_t(leader(p.curve))])) << "curve " << p.curve;
       down += !p.left;
     }
+    const auto told = [&](const std::string& code) {
+      return std::any_of(report.warnings.begin(), report.warnings.end(),
+                         [&](const auto& warning) { return warning.code == code; });
+    };
+    EXPECT_EQ(told("flipped-faces"), orientation.flipped > 0);
+    EXPECT_FALSE(told("not-orientable"));
   }
   EXPECT_GT(down, 500);
 }

@@ -15,8 +15,8 @@
 namespace littoral {
 namespace {
 
-using Make = std::unique_ptr<const PointwiseDistance> (*)(const OrientedPoints&, double);
-using Formula = std::function<double(const OrientedPoints&, double, const Vec3&, double)>;
+using MakeKernelSum = std::unique_ptr<const PointwiseDistance> (*)(const OrientedPoints&, double);
+using KernelFormula = std::function<double(const OrientedPoints&, double, const Vec3&, double)>;
 
 /// Sum over samples of area times what is added for an offset from one and its normal.
 template <class Term>
@@ -31,8 +31,8 @@ double sum_over(const OrientedPoints& samples, const Vec3& x, const Term& term) 
 
 struct KernelMethod {
   const char* name;
-  Make make;
-  Formula formula;  // of samples, lambda, place, and the sign there
+  MakeKernelSum make;
+  KernelFormula formula;  // of samples, lambda, place, and the sign there
 };
 
 std::ostream& operator<<(std::ostream& out, const KernelMethod& m) { return out << m.name; }

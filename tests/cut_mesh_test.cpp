@@ -36,7 +36,7 @@ Barycentrics point_of_face(int kind, std::mt19937& random) {
   return b;
 }
 
-Vec3 at(const SurfaceMesh& mesh, int f, const Barycentrics& b) {
+Vec3 place_of(const SurfaceMesh& mesh, int f, const Barycentrics& b) {
   return mesh.position(SurfacePoint::in_face(f, b[0], b[1], b[2]));
 }
 
@@ -50,8 +50,8 @@ void expect_along_segments(const SurfaceMesh& mesh, const std::vector<CutSegment
                            const CutMesh& cut) {
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const auto& path = cut.path[s];
-    const Vec3 a = at(mesh, segments[s].face, segments[s].a);
-    const Vec3 d = at(mesh, segments[s].face, segments[s].b) - a;
+    const Vec3 a = place_of(mesh, segments[s].face, segments[s].a);
+    const Vec3 d = place_of(mesh, segments[s].face, segments[s].b) - a;
     ASSERT_GE(path.size(), 2u);
     EXPECT_LE((cut.mesh.point(path.front()) - a).norm(), 1e-9);
     EXPECT_LE((cut.mesh.point(path.back()) - a - d).norm(), 1e-9);
@@ -82,7 +82,7 @@ TEST(CutMesh, RandomSegmentsBecomeEdgesOfTrianglesOfTheSameSurface) {
       s.face = int(random() % unsigned(mesh.n_faces()));
       s.a = point_of_face(int(random() % 8), random);
       s.b = point_of_face(int(random() % 8), random);
-      if ((at(mesh, s.face, s.a) - at(mesh, s.face, s.b)).norm() < 0.01) continue;
+      if ((place_of(mesh, s.face, s.a) - place_of(mesh, s.face, s.b)).norm() < 0.01) continue;
       segments.push_back(s);
       for (int k = 0; k < 3; ++k)
         for (const int f : mesh.edge_faces(mesh.side_edge(s.face, k))) touched[std::size_t(f)] = 1;

@@ -186,13 +186,14 @@ PolygonSoup fan_soup(const std::vector<double>& angles, int turn) {
   return soup;
 }
 
-struct Refined {
+struct RefinedFan {
   int added;
   double least_angle;  // degrees
 };
 
 /// After refinement that keeps the edges from vertex 0 to these.
-Refined refined(const PolygonSoup& soup, const std::vector<int>& kept, double smallest_angle = 25) {
+RefinedFan refined_fan(const PolygonSoup& soup, const std::vector<int>& kept,
+                       double smallest_angle = 25) {
   const SurfaceMesh mesh(soup);
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
@@ -204,7 +205,7 @@ Refined refined(const PolygonSoup& soup, const std::vector<int>& kept, double sm
       if (T.edges(e, 0) + T.edges(e, 1) == v && T.edges(e, 0) * T.edges(e, 1) == 0)
         options.keep[std::size_t(e)] = 1;
   const Retriangulation after = intrinsic_delaunay(mesh, T, {}, options, report, {});
-  Refined out{after.added, 180};
+  RefinedFan out{after.added, 180};
   for (int f = 0; f < after.T.n_faces(); ++f)
     for (const double cot : after.T.shape(f).cot)
       out.least_angle = std::min(out.least_angle, std::atan2(1, cot) * 180 / std::acos(-1.0));
@@ -219,15 +220,15 @@ TEST(IntrinsicDelaunay, RefinementLeavesTipsOfNarrowWedgesAlone) {
       SCOPED_TRACE(wedge);
       const PolygonSoup soup =
           fan_soup({0, wedge, (wedge + 168) / 2, 168, 180, 225, 270, 315, 360}, turn);
-      const Refined both = refined(soup, {1, 2});
+      const RefinedFan both = refined_fan(soup, {1, 2});
       if (wedge < 75) {
         EXPECT_EQ(both.added, 0);
       } else {
         EXPECT_GE(both.least_angle, 25 - 1e-9);
       }
-      EXPECT_GT(refined(soup, {1}).added, 0);
-      EXPECT_GT(refined(soup, {2}).added, 0);
-      EXPECT_GE(refined(soup, {}).least_angle, 25 - 1e-9);
+      EXPECT_GT(refined_fan(soup, {1}).added, 0);
+      EXPECT_GT(refined_fan(soup, {2}).added, 0);
+      EXPECT_GE(refined_fan(soup, {}).least_angle, 25 - 1e-9);
     }
 }
 
@@ -236,7 +237,7 @@ TEST(IntrinsicDelaunay, RefinementLeavesNarrowTipsOfTheBoundaryAlone) {
   for (const double whole : {30, 50, 70, 80, 120})
     for (int turn = 0; turn < 3; ++turn) {
       SCOPED_TRACE(whole);
-      const Refined out = refined(fan_soup({0, 15, whole}, turn), {});
+      const RefinedFan out = refined_fan(fan_soup({0, 15, whole}, turn), {});
       if (whole < 75) {
         EXPECT_EQ(out.added, 0);
       } else {
@@ -247,8 +248,8 @@ TEST(IntrinsicDelaunay, RefinementLeavesNarrowTipsOfTheBoundaryAlone) {
 
 TEST(IntrinsicDelaunay, RefinesDownToAnglesBelowOneDegree) {
   const PolygonSoup soup = fan_soup({0, 60, 119.8, 120, 180, 240, 300, 360}, 0);
-  EXPECT_NEAR(refined(soup, {}, 0.05).least_angle, 0.2, 1e-9);  // as it was
-  EXPECT_GE(refined(soup, {}, 0.5).least_angle, 0.5 - 1e-9);
+  EXPECT_NEAR(refined_fan(soup, {}, 0.05).least_angle, 0.2, 1e-9);  // as it was
+  EXPECT_GE(refined_fan(soup, {}, 0.5).least_angle, 0.5 - 1e-9);
 }
 
 TEST(IntrinsicDelaunay, CountsFlipsAndTheShareOfEdgesThatNeedThem) {

@@ -229,6 +229,148 @@ TEST(CellSurface, DiscsHaveTheShortestDiagonals) {
   EXPECT_GT(fans, 20);
 }
 
+/// Whether corners of one sign that the cell's faces keep apart are joined along lines of a grid in
+/// it. On such a line the function is linear: what has one sign at two nodes has it between them.
+bool joined_inside(const Cell& cell, const Loops& loops) {
+  constexpr int n = 12;
+  std::array<std::array<std::array<int, n + 1>, n + 1>, n + 1> part{};  // 0: not yet met
+  std::array<int, 8> of_corner{};
+  const auto is_positive = [&](const std::array<int, 3>& x) {
+    return trilinear(cell.value, Vec3(x[0], x[1], x[2]) / n) > 0;
+  };
+  int parts = 0;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> start{n * (c & 1), n * (c >> 1 & 1), n * (c >> 2)};
+    const auto met = [&](const std::array<int, 3>& x) -> int& {
+      return part[std::size_t(x[0])][std::size_t(x[1])][std::size_t(x[2])];
+    };
+    if (met(start) == 0) {
+      const bool sign = is_positive(start);
+      std::vector<std::array<int, 3>> stack{start};
+      met(start) = ++parts;
+      while (!stack.empty()) {
+        const std::array<int, 3> x = stack.back();
+        stack.pop_back();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          for (const int step : {-1, 1}) {
+            std::array<int, 3> y = x;
+            y[axis] += step;
+            if (y[axis] < 0 || y[axis] > n || met(y) != 0 || is_positive(y) != sign) continue;
+            met(y) = parts;
+            stack.push_back(y);
+          }
+      }
+    }
+    of_corner[std::size_t(c)] = met(start);
+  }
+  for (std::size_t a = 0; a < 8; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (of_corner[a] == of_corner[b] && loops.region[a] != loops.region[b]) return true;
+  return false;
+}
+
+TEST(CellSurface, TunnelsAreWhereTheFunctionJoinsWhatTheFacesKeepApart) {
+  std::mt19937 random(6);
+  int both = 0, thin = 0, without = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const Cell cell = cell_of(random_values(random));
+    const Loops loops = trace_loops(cell.value, cell.positive);
+    if (loops.count < 2) continue;
+    const bool tunnel = find_tunnel(cell.value, cell.positive, loops).has_value();
+    const bool joined = joined_inside(cell, loops);
+    ASSERT_TRUE(tunnel || !joined) << round;
+    ++(joined ? both : tunnel ? thin : without);
+  }
+  EXPECT_GT(both, 10);
+  EXPECT_LT(thin, both);  // what the grid is too coarse for
+  EXPECT_GT(without, 300);
+}
+
+TEST(CellSurface, RibbonsAroundTubesAreTheShortest) {
+  std::mt19937 random(7);
+  int tubes = 0;
+  for (int round = 0; round < 12000; ++round) {
+    Cell cell = cell_of(random_values(random));
+    cell.trilinear = false;
+    cell.spacing = Vec3(1, 2, 0.5);
+    const Loops loops = trace_loops(cell.value, cell.positive);
+    const auto tunnel = find_tunnel(cell.value, cell.positive, loops);
+    if (!tunnel || loops.count != 2) continue;
+    Patch patch;
+    span_cell(cell, patch);
+    const auto crossing = [&](int loop, int i) {
+      return cell.crossing[std::size_t(
+          loops.edge[std::size_t(loops.begin[std::size_t(loop)] + i % loops.size(loop))])];
+    };
+    const int n = loops.size(tunnel->first), m = loops.size(tunnel->second);
+    const auto cost = [&](int i, int j) {
+      const Vec3 d = crossing(tunnel->first, i) - crossing(tunnel->second, 2 * m - j % m);
+      return cell.spacing.cwiseProduct(d).squaredNorm();
+    };
+    // Points inside are half way between the pairs that the ribbon passes, drawn to the middle.
+    ASSERT_EQ(int(patch.inner.size()), n + m);
+    double found = 0;
+    for (const Vec3& p : patch.inner) {
+      const Vec3 x = Vec3::Constant(0.5) + (p - Vec3::Constant(0.5)) / 0.9;
+      double nearest = infinity, of_it = 0;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < m; ++j) {
+          const Vec3 middle =
+              (crossing(tunnel->first, i) + crossing(tunnel->second, 2 * m - j)) / 2;
+          if ((middle - x).norm() >= nearest) continue;
+          nearest = (middle - x).norm();
+          of_it = cost(i, j);
+        }
+      EXPECT_LE(nearest, 1e-12);
+      found += of_it;
+    }
+    // Steps along the first loop (1) and the second (0): one of the first comes first, one of the
+    // second last, and no pair comes twice.
+    double least = infinity;
+    for (int start = 0; start < m; ++start) {
+      std::vector<int> steps(std::size_t(n + m - 2), 0);
+      std::fill(steps.end() - (n - 1), steps.end(), 1);
+      do {
+        std::set<std::pair<int, int>> pairs{{0, start}};
+        double sum = cost(0, start);
+        int i = 1, j = start;
+        for (std::size_t s = 0; s <= steps.size(); ++s) {
+          pairs.emplace(i % n, j % m);
+          sum += cost(i, j);
+          if (s == steps.size()) break;
+          i += steps[s];
+          j += 1 - steps[s];
+        }
+        if (int_size(pairs) == n + m) least = std::min(least, sum);
+      } while (std::next_permutation(steps.begin(), steps.end()));
+    }
+    EXPECT_NEAR(found, least, 1e-9 * least);
+    ++tubes;
+  }
+  EXPECT_GT(tubes, 10);
+}
+
+TEST(CellSurface, OfEqualDiagonalsRoundingDoesNotChoose) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> some(-1e-13, 1e-13);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {-1, 1}) {
+      std::array<double, 8> value{};
+      for (int c = 0; c < 8; ++c)  // a rectangle, slanted so that crossings change its sides
+        value[std::size_t(c)] = sign * (corner(c)[axis] + 0.3 * corner(c)[(axis + 1) % 3] - 0.6);
+      Patch plain;
+      span_cell(cell_of(value), plain);
+      ASSERT_EQ(plain.triangles.size(), 2u);
+      for (int round = 0; round < 100; ++round) {
+        auto other = value;
+        for (double& v : other) v += some(random);
+        Patch patch;
+        span_cell(cell_of(other), patch);
+        EXPECT_EQ(patch.triangles, plain.triangles);
+      }
+    }
+}
+
 TEST(CellSurface, PointsInsideLieOnTheLevelSetOfTheTrilinearFunction) {
   std::mt19937 random(4);
   int on = 0, all = 0;

@@ -220,6 +220,16 @@ TEST(Completed, FacesThatAreThereTwiceCountOnce) {
   }
 }
 
+TEST(Completed, CopiesOfFacesThatAreLeftOutAreCounted) {
+  const PolygonSoup open = hemisphere(2, false);
+  for (const int copies : {1, 2, 5}) {
+    Report report;
+    const auto first = part_of(open, [&](int f, const Vec3&) { return f < copies; });
+    by_default(joined(open, first), test::cube_grid(9, 1.31), report);
+    EXPECT_EQ(completed_size(report, "copies of faces left out of the sign"), copies);
+  }
+}
+
 TEST(Completed, FacesThatAPartNeedsToBeClosedStayThoughTheyAreCopies) {
   // A tetrahedron inside a sphere that shares one of its faces; the sphere has a hole elsewhere.
   PolygonSoup both = part_of(test::octasphere_soup(2), [](int f, const Vec3&) { return f != 9; });

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "domain/mesh/face_orientation.h"
 #include "heat_helpers.h"
 #include "operators/jump_calculus.h"
 #include "sources/curves/completed_curves.h"
@@ -111,6 +114,117 @@ TEST(JumpCalculus, CirculationsOfARotationAreAreas) {
     // The transpose, by what it does to single faces.
     EXPECT_NEAR(J.d1_transpose(VecX::Unit(J.n_faces, f)).dot(omega), around[f], 1e-14) << f;
   }
+}
+
+/// A walk over the first faces of a mesh: each node lies in a face with the one before. It begins
+/// and ends inside faces.
+std::vector<SurfacePoint> random_walk(const SurfaceMesh& mesh, int faces, std::size_t steps,
+                                      std::mt19937& random) {
+  const auto any = [&](std::size_t n) { return std::size_t(random() % n); };
+  std::uniform_real_distribution<double> some(0.1, 0.9);
+  const auto inside = [&](int f) {
+    const double b = some(random) / 2, c = some(random) / 2;
+    return SurfacePoint::in_face(f, 1 - b - c, b, c);
+  };
+  std::vector<SurfacePoint> out{inside(int(any(std::size_t(faces))))};
+  while (out.size() < steps || out.back().on != SurfacePoint::On::face) {
+    const SurfacePoint& at = out.back();
+    std::vector<int> near;
+    for (int f = 0; f < faces; ++f) {
+      bool has = at.on == SurfacePoint::On::face && at.element == f;
+      for (int k = 0; k < 3; ++k)
+        has = has || (at.on == SurfacePoint::On::vertex
+                          ? mesh.face(f)[std::size_t(k)] == at.element
+                          : at.on == SurfacePoint::On::edge && mesh.side_edge(f, k) == at.element);
+      if (has) near.push_back(f);
+    }
+    const int f = near[any(near.size())], k = int(any(3));
+    const SurfacePoint to[3] = {SurfacePoint::at_vertex(mesh.face(f)[std::size_t(k)]),
+                                SurfacePoint::on_edge(mesh.side_edge(f, k), some(random)),
+                                inside(f)};
+    const SurfacePoint next = to[any(3)];
+    if ((mesh.position(next) - mesh.position(at)).norm() > 1e-9) out.push_back(next);
+  }
+  return out;
+}
+
+TEST(CarrySides, InThePlaneCurvesStayOnTheirSideWhateverIsFlippedAndAttachedThere) {
+  std::mt19937 random(3);
+  int down = 0;
+  for (int round = 0; round < 40; ++round) {
+    // Some faces are flipped, and pages stand on some edges.
+    const SurfaceMesh plane(test::jittered_grid_soup(5, 5, 0.2));
+    const int faces = plane.n_faces();
+    PolygonSoup soup;
+    soup.points = plane.points();
+    for (int f = 0; f < faces; ++f) {
+      std::vector<int> corners(plane.face(f).begin(), plane.face(f).end());
+      if (random() % 2) std::swap(corners[0], corners[1]);
+      soup.add_face(corners);
+    }
+    for (int e = 0; e < plane.n_edges(); ++e) {
+      if (random() % 2) continue;
+      const int n = soup.n_vertices();
+      soup.points.conservativeResize(n + 1, 3);
+      soup.points.row(n) = plane.position(SurfacePoint::on_edge(e, 0.5)) + 0.1 * Vec3::UnitZ();
+      test::add_triangle(soup, plane.edges()(e, 0), plane.edges()(e, 1), n);
+    }
+    const SurfaceMesh mesh(soup);
+    Sources sources;
+    const auto add = [&](const std::vector<SurfacePoint>& nodes) {
+      sources.curves.emplace_back();
+      sources.curves.back().nodes = nodes;
+    };
+    const auto some_walk = [&](std::size_t steps) {
+      return random_walk(mesh, faces, steps, random);
+    };
+    // 0 and 1: one curve in two parts, the second first. 2 and 3: there and back.
+    std::vector<SurfacePoint> walk = some_walk(30);
+    add({walk.begin() + 14, walk.end()});
+    add({walk.begin(), walk.begin() + 15});
+    walk = some_walk(8);
+    add(walk);
+    add({walk.rbegin(), walk.rend()});
+    // 4: two begin where it ends. 7 and 8 end where 9 begins. None goes on as another.
+    walk = some_walk(20);
+    add({walk.begin(), walk.begin() + 6});
+    add({walk.begin() + 5, walk.begin() + 12});
+    add({walk.begin() + 5, walk.end()});
+    walk = some_walk(20);
+    add({walk.begin(), walk.begin() + 11});
+    add({walk.begin() + 5, walk.begin() + 11});
+    add({walk.begin() + 10, walk.end()});
+    Report report;
+    const PlacedSources placed = place_sources(mesh, sources, report);
+    const FaceOrientation& orientation = face_orientation(mesh);
+    const auto is_left = [&](const CurvePiece& p) {  // seen from above
+      const auto c = mesh.face(p.face);
+      const Vec3 a = mesh.point(c[0]);
+      const double up = (mesh.point(c[1]) - a).cross(mesh.point(c[2]) - a).z();
+      return (up * orientation.sign[std::size_t(p.face)] > 0) == p.left;
+    };
+    std::vector<const CurvePiece*> first(sources.curves.size(), nullptr);
+    for (const CurvePiece& p : placed.pieces) {
+      ASSERT_LT(p.face, faces);
+      if (!first[std::size_t(p.curve)]) first[std::size_t(p.curve)] = &p;
+    }
+    const auto leader = [&](int curve) { return curve == 0 ? 1 : curve == 3 ? 2 : curve; };
+    for (std::size_t c = 1; c < first.size(); ++c)
+      if (c != 3) {
+        EXPECT_TRUE(first[c]->left) << c;
+      }
+    for (const CurvePiece& p : placed.pieces) {
+      EXPECT_EQ(is_left(p), is_left(*first[std::size_t(leader(p.curve))])) << "curve " << p.curve;
+      down += !p.left;
+    }
+    const auto told = [&](const std::string& code) {
+      return std::any_of(report.warnings.begin(), report.warnings.end(),
+                         [&](const auto& warning) { return warning.code == code; });
+    };
+    EXPECT_EQ(told("flipped-faces"), orientation.flipped > 0);
+    EXPECT_FALSE(told("not-orientable"));
+  }
+  EXPECT_GT(down, 500);
 }
 
 TEST(Conform, SegmentsThatAreACurveByThemselvesAreHalved) {

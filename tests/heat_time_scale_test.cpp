@@ -13,8 +13,10 @@
 #include "heat_helpers.h"
 #include "methods/geodesic/exact_polyhedral.h"
 #include "methods/geodesic/fast_marching.h"
+#include "methods/heat/discontinuous.h"
 #include "methods/heat/time_scale.h"
 #include "one_call.h"
+#include "operators/jump_calculus.h"
 #include "sources/surface/triangle_sources.h"
 #include "subdivided_meshes.h"
 
@@ -122,6 +124,33 @@ TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirections) {
   EXPECT_NEAR(misaligned_fraction(C, x, Y), 1.0 / 32, 1e-12);
   Y.segment<2>(0).setZero();  // not reached: not counted
   EXPECT_EQ(misaligned_fraction(C, x, Y), 0);
+}
+
+TEST(HeatTimeScale, ShareOfCellsAgainstTheirDirectionsOfFunctionsThatJump) {
+  // x plus another constant in each triangle; the directions of every third are against it, and
+  // every fifth has none.
+  const SurfaceMesh mesh(test::jittered_grid_soup(5, 4, 0.3));
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  const JumpCalculus J = jump_calculus(T);
+  MatX3 phi(J.n_faces, 3);
+  VecX Y = VecX::Zero(2 * J.n_faces);
+  double all = 0, against = 0;
+  for (int f = 0; f < J.n_faces; ++f) {
+    for (int k = 0; k < 3; ++k) phi(f, k) = mesh.point(T.faces(f, k)).x() / T.unit + 7 * (f % 4);
+    Eigen::Matrix2d sides;
+    for (int k = 0; k < 2; ++k) sides.row(k) << J.side[f][k].real(), J.side[f][k].imag();
+    const Eigen::Vector2d along =
+        sides.inverse() * Eigen::Vector2d(phi(f, 1) - phi(f, 0), phi(f, 2) - phi(f, 1));
+    EXPECT_NEAR(along.norm(), 1, 1e-9);
+    if (f % 5 == 0) continue;
+    Y.segment<2>(2 * f) = f % 3 == 0 ? -along : along;
+    all += T.shape(f).area;
+    if (f % 3 == 0) against += T.shape(f).area;
+  }
+  EXPECT_NEAR(misaligned_fraction(J, phi, Y), against / all, 1e-12);
+  EXPECT_NEAR(misaligned_fraction(J, -phi, Y), 1 - against / all, 1e-12);
+  EXPECT_EQ(misaligned_fraction(J, phi, VecX::Zero(Y.size())), 0);
 }
 
 TEST(HeatTimeScale, ShareOfCellsWhoseGradientIsNoUnitVector) {

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "heat_helpers.h"
 #include "one_call.h"
 #include "sources/surface/retriangulate_sources.h"
@@ -151,6 +156,7 @@ TEST(IntrinsicDelaunay, FlipsTheOneEdgeThatIsNotWhicheverNumberItHas) {
     const SurfaceMesh mesh(soup);
     Report report;
     const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    EXPECT_EQ(share_not_delaunay(T), 1);
     Sources source;
     source.points = {SurfacePoint::at_vertex(0)};
     const Retriangulated after =
@@ -158,6 +164,133 @@ TEST(IntrinsicDelaunay, FlipsTheOneEdgeThatIsNotWhicheverNumberItHas) {
     for (int f = 0; f < 2; ++f)
       for (int k = 0; k < 3; ++k) EXPECT_LT(after.T.length(f, k) * after.T.unit, 1.1);
   } while (std::next_permutation(number.begin(), number.end()));
+}
+
+/// Triangles around vertex 0 whose other corners lie on a circle, at these angles in degrees; the
+/// fan is closed if they end at 360. Face f begins at its corner (f + turn) % 3.
+PolygonSoup fan_soup(const std::vector<double>& angles, int turn) {
+  PolygonSoup soup;
+  const bool closed = angles.back() == 360;
+  const int n = static_cast<int>(angles.size()) - closed;
+  soup.points.resize(n + 1, 3);
+  soup.points.row(0).setZero();
+  for (int i = 0; i < n; ++i) {
+    const double a = std::acos(-1.0) / 180 * angles[std::size_t(i)];
+    soup.points.row(1 + i) << std::cos(a), std::sin(a), 0;
+  }
+  for (int i = 0; i + !closed < n; ++i) {
+    std::array<int, 3> corners{0, 1 + i, 1 + (i + 1) % n};
+    std::rotate(corners.begin(), corners.begin() + (i + turn) % 3, corners.end());
+    soup.add_face(corners);
+  }
+  return soup;
+}
+
+struct RefinedFan {
+  int added;
+  double least_angle;  // degrees
+};
+
+/// After refinement that keeps the edges from vertex 0 to these.
+RefinedFan refined_fan(const PolygonSoup& soup, const std::vector<int>& kept,
+                       double smallest_angle = 25) {
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  RefineOptions options;
+  options.smallest_angle = smallest_angle;
+  options.keep.assign(std::size_t(T.n_edges()), 0);
+  for (int e = 0; e < T.n_edges(); ++e)
+    for (const int v : kept)
+      if (T.edges(e, 0) + T.edges(e, 1) == v && T.edges(e, 0) * T.edges(e, 1) == 0)
+        options.keep[std::size_t(e)] = 1;
+  const Retriangulation after = intrinsic_delaunay(mesh, T, {}, options, report, {});
+  RefinedFan out{after.added, 180};
+  for (int f = 0; f < after.T.n_faces(); ++f)
+    for (const double cot : after.T.shape(f).cot)
+      out.least_angle = std::min(out.least_angle, std::atan2(1, cot) * 180 / std::acos(-1.0));
+  return out;
+}
+
+TEST(IntrinsicDelaunay, RefinementLeavesTipsOfNarrowWedgesAlone) {
+  // A thin triangle at the middle of a fan is refined, unless there is a wedge between kept edges
+  // there that has not three times the smallest angle to share out.
+  for (const double wedge : {20, 70, 80, 100})
+    for (int turn = 0; turn < 3; ++turn) {
+      SCOPED_TRACE(wedge);
+      const PolygonSoup soup =
+          fan_soup({0, wedge, (wedge + 168) / 2, 168, 180, 225, 270, 315, 360}, turn);
+      const RefinedFan both = refined_fan(soup, {1, 2});
+      if (wedge < 75) {
+        EXPECT_EQ(both.added, 0);
+      } else {
+        EXPECT_GE(both.least_angle, 25 - 1e-9);
+      }
+      EXPECT_GT(refined_fan(soup, {1}).added, 0);
+      EXPECT_GT(refined_fan(soup, {2}).added, 0);
+      EXPECT_GE(refined_fan(soup, {}).least_angle, 25 - 1e-9);
+    }
+}
+
+TEST(IntrinsicDelaunay, RefinementLeavesNarrowTipsOfTheBoundaryAlone) {
+  // The angle at vertex 0 is all there is to share out between its triangles.
+  for (const double whole : {30, 50, 70, 80, 120})
+    for (int turn = 0; turn < 3; ++turn) {
+      SCOPED_TRACE(whole);
+      const RefinedFan out = refined_fan(fan_soup({0, 15, whole}, turn), {});
+      if (whole < 75) {
+        EXPECT_EQ(out.added, 0);
+      } else {
+        EXPECT_GT(out.added, 0);
+      }
+    }
+}
+
+TEST(IntrinsicDelaunay, RefinesDownToAnglesBelowOneDegree) {
+  const PolygonSoup soup = fan_soup({0, 60, 119.8, 120, 180, 240, 300, 360}, 0);
+  EXPECT_NEAR(refined_fan(soup, {}, 0.05).least_angle, 0.2, 1e-9);  // as it was
+  EXPECT_GE(refined_fan(soup, {}, 0.5).least_angle, 0.5 - 1e-9);
+}
+
+TEST(IntrinsicDelaunay, CountsFlipsAndTheShareOfEdgesThatNeedThem) {
+  // Pairs of triangles on the long or the short diagonal of a kite, and one by itself.
+  for (int flat = 0; flat < 4; ++flat) {
+    PolygonSoup soup;
+    soup.points.resize(15, 3);
+    for (int pair = 0; pair < 3; ++pair) {
+      const double half = pair < flat ? 0.3 : 2;
+      const int v = 4 * pair;
+      soup.points.middleRows(v, 4) << -1, 0, 0, 1, 0, 0, 0, half, 0, 0, -1.1, 0;
+      test::add_triangle(soup, v, v + 1, v + 2);
+      test::add_triangle(soup, v + 1, v, v + 3);
+    }
+    soup.points.bottomRows(3) << 0, 0, 0, 1, 0, 0, 0.5, 0.8, 0;
+    test::add_triangle(soup, 12, 13, 14);
+    const SurfaceMesh mesh(soup);
+    Report report;
+    const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+    EXPECT_DOUBLE_EQ(share_not_delaunay(T), flat / 3.0);
+    const Retriangulation after = intrinsic_delaunay(mesh, T, {}, {0, 3, {}}, report, {});
+    EXPECT_EQ(after.flips, flat);
+    EXPECT_EQ(after.added, 0);
+    EXPECT_EQ(after.not_delaunay, 0);
+    EXPECT_EQ(share_not_delaunay(after.T), 0);
+  }
+}
+
+TEST(IntrinsicDelaunay, NoEdgeBetweenTwoTrianglesMeansNoShareOfThem) {
+  // Of one triangle, and of flat ones that meet at an edge of three, which cannot be flipped.
+  for (const int pages : {1, 3}) {
+    PolygonSoup soup;
+    soup.points.resize(2 + pages, 3);
+    soup.points.topRows(2) << -1, 0, 0, 1, 0, 0;
+    for (int page = 0; page < pages; ++page) {
+      soup.points.row(2 + page) << 0, 0.1 * std::cos(2 * page), 0.1 * std::sin(2 * page);
+      test::add_triangle(soup, 0, 1, 2 + page);
+    }
+    Report report;
+    EXPECT_EQ(share_not_delaunay(intrinsic_triangulation(SurfaceMesh(soup), report)), 0);
+  }
 }
 
 TEST(IntrinsicDelaunay, MakesPointDistanceOnNeedlesBetter) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -89,6 +90,28 @@ TEST(PolygonSurface, PolygonsOfManyCornersAreOnePatchForEachOfTheirTriangles) {
   EXPECT_EQ(S.patch_offsets[triangles + 1], triangles + fan);
 }
 
+TEST(PolygonSurface, PolygonsThatComeBackToACornerAreCutWhicheverComesFirst) {
+  // A square with a slit from a corner to a point inside it, and what is beside it. At one place
+  // twice in a row is no way back.
+  for (int turn = 0; turn < 6; ++turn) {
+    PolygonSoup soup;
+    soup.points.resize(7, 3);
+    soup.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.6, 0.5, 0, 2, 0, 0, 2, 1, 0;
+    std::vector<int> slit{0, 1, 2, 4, 2, 3}, plain{1, 5, 6, 2};
+    std::rotate(slit.begin(), slit.begin() + turn, slit.end());
+    std::rotate(plain.begin(), plain.begin() + turn % 4, plain.end());
+    plain.insert(plain.begin() + 1, plain[0]);
+    soup.add_face(slit);
+    soup.add_face(plain);
+    Report report;
+    const NodalSurface S = polygon_surface(SurfaceMesh(soup), report);
+    ASSERT_EQ(S.n_patches(), 4 + 1) << turn;
+    EXPECT_EQ(std::count_if(report.warnings.begin(), report.warnings.end(),
+                            [](const auto& warning) { return warning.code == "polygons-cut"; }),
+              1);
+  }
+}
+
 /// A grid over [0, 1]^2, and with it what is its mirror image below; the faces of the first come
 /// first.
 PolygonSoup mirrored_grid(const PolygonSoup& grid, int nx) {
@@ -140,6 +163,32 @@ TEST(TriangleSources, UnsignedCurvesAlongTheBoundaryAreAsStrongAsOneSideOfThoseW
     some += one[i] > 1e-3;
   }
   EXPECT_GE(some, 1);
+}
+
+TEST(TriangleSources, AShortClosedUnsignedCurvePushesOutOfItsTriangle) {
+  // Around the middle of an even triangle: nearly from there to the middle of each side, by its
+  // length.
+  PolygonSoup soup;
+  soup.points.resize(3, 3);
+  soup.points << 0, 0, 0, 1, 0, 0, 0.5, std::sqrt(0.75), 0;
+  test::add_triangle(soup, 0, 1, 2);
+  const SurfaceMesh mesh(soup);
+  Report report;
+  const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
+  Sources sources;
+  sources.curves.emplace_back();
+  sources.curves[0].is_signed = false;
+  const double a = 1.0 / 3 - 0.001, b = 1 - 2 * a, length = 3 * (b - a) / T.unit;
+  sources.curves[0].nodes = {SurfacePoint::in_face(0, b, a, a), SurfacePoint::in_face(0, a, b, a),
+                             SurfacePoint::in_face(0, a, a, b), SurfacePoint::in_face(0, b, a, a)};
+  const SourceSystem system = source_system(mesh, T, place_sources(mesh, sources, report));
+  ASSERT_EQ(system.X0.size(), 3u);
+  for (const auto& [e, z] : system.X0)
+    for (int k = 0; k < 3; ++k)
+      if (T.side_edge(0, k) == e) {
+        EXPECT_NEAR(z.imag() * T.along(0, k) * T.orientation[0], -length, 0.05 * length);
+        EXPECT_NEAR(z.real(), 0, 0.05 * length);
+      }
 }
 
 }  // namespace

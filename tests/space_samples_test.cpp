@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
@@ -62,6 +63,27 @@ TEST(SpaceSamples, OneFaceWithoutAreaIsToldOf) {
   EXPECT_THAT(report.warnings[0].text, HasSubstr("1 face without area"));
 }
 
+TEST(SpaceSamples, LongTrianglesThatTakeTooManySamplesAreToldOfAtOnce) {
+  // What is as long as 2^26 sides takes more samples than that, but only if it has an area.
+  const double side = std::ldexp(1, -26);
+  const auto sampled = [&](double length, int copies, double width, int turn) {
+    PolygonSoup soup = test::box_soup({side / 4, side / 4, side / 4});
+    for (int i = 0; i < copies; ++i) {
+      const int n = soup.n_vertices();
+      soup.points.conservativeResize(n + 3, 3);
+      soup.points.bottomRows(3) << 0, 0, 0, length, 0, 0, length / 2, width, 0;
+      test::add_triangle(soup, n + turn, n + (turn + 1) % 3, n + (turn + 2) % 3);
+    }
+    Report report;
+    return message_of([&] { sample_faces(soup, side, report); });
+  };
+  for (int turn = 0; turn < 3; ++turn) {
+    EXPECT_THAT(sampled(1.01, 1, 1e-9, turn), HasSubstr("67108864 samples")) << turn;
+    EXPECT_THAT(sampled(0.51, 2, 1e-9, turn), HasSubstr("67108864 samples")) << turn;
+    EXPECT_EQ(sampled(1.01, 2, 0, turn), "no error") << turn;
+  }
+}
+
 TEST(SpaceSamples, SpacingIsTheSideOfEvenTriangles) {
   Report report;
   PolygonSoup one;
@@ -106,6 +128,29 @@ TEST(SpaceSamples, CloudAreasAreThoseOfTheirCells) {
   // Places that differ by rounding are one.
   four.points.bottomRows(200).col(0).array() += 1e-13;
   EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
+}
+
+TEST(SpaceSamples, PointsAtOnePlaceShareTheCellItHasByItself) {
+  // Also where there are more of them than neighbours are asked for at first, or not equally many.
+  PolygonSoup cloud;
+  cloud.points = test::random_points(60, 1);
+  cloud.points.col(2) *= 0.01;
+  cloud.normals = Vec3::UnitZ().transpose().replicate(60, 1);
+  Report report;
+  const VecX once = sample_cloud(cloud, report).areas;
+  for (const std::array<int, 2> copies : {std::array{2, 2}, {4, 4}, {1, 70}}) {
+    std::vector<int> place;
+    for (int i = 0; i < 60; ++i)
+      place.insert(place.end(), std::size_t(copies[std::size_t(i) % 2]), i);
+    PolygonSoup many;
+    many.points = cloud.points(place, Eigen::all);
+    many.normals = cloud.normals(place, Eigen::all);
+    const VecX areas = sample_cloud(many, report).areas;
+    for (std::size_t i = 0; i < place.size(); ++i)
+      EXPECT_NEAR(areas[Eigen::Index(i)] * copies[std::size_t(place[i] % 2)], once[place[i]],
+                  1e-9 * once[place[i]])
+          << copies[1] << " copies of " << place[i];
+  }
 }
 
 TEST(SpaceSamples, CellsAtTheRimOfACloudEndAtADisc) {

@@ -187,6 +187,18 @@ TEST(TetMeshDistance, FromAVertexGrowsByOne) {
   }
 }
 
+TEST(TetMeshDistance, FromAVertexDoesNotDependOnVerticesInNoTet) {
+  const TetMesh mesh = test::tet_box(4);
+  TetMesh other = mesh;  // one before the others, and one after them
+  other.points.resize(mesh.n_vertices() + 2, 3);
+  other.points << Eigen::RowVector3d(0.5, 0.5, 0.6), mesh.points, Eigen::RowVector3d(7, 8, 9);
+  other.tets.array() += 1;
+  const VecX phi = tet_distance(mesh, {{}, {30}}), same = tet_distance(other, {{}, {31}});
+  EXPECT_LE((same.segment(1, phi.size()) - phi).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_EQ(same[0], infinity);
+  EXPECT_EQ(same[phi.size() + 1], infinity);
+}
+
 TEST(TetMeshDistance, ComponentsAreSolvedApart) {
   const int n = 4;
   const TetMesh one = test::tet_box(n);

@@ -147,7 +147,7 @@ class Spanner {
       steps.emplace_back(i, start + j);
     }
     std::reverse(steps.begin(), steps.end());
-    return best[n][m];
+    return best[n][m] - cost(n, m);  // which is the first pair again
   }
 
   int add_inner(Vec3 p) {

@@ -18,7 +18,7 @@ namespace littoral {
 
 namespace {
 
-constexpr int neighbours = 16;  // enough for the Voronoi cell
+constexpr int enough = 15;  // neighbours, for the Voronoi cell
 
 using Cell = std::vector<Vec2>;
 
@@ -44,27 +44,34 @@ double polygon_area(const Cell& polygon) {
   return twice / 2;
 }
 
-/// Area of the cell of point i in its tangent plane. Cells are cut off at a disc, for there is
-/// nothing that bounds them at the rim of a surface.
+/// Area of the cell of point i in its tangent plane, shared among the points at its place. Cells
+/// are cut off at a disc, for there is nothing that bounds them at the rim of a surface.
 double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, const Vec3& normal) {
   const Vec3 p = points.row(i);
   const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
-  for (int k = neighbours;; k *= 4) {
+  for (int k = 1 + enough;; k *= 4) {
     std::vector<Neighbour> near(k);
     const int n = tree.nearest(p, k, near.data());
-    const double reach = std::sqrt(near[n - 1].squared_distance);
+    const double reach = std::sqrt(near[n - 1].squared_distance), one_place = 1e-20 * reach * reach;
     int same = 0;  // points at this place, itself among them
-    while (same < n && near[same].squared_distance <= 1e-20 * reach * reach) ++same;
-    if (n - same < std::min<Eigen::Index>(6, tree.size() - same) && n < tree.size()) continue;
-    const int rim = same + (std::min(n - same, 6) + 1) / 2 - 1;
-    const double radius = std::sqrt(near[rim].squared_distance);
+    while (same < n && near[same].squared_distance <= one_place) ++same;
+    std::vector<Neighbour> others;  // one for each of the nearest other places
+    for (int j = same; j < n && int_size(others) < enough; ++j)
+      if (std::none_of(others.begin(), others.end(), [&](const Neighbour& other) {
+            return (points.row(near[j].point) - points.row(other.point)).squaredNorm() <= one_place;
+          }))
+        others.push_back(near[j]);
+    if (int_size(others) < enough && n < tree.size()) continue;
+    if (others.empty()) return 0;
+    const int rim = (std::min(int_size(others), 6) + 1) / 2 - 1;
+    const double radius = std::sqrt(others[rim].squared_distance);
     Cell cell;
     for (int c = 0; c < 12; ++c) {
       const double angle = 2 * M_PI * c / 12;
       cell.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
-    for (int j = same; j < n; ++j) {
-      const Vec3 d = points.row(near[j].point).transpose() - p;
+    for (const Neighbour& other : others) {
+      const Vec3 d = points.row(other.point).transpose() - p;
       const Vec2 q(d.dot(e1), d.dot(e2));
       if (q.squaredNorm() > 1e-6 * d.squaredNorm()) clip_to_nearer(cell, q);
     }

@@ -1,0 +1,121 @@
+// Distance as sums of kernels: values by their formulas, gradients by differences.
+
+#include "methods/implicit/convolutional_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <ostream>
+
+#include "space_helpers.h"
+
+namespace littoral {
+namespace {
+
+using MakeKernelSum = std::unique_ptr<const PointwiseDistance> (*)(const OrientedPoints&, double);
+using KernelFormula = std::function<double(const OrientedPoints&, double, const Vec3&, double)>;
+
+/// Sum over samples of area times what is added for an offset from one and its normal.
+template <class Term>
+double sum_over(const OrientedPoints& samples, const Vec3& x, const Term& term) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    const Vec3 d = x - samples.points.row(i).transpose();
+    sum += samples.areas[i] * term(d, d.dot(samples.normals.row(i)));
+  }
+  return sum;
+}
+
+struct KernelMethod {
+  const char* name;
+  MakeKernelSum make;
+  KernelFormula formula;  // of samples, lambda, place, and the sign there
+};
+
+std::ostream& operator<<(std::ostream& out, const KernelMethod& m) { return out << m.name; }
+
+double screened_winding(const OrientedPoints& samples, double lambda, const Vec3& x) {
+  return sum_over(samples, x, [&](const Vec3& d, double plane) {
+    const double r = d.norm();
+    return (lambda * r + 1) * plane * std::exp(-lambda * r) / (2 * std::acos(-1.0) * r * r * r);
+  });
+}
+
+double hopf_cole(const OrientedPoints& samples, double lambda, const Vec3& x, double sign) {
+  return -sign * std::log(sign * screened_winding(samples, lambda, x)) / lambda;
+}
+
+double mean_plane(const OrientedPoints& samples, double lambda, const Vec3& x, double) {
+  const auto weight = [&](const Vec3& d) { return std::exp(-lambda * d.norm()); };
+  return sum_over(samples, x, [&](const Vec3& d, double plane) { return plane * weight(d); }) /
+         sum_over(samples, x, [&](const Vec3& d, double) { return weight(d); });
+}
+
+double log_of_sum(const OrientedPoints& samples, double lambda, const Vec3& x, double sign) {
+  const double sum =
+      sum_over(samples, x, [&](const Vec3& d, double) { return std::exp(-lambda * d.norm()); });
+  return -sign * std::log(sum / samples.areas.mean()) / lambda;
+}
+
+class ConvolutionalDistance : public testing::TestWithParam<KernelMethod> {
+ protected:
+  /// Samples of a torus, unevenly spaced.
+  static OrientedPoints samples() {
+    Report report;
+    return sample_faces(test::off_centre_torus(), std::numeric_limits<double>::infinity(), report);
+  }
+};
+
+TEST_P(ConvolutionalDistance, IsItsFormula) {
+  const OrientedPoints torus = samples();
+  for (const double lambda : {3.0, 8.0}) {
+    const auto distance = GetParam().make(torus, lambda);
+    int inside = 0, outside = 0;
+    const MatX3 places = test::random_points(80, 1.1);
+    for (const Vec3 x : places.rowwise()) {
+      const double away = test::torus_distance(x - Vec3(0.013, 0.027, 0.031), 0.7, 0.3);
+      if (std::abs(away) < 0.08) continue;
+      const double truth = GetParam().formula(torus, lambda, x, away < 0 ? -1 : 1);
+      EXPECT_NEAR(distance->at(x).value, truth, 1e-9 * std::abs(truth));
+      ++(away < 0 ? inside : outside);
+    }
+    EXPECT_GT(inside, 3);
+    EXPECT_GT(outside, 40);
+    EXPECT_TRUE(std::isfinite(distance->at(torus.points.row(7)).value));
+  }
+}
+
+TEST_P(ConvolutionalDistance, HasTheGradientThatDifferencesHave) {
+  const OrientedPoints torus = samples();
+  for (const double lambda : {3.0, 8.0}) {
+    const auto distance = GetParam().make(torus, lambda);
+    int inside = 0, all = 0;
+    const MatX3 places = test::random_points(60, 1.1);
+    for (const Vec3 x : places.rowwise()) {
+      const double away = test::torus_distance(x - Vec3(0.013, 0.027, 0.031), 0.7, 0.3);
+      if (std::abs(away) < 0.08) continue;
+      const DistanceSample here = distance->at(x);
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 step = 1e-5 * Vec3::Unit(k);
+        const double slope = (distance->value(x + step) - distance->value(x - step)) / 2e-5;
+        EXPECT_NEAR(here.gradient[k], slope, 1e-6 * (1 + std::abs(slope))) << away;
+      }
+      inside += away < 0;
+      ++all;
+    }
+    EXPECT_GT(inside, 2);
+    EXPECT_GT(all, 40);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, ConvolutionalDistance,
+                         testing::Values(KernelMethod{"hopf-cole", hopf_cole_distance, hopf_cole},
+                                         KernelMethod{"planar", planar_distance, mean_plane},
+                                         KernelMethod{"log-sum-exp", log_sum_exp_distance,
+                                                      log_of_sum}));
+
+}  // namespace
+}  // namespace littoral

@@ -23,8 +23,9 @@ namespace {
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
-/// Which segments have sides: those that as many run along one way as the other have none.
-std::vector<char> with_sides(const std::vector<TriangleSources::Segment>& segments) {
+/// 1: the segment has sides. 0: it has none, as it is unsigned, or others run back along it. -1: it
+/// is one of these, of which there are fewer.
+std::vector<signed char> sides_of(const std::vector<TriangleSources::Segment>& segments) {
   using Place = std::array<long long, 3>;
   const auto place = [](const std::array<double, 3>& b) {  // the same but for rounding
     Place out;
@@ -36,9 +37,12 @@ std::vector<char> with_sides(const std::vector<TriangleSources::Segment>& segmen
   const auto back = [&](const auto& s) { return std::tuple(s.triangle, place(s.b), place(s.a)); };
   for (const TriangleSources::Segment& s : segments)
     if (s.is_signed) ++runs[forth(s)];
-  std::vector<char> out(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    out[i] = segments[i].is_signed && runs[forth(segments[i])] != runs[back(segments[i])];
+  std::vector<signed char> out(segments.size(), 0);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!segments[i].is_signed) continue;
+    const int excess = runs[forth(segments[i])] - runs[back(segments[i])];
+    out[i] = static_cast<signed char>(std::clamp(excess, -1, 1));
+  }
   return out;
 }
 
@@ -198,10 +202,11 @@ class MarchingFront {
         offer(T.faces(where.face, k),
               value(points.inside_source[i]) + std::abs(t.p[k] - point(t, where.b)), 0);
     }
-    const std::vector<char> sided = with_sides(sources.segments);
-    for (std::size_t i = 0; i < sided.size(); ++i)
-      add_segment(sources.segments[i], sided[i], value(sources.segments[i].source));
-    find_sides(sources.segments, sided);
+    const std::vector<signed char> sides = sides_of(sources.segments);
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      if (sides[i] >= 0)
+        add_segment(sources.segments[i], sides[i] > 0, value(sources.segments[i].source));
+    find_sides(sources.segments, sides);
   }
 
   void run(const Task& task) {
@@ -255,10 +260,10 @@ class MarchingFront {
   /// Around a vertex on a signed curve, triangles that hold no piece of it lie on one side: their
   /// corners take each other's sign.
   void find_sides(const std::vector<TriangleSources::Segment>& segments,
-                  const std::vector<char>& sided) {
+                  const std::vector<signed char>& sides) {
     std::vector<char> holds(T_.n_faces(), 0), on_curve(T_.n_vertices, 0);
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      if (!sided[i]) continue;
+      if (sides[i] <= 0) continue;
       const int f = segments[i].triangle;
       holds[f] = 1;
       for (int k = 0; k < 3; ++k)

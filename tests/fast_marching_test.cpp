@@ -7,6 +7,7 @@
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
 #include "one_call.h"
+#include "repair_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {
@@ -202,6 +203,34 @@ TEST(FastMarching, TheMethodSaysWhereLongTrianglesMakeItWrong) {
     EXPECT_EQ(n_warnings, shear > 0 ? 1 : 0);
     EXPECT_EQ(report.residuals.back().first, "area fraction with gradient off unit length");
   }
+}
+
+TEST(FastMarching, SignsThatJumpAreCountedAndWarnedOf) {
+  const int n = 20;
+  const SurfaceMesh mesh(test::grid_soup(n, n));
+  const auto jumps = [&](const MatX3& curve) {
+    Report report;
+    test::geodesic(fast_marching, mesh, test::space_curve(curve), report);
+    const double count = test::size_named(report, "edges_where_the_sign_jumps");
+    EXPECT_EQ(std::ranges::count(report.warnings, "sign-uncertain", &Warning::code), count > 0);
+    return count;
+  };
+  MatX3 across(2, 3), half(2, 3);
+  across << 0, 0.51, 0, 1, 0.51, 0;
+  half << 0, 0.51, 0, 0.52, 0.51, 0;
+  EXPECT_EQ(jumps(across), 0);
+  EXPECT_EQ(jumps(test::circle(0.5, 0.5, 0, 0.3, 80)), 0);
+  // Beyond its end sides meet on the straight line that goes on: in each column an upright edge and
+  // a diagonal, in which the line is nearly half the way up.
+  EXPECT_NEAR(jumps(half), 2 * n * (1 - 0.52), 3);
+  // Two halves of a circle, of which one runs the other way, meet at two ends.
+  const MatX3 circle = test::circle(0.5, 0.5, 0, 0.3, 80);
+  Sources halves = test::space_curve(circle.topRows(41));
+  const Sources other = test::space_curve(circle.bottomRows(41).colwise().reverse());
+  halves.space_curves.push_back(other.space_curves[0]);
+  Report report;
+  test::geodesic(fast_marching, mesh, halves, report);
+  EXPECT_GE(test::size_named(report, "edges_where_the_sign_jumps"), 10);
 }
 
 TEST(FastMarching, StopsWhenAsked) {

@@ -203,6 +203,49 @@ TEST(SelfIntersections, OfAConeOnItsBase) {
   EXPECT_GT(crossing(cone), 0);
 }
 
+TEST(SelfIntersections, OfTwoLargeFansWithACommonRim) {
+  constexpr int n = 2000;
+  for (const double low : {-1.0, 0.0, 0.5}) {
+    PolygonSoup cones;
+    cones.points.resize(n + 2, 3);
+    cones.points.row(n) << 0, 0, 1;
+    cones.points.row(n + 1) << 0, 0, low;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      cones.points.row(i) << std::cos(angle), std::sin(angle), 0;
+      test::add_triangle(cones, i, (i + 1) % n, n);
+      test::add_triangle(cones, (i + 1) % n, i, n + 1);
+    }
+    EXPECT_EQ(crossing(cones), 0) << low;
+    cones.points.row(n + 1) << 0.9, 0, 0.5;  // outside of the first
+    EXPECT_GT(crossing(cones), 0) << low;
+  }
+}
+
+TEST(SelfIntersections, AgreeWithAllPairsForFansWithACommonRim) {
+  // On a lattice, so that fans also touch, lie in one plane or are folded onto each other.
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> place(-4, 4), height(-1, 1);
+  int meeting = 0;
+  constexpr int n = 40, rounds = 30;
+  for (int round = 0; round < rounds; ++round) {
+    PolygonSoup cones;
+    cones.points.resize(n + 2, 3);
+    for (int k : {n, n + 1}) cones.points.row(k) << place(random), place(random), place(random);
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      cones.points.row(i) << std::round(12 * std::cos(angle)), std::round(12 * std::sin(angle)),
+          round % 3 == 0 ? 0 : height(random);
+      test::add_triangle(cones, i, (i + 1) % n, n);
+      test::add_triangle(cones, (i + 1) % n, i, n + 1);
+    }
+    expect_as_pairs(cones);
+    meeting += crossing(cones);
+  }
+  EXPECT_GT(meeting, 100);
+  EXPECT_LT(meeting, 2 * n * rounds - 100);
+}
+
 TEST(SelfIntersections, OfAConeWithVeryManySides) {
   constexpr int n = 30000;  // all pairs would take minutes
   PolygonSoup cone;

@@ -235,10 +235,11 @@ class Fans {
           fan_of_[each.child] < 0)
         continue;  // part of it has no such corner
       for (const Vec3& corner : triangles[tree.order[each.begin]]) {
-        Fan fan{corner, {}};
+        Fan fan{corner, {}, 0};
         int k = each.begin;
         while (k < each.end && add(triangles[tree.order[k]], fan)) ++k;
         if (k < each.end) continue;
+        fan.size = each.end - each.begin;
         fan_of_[c] = static_cast<int>(fans_.size());
         fans_.push_back(fan);
         break;
@@ -248,20 +249,23 @@ class Fans {
 
   /// May a triangle meet one of a cluster elsewhere than at what both have? Not if both have a
   /// corner, and neither the side opposite to it reaches the other: what they have of a common line
-  /// starts at the corner and ends on one of these sides.
+  /// starts at the corner and ends on one of these sides. Nor if the cluster lies on one side of
+  /// the triangle's plane, as does most of a fan that shares its rim with the triangle's.
   bool may_meet(const Triangle& t, const Bounds& box, int cluster) const {
     if (fan_of_[cluster] < 0) return true;
     const Fan& fan = fans_[fan_of_[cluster]];
-    Fan own{fan.corner, {}};
-    if (!add(t, own)) return true;
+    Fan own{fan.corner, {}, 0};
+    if (!add(t, own)) return may_reach(t, box, fan);
     return fan.rim.overlaps(box) || own.rim.overlaps(boxes_.around(cluster));
   }
 
  private:
-  static constexpr int least = 9;  // triangles: smaller fans are not worth the place
+  // Triangles: smaller fans are not worth the place, or the time to look for planes.
+  static constexpr int least = 9, worth_planes = 100;
   struct Fan {
     Vec3 corner;
     Bounds rim;  // of the sides opposite to it
+    int size;
   };
   static bool add(const Triangle& t, Fan& fan) {
     bool has = false;
@@ -271,6 +275,45 @@ class Fans {
       else
         fan.rim.include({x, x});
     return has;
+  }
+
+  /// May a fan reach t? It lies in the hull of its corner and its rim's box. If that is on one side
+  /// of t's plane and its corner is off it, only the box can touch the plane.
+  static bool may_reach(const Triangle& t, const Bounds& box, const Fan& fan) {
+    std::array<Vec3, 8> rim;
+    for (int c = 0; c < 8; ++c)
+      for (int a = 0; a < 3; ++a) rim[c][a] = (c >> a & 1) == 0 ? fan.rim.low[a] : fan.rim.high[a];
+    const int of_corner = orientation_sign(t[0], t[1], t[2], fan.corner);
+    const Sides of_rim = sides(t, rim);
+    if (of_corner != 0 && !(of_corner > 0 ? of_rim.below : of_rim.above))
+      return of_rim.on && fan.rim.overlaps(box);
+    if (fan.size < worth_planes) return true;
+    // Planes through the corner and an edge of the box, with the box on one side.
+    for (int c = 0; c < 8; ++c)
+      for (int a = 0; a < 3; ++a) {
+        if ((c >> a & 1) != 0) continue;
+        const Triangle plane{fan.corner, rim[c], rim[c | 1 << a]};
+        const Sides of_t = sides(plane, t);
+        if (of_t.on || of_t.above == of_t.below) continue;
+        const Sides of_box = sides(plane, rim);
+        if (of_box.above != of_box.below && of_box.above != of_t.above) return false;
+      }
+    return true;
+  }
+
+  /// Where points lie: on the plane of a triangle, on the side from which it is counter-clockwise,
+  /// on the other.
+  struct Sides {
+    bool on = false, above = false, below = false;
+  };
+  template <std::size_t n>
+  static Sides sides(const Triangle& plane, const std::array<Vec3, n>& points) {
+    Sides out;
+    for (const Vec3& x : points) {
+      const int side = orientation_sign(plane[0], plane[1], plane[2], x);
+      (side == 0 ? out.on : side > 0 ? out.above : out.below) = true;
+    }
+    return out;
   }
 
   const BoxTree& boxes_;

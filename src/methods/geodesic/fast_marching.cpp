@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/falling_keys.h"
 #include "base/groups.h"
 #include "base/index.h"
@@ -19,6 +20,8 @@
 namespace littoral {
 
 namespace {
+
+constexpr double round_off = 1e-6;
 
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
@@ -229,6 +232,19 @@ class MarchingFront {
   }
   int n_unsplit() const { return stencils_.n_unsplit; }
 
+  /// Edges between vertices of different sign that are together farther from the sources than from
+  /// each other: no curve crosses them.
+  int n_sign_jumps() const {
+    std::vector<char> jumps(T_.n_edges(), 0);
+    for (int f = 0; f < T_.n_faces(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        const int v = T_.faces(f, k), w = T_.faces(f, (k + 1) % 3);
+        if (sign_[v] * sign_[w] < 0 && d_[v] + d_[w] > (1 + round_off) * T_.length(f, k))
+          jumps[T_.side_edge(f, k)] = 1;
+      }
+    return static_cast<int>(std::count(jumps.begin(), jumps.end(), 1));
+  }
+
  private:
   static Complex point(const TriangleShape& t, const std::array<double, 3>& b) {
     return b[0] * t.p[0] + b[1] * t.p[1] + b[2] * t.p[2];
@@ -342,6 +358,13 @@ VecX fast_marching(const IntrinsicTriangulation& T, const TriangleSources& sourc
   MarchingFront front(T, sources, task);
   front.run(task);
   report.sizes.emplace_back("obtuse_corners_left", front.n_unsplit());
+  const int jumps = front.n_sign_jumps();
+  report.sizes.emplace_back("edges_where_the_sign_jumps", jumps);
+  if (jumps > 0)
+    report.warn("sign-uncertain",
+                "the sign jumps at " + counted(jumps, "edge", "edges") +
+                    " that no curve crosses: curves have gaps or ends inside, or contradict each "
+                    "other. Method auto closes gaps");
   return finalize_field(T.component, T.n_components, T.unit, sources.reached, front.distance(),
                         report);
 }

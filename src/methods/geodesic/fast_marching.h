@@ -11,8 +11,8 @@ namespace littoral {
 /// Distance at the vertices (vertices) [length of the input] from points and curves, first order in
 /// the edge length; +inf on components that no source reaches. Signed where signed curves are
 /// nearest: each vertex takes the sign of the vertices it was reached from, so gaps in a curve are
-/// not filled in. Counted from the sources' values, which must all be the same beside signed
-/// curves.
+/// not filled in; where sides meet without a curve between them, the report warns. Counted from the
+/// sources' values, which must all be the same beside signed curves.
 ///
 /// A triangle that is obtuse, or right, at the vertex to be reached is split by unfolding its
 /// neighbours until one of their vertices lies in front of it. Any topology.

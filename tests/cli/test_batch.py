@@ -364,7 +364,7 @@ def test_interrupted_batches_go_on(scans: Path, number: int) -> None:
 def test_a_killed_input_is_a_line(scans: Path) -> None:
     (scans / "large.obj").write_text(square(300))
     (scans / "list.txt").write_text("large.obj\nin/a/x.obj\n")
-    hard = ("--verb", "distance", "--vertex", "0", "--method", "exact", "--jobs", "1")
+    hard = ("--verb", "distance", "--vertex", "0", "--method", "quadratic", "--jobs", "1")
     with subprocess.Popen(
         [PROGRAM, "batch", "list.txt", *hard, "-o", "out"], cwd=scans, stderr=subprocess.PIPE
     ) as process:
@@ -373,7 +373,7 @@ def test_a_killed_input_is_a_line(scans: Path) -> None:
             if len(children) == 2:
                 break
             time.sleep(0.01)
-        time.sleep(0.3)  # until its input is read
+        time.sleep(0.5)  # until its input is read
         os.kill(children[-1], signal.SIGSEGV)
         process.communicate(timeout=30)
     assert process.returncode == 1

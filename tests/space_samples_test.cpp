@@ -8,9 +8,11 @@
 #include <limits>
 #include <vector>
 
+#include "base/groups.h"
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
 #include "space_helpers.h"
+#include "spatial/places.h"
 
 namespace littoral {
 namespace {
@@ -130,6 +132,15 @@ TEST(SpaceSamples, CloudAreasAreThoseOfTheirCells) {
   EXPECT_NEAR(sample_cloud(four, report).areas[155], 0.25, 1e-9);
 }
 
+TEST(PointsByPlace, AreInTheOrderOfTheFirstThere) {
+  MatX3 points(6, 3);
+  points << 1, 0, 0, 0, 0, 5, 1, 0, 0, 1, 0, 1e-300, 0, -0.0, 5, 1, 0, 0;
+  const Groups<int> places = points_by_place(points);
+  EXPECT_EQ(places.begin, (std::vector{0, 3, 5, 6}));
+  EXPECT_EQ(places.members, (std::vector{0, 2, 5, 1, 4, 3}));
+  EXPECT_EQ(points_by_place(MatX3(0, 3)).begin, std::vector{0});
+}
+
 TEST(SpaceSamples, PointsAtOnePlaceShareTheCellItHasByItself) {
   // Also where there are more of them than neighbours are asked for at first, or not equally many.
   PolygonSoup cloud;
@@ -138,7 +149,7 @@ TEST(SpaceSamples, PointsAtOnePlaceShareTheCellItHasByItself) {
   cloud.normals = Vec3::UnitZ().transpose().replicate(60, 1);
   Report report;
   const VecX once = sample_cloud(cloud, report).areas;
-  for (const std::array<int, 2> copies : {std::array{2, 2}, {4, 4}, {1, 70}}) {
+  for (const std::array<int, 2> copies : {std::array{2, 2}, {4, 4}, {1, 70}, {300, 500}}) {
     std::vector<int> place;
     for (int i = 0; i < 60; ++i)
       place.insert(place.end(), std::size_t(copies[std::size_t(i) % 2]), i);

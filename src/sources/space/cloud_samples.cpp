@@ -7,18 +7,20 @@
 #include <vector>
 
 #include "base/counted.h"
+#include "base/groups.h"
 #include "base/index.h"
 #include "base/parallel.h"
 #include "domain/cloud/cloud_normals.h"
 #include "littoral/error.h"
 #include "sources/space/oriented_points.h"
+#include "spatial/places.h"
 #include "spatial/point_tree.h"
 
 namespace littoral {
 
 namespace {
 
-constexpr int enough = 15;  // neighbours, for the Voronoi cell
+constexpr int neighbours = 16;  // enough for the Voronoi cell, the place itself among them
 
 using Cell = std::vector<Vec2>;
 
@@ -44,38 +46,35 @@ double polygon_area(const Cell& polygon) {
   return twice / 2;
 }
 
-/// Area of the cell of point i in its tangent plane, shared among the points at its place. Cells
+/// Area of the cell of place i in the plane with this normal, shared among the points there. Cells
 /// are cut off at a disc, for there is nothing that bounds them at the rim of a surface.
-double cell_area(const MatX3& points, const PointTree& tree, Eigen::Index i, const Vec3& normal) {
-  const Vec3 p = points.row(i);
+double cell_area(const MatX3& places, const Groups<int>& points, const PointTree& tree, int i,
+                 const Vec3& normal) {
+  const Vec3 p = places.row(i);
   const Vec3 e1 = normal.unitOrthogonal(), e2 = normal.cross(e1);
-  for (int k = 1 + enough;; k *= 4) {
+  for (int k = neighbours;; k *= 4) {
     std::vector<Neighbour> near(k);
     const int n = tree.nearest(p, k, near.data());
-    const double reach = std::sqrt(near[n - 1].squared_distance), one_place = 1e-20 * reach * reach;
-    int same = 0;  // points at this place, itself among them
-    while (same < n && near[same].squared_distance <= one_place) ++same;
-    std::vector<Neighbour> others;  // one for each of the nearest other places
-    for (int j = same; j < n && int_size(others) < enough; ++j)
-      if (std::none_of(others.begin(), others.end(), [&](const Neighbour& other) {
-            return (points.row(near[j].point) - points.row(other.point)).squaredNorm() <= one_place;
-          }))
-        others.push_back(near[j]);
-    if (int_size(others) < enough && n < tree.size()) continue;
-    if (others.empty()) return 0;
-    const int rim = (std::min(int_size(others), 6) + 1) / 2 - 1;
-    const double radius = std::sqrt(others[rim].squared_distance);
+    const double reach = std::sqrt(near[n - 1].squared_distance);
+    int same = 0;  // places that round-off does not tell apart, itself among them
+    std::size_t sharing = 0;
+    while (same < n && near[same].squared_distance <= 1e-20 * reach * reach)
+      sharing += points.at(near[same++].point).size();
+    if (n - same < std::min(6, tree.size() - same) && n < tree.size()) continue;
+    if (same == n) return 0;
+    const int rim = same + (std::min(n - same, 6) + 1) / 2 - 1;
+    const double radius = std::sqrt(near[rim].squared_distance);
     Cell cell;
     for (int c = 0; c < 12; ++c) {
       const double angle = 2 * M_PI * c / 12;
       cell.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
-    for (const Neighbour& other : others) {
-      const Vec3 d = points.row(other.point).transpose() - p;
+    for (int j = same; j < n; ++j) {
+      const Vec3 d = places.row(near[j].point).transpose() - p;
       const Vec2 q(d.dot(e1), d.dot(e2));
       if (q.squaredNorm() > 1e-6 * d.squaredNorm()) clip_to_nearer(cell, q);
     }
-    return polygon_area(cell) / same;
+    return polygon_area(cell) / static_cast<double>(sharing);
   }
 }
 
@@ -106,10 +105,14 @@ OrientedPoints sample_cloud(const PolygonSoup& cloud, Report& report) {
   for (auto n : out.normals.rowwise()) n.stableNormalize();
   check_cloud(out.points);
   out.areas.resize(out.size());
-  const PointTree tree(out.points);
-  parallel_for(kept.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (Eigen::Index i = begin; i < index(end); ++i)
-      out.areas[i] = cell_area(out.points, tree, i, out.normals.row(i));
+  const Groups<int> points = points_by_place(out.points);
+  MatX3 places(index(points.begin.size()) - 1, 3);
+  for (int i = 0; i < places.rows(); ++i) places.row(i) = out.points.row(points.at(i).front());
+  const PointTree tree(places);
+  parallel_for(std::size_t(places.rows()), 1024, [&](std::size_t begin, std::size_t end) {
+    for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+      for (const int point : points.at(i))
+        out.areas[point] = cell_area(places, points, tree, i, out.normals.row(point));
   });
   // Cells of collinear points may be empty; nothing may weigh nothing.
   const double floor = 1e-6 * out.areas.mean();

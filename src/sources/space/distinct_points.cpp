@@ -1,12 +1,12 @@
-#include <algorithm>
-#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/counted.h"
 #include "base/index.h"
 #include "littoral/error.h"
 #include "sources/space/oriented_points.h"
+#include "spatial/places.h"
 
 namespace littoral {
 
@@ -23,27 +23,17 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
     if (!(cloud.normals.row(i).stableNorm() > 0))
       throw InputError("point " + std::to_string(i) + " has no normal", "no-normals");
   }
-  std::vector<int> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  auto before = [&](int a, int b) {
-    for (int d = 0; d < 3; ++d)
-      if (cloud.points(a, d) != cloud.points(b, d)) return cloud.points(a, d) < cloud.points(b, d);
-    return false;
-  };
-  std::stable_sort(order.begin(), order.end(), before);
-  std::vector<std::pair<int, Vec3>> kept;  // first point of its place, sum of normals
+  const Groups<int> places = points_by_place(cloud.points);
+  std::vector<std::pair<int, Vec3>> kept;  // first point of its place, mean normal
   int cancelled = 0;
-  for (int i = 0; i < n;) {
-    int end = i + 1;
-    Vec3 sum = cloud.normals.row(order[i]).stableNormalized();
-    const int members = i;
-    for (; end < n && !before(order[i], order[end]); ++end)
-      sum += cloud.normals.row(order[end]).stableNormalized();
-    if (sum.norm() > 1e-9 * (end - members))
-      kept.emplace_back(order[i], sum.normalized());
+  for (std::size_t place = 0; place + 1 < places.begin.size(); ++place) {
+    const auto members = places.at(static_cast<int>(place));
+    Vec3 sum = Vec3::Zero();
+    for (const int i : members) sum += cloud.normals.row(i).stableNormalized();
+    if (sum.norm() > 1e-9 * static_cast<double>(members.size()))
+      kept.emplace_back(members.front(), sum.normalized());
     else
       ++cancelled;
-    i = end;
   }
   if (kept.empty())
     throw InputError(
@@ -54,8 +44,6 @@ OrientedPoints distinct_points(const OrientedPoints& cloud, Report& report) {
                 counted(cancelled, "place where normals of coincident points cancel was",
                         "places where normals of coincident points cancel were") +
                     " left out");
-  std::sort(kept.begin(), kept.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
   if (int_size(kept) < n - cancelled)
     report.warn("points-coincide",
                 counted(n - cancelled - int_size(kept), "point coincides with another",

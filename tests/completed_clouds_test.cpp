@@ -12,6 +12,7 @@
 
 #include "api/space/sdf.h"
 #include "broken_shapes.h"
+#include "report_helpers.h"
 #include "space_helpers.h"
 
 namespace littoral {
@@ -29,13 +30,6 @@ VecX unasked(const PolygonSoup& input, const Grid& grid, Report& report) {
 
 VecX unasked_at(const PolygonSoup& input, const MatX3& queries, Report& report) {
   return query_distance(input, queries, {}, nullptr, Task(), report);
-}
-
-double size_of(const Report& report, const std::string& name) {
-  for (const auto& [key, value] : report.sizes)
-    if (key == name) return value;
-  ADD_FAILURE() << "no size " << name;
-  return std::nan("");
 }
 
 /// Points of the unit sphere at random, those above `top` cut off, with noise.
@@ -82,7 +76,7 @@ TEST(CompletedClouds, AreClosedOverHolesAndMeasuredThroughNoise) {
     EXPECT_LT(on_average, mean) << top << " " << noise;
     EXPECT_LT(worst, largest) << top << " " << noise;
     EXPECT_LT(wrong, 0.01);
-    EXPECT_EQ(size_of(report, "completed share of the zero set") > 0.05, top < 1);
+    EXPECT_EQ(test::size_named(report, "completed share of the zero set") > 0.05, top < 1);
     if (noise == 0) continue;
     const VecX there = unasked_at(cloud, MatX3(1.3 * cloud.normals.topRows(20)), at_points);
     EXPECT_LT((there.array() - 0.3).abs().maxCoeff(), largest);
@@ -149,7 +143,7 @@ TEST(ThinParts, AreNamedWithTheResolutionThatHoldsThem) {
   const double h = test::cube_grid(24, 1.2).spacing[2];
   const Report lost = warned(plate, 24, h / 2 - std::fmod(1.2, h) + h);
   EXPECT_THAT(lost.warnings, Contains(HasSubstr("thinner than the grid's spacing")));
-  EXPECT_GT(size_of(lost, "share of the area at parts thinner than a spacing"), 0.8);
+  EXPECT_GT(test::size_named(lost, "share of the area at parts thinner than a spacing"), 0.8);
   // 2.4 / 0.04 cells are as thick as the plate.
   const std::string text = lost.warnings.back().text;
   const int resolution = std::stoi(text.substr(text.find("option resolution ") + 18));
@@ -160,8 +154,8 @@ TEST(ThinParts, AreNamedWithTheResolutionThatHoldsThem) {
   for (const PolygonSoup& thick :
        {test::box_soup({0.9, 0.8, 0.7}), hemisphere(4, false), test::octasphere_soup(4)})
     EXPECT_THAT(warned(thick, 24, 0.013).warnings, IsEmpty());
-  EXPECT_EQ(size_of(warned(test::grid_soup(8, 8), 24, 0.013),
-                    "share of the area at parts thinner than a spacing"),
+  EXPECT_EQ(test::size_named(warned(test::grid_soup(8, 8), 24, 0.013),
+                             "share of the area at parts thinner than a spacing"),
             0);
 }
 

@@ -13,6 +13,7 @@
 #include "broken_shapes.h"
 #include "littoral/error.h"
 #include "littoral/space.h"
+#include "report_helpers.h"
 #include "space_helpers.h"
 #include "spatial/closest_on_triangle.h"
 #include "spatial/grid_values.h"
@@ -43,13 +44,6 @@ VecX asked(const PolygonSoup& input, const MatX3& queries, Report& report, bool 
   SpaceRequest request;
   request.flip = flip;
   return query_distance(input, queries, request, nullptr, Task(), report);
-}
-
-double completed_size(const Report& report, const std::string& name) {
-  for (const auto& [key, value] : report.sizes)
-    if (key == name) return value;
-  ADD_FAILURE() << "no size " << name;
-  return std::nan("");
 }
 
 double brute_force(const PolygonSoup& soup, const Vec3& x) {
@@ -116,7 +110,7 @@ TEST(Completed, EnclosedSpaceIsInsideWhicheverWayAllNormalsPoint) {
   EXPECT_EQ(fine.status, "converged");
   expect_same(by_default(reversed(torus), grid, warned), values);
   EXPECT_THAT(warned.warnings, Contains(HasSubstr("count as reversed")));
-  EXPECT_EQ(completed_size(warned, "share of the area that bounds"), 1);
+  EXPECT_EQ(test::size_named(warned, "share of the area that bounds"), 1);
   // --flip takes the normals at their word.
   expect_same(by_default(torus, grid, quiet, true), -values);
   expect_same(by_default(reversed(torus), grid, trusted, true), values);
@@ -132,8 +126,8 @@ TEST(Completed, HolesAreClosedByTheLevelOfTheWindingNumber) {
   Report exact;
   const VecX truth = grid_distance(hemisphere(4, true), grid, {WindingSign{}}, Task(), exact);
   EXPECT_LT((values - truth).cwiseAbs().maxCoeff(), 0.05 * h);
-  EXPECT_NEAR(completed_size(report, "completed share of the zero set"), 1.0 / 3, 0.01);
-  EXPECT_EQ(completed_size(report, "share of sign changes without surface"), 0);
+  EXPECT_NEAR(test::size_named(report, "completed share of the zero set"), 1.0 / 3, 0.01);
+  EXPECT_EQ(test::size_named(report, "share of sign changes without surface"), 0);
   EXPECT_THAT(report.warnings, IsEmpty());
   EXPECT_EQ(report.status, "converged");
 }
@@ -194,7 +188,7 @@ TEST(Completed, SoupsAreOrientedByParityWhereTheirOrientationDisagrees) {
   Report of_mixed, of_doubled, of_good, of_odd;
   expect_same(by_default(mixed, grid, of_mixed), values);
   EXPECT_THAT(of_mixed.warnings, Contains(HasSubstr("orientation of faces disagrees")));
-  EXPECT_GT(completed_size(of_mixed, "certainty of the orientation"), 0.99);
+  EXPECT_GT(test::size_named(of_mixed, "certainty of the orientation"), 0.99);
   expect_same(by_default(doubled, grid, of_doubled), values);
   EXPECT_THAT(of_doubled.warnings, Contains(HasSubstr("faces are double")));
   expect_same(by_default(odd, grid, of_odd), by_default(good, grid, of_good));
@@ -215,7 +209,7 @@ TEST(Completed, FacesThatAreThereTwiceCountOnce) {
     expect_same(by_default(joined(soup, soup), grid, of_all), values);
     for (const Report* report : {&of_once, &of_some, &of_all}) {
       EXPECT_THAT(report->warnings, IsEmpty());
-      EXPECT_EQ(completed_size(*report, "free edges"), completed_size(of_once, "free edges"));
+      EXPECT_EQ(test::size_named(*report, "free edges"), test::size_named(of_once, "free edges"));
     }
   }
 }
@@ -226,7 +220,7 @@ TEST(Completed, CopiesOfFacesThatAreLeftOutAreCounted) {
     Report report;
     const auto first = part_of(open, [&](int f, const Vec3&) { return f < copies; });
     by_default(joined(open, first), test::cube_grid(9, 1.31), report);
-    EXPECT_EQ(completed_size(report, "copies of faces left out of the sign"), copies);
+    EXPECT_EQ(test::size_named(report, "copies of faces left out of the sign"), copies);
   }
 }
 
@@ -242,7 +236,7 @@ TEST(Completed, FacesThatAPartNeedsToBeClosedStayThoughTheyAreCopies) {
     both.add_face(std::array{base[std::size_t((k + 1) % 3)], base[std::size_t(k)], apex});
   Report report;
   by_default(both, test::cube_grid(9, 1.31), report);
-  EXPECT_EQ(completed_size(report, "free edges"), 3);
+  EXPECT_EQ(test::size_named(report, "free edges"), 3);
   for (const auto& [name, value] : report.sizes)
     EXPECT_NE(name, "copies of faces left out of the sign");
 }
@@ -255,8 +249,8 @@ TEST(Completed, SaysWhatIsDoubtful) {
     const VecX values = by_default(nothing, grid, report);
     EXPECT_EQ(report.status, "uncertain");
     EXPECT_THAT(report.warnings, Contains(HasSubstr("encloses nothing")));
-    if (completed_size(report, "free edges") > 0) {
-      EXPECT_EQ(completed_size(report, "patch triangles"), 0);
+    if (test::size_named(report, "free edges") > 0) {
+      EXPECT_EQ(test::size_named(report, "patch triangles"), 0);
     }
     EXPECT_GE(values.minCoeff(), 0);
   }
@@ -273,7 +267,7 @@ TEST(Completed, SaysWhatIsDoubtful) {
   Report nested;
   by_default(joined(test::octasphere_soup(3), inner), grid, nested);
   EXPECT_EQ(nested.status, "converged");
-  EXPECT_NEAR(completed_size(nested, "share of the area inside on both sides"), 0.2, 0.01);
+  EXPECT_NEAR(test::size_named(nested, "share of the area inside on both sides"), 0.2, 0.01);
   EXPECT_THAT(nested.warnings, Contains(HasSubstr("walls within")));
 }
 

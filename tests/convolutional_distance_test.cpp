@@ -67,23 +67,34 @@ class ConvolutionalDistance : public testing::TestWithParam<KernelMethod> {
     Report report;
     return sample_faces(test::off_centre_torus(), std::numeric_limits<double>::infinity(), report);
   }
+
+  struct Visited {
+    int inside = 0, outside = 0;
+  };
+  /// check(place, signed distance to the torus) at random places that are not too close to it.
+  static Visited visit(int places, const std::function<void(const Vec3&, double)>& check) {
+    Visited out;
+    const MatX3 all = test::random_points(places, 1.1);
+    for (const Vec3 x : all.rowwise()) {
+      const double away = test::torus_distance(x - Vec3(0.013, 0.027, 0.031), 0.7, 0.3);
+      if (std::abs(away) < 0.08) continue;
+      check(x, away);
+      ++(away < 0 ? out.inside : out.outside);
+    }
+    return out;
+  }
 };
 
 TEST_P(ConvolutionalDistance, IsItsFormula) {
   const OrientedPoints torus = samples();
   for (const double lambda : {3.0, 8.0}) {
     const auto distance = GetParam().make(torus, lambda);
-    int inside = 0, outside = 0;
-    const MatX3 places = test::random_points(80, 1.1);
-    for (const Vec3 x : places.rowwise()) {
-      const double away = test::torus_distance(x - Vec3(0.013, 0.027, 0.031), 0.7, 0.3);
-      if (std::abs(away) < 0.08) continue;
+    const Visited n = visit(80, [&](const Vec3& x, double away) {
       const double truth = GetParam().formula(torus, lambda, x, away < 0 ? -1 : 1);
       EXPECT_NEAR(distance->at(x).value, truth, 1e-9 * std::abs(truth));
-      ++(away < 0 ? inside : outside);
-    }
-    EXPECT_GT(inside, 3);
-    EXPECT_GT(outside, 40);
+    });
+    EXPECT_GT(n.inside, 3);
+    EXPECT_GT(n.outside, 40);
     EXPECT_TRUE(std::isfinite(distance->at(torus.points.row(7)).value));
   }
 }
@@ -92,22 +103,16 @@ TEST_P(ConvolutionalDistance, HasTheGradientThatDifferencesHave) {
   const OrientedPoints torus = samples();
   for (const double lambda : {3.0, 8.0}) {
     const auto distance = GetParam().make(torus, lambda);
-    int inside = 0, all = 0;
-    const MatX3 places = test::random_points(60, 1.1);
-    for (const Vec3 x : places.rowwise()) {
-      const double away = test::torus_distance(x - Vec3(0.013, 0.027, 0.031), 0.7, 0.3);
-      if (std::abs(away) < 0.08) continue;
+    const Visited n = visit(60, [&](const Vec3& x, double away) {
       const DistanceSample here = distance->at(x);
       for (int k = 0; k < 3; ++k) {
         const Vec3 step = 1e-5 * Vec3::Unit(k);
         const double slope = (distance->value(x + step) - distance->value(x - step)) / 2e-5;
         EXPECT_NEAR(here.gradient[k], slope, 1e-6 * (1 + std::abs(slope))) << away;
       }
-      inside += away < 0;
-      ++all;
-    }
-    EXPECT_GT(inside, 2);
-    EXPECT_GT(all, 40);
+    });
+    EXPECT_GT(n.inside, 2);
+    EXPECT_GT(n.inside + n.outside, 40);
   }
 }
 

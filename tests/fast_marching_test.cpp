@@ -7,7 +7,7 @@
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
 #include "one_call.h"
-#include "repair_helpers.h"
+#include "report_helpers.h"
 #include "test_meshes.h"
 
 namespace littoral {

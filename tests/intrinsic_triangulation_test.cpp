@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -129,6 +130,15 @@ PolygonSoup mirrored_grid(const PolygonSoup& grid, int nx) {
   return soup;
 }
 
+/// Of one curve, without sides.
+SourceSystem unsigned_system(const SurfaceMesh& mesh, const IntrinsicTriangulation& T,
+                             const Curve& curve) {
+  Report report;
+  Sources sources;
+  sources.curves.push_back(curve.unsigned_curve());
+  return source_system(mesh, T, place_sources(mesh, sources, report));
+}
+
 TEST(TriangleSources, UnsignedCurvesAlongTheBoundaryAreAsStrongAsOneSideOfThoseWithin) {
   const int nx = 6;
   PolygonSoup grid = test::jittered_grid_soup(nx, 5, 0.2);
@@ -138,11 +148,9 @@ TEST(TriangleSources, UnsignedCurvesAlongTheBoundaryAreAsStrongAsOneSideOfThoseW
     const SurfaceMesh mesh(soup);
     Report report;
     const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-    Sources sources;
-    sources.curves.emplace_back();
-    sources.curves[0].is_signed = false;
-    for (int v = 1; v < nx; ++v) sources.curves[0].nodes.push_back(SurfacePoint::at_vertex(v));
-    const SourceSystem system = source_system(mesh, T, place_sources(mesh, sources, report));
+    std::vector<int> along(std::size_t(nx - 1));
+    std::iota(along.begin(), along.end(), 1);
+    const SourceSystem system = unsigned_system(mesh, T, Curve::along_vertices(along));
     VecX length = VecX::Zero(T.n_edges());
     for (const auto& [e, z] : system.X0) length[e] = std::abs(z) * T.unit;
     // Of edges inside the first faces, and not at the ends of the curve.
@@ -175,13 +183,11 @@ TEST(TriangleSources, AShortClosedUnsignedCurvePushesOutOfItsTriangle) {
   const SurfaceMesh mesh(soup);
   Report report;
   const IntrinsicTriangulation T = intrinsic_triangulation(mesh, report);
-  Sources sources;
-  sources.curves.emplace_back();
-  sources.curves[0].is_signed = false;
   const double a = 1.0 / 3 - 0.001, b = 1 - 2 * a, length = 3 * (b - a) / T.unit;
-  sources.curves[0].nodes = {SurfacePoint::in_face(0, b, a, a), SurfacePoint::in_face(0, a, b, a),
-                             SurfacePoint::in_face(0, a, a, b), SurfacePoint::in_face(0, b, a, a)};
-  const SourceSystem system = source_system(mesh, T, place_sources(mesh, sources, report));
+  const SourceSystem system = unsigned_system(
+      mesh, T,
+      Curve::through({SurfacePoint::in_face(0, b, a, a), SurfacePoint::in_face(0, a, b, a),
+                      SurfacePoint::in_face(0, a, a, b), SurfacePoint::in_face(0, b, a, a)}));
   ASSERT_EQ(system.X0.size(), 3u);
   for (const auto& [e, z] : system.X0)
     for (int k = 0; k < 3; ++k)

@@ -9,6 +9,7 @@
 #include "api/space/isosurfaces.h"
 #include "api/space/sdf.h"
 #include "broken_shapes.h"
+#include "report_helpers.h"
 #include "space_helpers.h"
 #include "test_meshes.h"
 
@@ -21,13 +22,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-double offset_size(const Report& report, const std::string& name) {
-  for (const auto& [known, value] : report.sizes)
-    if (known == name) return value;
-  ADD_FAILURE() << name;
-  return 0;
-}
 
 TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
   const PolygonSoup open = hemisphere(4, false);
@@ -42,14 +36,15 @@ TEST(Offsets, OfAnOpenHemisphereAreClosedAndMeasured) {
   EXPECT_EQ(report.status, "converged");
   for (const double d : {0.2, -0.1}) {
     const std::string name = d > 0 ? "offset 0.2: " : "offset -0.1: ";
-    EXPECT_EQ(offset_size(report, name + "open edges"), 0);
-    EXPECT_NEAR(offset_size(report, name + "median distance"), std::abs(d), 0.01 * std::abs(d));
-    EXPECT_NEAR(offset_size(report, name + "least distance"), std::abs(d), 0.1 * std::abs(d));
+    EXPECT_EQ(test::size_named(report, name + "open edges"), 0);
+    EXPECT_NEAR(test::size_named(report, name + "median distance"), std::abs(d),
+                0.01 * std::abs(d));
+    EXPECT_NEAR(test::size_named(report, name + "least distance"), std::abs(d), 0.1 * std::abs(d));
   }
   // Flat tops: pi of pi + 2 pi (1.2)^2 + the quarter of a tube around the rim, and inside.
   const double outer = M_PI / (M_PI + 2 * M_PI * 1.44 + M_PI * M_PI * 0.2 + 2 * M_PI * 0.04);
-  EXPECT_NEAR(offset_size(report, "offset 0.2: share over holes"), outer, 0.02);
-  EXPECT_GT(offset_size(report, "offset -0.1: share over holes"), 0.3);
+  EXPECT_NEAR(test::size_named(report, "offset 0.2: share over holes"), outer, 0.02);
+  EXPECT_GT(test::size_named(report, "offset -0.1: share over holes"), 0.3);
   // Measured against another distance than was asked for.
   Report wrong;
   measure_offset({0.21, surfaces.front().surface}, open, answer.completion, wrong, Task());
@@ -87,9 +82,10 @@ TEST(Offsets, VerticesLieAtTheDistanceHoweverCoarseTheGrid) {
       const std::string name = d > 0 ? "offset 0.06: " : "offset -0.06: ";
       for (const char* part : {"", "over holes, "}) {
         if (whole && *part) continue;
-        EXPECT_NEAR(offset_size(by_function, name + part + "least over asked"), 1, merged / 0.06);
-        EXPECT_NEAR(offset_size(by_function, name + part + "median over asked"), 1, 0.002);
-        EXPECT_NEAR(offset_size(by_function, name + part + "greatest over asked"), 1,
+        EXPECT_NEAR(test::size_named(by_function, name + part + "least over asked"), 1,
+                    merged / 0.06);
+        EXPECT_NEAR(test::size_named(by_function, name + part + "median over asked"), 1, 0.002);
+        EXPECT_NEAR(test::size_named(by_function, name + part + "greatest over asked"), 1,
                     merged / 0.06);
       }
       if (whole) {
@@ -112,7 +108,7 @@ TEST(Offsets, WarnWhereTheyAreFarFromWhatWasAsked) {
   Report far;
   measure_offset({0.1, shell}, sphere, {}, far, Task());
   EXPECT_EQ(far.status, "uncertain");
-  EXPECT_NEAR(offset_size(far, "offset 0.1: greatest over asked"), 4, 1e-9);
+  EXPECT_NEAR(test::size_named(far, "offset 0.1: greatest over asked"), 4, 1e-9);
   EXPECT_THAT(far.warnings, ElementsAre(HasSubstr("4 times as far as asked at (")));
   // The same over a hole, which the first octant closes.
   PolygonSoup hole, rest;
@@ -125,8 +121,8 @@ TEST(Offsets, WarnWhereTheyAreFarFromWhatWasAsked) {
   }
   Report over;
   measure_offset({0.1, shell}, rest, hole, over, Task());
-  EXPECT_NEAR(offset_size(over, "offset 0.1: over holes, greatest over asked"), 4, 1e-9);
-  EXPECT_NEAR(offset_size(over, "offset 0.1: greatest over asked"), 1, 0.02);
+  EXPECT_NEAR(test::size_named(over, "offset 0.1: over holes, greatest over asked"), 4, 1e-9);
+  EXPECT_NEAR(test::size_named(over, "offset 0.1: greatest over asked"), 1, 0.02);
   EXPECT_THAT(over.warnings, ElementsAre(HasSubstr("over a hole of the input")));
   shell.points.row(0) *= 1.03 / 1.4;
   Report near;

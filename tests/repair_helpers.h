@@ -9,7 +9,7 @@
 
 #include "api/surface/mesh_info.h"
 #include "littoral/mesh.h"
-#include "littoral/report.h"
+#include "report_helpers.h"
 
 namespace littoral::test {
 
@@ -19,13 +19,6 @@ inline double fact(const PolygonSoup& soup, const std::string& key) {
       return std::holds_alternative<bool>(each.value) ? double(std::get<bool>(each.value))
                                                       : std::get<double>(each.value);
   ADD_FAILURE() << key;
-  return NAN;
-}
-
-inline double size_named(const Report& report, const std::string& name) {
-  for (const auto& [each, value] : report.sizes)
-    if (each == name) return value;
-  ADD_FAILURE() << name;
   return NAN;
 }
 

@@ -235,11 +235,10 @@ class Fans {
           fan_of_[each.child] < 0)
         continue;  // part of it has no such corner
       for (const Vec3& corner : triangles[tree.order[each.begin]]) {
-        Fan fan{corner, {}, 0};
+        Fan fan{corner, {}};
         int k = each.begin;
         while (k < each.end && add(triangles[tree.order[k]], fan)) ++k;
         if (k < each.end) continue;
-        fan.size = each.end - each.begin;
         fan_of_[c] = static_cast<int>(fans_.size());
         fans_.push_back(fan);
         break;
@@ -254,8 +253,8 @@ class Fans {
   bool may_meet(const Triangle& t, const Bounds& box, int cluster) const {
     if (fan_of_[cluster] < 0) return true;
     const Fan& fan = fans_[fan_of_[cluster]];
-    Fan own{fan.corner, {}, 0};
-    if (!add(t, own)) return may_reach(t, box, fan);
+    Fan own{fan.corner, {}};
+    if (!add(t, own)) return may_reach(t, box, cluster);
     return fan.rim.overlaps(box) || own.rim.overlaps(boxes_.around(cluster));
   }
 
@@ -265,7 +264,6 @@ class Fans {
   struct Fan {
     Vec3 corner;
     Bounds rim;  // of the sides opposite to it
-    int size;
   };
   static bool add(const Triangle& t, Fan& fan) {
     bool has = false;
@@ -279,7 +277,8 @@ class Fans {
 
   /// May a fan reach t? It lies in the hull of its corner and its rim's box. If that is on one side
   /// of t's plane and its corner is off it, only the box can touch the plane.
-  static bool may_reach(const Triangle& t, const Bounds& box, const Fan& fan) {
+  bool may_reach(const Triangle& t, const Bounds& box, int cluster) const {
+    const Fan& fan = fans_[fan_of_[cluster]];
     std::array<Vec3, 8> rim;
     for (int c = 0; c < 8; ++c)
       for (int a = 0; a < 3; ++a) rim[c][a] = (c >> a & 1) == 0 ? fan.rim.low[a] : fan.rim.high[a];
@@ -287,7 +286,8 @@ class Fans {
     const Sides of_rim = sides(t, rim);
     if (of_corner != 0 && !(of_corner > 0 ? of_rim.below : of_rim.above))
       return of_rim.on && fan.rim.overlaps(box);
-    if (fan.size < worth_planes) return true;
+    if (const Cluster& each = boxes_.tree().clusters[cluster]; each.end - each.begin < worth_planes)
+      return true;
     // Planes through the corner and an edge of the box, with the box on one side.
     for (int c = 0; c < 8; ++c)
       for (int a = 0; a < 3; ++a) {

@@ -18,8 +18,6 @@ namespace {
 constexpr double remarkable_off_unit = 0.08;
 constexpr double remarkable_share = 0.02;  // of cells, for sources that may have gaps
 
-std::string in_short(double x) { return rounded_text(x, 2); }
-
 }  // namespace
 
 double automatic_time_scale(const SourceSystem& system, const Operators& ops) {
@@ -82,7 +80,7 @@ void warn_off_unit(const std::string& meaning, Report& report) {
   if (share <= remarkable_off_unit) return;
   report.warn("gradient-off-unit",
               "the gradient of the distance is more than a quarter off unit length on " +
-                  in_short(100 * share) + " % of the surface: " + meaning);
+                  percent_text(share) + " of the surface: " + meaning);
 }
 
 double misaligned_fraction(const Report& report) {
@@ -93,11 +91,10 @@ double misaligned_fraction(const Report& report) {
 }
 
 std::string raised_warning(double from, double to, double share_before, double share_after) {
-  return "time scale raised from " + in_short(from) + " to " + in_short(to) +
+  return "time scale raised from " + rounded_text(from, 2) + " to " + rounded_text(to, 2) +
          ": with the smaller one the heat is lost in round-off on parts of this mesh (the distance "
          "fell along its directions on " +
-         in_short(100 * share_before) + " % of the surface, now on " + in_short(100 * share_after) +
-         " %)";
+         percent_text(share_before) + " of the surface, now on " + percent_text(share_after) + ")";
 }
 
 void warn_misaligned(Report& report) {
@@ -105,8 +102,8 @@ void warn_misaligned(Report& report) {
   if (share > remarkable_share)
     report.warn(
         "directions-misaligned",
-        "the distance falls along the diffused directions on " + in_short(100 * share) +
-            " % of the surface: sources contradict each other, or option time-scale is too small "
+        "the distance falls along the diffused directions on " + percent_text(share) +
+            " of the surface: sources contradict each other, or option time-scale is too small "
             "for this mesh; left out, it is chosen");
 }
 

@@ -21,8 +21,6 @@ MatX3i triangles(const SurfaceMesh& mesh) {
   return faces;
 }
 
-std::string number(double x) { return rounded_text(x, 3); }
-
 std::string label(const SpaceCurve& curve) {
   return curve.origin.empty() ? "a space curve" : "the space curve at " + curve.origin;
 }
@@ -38,8 +36,9 @@ std::vector<Vec3> resample(const SpaceCurve& curve, double step) {
   double total = 1;
   for (Eigen::Index i = 0; i + 1 < n; ++i) total += pieces(i);
   if (!(total <= most_samples))
-    throw InputError(label(curve) + " is " + number(total * step) +
-                         " long, more than a million mean edge lengths (" + number(2 * step) +
+    throw InputError(label(curve) + " is " + rounded_text(total * step, 3) +
+                         " long, more than a million mean edge lengths (" +
+                         rounded_text(2 * step, 3) +
                          ") of the mesh: check that both use the same unit",
                      "too-large");
   std::vector<Vec3> samples{node(0)};
@@ -119,8 +118,8 @@ ProjectedCurve CurveProjector::project(const SpaceCurve& curve, Report& report,
 
   if (projected.largest_move > 0.05 * diagonal_)
     report.warn("source-moved", label(curve) + " was moved by up to " +
-                                    number(projected.largest_move) + " (" +
-                                    number(100 * projected.largest_move / diagonal_) +
+                                    rounded_text(projected.largest_move, 3) + " (" +
+                                    rounded_text(100 * projected.largest_move / diagonal_, 3) +
                                     " % of the bounding box diagonal) to lie on the surface");
   if (projected.curves.size() > 1)
     report.warn("curve-split",

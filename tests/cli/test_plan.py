@@ -1,6 +1,8 @@
 """--dry-run, --log, and the pages of the manual."""
 
 import json
+import re
+import resource
 import shutil
 import subprocess
 from pathlib import Path
@@ -98,6 +100,21 @@ def test_long_runs_are_announced(tmp_path: Path) -> None:
         [*arguments, "--vertex=0"], cwd=tmp_path, capture_output=True, text=True, timeout=60
     )
     assert "this will take" not in done.stderr
+
+
+def test_more_memory_than_is_free_is_announced(tmp_path: Path) -> None:
+    (tmp_path / "large.obj").write_text(square(100))
+    limits = (1 << 29, 1 << 29)
+    done = subprocess.run(
+        [PROGRAM, "pairs", "large.obj", "--method=exact", "-o", "a.npy", "--time-limit=1"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, limits),
+    )
+    assert done.returncode == 1
+    assert re.search(r"about \d+ MB, more than the \d+ MB that are free", done.stderr), done.stderr
 
 
 def test_the_log_has_stages_warnings_and_errors(run: Run, mesh: Path) -> None:

@@ -117,9 +117,13 @@ bool planned(const RunPlan& plan, Session& session) {
   const MethodInfo& method = found == plan.methods.end() ? plan.methods.front() : *found;
   const PlannedRun run = estimated(plan, session.record.verb, method);
   if (!session.dry_run) {
-    if (run.seconds.value_or(0) > long_run) {
+    const bool too_much = run.memory_mb.value_or(0) > run.available_memory_mb;
+    if (too_much || run.seconds.value_or(0) > long_run) {
       session.note("this will take " + estimate_text(run.seconds, "s") + " and " +
                    estimate_text(run.memory_mb, "MB") +
+                   (too_much ? ", more than the " + number_text(run.available_memory_mb) +
+                                   " MB that are free without swapping"
+                             : "") +
                    (plan.shorter.empty() ? "" : "; " + plan.shorter));
     }
     return false;

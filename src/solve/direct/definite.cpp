@@ -11,6 +11,10 @@
 
 namespace littoral {
 
+namespace {
+constexpr double rough = 1e-6;  // of solves whose errors an outer loop corrects
+}
+
 VecX times_symmetric(const SpMat& lower, const VecX& x) {
   return lower.selfadjointView<Eigen::Lower>() * x;
 }
@@ -136,18 +140,21 @@ MatX DefiniteSystem::approximate(const MatX& b, const Task& task) const {
   MatX x(b.rows(), b.cols());
   Report each;
   for (Eigen::Index k = 0; k < b.cols(); ++k)
-    x.col(k) = multigrid_->get(task).solve(b.col(k), 1e-6, task, each);
+    x.col(k) = multigrid_->get(task).solve(b.col(k), rough, task, each);
   return x;
 }
 
-VecX DefiniteSystem::approximate(const VecX& b, const std::vector<int>& at, int rounds,
+VecX DefiniteSystem::approximate(VecX b, const std::vector<int>& at, int rounds,
                                  const Cholesky<double>::Correction& correct,
                                  const Task& task) const {
   if (factor_) return factor_->solve_corrected(b, at, rounds, correct);
-  VecX x = approximate(b, task), more = VecX::Zero(b.size());
+  const BandedMultigrid& multigrid = multigrid_->get(task);
+  Report each;
+  VecX x = multigrid.solve(std::move(b), rough, task, each);
   for (int round = 0; round < rounds; ++round) {
+    VecX more = VecX::Zero(x.size());
     more(at) = correct(x(at));
-    x += approximate(more, task);
+    x += multigrid.solve(std::move(more), rough, task, each);
   }
   return x;
 }

@@ -59,7 +59,7 @@ class DefiniteSystem {
   /// One solve with the factor, or multigrid to a relative 1e-6.
   MatX approximate(const MatX& b, const Task& task) const;
   /// The same with b corrected on the way: Cholesky::solve_corrected; by multigrid a solve a round.
-  VecX approximate(const VecX& b, const std::vector<int>& at, int rounds,
+  VecX approximate(VecX b, const std::vector<int>& at, int rounds,
                    const Cholesky<double>::Correction& correct, const Task& task) const;
   double relative_residual(const VecX& x, const VecX& b) const;
   double nonzeros() const;  // of the factor, or of the multigrid levels there are so far

@@ -58,11 +58,6 @@ double BandedMultigrid::nonzeros() const {
   return multigrid_.nonzeros() + (band_factor_ ? band_factor_->nonzeros() : 0);
 }
 
-void BandedMultigrid::add_in_band(const VecX& r, VecX& x) const {
-  const VecX dx = band_factor_->solve(r);
-  for (std::size_t k = 0; k < band_.size(); ++k) x[band_[k]] += dx[k];
-}
-
 void BandedMultigrid::precondition(const VecX& b, VecX& x, Work& work, const Task& task) const {
   if (band_.empty()) {
     multigrid_.cycle(b, x, work.cycle, task);
@@ -72,28 +67,27 @@ void BandedMultigrid::precondition(const VecX& b, VecX& x, Work& work, const Tas
   VecX& in_band = work.in_band;
   in_band.resize(index(band_.size()));
   for (std::size_t k = 0; k < band_.size(); ++k) in_band[k] = b[band_[k]];
-  x.setZero(b.size());
-  add_in_band(in_band, x);
+  VecX dx = band_factor_->solve(in_band);
   work.r = b;
-  for (int i : band_)
-    for (SpRows::InnerIterator it(A, i); it; ++it) work.r[it.col()] -= it.value() * x[i];
-  multigrid_.cycle(work.r, work.dx, work.cycle, task);
-  x += work.dx;
+  for (std::size_t k = 0; k < band_.size(); ++k)
+    for (SpRows::InnerIterator it(A, band_[k]); it; ++it) work.r[it.col()] -= it.value() * dx[k];
+  multigrid_.cycle(work.r, x, work.cycle, task);
+  x(band_) += dx;
   for (std::size_t k = 0; k < band_.size(); ++k) {
     double sum = b[band_[k]];
     for (SpRows::InnerIterator it(A, band_[k]); it; ++it) sum -= it.value() * x[it.col()];
     in_band[k] = sum;
   }
-  add_in_band(in_band, x);
+  x(band_) += band_factor_->solve(in_band);
 }
 
-VecX BandedMultigrid::solve(const VecX& b, double tolerance, const Task& task,
-                            Report& report) const {
+VecX BandedMultigrid::solve(VecX b, double tolerance, const Task& task, Report& report) const {
   const SpRows& A = multigrid_.matrix();
   VecX x = VecX::Zero(b.size());
   if (!(b.cwiseAbs().maxCoeff() > 0)) return x;
   Work work;
-  VecX r = b, z, p, Ap;
+  VecX &r = b, &Ap = work.r;  // few vectors: each of a hundred million faces has 0.4 GB
+  VecX z, p;
   precondition(r, z, work, task);
   p = z;
   double rz = r.dot(z);

@@ -22,7 +22,7 @@ class BandedMultigrid {
   /// x with A x = b up to `tolerance` in the energy norm, as the preconditioner measures it.
   /// Iterations go to the report, with the status "not converged" where 500 do not suffice.
   /// Throws Cancelled within 0.2 s of a request.
-  VecX solve(const VecX& b, double tolerance, const Task& task, Report& report) const;
+  VecX solve(VecX b, double tolerance, const Task& task, Report& report) const;
 
   const SpRows& matrix() const { return multigrid_.matrix(); }
   double nonzeros() const;
@@ -30,11 +30,10 @@ class BandedMultigrid {
  private:
   struct Work {
     Multigrid::Work cycle;
-    VecX r, dx;  // all unknowns
+    VecX r;  // all unknowns
     VecX in_band;
   };
   void precondition(const VecX& b, VecX& x, Work& work, const Task& task) const;
-  void add_in_band(const VecX& r, VecX& x) const;
 
   Multigrid multigrid_;
   std::vector<int> band_;  // unknowns, ascending

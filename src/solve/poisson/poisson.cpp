@@ -301,7 +301,7 @@ VecX Poisson::solve_levels(const VecX& b, const LevelRows& rows, const Task& tas
   for (; step < max_steps; ++step) {
     task.checkpoint();
     const VecX dx = system.approximate(
-        r, at, rounds,
+        std::move(r), at, rounds,
         [&](const MatX& dx_at) -> MatX {
           const VecX there = A_at * dx_at;
           if (twice) {

@@ -8,7 +8,6 @@ install(DIRECTORY include/littoral DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES python/torus_fit.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/littoral)
 install(EXPORT littoral_targets NAMESPACE littoral:: DESTINATION ${littoral_config_dir})
 
-set(littoral_uses_blas ${BLAS_FOUND})
 configure_package_config_file(cmake/littoral-config.cmake.in littoral-config.cmake
                               INSTALL_DESTINATION ${littoral_config_dir})
 write_basic_package_version_file(littoral-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -12,7 +12,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build_packages=(build-essential cmake ninja-build ccache libeigen3-dev
-  libopenblas-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libopenvdb-dev
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libopenvdb-dev
   libtbb-dev libboost-dev libimath-dev)
 test_packages=(git clang-14 libclang-rt-14-dev libpng-dev libgtest-dev libgmock-dev librapidcheck-dev
   liblemon-dev libbenchmark-dev python3-venv chromium doxygen)

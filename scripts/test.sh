@@ -19,7 +19,7 @@ jobs="${JOBS:-$(nproc)}"
 venv="$PWD/build/venv/bin"
 logs="$PWD/build/test-logs"
 check_stages=(files format tools docs quick package pages)
-test_stages=(files format tools docs release cli install wheel pages permissive sanitize threads fuzz viewer web)
+test_stages=(files format tools docs release cli install wheel pages sanitize threads fuzz viewer web)
 long_stages=(slow sanitize_slow sanitize_package clusters soak fuzz_long mutate firefox studies single aarch64)
 all_stages=("${test_stages[@]}" quick package "${long_stages[@]}")
 
@@ -41,7 +41,7 @@ compilers=()
 # stages that run side by side read it.
 build_release() {
   local compilers=(-DLITTORAL_PYTHON=ON -DPython_EXECUTABLE="$venv/python")
-  [[ -f $logs/release.built && "$*" != *permissive* ]] && return
+  [[ -f $logs/release.built ]] && return
   build release "$@" && { [ $# -gt 0 ] || touch "$logs/release.built"; }
 }
 viewer_packages() {  # once, as `npm ci` takes away what another stage may be running
@@ -103,13 +103,6 @@ stage_wheel() {
 }
 
 stage_install() { build_release && scripts/test_install.sh build/release; }
-
-# Without BLAS: one file is compiled again, everything else is the release's.
-stage_permissive() {
-  build_release --target littoral_tests_permissive &&
-    ! ldd build/release/tests/littoral_tests_permissive | grep -i blas &&
-    run_tests release/tests/littoral_tests_permissive
-}
 
 # Address and undefined-behaviour sanitizers; the suites named *Slow* wait for `make test-long`.
 stage_sanitize() {
@@ -260,7 +253,7 @@ busy=() beside=() other=()
 for stage in "${stages[@]}"; do
   case "$stage" in
     release | quick | sanitize | threads | fuzz) busy+=("$stage") ;;
-    files | format | tools | docs | cli | install | package | wheel | pages | permissive | viewer | web) beside+=("$stage") ;;
+    files | format | tools | docs | cli | install | package | wheel | pages | viewer | web) beside+=("$stage") ;;
     *) other+=("$stage") ;;
   esac
 done

@@ -13,7 +13,7 @@ mkdir -p "$out"
 
 # What the build was configured with stays as it is: its objects are linked, nothing is compiled twice.
 kept=()
-for name in BLAS OPENVDB TESTS; do
+for name in OPENVDB TESTS; do
   value=$(sed -n "s/^LITTORAL_$name:[A-Z]*=//p" "$build/CMakeCache.txt")
   kept+=("-Ccmake.define.LITTORAL_$name=$value")
 done

@@ -252,7 +252,7 @@ def test_memory_that_is_foreseen_not_to_suffice(scans: Path) -> None:
 
 
 def test_no_more_threads_than_the_memory_limit_has_room_for(scans: Path) -> None:
-    """OpenBLAS waits for ever where it cannot reserve its 128 MB for a thread."""
+    """Each reserves a stack, and room for copies of blocks."""
     (scans / "square.obj").write_text(square(60))
     words = ("--verb", "distance", "--vertex", "0", "--method", "signed-heat", "--threads", "64")
     limits = ("--memory-limit", "200MB", "--time-limit", "20")

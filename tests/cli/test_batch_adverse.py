@@ -166,7 +166,6 @@ def test_no_place_for_threads() -> None:
             return subprocess.run(
                 [PROGRAM, *words], cwd=folder, capture_output=True, text=True, timeout=60,
                 user=UNUSED_USER, group=UNUSED_USER, extra_groups=[], preexec_fn=limit,
-                env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
             )  # fmt: skip
 
         made = alone("distance", "a.obj", "--vertex", "0", "-o", "a.ply")

@@ -208,7 +208,7 @@ def test_ctrl_c_ends_a_write_that_nobody_reads(tmp_path: Path) -> None:
 
 
 def test_no_thread_waits_beside_the_program(tmp_path: Path) -> None:
-    """OpenBLAS starts one a core as it is loaded, which all look for work for a while."""
+    """Libraries may start some as they are loaded, which look for work for a while."""
     os.mkfifo(tmp_path / "slow.obj")  # reading waits until somebody writes
     words = [PROGRAM, "info", "slow.obj"]
     with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE) as program:

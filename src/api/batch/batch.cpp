@@ -23,7 +23,7 @@
 #include "base/platform/process.h"
 #include "base/sha256.h"
 #include "littoral/error.h"
-#include "solve/direct/dense_kernels.h"
+#include "solve/direct/dense_products.h"
 
 namespace littoral {
 
@@ -81,9 +81,12 @@ BatchOutcome outcome_of(const Call& call) {
   }
 }
 
+// Its stack, and what the products of blocks are copied to.
+constexpr double bytes_of_a_thread = (8 << 20) + double(dense::bytes_of_copies);
+
 /// In the child: tells the hash first, so that it is known whatever happens after it.
 void do_job(const BatchWork& work, const std::string& request, const ForkServer::Tell& tell) {
-  const double room = available_memory() / dense::bytes_of_a_thread();  // for threads beside this
+  const double room = available_memory() / bytes_of_a_thread;  // for threads beside this
   set_most_threads(1 + static_cast<int>(std::min(room, 1e6)));
   const std::vector<std::string> texts = separated(request);
   const fs::path folder = texts.at(0);
@@ -368,7 +371,6 @@ struct Batch::Impl {
 };
 
 Batch::Batch(BatchWork work) : impl_(std::make_unique<Impl>()) {
-  dense::use_one_thread();
   const ForkServer::Hooks hooks{work.before_fork, work.after_fork_in_parent,
                                 work.after_fork_in_child};
   impl_->server = std::make_unique<ForkServer>(

@@ -10,7 +10,8 @@
 #include "base/parallel_forest.h"
 #include "base/platform/large_pages.h"
 #include "littoral/error.h"
-#include "solve/direct/dense_kernels.h"
+#include "solve/direct/dense_products.h"
+#include "solve/direct/supernode_kernels.h"
 
 namespace littoral {
 
@@ -19,11 +20,11 @@ namespace {
 constexpr int small_front = 96;            // rows of a front that is factored by loops
 constexpr std::size_t super_grain = 4096;  // supernodes, for loops that only move numbers
 
-/// C := C - A A^*, C the first m columns of it, rows x m, lower part; in pieces short enough to be
-/// cancelled between.
+/// C := C - A A^*, or -A A^*, C the first m columns of it, rows x m, lower part; in pieces short
+/// enough to be cancelled between.
 template <class Scalar>
 void subtract_trapezoid(int rows, int m, int k, const Scalar* A, int lda, Scalar* C, int ldc,
-                        const Task& task) {
+                        bool from_zero, const Task& task) {
   const double enough = 1e8;
   const int width =
       std::clamp(static_cast<int>(enough / (double(rows) * std::max(1, k) + 1)), 64, 1 << 20);
@@ -31,8 +32,8 @@ void subtract_trapezoid(int rows, int m, int k, const Scalar* A, int lda, Scalar
     stop_if_cancelled(task);
     const int w = std::min(width, m - j);
     Scalar* D = C + j + index(j) * ldc;
-    dense::subtract_square(w, k, A + j, lda, D, ldc);
-    dense::subtract_product(rows - j - w, w, k, A + j + w, lda, A + j, lda, D + w, ldc);
+    dense::subtract_product<Scalar>(rows - j, w, k, {A + j, 1, lda}, {A + j, lda, 1, true}, D, ldc,
+                                    {.lower = true, .from_zero = from_zero});
   }
 }
 
@@ -46,16 +47,15 @@ bool factor_columns(int height, int columns, Scalar* block, const Task& task) {
     if (!dense::cholesky(w, D, height)) return false;
     dense::solve_right(rest, w, D, height, D + w, height);
     subtract_trapezoid(rest, columns - j - w, w, D + w, height, D + w + index(w) * height, height,
-                       task);
+                       false, task);
   }
   return true;
 }
 
-/// A square of which the lower half is zero, the upper one anything.
+/// A square of anything.
 template <class Scalar>
-std::shared_ptr<Scalar[]> lower_zeros(int n) {
+std::shared_ptr<Scalar[]> square(int n) {
   auto* at = static_cast<Scalar*>(::operator new(std::size_t(n) * n * sizeof(Scalar)));
-  for (int j = 0; j < n; ++j) std::fill_n(at + j + index(j) * n, n - j, Scalar(0));
   return {at, [](Scalar* p) { ::operator delete(p); }};
 }
 
@@ -128,7 +128,7 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
   if (!node.block) node.block = std::shared_ptr<Scalar[]>(new Scalar[size]);
   Scalar* block = node.block.get();
   std::fill_n(block, size, Scalar(0));
-  node.update = lower_zeros<Scalar>(below);
+  node.update = square<Scalar>(below);
   Scalar* update = node.update.get();
   const Scalar* values = lower.valuePtr();
   for (int k = 0; k < columns; ++k)
@@ -137,24 +137,30 @@ void Cholesky<Scalar>::factor_supernode(const Matrix& lower, int s, const Task& 
       block[E.entry_row[e] + index(k) * height] +=
           from >= 0 ? values[from] : Eigen::numext::conj(values[~from]);
     }
-  for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
-    const int child = E.children[c], m = E.below(child);
-    const int* place = E.at_parent.data() + E.rows_begin[child];
-    const Scalar* passed_on = supernodes_[child].update.get();
-    for (int j = 0; j < m; ++j, passed_on += m) {
-      const std::ptrdiff_t p = place[j];
-      Scalar* column = p < columns ? block + p * height : update + (p - columns) * below - columns;
-      for (int i = j; i < m; ++i) column[place[i]] += passed_on[i];
+  // What children pass on, of the columns here before these are eliminated, of the rest afterwards.
+  const auto add_children = [&](bool own) {
+    for (int c = E.child_begin[s]; c < E.child_begin[s + 1]; ++c) {
+      const int child = E.children[c], m = E.below(child);
+      const int* place = E.at_parent.data() + E.rows_begin[child];
+      const int end = static_cast<int>(std::lower_bound(place, place + m, columns) - place);
+      for (int j = own ? 0 : end; j < (own ? end : m); ++j) {
+        const Scalar* passed_on = supernodes_[child].update.get() + index(j) * m;
+        const std::ptrdiff_t p = place[j];
+        Scalar* column = own ? block + p * height : update + (p - columns) * below - columns;
+        for (int i = j; i < m; ++i) column[place[i]] += passed_on[i];
+      }
+      if (!own && !to_be_patched_) supernodes_[child].update.reset();
     }
-    if (!to_be_patched_) supernodes_[child].update.reset();
-  }
+  };
+  add_children(true);
   const bool small = columns <= dense::small_supernode && height <= small_front;
   if (small ? !dense::factor_small(columns, height, block, update)
             : !factor_columns(height, columns, block, task))
     throw SolveError("the matrix is not positive definite (near unknown " +
                      std::to_string(E.old_of[E.first[s]]) + ")");
   if (!small)
-    subtract_trapezoid(below, below, columns, block + columns, height, update, below, task);
+    subtract_trapezoid(below, below, columns, block + columns, height, update, below, true, task);
+  add_children(false);
 }
 
 template <class Scalar>
@@ -302,13 +308,7 @@ void Cholesky<Scalar>::forward(int t, const std::vector<char>& active, Dense& x,
     if (y.rows() < below || y.cols() != n_rhs)
       y.resize(std::max<Eigen::Index>(below, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
-    if (n_rhs == 1 && columns <= dense::small_supernode) {
-      dense::forward_small(columns, height, block, &x(E.first[s], 0), y.data());
-    } else {
-      dense::forward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
-      dense::times(below, columns, n_rhs, block + columns, height, &x(E.first[s], 0), E.n, y.data(),
-                   ldy);
-    }
+    dense::forward(columns, height, n_rhs, block, &x(E.first[s], 0), E.n, y.data(), ldy);
     const int* target = E.target.data() + E.rows_begin[s];
     for (int k = 0; k < n_rhs; ++k)
       for (int i = 0; i < below; ++i) subtract_at(target[i], k) -= y(i, k);
@@ -331,20 +331,13 @@ void Cholesky<Scalar>::backward(int t, const std::vector<char>& active, Dense& x
       y.resize(std::max<Eigen::Index>(height, 2 * y.rows()), n_rhs);
     const int ldy = y.rows();
     const int* rows = E.rows.data() + E.rows_begin[s];
-    if (n_rhs == 1 && columns <= dense::small_supernode) {
-      Scalar* v = y.data();
-      Scalar* own = &x(E.first[s], 0);
-      std::copy(own, own + columns, v);
-      for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], 0);
-      dense::backward_small(columns, height, block, v);
-      std::copy(v, v + columns, own);
-      continue;
+    for (int k = 0; k < n_rhs; ++k) {
+      Scalar *v = &y(0, k), *own = &x(E.first[s], k);
+      std::copy_n(own, columns, v);
+      for (int i = 0; i < below; ++i) v[columns + i] = x(rows[i], k);
     }
-    for (int k = 0; k < n_rhs; ++k)
-      for (int i = 0; i < below; ++i) y(i, k) = x(rows[i], k);
-    dense::subtract_adjoint(below, columns, n_rhs, block + columns, height, y.data(), ldy,
-                            &x(E.first[s], 0), E.n);
-    dense::backward(columns, n_rhs, block, height, &x(E.first[s], 0), E.n);
+    dense::backward(columns, height, n_rhs, block, y.data(), ldy);
+    for (int k = 0; k < n_rhs; ++k) std::copy_n(&y(0, k), columns, &x(E.first[s], k));
   }
 }
 

@@ -1,6 +1,8 @@
-// Small supernodes: factored, which is half of the time of a first solve, and passed by one
-// right-hand side, most of that of a repeated one. Four doubles at once where the processor can,
-// which is asked when the program runs.
+// Blocks of supernodes: small ones factored by columns, which is half of the time of a first solve,
+// and all passed by right-hand sides, most of that of a repeated one. Four doubles at once where
+// the processor can, which is asked when the program runs.
+
+#include "solve/direct/supernode_kernels.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -8,7 +10,7 @@
 #include <cmath>
 
 #include "base/index.h"
-#include "solve/direct/dense_kernels.h"
+#include "solve/direct/dense_products.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
@@ -47,9 +49,9 @@ template <class Scalar>
   }
 }
 
-enum class Into { replaced, subtracted };
+enum class Into { replaced, added, subtracted };
 
-/// y := A x or y := y - A x, and x := x - A^* y, A m x n.
+/// y := A x, y + A x or y - A x, and x := x - A^* y, A m x n.
 template <Into into, class Scalar>
 void times_plain(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* y) {
   Eigen::Map<Column<Scalar>> out(y, m);
@@ -83,15 +85,18 @@ LITTORAL_AVX2 inline double sum(__m256d v) {
   return _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)));
 }
 
-/// Puts s to y, or subtracts it there.
+/// Puts s to y, or adds or subtracts it there.
 template <Into into>
 LITTORAL_AVX2 inline void put(double* y, __m256d s) {
-  _mm256_storeu_pd(y, into == Into::subtracted ? _mm256_sub_pd(_mm256_loadu_pd(y), s) : s);
+  if constexpr (into == Into::added) s = _mm256_add_pd(_mm256_loadu_pd(y), s);
+  if constexpr (into == Into::subtracted) s = _mm256_sub_pd(_mm256_loadu_pd(y), s);
+  _mm256_storeu_pd(y, s);
 }
 template <Into into>
 LITTORAL_AVX2 inline void put(double* y, __m256i mask, __m256d s) {
-  _mm256_maskstore_pd(y, mask,
-                      into == Into::subtracted ? _mm256_sub_pd(_mm256_maskload_pd(y, mask), s) : s);
+  if constexpr (into == Into::added) s = _mm256_add_pd(_mm256_maskload_pd(y, mask), s);
+  if constexpr (into == Into::subtracted) s = _mm256_sub_pd(_mm256_maskload_pd(y, mask), s);
+  _mm256_maskstore_pd(y, mask, s);
 }
 
 template <Into into>
@@ -207,20 +212,13 @@ LITTORAL_AVX2 void subtract_adjoint_of(int m, const Complex* A, std::ptrdiff_t l
   for (int j = 0; j < columns; ++j) x[j] -= Complex(sum(s[j]), sum(_mm256_xor_pd(t[j], minus_odd)));
 }
 
-/// v := L^-* (v - A^* of what is below), the last of n columns first, v being `height` long.
-template <int columns, class Scalar>
-LITTORAL_AVX2 void backward_columns(int j, int height, const Scalar* block, Scalar* v) {
-  const Scalar* A = block + j + index(j) * height;
-  subtract_adjoint_of<columns>(height - j - columns, A + columns, height, v + j + columns, v + j);
-  backward_top(columns, height, A, v + j);
-}
-
 template <class Scalar>
-LITTORAL_AVX2 void backward(int n, int height, const Scalar* block, Scalar* v) {
-  for (; n >= 4; n -= 4) backward_columns<4>(n - 4, height, block, v);
-  if (n == 3) backward_columns<3>(0, height, block, v);
-  if (n == 2) backward_columns<2>(0, height, block, v);
-  if (n == 1) backward_columns<1>(0, height, block, v);
+LITTORAL_AVX2 void subtract_adjoint(int m, int n, const Scalar* A, int lda, const Scalar* y,
+                                    Scalar* x) {
+  if (n == 4) return subtract_adjoint_of<4>(m, A, lda, y, x);
+  if (n == 3) return subtract_adjoint_of<3>(m, A, lda, y, x);
+  if (n == 2) return subtract_adjoint_of<2>(m, A, lda, y, x);
+  subtract_adjoint_of<1>(m, A, lda, y, x);
 }
 
 #endif
@@ -233,55 +231,138 @@ void times_any(int m, int n, const Scalar* A, int lda, const Scalar* x, Scalar* 
   times_plain<into>(m, n, A, lda, x, y);
 }
 
-/// y := y - A r^*, r being the first row of A, m x n; n is small.
+/// n is four at most.
 template <class Scalar>
+void subtract_adjoint_any(int m, int n, const Scalar* A, int lda, const Scalar* y, Scalar* x) {
+#ifdef LITTORAL_AVX2
+  if (has_avx2()) return subtract_adjoint(m, n, A, lda, y, x);
+#endif
+  subtract_adjoint_plain(m, n, A, lda, y, x);
+}
+
+/// y := y - A r^*, or -A r^*, r being the first row of A, m x n; n is small.
+template <Into into, class Scalar>
 void subtract_by_first_row(int m, int n, const Scalar* A, int lda, Scalar* y) {
+  constexpr double sign = into == Into::replaced ? -1 : 1;
   std::array<Scalar, small_supernode> x;
-  for (int j = 0; j < n; ++j) x[j] = Eigen::numext::conj(A[index(j) * lda]);
-  times_any<Into::subtracted>(m, n, A, lda, x.data(), y);
+  for (int j = 0; j < n; ++j) x[j] = sign * Eigen::numext::conj(A[index(j) * lda]);
+  times_any<into>(m, n, A, lda, x.data(), y);
+}
+
+/// Factors n columns in place, all `rows` of them, one after the other; n is small.
+template <class Scalar>
+bool factor_by_columns(int n, int rows, Scalar* A, int lda) {
+  for (int j = 0; j < n; ++j) {
+    Scalar* column = A + j + index(j) * lda;
+    subtract_by_first_row<Into::subtracted>(rows - j, j, A + j, lda, column);
+    const double pivot = std::real(column[0]);
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double root = std::sqrt(pivot), factor = 1 / root;
+    column[0] = root;
+    for (int i = 1; i < rows - j; ++i) column[i] *= factor;
+  }
+  return true;
+}
+
+constexpr int few = 4;     // right-hand sides that pass one by one
+constexpr int panel = 24;  // columns that one right-hand side passes at once, and many
+static_assert(small_supernode <= panel);
+
+template <class Scalar>
+void forward_one(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
+  const int below = height - n;
+  for (int j = 0; j < n; j += panel) {
+    const int w = std::min(panel, n - j);
+    const Scalar *D = block + j + index(j) * height, *A = block + n + index(j) * height;
+    forward_top(w, height, D, x + j);
+    times_any<Into::subtracted>(n - j - w, w, D + w, height, x + j, x + j + w);
+    if (j == 0)
+      times_any<Into::replaced>(below, w, A, height, x, y);
+    else
+      times_any<Into::added>(below, w, A, height, x + j, y);
+  }
+}
+
+template <class Scalar>
+void backward_one(int n, int height, const Scalar* block, Scalar* v) {
+  while (n > 0) {
+    const int w = std::min(4, n);
+    n -= w;
+    const Scalar* D = block + n + index(n) * height;
+    subtract_adjoint_any(height - n - w, w, D + w, height, v + n + w, v + n);
+    backward_top(w, height, D, v + n);
+  }
 }
 
 }  // namespace
 
 template <class Scalar>
-bool factor_small(int n, int height, Scalar* block, Scalar* C) {
-  for (int j = 0; j < n; ++j) {
-    Scalar* column = block + j + index(j) * height;
-    subtract_by_first_row(height - j, j, block + j, height, column);
-    const double pivot = std::real(column[0]);
-    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-    const double root = std::sqrt(pivot), factor = 1 / root;
-    column[0] = root;
-    for (int i = 1; i < height - j; ++i) column[i] *= factor;
+bool cholesky(int n, Scalar* A, int lda) {
+  for (int j = 0; j < n; j += small_supernode) {
+    const int w = std::min(small_supernode, n - j), below = n - j - w;
+    Scalar *D = A + j + index(j) * lda, *B = D + w;
+    if (!factor_by_columns(w, w, D, lda)) return false;
+    solve_right(below, w, D, lda, B, lda);
+    subtract_product<Scalar>(below, below, w, {B, 1, lda}, {B, lda, 1, true}, B + index(w) * lda,
+                             lda, {.lower = true});
   }
+  return true;
+}
+
+template <class Scalar>
+bool factor_small(int n, int height, Scalar* block, Scalar* C) {
+  if (!factor_by_columns(n, height, block, height)) return false;
   const int below = height - n;
   for (int j = 0; j < below; ++j, C += below + 1) {
-    subtract_by_first_row(below - j, n, block + n + j, height, C);
+    subtract_by_first_row<Into::replaced>(below - j, n, block + n + j, height, C);
     C[0] = std::real(C[0]);
   }
   return true;
 }
 
 template <class Scalar>
-void forward_small(int n, int height, const Scalar* block, Scalar* x, Scalar* y) {
-  forward_top(n, height, block, x);
-  times_any<Into::replaced>(height - n, n, block + n, height, x, y);
+void forward(int n, int height, int k, const Scalar* block, Scalar* x, int ldx, Scalar* y,
+             int ldy) {
+  if (k <= few) {
+    for (int c = 0; c < k; ++c)
+      forward_one(n, height, block, x + index(c) * ldx, y + index(c) * ldy);
+    return;
+  }
+  for (int j = 0; j < n; j += panel) {
+    const int w = std::min(panel, n - j);
+    const Scalar* D = block + j + index(j) * height;
+    for (int c = 0; c < k; ++c) forward_top(w, height, D, x + j + index(c) * ldx);
+    subtract_product<Scalar>(n - j - w, k, w, {D + w, 1, height}, {x + j, 1, ldx}, x + j + w, ldx);
+  }
+  const int below = height - n;
+  for (int c = 0; c < k; ++c) std::fill_n(y + index(c) * ldy, below, Scalar(0));
+  subtract_product<Scalar>(below, k, n, {block + n, 1, height}, {x, 1, ldx}, y, ldy);
+  for (int c = 0; c < k; ++c)
+    for (int i = 0; i < below; ++i) y[i + index(c) * ldy] = -y[i + index(c) * ldy];
 }
 
 template <class Scalar>
-void backward_small(int n, int height, const Scalar* block, Scalar* v) {
-#ifdef LITTORAL_AVX2
-  if (has_avx2()) return backward(n, height, block, v);
-#endif
-  subtract_adjoint_plain(height - n, n, block + n, height, v + n, v);
-  backward_top(n, height, block, v);
+void backward(int n, int height, int k, const Scalar* block, Scalar* v, int ldv) {
+  if (k <= few) {
+    for (int c = 0; c < k; ++c) backward_one(n, height, block, v + index(c) * ldv);
+    return;
+  }
+  subtract_product<Scalar>(n, k, height - n, {block + n, height, 1, true}, {v + n, 1, ldv}, v, ldv);
+  for (int j = (n - 1) / panel * panel; j >= 0; j -= panel) {
+    const int w = std::min(panel, n - j);
+    for (int c = 0; c < k; ++c)
+      backward_top(w, height, block + j + index(j) * height, v + j + index(c) * ldv);
+    subtract_product<Scalar>(j, k, w, {block + j, height, 1, true}, {v + j, 1, ldv}, v, ldv);
+  }
 }
 
-template bool factor_small(int, int, double*, double*);
-template bool factor_small(int, int, Complex*, Complex*);
-template void forward_small(int, int, const double*, double*, double*);
-template void forward_small(int, int, const Complex*, Complex*, Complex*);
-template void backward_small(int, int, const double*, double*);
-template void backward_small(int, int, const Complex*, Complex*);
+#define LITTORAL_SUPERNODES(S)                                      \
+  template bool cholesky(int, S*, int);                             \
+  template bool factor_small(int, int, S*, S*);                     \
+  template void forward(int, int, int, const S*, S*, int, S*, int); \
+  template void backward(int, int, int, const S*, S*, int);
+LITTORAL_SUPERNODES(double)
+LITTORAL_SUPERNODES(Complex)
+#undef LITTORAL_SUPERNODES
 
 }  // namespace littoral::dense

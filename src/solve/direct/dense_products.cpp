@@ -1,0 +1,289 @@
+#include "solve/direct/dense_products.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <type_traits>
+
+#include "base/index.h"
+#include "base/kernel_choice.h"
+#include "littoral/types.h"
+#include "solve/direct/dense_tiles.h"
+
+namespace littoral::dense {
+
+namespace {
+
+// Bounds of what is copied at once: of A `deep` columns and `tall` rows, which stay in the cache of
+// a core, of B `wide` columns. They do not depend on tiles, so that sums are made alike for all.
+template <class Scalar>
+constexpr int deep = std::is_same_v<Scalar, double> ? 256 : 192;
+template <class Scalar>
+constexpr int tall = std::is_same_v<Scalar, double> ? 192 : 96;
+template <class Scalar>
+constexpr int wide = std::is_same_v<Scalar, double> ? 1024 : 512;
+
+constexpr int narrow = 32;  // columns of a triangle that rows are solved with
+
+constexpr int up(int n, int step) { return (n + step - 1) / step * step; }
+
+/// Copies of a thread's own.
+struct Copies {
+  static constexpr std::size_t a_size = 192 * 256 + 4096, b_size = 1024 * 256 + 8192;
+  struct Free {
+    void operator()(double* at) const { ::operator delete[](at, std::align_val_t(64)); }
+  };
+  using Array = std::unique_ptr<double[], Free>;
+  static Array array(std::size_t size) {
+    return Array(
+        static_cast<double*>(::operator new[](size * sizeof(double), std::align_val_t(64))));
+  }
+  Array a = array(a_size), b = array(b_size);
+
+  static_assert((a_size + b_size) * sizeof(double) <= bytes_of_copies);
+
+  static const Copies& of_this_thread() {
+    static thread_local const Copies copies;
+    return copies;
+  }
+};
+
+/// Rows of A, `rows` at a time and of each column one after the other, zeros to fill: of complex
+/// numbers first the real parts of a column's rows.
+template <int rows, class Scalar>
+void copy_rows(int m, int k, const Operand<Scalar>& A, double* to) {
+  for (int i = 0; i < m; i += rows) {
+    const int n = std::min(rows, m - i);
+    const Scalar* from = A.at + i * A.row;
+    for (int l = 0; l < k; ++l, from += A.column) {
+      if constexpr (std::is_same_v<Scalar, double>) {
+        if (n == rows && A.row == 1)
+          for (int r = 0; r < rows; ++r) to[r] = from[r];
+        else {
+          for (int r = 0; r < n; ++r) to[r] = from[r * A.row];
+          std::fill(to + n, to + rows, 0.0);
+        }
+        to += rows;
+      } else {
+        const double sign = A.conjugated ? -1 : 1;
+        if (n == rows && A.row == 1)
+          for (int r = 0; r < rows; ++r)
+            to[r] = from[r].real(), to[rows + r] = sign * from[r].imag();
+        else
+          for (int r = 0; r < rows; ++r) {
+            const Scalar a = r < n ? from[r * A.row] : Scalar(0);
+            to[r] = a.real(), to[rows + r] = sign * a.imag();
+          }
+        to += 2 * rows;
+      }
+    }
+  }
+}
+
+/// Columns of -B, `columns` at a time and of each row one after the other.
+template <int columns, class Scalar>
+void copy_columns(int k, int n, const Operand<Scalar>& B, double* to) {
+  for (int j = 0; j < n; j += columns) {
+    const int own = std::min(columns, n - j);
+    const Scalar* from = B.at + j * B.column;
+    for (int l = 0; l < k; ++l, from += B.row)
+      for (int c = 0; c < columns; ++c) {
+        const Scalar b = c < own ? from[c * B.column] : Scalar(0);
+        if constexpr (std::is_same_v<Scalar, double>) {
+          *to++ = -b;
+        } else {
+          *to++ = -b.real();
+          *to++ = B.conjugated ? b.imag() : -b.imag();
+        }
+      }
+  }
+}
+
+template <class T, class Scalar, class SolveRows>
+void solve(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb, SolveRows solve_rows) {
+  constexpr int rows = T::rows * int(sizeof(double)) / int(sizeof(Scalar));
+  int i = 0;
+  for (; i + rows <= m; i += rows) solve_rows(n, L, ldl, B + i, ldb);
+  if (i == m) return;
+  Scalar last[rows * narrow] = {};
+  for (int j = 0; j < n; ++j) std::copy_n(B + i + index(j) * ldb, m - i, last + j * rows);
+  solve_rows(n, L, ldl, last, rows);
+  for (int j = 0; j < n; ++j) std::copy_n(last + j * rows, m - i, B + i + index(j) * ldb);
+}
+
+template <class T, class Scalar, class Add>
+void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B, Scalar* C,
+              int ldc, const ProductOptions& options, Add add) {
+  if (m == 0 || n == 0 || (k == 0 && !options.from_zero)) return;
+  constexpr int numbers = std::is_same_v<Scalar, double> ? 1 : 2;
+  constexpr int high = tall<Scalar>, far = wide<Scalar>;
+  static_assert(std::size_t(up(high, T::rows)) * deep<Scalar> * numbers <= Copies::a_size);
+  static_assert(std::size_t(up(far, T::columns)) * deep<Scalar> * numbers <= Copies::b_size);
+  const Copies& copies = Copies::of_this_thread();
+  Scalar own[T::rows * T::columns];
+  for (int j0 = 0; j0 < n; j0 += far) {
+    const int columns = std::min(far, n - j0);
+    for (int l0 = 0; l0 == 0 || l0 < k; l0 += deep<Scalar>) {
+      const int depth = std::min(deep<Scalar>, k - l0);
+      copy_columns<T::columns>(
+          depth, columns,
+          Operand<Scalar>{B.at + l0 * B.row + j0 * B.column, B.row, B.column, B.conjugated},
+          copies.b.get());
+      for (int i0 = options.lower ? j0 / T::rows * T::rows : 0; i0 < m; i0 += high) {
+        const int rows = std::min(high, m - i0);
+        copy_rows<T::rows>(
+            rows, depth,
+            Operand<Scalar>{A.at + i0 * A.row + l0 * A.column, A.row, A.column, A.conjugated},
+            copies.a.get());
+        for (int j = 0; j < columns; j += T::columns) {
+          const double* b = copies.b.get() + std::ptrdiff_t(j) * depth * numbers;
+          const int tile_columns = std::min(T::columns, columns - j);
+          for (int i = 0; i < rows; i += T::rows) {
+            const int first = i0 + i, column = j0 + j, tile_rows = std::min(T::rows, rows - i);
+            if (options.lower && first + tile_rows <= column) continue;
+            const double* a = copies.a.get() + std::ptrdiff_t(i) * depth * numbers;
+            Scalar* c = C + first + index(column) * ldc;
+            const bool below = !options.lower || first >= column + tile_columns;
+            if (options.from_zero && l0 == 0)
+              for (int q = 0; q < tile_columns; ++q) {
+                const int p = below ? 0 : std::clamp(column + q - first, 0, tile_rows);
+                std::fill_n(c + p + q * std::ptrdiff_t(ldc), tile_rows - p, Scalar(0));
+              }
+            if (below && tile_rows == T::rows && tile_columns == T::columns) {
+              add(depth, a, b, c, ldc);
+              continue;
+            }
+            std::fill_n(own, T::rows * T::columns, Scalar(0));
+            add(depth, a, b, own, T::rows);
+            for (int q = 0; q < tile_columns; ++q)
+              for (int p = below ? 0 : std::max(0, column + q - first); p < tile_rows; ++p) {
+                Scalar& to = c[p + q * std::ptrdiff_t(ldc)];
+                to += own[p + q * T::rows];
+                if (!below && first + p == column + q) to = std::real(to);
+              }
+          }
+        }
+      }
+    }
+  }
+}
+
+// Sixteen registers of two doubles, or thirty-two: sums and what they are made of.
+#if defined(__aarch64__)
+template <class Scalar>
+using PlainTile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<2, 4, 6>, Tile<2, 2, 5>>;
+#else
+template <class Scalar>
+using PlainTile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<2, 2, 4>, Tile<2, 1, 4>>;
+#endif
+using PlainRows = Tile<2, 4, 0>;
+template <class Scalar>
+void plain_tile(int k, const double* a, const double* b, Scalar* C, std::ptrdiff_t ldc) {
+  add_tile_of<PlainTile<Scalar>>(k, a, b, C, ldc);
+}
+template <class Scalar>
+void plain_rows(int n, const Scalar* L, std::ptrdiff_t ldl, Scalar* B, std::ptrdiff_t ldb) {
+  solve_rows_of<PlainRows>(n, L, ldl, B, ldb);
+}
+
+#if defined(__x86_64__)
+#define LITTORAL_TILES_AVX2 "avx2,fma"
+#define LITTORAL_TILES_AVX512 LITTORAL_AVX512 ",avx2,fma"
+template <class Scalar>
+using Avx2Tile = std::conditional_t<std::is_same_v<Scalar, double>, Tile<4, 2, 6>, Tile<4, 1, 6>>;
+using Avx2Rows = Tile<4, 4, 0>;
+template <class Scalar>
+using Avx512Tile =
+    std::conditional_t<std::is_same_v<Scalar, double>, Tile<8, 2, 12>, Tile<8, 2, 6>>;
+using Avx512Rows = Tile<8, 4, 0>;
+
+template <class Scalar>
+[[gnu::target(LITTORAL_TILES_AVX2)]] void avx2_tile(int k, const double* a, const double* b,
+                                                    Scalar* C, std::ptrdiff_t ldc) {
+  add_tile_of<Avx2Tile<Scalar>>(k, a, b, C, ldc);
+}
+template <class Scalar>
+[[gnu::target(LITTORAL_TILES_AVX2)]] void avx2_rows(int n, const Scalar* L, std::ptrdiff_t ldl,
+                                                    Scalar* B, std::ptrdiff_t ldb) {
+  solve_rows_of<Avx2Rows>(n, L, ldl, B, ldb);
+}
+template <class Scalar>
+[[gnu::target(LITTORAL_TILES_AVX512)]] void avx512_tile(int k, const double* a, const double* b,
+                                                        Scalar* C, std::ptrdiff_t ldc) {
+  add_tile_of<Avx512Tile<Scalar>>(k, a, b, C, ldc);
+}
+template <class Scalar>
+[[gnu::target(LITTORAL_TILES_AVX512)]] void avx512_rows(int n, const Scalar* L, std::ptrdiff_t ldl,
+                                                        Scalar* B, std::ptrdiff_t ldb) {
+  solve_rows_of<Avx512Rows>(n, L, ldl, B, ldb);
+}
+#endif
+
+template <class Scalar>
+struct Kernels {
+  void (*subtract)(int, int, int, const Operand<Scalar>&, const Operand<Scalar>&, Scalar*, int,
+                   const ProductOptions&);
+  void (*solve)(int, int, const Scalar*, int, Scalar*, int);
+
+  template <class Tile, class Rows, auto add, auto solve_rows>
+  static constexpr Kernels of() {
+    return {[](int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B, Scalar* C,
+               int ldc, const ProductOptions& options) {
+              dense::subtract<Tile>(m, n, k, A, B, C, ldc, options, add);
+            },
+            [](int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb) {
+              dense::solve<Rows>(m, n, L, ldl, B, ldb, solve_rows);
+            }};
+  }
+};
+
+template <class Scalar>
+constexpr Kernels<Scalar> plain = Kernels<Scalar>::template of<
+    PlainTile<Scalar>, PlainRows, &plain_tile<Scalar>, &plain_rows<Scalar>>();
+
+template <class Scalar>
+const Kernels<Scalar>& kernels(Instructions allowed) {
+#if defined(__x86_64__)
+  static constexpr auto avx2 =
+      Kernels<Scalar>::template of<Avx2Tile<Scalar>, Avx2Rows, &avx2_tile<Scalar>,
+                                   &avx2_rows<Scalar>>();
+  static constexpr auto avx512 =
+      Kernels<Scalar>::template of<Avx512Tile<Scalar>, Avx512Rows, &avx512_tile<Scalar>,
+                                   &avx512_rows<Scalar>>();
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  static const bool has_avx512 = has_avx2 && LITTORAL_HAS_AVX512;
+  if (has_avx512 && allowed == Instructions::any) return avx512;
+  if (has_avx2 && allowed != Instructions::plain) return avx2;
+#endif
+  return plain<Scalar>;
+}
+
+}  // namespace
+
+template <class Scalar>
+void subtract_product(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B,
+                      Scalar* C, int ldc, const ProductOptions& options) {
+  kernels<Scalar>(options.allowed).subtract(m, n, k, A, B, C, ldc, options);
+}
+
+template <class Scalar>
+void solve_right(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb, Instructions allowed) {
+  for (int j = 0; j < n; j += narrow) {
+    const int w = std::min(narrow, n - j);
+    Scalar* own = B + index(j) * ldb;
+    kernels<Scalar>(allowed).solve(m, w, L + j + index(j) * ldl, ldl, own, ldb);
+    subtract_product<Scalar>(m, n - j - w, w, {own, 1, ldb},
+                             {L + j + w + index(j) * ldl, ldl, 1, true}, own + index(w) * ldb, ldb,
+                             {.allowed = allowed});
+  }
+}
+
+#define LITTORAL_PRODUCTS(S)                                                                   \
+  template void subtract_product(int, int, int, const Operand<S>&, const Operand<S>&, S*, int, \
+                                 const ProductOptions&);                                       \
+  template void solve_right(int, int, const S*, int, S*, int, Instructions);
+LITTORAL_PRODUCTS(double)
+LITTORAL_PRODUCTS(Complex)
+#undef LITTORAL_PRODUCTS
+
+}  // namespace littoral::dense

@@ -114,7 +114,13 @@ void solve(int m, int n, const Scalar* L, int ldl, Scalar* B, int ldb, SolveRows
 template <class T, class Scalar, class Add>
 void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scalar>& B, Scalar* C,
               int ldc, const ProductOptions& options, Add add) {
-  if (m == 0 || n == 0 || (k == 0 && !options.from_zero)) return;
+  if (m == 0 || n == 0 || k == 0) {
+    for (int j = 0; options.from_zero && j < n; ++j) {
+      const int above = options.lower ? std::min(j, m) : 0;
+      std::fill_n(C + above + index(j) * ldc, m - above, Scalar(0));
+    }
+    return;
+  }
   constexpr int numbers = std::is_same_v<Scalar, double> ? 1 : 2;
   constexpr int high = tall<Scalar>, far = wide<Scalar>;
   static_assert(std::size_t(up(high, T::rows)) * deep<Scalar> * numbers <= Copies::a_size);
@@ -123,7 +129,7 @@ void subtract(int m, int n, int k, const Operand<Scalar>& A, const Operand<Scala
   Scalar own[T::rows * T::columns];
   for (int j0 = 0; j0 < n; j0 += far) {
     const int columns = std::min(far, n - j0);
-    for (int l0 = 0; l0 == 0 || l0 < k; l0 += deep<Scalar>) {
+    for (int l0 = 0; l0 < k; l0 += deep<Scalar>) {
       const int depth = std::min(deep<Scalar>, k - l0);
       copy_columns<T::columns>(
           depth, columns,

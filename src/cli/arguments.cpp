@@ -81,7 +81,9 @@ std::string help_text(CLI::App& program, const std::string& name, bool all) {
                            " --help-all adds the options of methods, littoral methods lists them.\n"
                      : "");
   }
-  return program.help("", CLI::AppFormatMode::Normal);
+  // Not program.help, which is that of the verb where one was given, `help` for one.
+  return program.get_formatter()->make_help(&program, program.get_name(),
+                                            CLI::AppFormatMode::Normal);
 }
 
 std::vector<std::string> expanded_arguments(const CLI::App& program,

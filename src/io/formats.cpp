@@ -186,6 +186,9 @@ const Format& format_to_read(const std::string& extension, const std::string& na
   }
   if (std::error_code none; std::filesystem::is_directory(name, none))
     throw InputError(name + ": cannot be read: it is a folder", "cannot-read");
+  if (std::error_code none;
+      name != "-" && extension.empty() && !std::filesystem::exists(name, none))
+    throw InputError("cannot read " + name + ": there is no such file", "cannot-read");
   const std::string text = refusal(name + ": cannot be read", name, extension, kinds, reads);
   if (format) throw UnsupportedError(text, "unknown-format");
   throw InputError(text, "unknown-format");

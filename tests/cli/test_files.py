@@ -218,3 +218,8 @@ def test_view_edit_says_what_it_cannot_do(run: Run, mesh: Path, tmp_path: Path) 
 def test_support_table_in_the_docs_is_the_registry(run: Run) -> None:
     docs = Path(__file__).parents[2] / "docs/reference/support.md"
     assert docs.read_text() == run("methods", "--markdown").stdout
+
+
+def test_a_missing_file_without_extension_is_missing(run: Run) -> None:
+    for words in (("info", "nothere"), ("sdf", "nothere", "-o", "x.npy")):
+        assert "there is no such file" in run(*words, status=2).stderr

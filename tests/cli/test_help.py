@@ -95,3 +95,10 @@ def test_bad_time_limits(run: Run, mesh: Path, limit: str) -> None:
         "distance", "square.obj", "--vertex=0", f"--time-limit={limit}", "-o", "a.txt", status=2
     )
     assert "--time-limit" in failed.stderr
+
+
+def test_help_lists_the_verbs(run: Run) -> None:
+    text = run("help").stdout
+    assert text == run("--help").stdout
+    for verb in ("distance", "sdf", "repair", "render", "help"):
+        assert any(line.split()[:1] == [verb] for line in text.splitlines()), verb

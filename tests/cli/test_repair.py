@@ -110,3 +110,16 @@ def test_neither_info_nor_repair_depends_on_the_unit(run: Run, tmp_path: Path, s
     assert sized["watertight"] is True
     report = json.loads(run("repair", "sized.obj", "-o", "kept.obj", "--json").stdout)
     assert "triangles of the input turned, share" in report["sizes"], "kept as they are"
+
+
+@pytest.mark.parametrize("option", ["--noisy", "--sharpness=2"])
+def test_options_are_looked_at_where_triangles_are_kept(
+    run: Run, tmp_path: Path, option: str
+) -> None:
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    rows = [f"v {x} {y} {z}" for x, y, z in corners]
+    (tmp_path / "closed.obj").write_text(
+        "\n".join([*rows, "f 1 3 2", "f 1 2 4", "f 2 3 4", "f 1 4 3"])
+    )
+    failed = run("repair", "closed.obj", option, "-o", "out.obj", status=2)
+    assert "has no option" in failed.stderr and "unknown-name" in failed.stderr

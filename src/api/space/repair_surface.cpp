@@ -330,6 +330,7 @@ double largest_error(const Report& report) {
 PolygonSoup repair_surface(const PolygonSoup& input, const RepairOptions& options,
                            const SpaceRequest& request, Task task, Report& report) {
   check(options, input.n_faces() == 0);
+  chosen_method<SpaceDomain>(request.method)->options(request.method);  // also where none is needed
   const bool as_it_is = !options.remesh && !request.flip && request.method.name().empty();
   const Report before = report;
   auto kept = as_it_is ? kept_surface(input, task.stage(0.3, "looking"), report) : std::nullopt;

@@ -109,7 +109,7 @@ std::string recommendation_for(const SurfaceTraits& traits) {
   text += ". distance: auto";
   if (traits.only_triangles && traits.smallest_angle < needle_angle)
     text += ", or signed-heat with option intrinsic-delaunay; the smallest angle is " +
-            number_text(std::round(10 * traits.smallest_angle) / 10) + " degrees";
+            rounded_text(traits.smallest_angle) + " degrees";
   if (!traits.only_triangles)
     text += "; quadratic and regularized need triangles (option triangulate)";
   if (traits.nonmanifold_edges > 0) text += ". winding: the dual one of option formulation";

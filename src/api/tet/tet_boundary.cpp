@@ -142,8 +142,11 @@ PolygonSoup cut_open(const io::TetFile& file, int axis, double position) {
 PolygonSoup drawn_surface(const io::TetFile& file) {
   PolygonSoup boundary = boundary_of(file);
   if (boundary.n_faces() == 0 || boundary.scalars.empty()) return boundary;
-  const VecX& values = boundary.scalars.begin()->second;
-  if (values.minCoeff() < values.maxCoeff()) return boundary;
+  const VecX& seen = boundary.scalars.begin()->second;
+  const VecX& all = file.scalars.at(boundary.scalars.begin()->first);
+  const bool one_sign = seen.minCoeff() >= 0 || seen.maxCoeff() <= 0;
+  const bool two_signs = all.minCoeff() < 0 && all.maxCoeff() > 0;
+  if (seen.minCoeff() < seen.maxCoeff() && !(one_sign && two_signs)) return boundary;
   constexpr int axis = 2;
   const double middle = boundary.points.col(axis).mean();
   const auto& tets = file.mesh.tets;

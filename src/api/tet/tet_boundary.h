@@ -16,7 +16,7 @@ PolygonSoup boundary_of(const io::TetFile& file);
 PolygonSoup cut_open(const io::TetFile& file, int axis, double position);
 
 /// What pictures show: the boundary, cut open in the middle where its field has one value all over,
-/// as distance from it has.
+/// as distance from it has, or one sign where the tets inside have both.
 PolygonSoup drawn_surface(const io::TetFile& file);
 
 /// Writes tets with their only field by extension: all of it, a table of its values, or the

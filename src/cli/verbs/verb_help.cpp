@@ -82,10 +82,10 @@ void help(const HelpArguments& arguments, CLI::App& program) {
     write_manual(program, arguments.manual);
   else if (arguments.markdown)
     print_verbs(program);
-  else if (arguments.verb.empty())
-    std::cout << program.help("", CLI::AppFormatMode::Normal);
   else
-    std::cout << help_text(program, verb_named(program, arguments.verb).get_name(), false);
+    std::cout << help_text(
+        program, arguments.verb.empty() ? "" : verb_named(program, arguments.verb).get_name(),
+        false);
 }
 
 }  // namespace

@@ -33,13 +33,21 @@ constexpr int traced_nodes = 64, slice_nodes = 128;  // along the longest side
 
 /// Options about volumes, as given.
 struct VolumeViewArguments {
-  std::string axis = "z", position, level;
-  int axis_number() const { return axis.front() - 'x'; }
+  std::string axis, position, level;
+  int axis_number() const { return axis.empty() ? 2 : axis.front() - 'x'; }
   double slice_at(const Vec3& low, const Vec3& high) const {
     const int a = axis_number();
-    return parse_place("slice", position, low[a], high[a]);
+    return parse_place("slice", position.empty() ? "50%" : position, low[a], high[a]);
   }
   bool no_surface = false;
+
+  /// The first of them that was given, if any.
+  std::string given() const {
+    if (!axis.empty()) return "axis";
+    if (!position.empty()) return "slice";
+    if (!level.empty()) return "level";
+    return no_surface ? "no-surface" : "";
+  }
 };
 
 /// Surfaces of fields, traced by rays.
@@ -66,7 +74,7 @@ struct ShowArguments {
   VolumeViewArguments volume;
   TraceArguments trace;
   const CLI::App* verb = nullptr;
-  bool edit = false;
+  bool edit = false, volume_shown = false;
   int isolines = 20;
   std::string up, view, colour_map = "auto", colour_range, shading = "smooth";
 };
@@ -139,7 +147,8 @@ void add_volume_view_options(CLI::App& verb, VolumeViewArguments& texts) {
   volumes(
       verb.add_option("--slice", texts.position,
                       "where along the axis [length, or with % of the way through the box; default "
-                      "50%]; tets are cut open there"))
+                      "50%]; tets are cut open there, without both options where their boundary "
+                      "does not show what they hold"))
       ->type_name("P");
   volumes(verb.add_option("--level", texts.level,
                           "the level of the surface shown; with --trace a length, or with % of the "
@@ -222,11 +231,12 @@ io::Scene scene_of(PolygonSoup soup, const ShowArguments& arguments, Session& se
 }
 
 /// The boundary, which --slice cuts open; open in any case where nothing is seen on it.
-io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Session& session) {
+io::Scene scene_of(const io::TetFile& file, ShowArguments& arguments, Session& session) {
   const VolumeViewArguments& view = arguments.volume;
+  arguments.volume_shown = true;
   const MatX3& x = file.mesh.points;
   io::Scene scene =
-      scene_of(view.position.empty()
+      scene_of(view.position.empty() && view.axis.empty()
                    ? drawn_surface(file)
                    : cut_open(file, view.axis_number(),
                               view.slice_at(x.colwise().minCoeff(), x.colwise().maxCoeff())),
@@ -235,7 +245,8 @@ io::Scene scene_of(const io::TetFile& file, const ShowArguments& arguments, Sess
   return scene;
 }
 
-io::Scene scene_of(const Volume& volume, const ShowArguments& arguments, Session&) {
+io::Scene scene_of(const Volume& volume, ShowArguments& arguments, Session&) {
+  arguments.volume_shown = true;
   if (!arguments.sources.empty())
     throw InputError(
         "option sources: sources are drawn on surfaces, " + arguments.in + " is a volume",
@@ -247,6 +258,7 @@ io::Scene read_scene_of(ShowArguments& arguments, bool for_page, Session& sessio
   if (arguments.trace.trace) {
     if (!arguments.sources.empty() || !arguments.field.empty())
       throw InputError("options --sources and --field do not go with --trace", "options-conflict");
+    arguments.volume_shown = true;
     return read_traced_scene(arguments.in, arguments.trace, arguments.volume, for_page, session);
   }
   check_no_trace_options(*arguments.verb);
@@ -265,9 +277,15 @@ io::Scene read_scene(ShowArguments& arguments, bool for_page, Session& session) 
     io::Scene second = read_scene_of(other, for_page, session);
     second.title = title_of(other.in);
     set_style(second, other);
+    arguments.volume_shown |= other.volume_shown;
     scene.beside = std::make_shared<const io::Scene>(std::move(second));
   }
-  io::check_scene(scene);
+  if (const std::string option = arguments.volume.given();
+      !option.empty() && !arguments.volume_shown)
+    throw InputError("option " + option + " is of volumes, tets and traced surfaces; " +
+                         arguments.in + " is a surface or a cloud",
+                     "options-conflict");
+  naming(arguments.in, [&] { io::check_scene(scene); });
   session.reading = false;
   session.task().checkpoint();
   return scene;

@@ -11,15 +11,16 @@ namespace littoral::io {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InputError("scene: " + what, "option-value");
+[[noreturn]] void refuse(const std::string& what, const char* code = "option-value") {
+  throw InputError("scene: " + what, code);
 }
 
 void check_values(const VecX& values, Eigen::Index n) {
   if (values.size() != n)
     refuse(std::to_string(values.size()) + " values for " + std::to_string(n) + " vertices");
   for (Eigen::Index v = 0; v < n; ++v)
-    if (std::isnan(values[v])) refuse("the value of vertex " + std::to_string(v) + " is NaN");
+    if (std::isnan(values[v]))
+      refuse("the value of vertex " + std::to_string(v) + " is NaN", "not-finite");
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ void describe(Scene& scene, const std::string& title, const Report& report) {
 
 void check_scene(const Scene& scene) {
   const Eigen::Index n = scene.points.rows();
-  if (scene.triangles.rows() == 0) refuse("the surface has no faces to show");
+  if (scene.triangles.rows() == 0) refuse("the surface has no faces to show", "empty-input");
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int v = scene.triangles(t, k);
@@ -110,7 +111,7 @@ void check_scene(const Scene& scene) {
                ", there are " + std::to_string(n));
       }
       if (!scene.points.row(v).allFinite()) {
-        refuse("vertex " + std::to_string(v) + " is not finite");
+        refuse("vertex " + std::to_string(v) + " is not finite", "not-finite");
       }
     }
   }

@@ -33,7 +33,7 @@ BELOW: dict[str, set[str]] = {
     "vdb": {"io"},  # a module that io loads, not linked with it
 }
 WITHOUT_DOMAIN = "methods"
-NEEDS_DOMAIN = ("fast_marching", "exact_polyhedral", "cutting", "tet_paths")
+NEEDS_DOMAIN = ("fast_marching", "marching_stencils", "exact_polyhedral", "cutting", "tet_paths")
 PLAIN = {
     "context",
     "error",

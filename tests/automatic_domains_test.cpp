@@ -1,4 +1,4 @@
-// The default on clouds and voxels: as exact as what they sample.
+// The default on clouds and voxels, as exact as what they sample, and on patches that touch.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,6 +107,42 @@ TEST(FlattenedVoxels, OfATiltedPlaneLieInAPlane) {
   }
   EXPECT_GT(before, 0.4);
   EXPECT_LT(after, 0.15);
+}
+
+TEST(AutomaticPatches, HangingOnByVerticesAreOnTheirSide) {
+  constexpr int n = 4, patches = 3;  // squares in a row, each at the last corner of the one before
+  PolygonSoup soup = test::grid_soup(n, n);
+  const PolygonSoup square = soup;
+  for (int k = 1; k < patches; ++k) {
+    const int first = soup.n_vertices();
+    MatX3 points(first + square.n_vertices() - 1, 3);
+    points << soup.points, square.points.bottomRows(square.n_vertices() - 1).rowwise() +
+                               k * Eigen::RowVector3d(1, 1, 0);
+    soup.points = points;
+    const auto number = [&](int v) { return v == 0 ? first - 1 : first + v - 1; };
+    for (int f = 0; f < square.n_faces(); ++f)
+      test::add_triangle(soup, number(square.face(f)[0]), number(square.face(f)[1]),
+                         number(square.face(f)[2]));
+  }
+  const SurfaceMesh mesh(soup);
+  ASSERT_EQ(mesh.n_components(), 1);
+  Sources across;  // the first square in two, its last corner on the left
+  across.add(Curve::along_vertices({14, 13, 12, 11, 10}));
+  Sources reversed;
+  reversed.add(Curve::along_vertices({10, 11, 12, 13, 14}));
+  for (const double left : {1.0, -1.0}) {
+    Report report;
+    const VecX d = test::surface_distance(mesh, left > 0 ? reversed : across, Automatic{}, report);
+    ASSERT_GT(std::abs(d[24]), 0.4);
+    for (int v = 25; v < mesh.n_vertices(); ++v) {
+      EXPECT_GT(d[v] * d[24], 0) << v;
+      EXPECT_NEAR(
+          std::abs(d[v]),
+          0.5 + (mesh.point(v) - mesh.point(v < 49 ? 24 : 48)).norm() + (v < 49 ? 0 : std::sqrt(2)),
+          1e-6)
+          << v;
+    }
+  }
 }
 
 }  // namespace

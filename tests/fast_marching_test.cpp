@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include "geodesic_helpers.h"
 #include "littoral/error.h"
@@ -78,6 +80,60 @@ TEST(FastMarching, SignsAroundACircleThroughFacesAndALoopOfEdges) {
     if (std::abs(sphere.point(v).z()) > 1e-9) {
       EXPECT_GT(s[v] * sphere.point(v).z(), 0) << v;
     }
+}
+
+/// The loop of edges around faces within a radius of a point, to the left of it; none if there are
+/// several or one goes through a vertex twice.
+std::vector<int> loop_around(const SurfaceMesh& mesh, const std::vector<char>& inside) {
+  std::map<int, int> after;
+  int edges = 0;
+  for (int f = 0; f < mesh.n_faces(); ++f)
+    for (int k = 0; inside[f] && k < 3; ++k) {
+      const auto& faces = mesh.edge_faces(mesh.side_edge(f, k));
+      if (faces.size() != 2) return {};
+      if (inside[faces[0]] && inside[faces[1]]) continue;
+      after[mesh.face(f)[k]] = mesh.face(f)[(k + 1) % 3];
+      ++edges;
+    }
+  if (after.empty() || static_cast<int>(after.size()) != edges) return {};
+  std::vector<int> loop{after.begin()->first};
+  do {
+    loop.push_back(after.at(loop.back()));
+  } while (loop.back() != loop.front());
+  return static_cast<int>(loop.size()) == edges + 1 ? loop : std::vector<int>{};
+}
+
+TEST(FastMarching, LoopsOfEdgesAmongObtuseTrianglesHaveTheirRegionInside) {
+  PolygonSoup soup = test::jittered_grid_soup(24, 24, 0.4, 5);
+  for (int v = 0; v < soup.n_vertices(); ++v) soup.points(v, 0) *= 4;
+  const SurfaceMesh mesh(soup);
+  int loops = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    const Vec3 centre(1 + 2.0 * (seed % 10) / 9, 0.3 + 0.4 * (seed / 10) / 5, 0);
+    const double radius = 0.12 + 0.002 * seed;
+    std::vector<char> inside(mesh.n_faces(), 0), touched(mesh.n_vertices(), 0);
+    for (int f = 0; f < mesh.n_faces(); ++f) {
+      Vec3 middle = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) middle += mesh.point(mesh.face(f)[k]) / 3;
+      middle = Vec3((middle.x() - centre.x()) / 4, middle.y() - centre.y(), 0);
+      inside[f] = middle.norm() < radius;
+      for (int k = 0; inside[f] && k < 3; ++k) touched[mesh.face(f)[k]] = 1;
+    }
+    const std::vector<int> loop = loop_around(mesh, inside);
+    if (loop.empty()) continue;
+    ++loops;
+    Sources sources;
+    sources.add(Curve::along_vertices(loop));
+    const VecX d = test::marched(mesh, sources);
+    std::vector<char> on(mesh.n_vertices(), 0);
+    for (const int v : loop) on[v] = 1;
+    int wrong = 0;
+    const double outside = d.sum() > 0 ? 1 : -1;  // most vertices are
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if (!on[v] && (outside * d[v] > 0) == (touched[v] != 0)) ++wrong;
+    EXPECT_EQ(wrong, 0) << seed;
+  }
+  EXPECT_GE(loops, 20);
 }
 
 TEST(FastMarching, ItDoesNotMatterWhichFaceIsTheFirst) {

@@ -9,6 +9,7 @@
 #include "api/surface/edge_chains.h"
 #include "api/surface/heat_near_curves.h"
 #include "api/surface/heat_surface.h"
+#include "base/groups.h"
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "littoral/error.h"
@@ -235,13 +236,60 @@ bool WholeCurves::straighten_completion(const Labelled& zigzag, const std::vecto
 void WholeCurves::add_sides(const Labelled& on, const std::vector<char>& settled,
                             WholeSources& whole) const {
   const JumpCalculus& J = *on.on->J;
+  const auto& faces = on.on->T.faces;
+  const int n = domain_.mesh->n_vertices();
+  const auto for_vertices = [&](int t, const auto& call) {
+    for (int k = 0; k < 3; ++k)  // those of the input come first
+      if (const int v = faces(t, k); v < n) call(v);
+  };
+  std::vector<char> sides(std::size_t(n), 0);  // 1: inside, 2: outside, 3: on a curve
+  std::vector<char> known(on.labels.parts.size(), 0);
+  bool all_known = true;
   for (int t = 0; t < J.n_faces; ++t) {
-    const int c = on.component[t];
-    if (c < 0 || !settled[c] || on.labels.parts[on.labels.part[t]].largest == 0) continue;
-    if (on.labels.region[t] > 0) continue;
-    for (int k = 0; k < 3; ++k)  // vertices of the input come first
-      if (const int v = on.on->T.faces(t, k); v < domain_.mesh->n_vertices()) whole.sign[v] = -1;
+    const int c = on.component[t], part = on.labels.part[t];
+    if (c < 0 || !settled[c]) continue;
+    if (on.labels.parts[part].largest == 0) {
+      known[part] = on.labels.parts[part].given > 0;
+      all_known = all_known && known[part];
+      continue;
+    }
+    known[part] = 1;
+    const bool outside = on.labels.region[t] <= 0;
+    for_vertices(t, [&](int v) {
+      sides[v] |= outside ? 2 : 1;
+      if (outside) whole.sign[v] = -1;
+    });
   }
+  if (all_known) return;
+
+  // What hangs on by vertices alone is on their side: the way there leads through them.
+  const auto is_open = [&](int t) {
+    const int c = on.component[t];
+    return c >= 0 && settled[c] && !known[on.labels.part[t]];
+  };
+  const auto open_at = groups_of<int>(std::size_t(n), [&](const auto& put) {
+    for (int t = 0; t < J.n_faces; ++t)
+      if (is_open(t)) for_vertices(t, [&](int v) { put(v, t); });
+  });
+  const auto open_of = groups_of<int>(known.size(), [&](const auto& put) {
+    for (int t = 0; t < J.n_faces; ++t)
+      if (is_open(t)) put(on.labels.part[t], t);
+  });
+  std::vector<int> todo;
+  for (int v = 0; v < n; ++v)
+    if (sides[v] != 0 && sides[v] != 3 && !open_at.at(v).empty()) todo.push_back(v);
+  for (std::size_t next = 0; next < todo.size(); ++next)
+    for (const int t : open_at.at(todo[next])) {
+      const int part = on.labels.part[t];
+      if (std::exchange(known[part], 1)) continue;
+      for (const int other : open_of.at(part))
+        for_vertices(other, [&](int v) {
+          if (sides[v] != 0) return;
+          sides[v] = sides[todo[next]];
+          whole.sign[v] = sides[v] == 2 ? -1 : 1;
+          todo.push_back(v);
+        });
+    }
 }
 
 Sources WholeCurves::with_sides(const Sources& given, const PlacedSources& placed) const {

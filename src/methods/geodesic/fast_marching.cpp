@@ -11,9 +11,8 @@
 
 #include "base/counted.h"
 #include "base/falling_keys.h"
-#include "base/groups.h"
 #include "base/index.h"
-#include "domain/mesh/edge_sides.h"
+#include "methods/geodesic/marching_stencils.h"
 #include "methods/heat/finalize.h"
 #include "methods/heat/time_scale.h"
 
@@ -22,9 +21,6 @@ namespace littoral {
 namespace {
 
 constexpr double round_off = 1e-6;
-
-double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
-double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
 /// 1: the segment has sides. 0: it has none, as it is unsigned, or others run back along it. -1: it
 /// is one of these, of which there are fewer.
@@ -49,122 +45,15 @@ std::vector<signed char> sides_of(const std::vector<TriangleSources::Segment>& s
   return out;
 }
 
-/// How a front reaches a vertex from an edge: scalar products of the vectors from the vertex to the
-/// end that is fixed last, and to the other one.
-struct Products {
-  double last, other, both;
-};
-
-/// Of the corner between sides of lengths `last` and `other`, across from `opposite`.
-Products of_corner(double last, double other, double opposite) {
-  return {last * last, other * other, 0.5 * law_of_cosines(last, other, opposite)};
+/// Triangles that hold a piece of a curve with sides.
+std::vector<char> triangles_with_sides(int n_triangles,
+                                       const std::vector<TriangleSources::Segment>& segments,
+                                       const std::vector<signed char>& sides) {
+  std::vector<char> out(std::size_t(n_triangles), 0);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (sides[i] > 0) out[segments[i].triangle] = 1;
+  return out;
 }
-
-/// A vertex v at an obtuse corner and an edge that it is reached from: one end, that of the
-/// corner's own side, is a neighbour, the other was found by unfolding.
-struct UnfoldedStencil {
-  int v, side_end, in_front;
-  double to_side_end, to_in_front, both;  // scalar products
-};
-
-/// Corners whose cosine is no larger are split as obtuse ones, so that rounding does not choose
-/// among those of a grid.
-constexpr double right_angle = 1e-9;
-
-/// From where fronts reach vertices: from the side of each triangle across from them; where that is
-/// seen at an obtuse angle, from two edges to a vertex in front.
-class Stencils {
- public:
-  Stencils(const IntrinsicTriangulation& T, const Task& task) : T_(T) {
-    corners_ = groups_of<int>(std::size_t(T.n_vertices), [&](const auto& put) {
-      for (int c = 0; c < 3 * T.n_faces(); ++c) put(T.faces(c / 3, c % 3), c);
-    });
-    unfold_obtuse(task);
-  }
-
-  /// Corners at a vertex: 3 f + k of triangle f.
-  std::span<const int> corners_at(int v) const { return corners_.at(v); }
-  /// Is the corner's vertex reached by unfolded stencils, not from the side across?
-  bool unfolds(int f, int k) const { return unfolds_[3 * std::size_t(f) + k] != 0; }
-  /// Unfolded stencils with an end at a vertex.
-  template <class Body>
-  void for_unfolded_at(int v, const Body& body) const {
-    if (unfolded_.empty()) return;
-    for (const int u : users_.at(v)) body(unfolded_[u]);
-  }
-
-  int n_unsplit = 0;  // obtuse corners where the mesh ends before a vertex in front is found
-
- private:
-  void unfold_obtuse(const Task& task) {
-    unfolds_.assign(corners_.members.size(), 0);
-    EdgeSides sides;  // found where there is an obtuse corner
-    for (int f = 0; f < T_.n_faces(); ++f) {
-      if (f % 0x10000 == 0) task.checkpoint();
-      for (int k = 0; k < 3; ++k) {
-        const int k1 = (k + 1) % 3, k2 = (k + 2) % 3, v = T_.faces(f, k);
-        const double slight = right_angle * T_.length(f, k) * T_.length(f, k2),
-                     twice_dot =
-                         law_of_cosines(T_.length(f, k), T_.length(f, k2), T_.length(f, k1));
-        if (twice_dot > slight) continue;
-        if (sides.begin.empty()) sides = edge_sides(T_);
-        const TriangleShape t =
-            triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false);
-        const auto [d, D] = vertex_in_front(sides, f, k1, t.p[1], t.p[2]);  // v at 0
-        if (d < 0 || d == v) {
-          if (twice_dot < -slight) ++n_unsplit;
-          continue;
-        }
-        unfolds_[3 * std::size_t(f) + k] = 1;
-        for (const int end : {1, 2})
-          unfolded_.push_back({v, T_.faces(f, (k + end) % 3), d, std::norm(t.p[end]), std::norm(D),
-                               dot(t.p[end], D)});
-      }
-    }
-    if (unfolded_.empty()) return;
-    users_ = groups_of<int>(std::size_t(T_.n_vertices), [&](const auto& put) {
-      for (int i = 0; i < int_size(unfolded_); ++i) {
-        put(unfolded_[i].side_end, i);
-        put(unfolded_[i].in_front, i);
-      }
-    });
-  }
-
-  /// Unfolds the triangles beyond the side at A, B (counter-clockwise about 0, more than a right
-  /// angle apart) until a corner lies at most a right angle from both: its vertex and position.
-  std::pair<int, Complex> vertex_in_front(const EdgeSides& sides, int f, int k, Complex A,
-                                          Complex B) const {
-    const Complex middle = Complex(0, 1) * A / std::abs(A) - Complex(0, 1) * B / std::abs(B);
-    Complex P = A, Q = B;     // ends of the edge about to be crossed
-    bool starts_at_P = true;  // does side k of f?
-    for (int step = 0; step < 64; ++step) {
-      const auto at = sides.at(T_.side_edge(f, k));
-      if (at.size() != 2) break;
-      const TriangleSide next = at[0] == TriangleSide(f, k) ? at[1] : at[0];
-      if (T_.along(next.face(), next.k()) != T_.along(f, k)) starts_at_P = !starts_at_P;
-      f = next.face();
-      k = next.k();
-      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      const Complex apex =
-          triangle_shape(T_.length(f, k), T_.length(f, k1), T_.length(f, k2), false).p[2];
-      const double along = starts_at_P ? apex.real() : T_.length(f, k) - apex.real();
-      const Complex R = P + (Q - P) / std::abs(Q - P) * Complex(along, -apex.imag());
-      if (dot(A, R) >= 0 && dot(B, R) >= 0) return {T_.faces(f, k2), R};
-      // On through the edge that the ray midway between the two right angles crosses.
-      const bool through_PR = cross(middle, R) > 0;
-      (through_PR ? Q : P) = R;
-      k = through_PR == starts_at_P ? k2 : k1;
-      starts_at_P = !starts_at_P;
-    }
-    return {-1, 0};
-  }
-
-  const IntrinsicTriangulation& T_;
-  Groups<int> corners_;        // vertices
-  std::vector<char> unfolds_;  // corners
-  std::vector<UnfoldedStencil> unfolded_;
-  Groups<int> users_;  // vertices; unfolded stencils
-};
 
 /// Where a front moving at speed 1 in a straight line, that passed the ends of an edge at `last`
 /// and `other`, passes the vertex; inf if it does not come from between them.
@@ -186,11 +75,14 @@ class MarchingFront {
  public:
   MarchingFront(const IntrinsicTriangulation& T, const TriangleSources& sources, const Task& task)
       : T_(T),
-        stencils_(T, task),
+        sides_(sides_of(sources.segments)),
+        with_sides_(triangles_with_sides(T.n_faces(), sources.segments, sides_)),
+        stencils_(T, with_sides_, task),
         d_(VecX::Constant(T.n_vertices, infinity)),
         queue_(T.n_vertices) {
     sign_.assign(T.n_vertices, 0);
     beside_.assign(T.n_vertices, 0);
+    on_curve_.assign(T.n_vertices, 0);
     fixed_.assign(T.n_vertices, 0);
     if (!sources.value.empty())
       least_ = *std::min_element(sources.value.begin(), sources.value.end());
@@ -205,11 +97,10 @@ class MarchingFront {
         offer(T.faces(where.face, k),
               value(points.inside_source[i]) + std::abs(t.p[k] - point(t, where.b)), 0);
     }
-    const std::vector<signed char> sides = sides_of(sources.segments);
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      if (sides[i] >= 0)
-        add_segment(sources.segments[i], sides[i] > 0, value(sources.segments[i].source));
-    find_sides(sources.segments, sides);
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      if (sides_[i] >= 0)
+        add_segment(sources.segments[i], sides_[i] > 0, value(sources.segments[i].source));
+    find_sides();
   }
 
   void run(const Task& task) {
@@ -266,8 +157,8 @@ class MarchingFront {
     for (int k = 0; k < 3; ++k) {
       const Complex ap = t.p[k] - a;
       const double distance =
-          value + std::abs(ap - std::clamp(dot(ab, ap) / length2, 0.0, 1.0) * ab);
-      const double left = cross(ab, ap);
+          value + std::abs(ap - std::clamp(plane::dot(ab, ap) / length2, 0.0, 1.0) * ab);
+      const double left = plane::cross(ab, ap);
       const bool on_line = std::abs(left) <= 1e-12 * (length2 + std::norm(ap));
       offer(T_.faces(s.triangle, k), distance, !sided || on_line ? 0 : left > 0 ? 1 : -1);
     }
@@ -275,20 +166,14 @@ class MarchingFront {
 
   /// Around a vertex on a signed curve, triangles that hold no piece of it lie on one side: their
   /// corners take each other's sign.
-  void find_sides(const std::vector<TriangleSources::Segment>& segments,
-                  const std::vector<signed char>& sides) {
-    std::vector<char> holds(T_.n_faces(), 0), on_curve(T_.n_vertices, 0);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      if (sides[i] <= 0) continue;
-      const int f = segments[i].triangle;
-      holds[f] = 1;
-      for (int k = 0; k < 3; ++k)
-        if (d_[T_.faces(f, k)] == 0) on_curve[T_.faces(f, k)] = 1;
-    }
+  void find_sides() {
+    for (int f = 0; f < T_.n_faces(); ++f)
+      for (int k = 0; with_sides_[f] && k < 3; ++k)
+        if (d_[T_.faces(f, k)] == 0) on_curve_[T_.faces(f, k)] = 1;
     std::vector<std::vector<int>> near(T_.n_vertices);  // vertex -> triangles that touch the curve
     for (int f = 0; f < T_.n_faces(); ++f)
-      if (!holds[f] &&
-          (on_curve[T_.faces(f, 0)] || on_curve[T_.faces(f, 1)] || on_curve[T_.faces(f, 2)]))
+      if (!with_sides_[f] &&
+          (on_curve_[T_.faces(f, 0)] || on_curve_[T_.faces(f, 1)] || on_curve_[T_.faces(f, 2)]))
         for (int k = 0; k < 3; ++k) near[T_.faces(f, k)].push_back(f);
     std::queue<int> todo;
     for (int v = 0; v < T_.n_vertices; ++v)
@@ -302,7 +187,7 @@ class MarchingFront {
       for (int f : near[v])
         for (int k = 0; k < 3; ++k) {
           const int w = T_.faces(f, k);
-          if (on_curve[w] || beside_[w] != 0) continue;
+          if (on_curve_[w] || beside_[w] != 0) continue;
           beside_[w] = beside_[v];
           todo.push(w);
         }
@@ -334,19 +219,27 @@ class MarchingFront {
   template <class MakeProducts>
   void reach(int v, int last, int other, double edge, bool in_front, const MakeProducts& products) {
     if (beside_[v] * sign_[last] < 0) return;  // never across the curve
-    // A straight line over unfolded triangles may cross a curve beside its far end.
-    if (!in_front || beside_[last] == 0 || beside_[v] != 0) offer(v, d_[last] + edge, sign_[last]);
+    // A straight line over unfolded triangles may cross a curve beside its far end; from a vertex
+    // on a curve it leaves on the side where the other end is.
+    const int side = sign_[last] != 0 ? sign_[last] : on_curve_[last] ? beside_[other] : 0;
+    const bool known = !on_curve_[last] || side != 0 || beside_[v] != 0;
+    if (known && (!in_front || beside_[last] == 0 || beside_[v] != 0))
+      offer(v, d_[last] + edge, side);
     if (!fixed_[other] || sign_[last] * sign_[other] < 0 || beside_[v] * sign_[other] < 0) return;
+    if (on_curve_[last] && on_curve_[other] && beside_[v] == 0) return;
     offer(v, arrival(products(), d_[last], d_[other]),
           sign_[last] != 0 ? sign_[last] : sign_[other]);
   }
 
   const IntrinsicTriangulation& T_;
+  std::vector<signed char> sides_;  // segments
+  std::vector<char> with_sides_;    // triangles
   Stencils stencils_;
   double least_ = 0;  // of the sources' values
   VecX d_;            // vertices, unsigned, without it
   std::vector<signed char> sign_;
   std::vector<signed char> beside_;  // side of the curve next to it, 0 elsewhere
+  std::vector<char> on_curve_;       // of those that are signed
   std::vector<char> fixed_;
   FallingKeys queue_;
 };

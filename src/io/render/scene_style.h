@@ -66,7 +66,7 @@ Rgb region_colour(long number);
 /// The colour of a finite value.
 Rgb value_colour(const FieldStyle& style, double value);
 
-/// Position of a finite value in the colour map, 0..1.
+/// Position of a finite value in the colour map, 0..1; of diverging ones 0 is in the middle.
 double colour_position(const FieldStyle& style, double value);
 
 inline constexpr Rgb plain_colour{196, 204, 214}, infinite_colour{150, 150, 150};

@@ -267,7 +267,14 @@ std::vector<double> nice_ticks(double low, double high, double step) {
   return ticks;
 }
 
-std::string label_text(double value) { return rounded_text(value == 0 ? 0.0 : value, 5); }
+std::string label_text(double value, double fine) {
+  int digits = 5;
+  if (fine > 0 && value != 0 && std::isfinite(value)) {
+    const double more = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(fine)) + 1;
+    digits = static_cast<int>(std::clamp(more, 5.0, 15.0));
+  }
+  return rounded_text(value == 0 ? 0.0 : value, digits);
+}
 
 SourceMarks source_marks(const Scene& scene, double radius) {
   SourceMarks marks;
